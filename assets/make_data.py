@@ -1,6 +1,7 @@
 """Makes small files to try the flags for own data with: `python -m assets.make_data`.
 
-Two scans of one rabbit with the pose between them, a cloud with a plane in it, a bent mesh, and a stereo pair.
+Two scans of one rabbit with the pose between them, a cloud with a plane in it, a bent mesh, and a
+stereo pair.
 """
 
 from pathlib import Path

@@ -1,4 +1,6 @@
-"""Makes the README's pictures from the running page: `python -m assets.make_pictures [lesson ...]`, with a Chromium."""
+"""Makes the README's pictures from the running page: `python -m assets.make_pictures [lesson ...]`,
+with a Chromium.
+"""
 
 import io
 import sys

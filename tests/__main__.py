@@ -1,8 +1,9 @@
-"""Runs everything that must hold: lint, format, types, tests. `python -m tests` from the project's root.
+"""Runs everything that must hold: lint, format, types, tests. `python -m tests` from the project's
+root.
 
-The types are checked while the tests run. Words behind `python -m tests` are pytest's. A few tests that fail are run once
-more by themselves: on a machine that is busy with other work one may fail for it. Which did is told at the end, and a test
-that is named there often has a defect of its own.
+The types are checked while the tests run. Words behind `python -m tests` are pytest's. A few tests
+that fail are run once more by themselves: on a machine that is busy with other work one may fail
+for it. Which did is told at the end, and a test that is named there often has a defect of its own.
 """
 
 import json

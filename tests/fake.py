@@ -1,8 +1,10 @@
-"""A small lesson for tests that shows every primitive of `workbench.scene` and has a knob of every kind.
+"""A small lesson for tests that shows every primitive of `workbench.scene` and has a knob of every
+kind.
 
-What its run holds, so that a sink can be held to it: a cloud and a mesh that move by their pose alone, a mesh that is
-stretched by a 4x4 that is no rigid motion, things that appear late, vanish and come back, all four ways to colour, NaN
-in fields, scalars and curves, pictures in space and beside it, and one caption of each tone.
+What its run holds, so that a sink can be held to it: a cloud and a mesh that move by their pose
+alone, a mesh that is stretched by a 4x4 that is no rigid motion, things that appear late, vanish
+and come back, all four ways to colour, NaN in fields, scalars and curves, pictures in space and
+beside it, and one caption of each tone.
 """
 
 from collections.abc import Callable, Iterator
@@ -41,7 +43,7 @@ Turn = Callable[[float], np.ndarray]
 
 CORNERS = np.array([[x, y, z] for x in (-0.2, 0.2) for y in (-0.2, 0.2) for z in (-0.2, 0.2)])
 FACES = np.array(
-    [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],
+    [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],  # noqa: E501
      [1, 5, 7], [1, 7, 3]]
 )  # fmt: skip
 K = np.array([[40.0, 0.0, 31.5], [0.0, 40.0, 23.5], [0.0, 0.0, 1.0]])
@@ -217,21 +219,44 @@ lesson = Lesson(
     order=1,
     view=View(eye=(2.5, -2.5, 2.0)),
     presets=(
-        Preset("half", "Half a turn", "The cloud turns by 180 degrees and ends upside down.", Params(angle=180.0)),
-        Preset("short", "Two steps", "Nothing appears late, since the run ends before.", Params(steps=2), step=1),
-        Preset("classes", "Inliers", "The cloud has two classes with names.", Params(colors="classes")),
+        Preset(
+            "half",
+            "Half a turn",
+            "The cloud turns by 180 degrees and ends upside down.",
+            Params(angle=180.0),
+        ),
+        Preset(
+            "short",
+            "Two steps",
+            "Nothing appears late, since the run ends before.",
+            Params(steps=2),
+            step=1,
+        ),
+        Preset(
+            "classes", "Inliers", "The cloud has two classes with names.", Params(colors="classes")
+        ),
     ),
     questions=(
         Question(
-            "end", "How far is the cloud at the end?", lambda states: states[-1].error, lambda states: "It arrives.",
-            Params(), unit="m", tolerance=0.01, wrong=((0.9, 1.1, "That is where it starts."),),
+            "end",
+            "How far is the cloud at the end?",
+            lambda states: states[-1].error,
+            lambda states: "It arrives.",
+            Params(),
+            unit="m",
+            tolerance=0.01,
+            wrong=((0.9, 1.1, "That is where it starts."),),
         ),
         Question(
-            "which", "Which is larger?", lambda states: 1, lambda states: "The second is.", Params(),
+            "which",
+            "Which is larger?",
+            lambda states: 1,
+            lambda states: "The second is.",
+            Params(),
             choices=(Choice("the first", why="It only looks larger."), "the second"),
         ),
     ),
-)  # fmt: skip
+)
 
 
 def test_nothing_is_left_out() -> None:

@@ -1,4 +1,6 @@
-"""A page without a browser: what one would say to the live server, and what comes back, with its time."""
+"""A page without a browser: what one would say to the live server, and what comes back, with its
+time.
+"""
 
 import asyncio
 import contextlib
@@ -13,12 +15,14 @@ import websockets
 
 
 class FakePage:
-    """One visit: the page is asked for, and its websocket opened. Scenes come as bytes and are counted.
+    """One visit: the page is asked for, and its websocket opened. Scenes come as bytes and are
+    counted.
 
     Args:
         address: Where the server is, up to the last slash, without a query.
         query: What stands behind it, with its `?`.
-        headers: Of all requests, such as Host, Origin or Cookie; Origin is the server's own unless given.
+        headers: Of all requests, such as Host, Origin or Cookie; Origin is the server's own unless
+            given.
     """
 
     def __init__(self, address: str, query: str = "", headers: dict[str, str] | None = None):
@@ -46,7 +50,9 @@ class FakePage:
         return self
 
     async def _page(self) -> str:
-        """Return the page; by hand, since a client that could do more would cost more than a page."""
+        """Return the page; by hand, since a client that could do more would cost more than a
+        page.
+        """
         where = urlsplit(self.address)
         headers = {"Host": where.netloc, "Connection": "close"}
         headers |= {

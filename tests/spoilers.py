@@ -1,29 +1,35 @@
 r"""Finds what tells the answer of a question before it is asked.
 
-A page may teach the principle from which an answer follows; it may not state the case that a question asks about.
+A page may teach the principle from which an answer follows; it may not state the case that a
+question asks about.
 
-What is looked at (`passages`): every paragraph, list item and table row of page.md, the title and summary, each preset's
-title and line, each question's text, each knob's label, hint, choices and default, and the captions that are seen before
-anybody moves: of the default run where it opens, and of each preset where it opens.
+What is looked at (`passages`): every paragraph, list item and table row of page.md, the title and
+summary, each preset's title and line, each question's text, each knob's label, hint, choices and
+default, and the captions that are seen before anybody moves: of the default run where it opens, and
+of each preset where it opens.
 
-Which passages are about a question: those of its own run (the preset with its params, a list item that names that preset,
-the caption of a run with its params), and those that share content words with the question's text (stemmed, without
-numbers and units).
+Which passages are about a question: those of its own run (the preset with its params, a list item
+that names that preset, the caption of a run with its params), and those that share content words
+with the question's text (stemmed, without numbers and units).
 
 Three rules; the answer is computed from the run:
 
-1. A number gives the answer away when it would be accepted as right, has the unit that is asked for (m, cm and mm are one
-   unit; a list "35, 169 or 574 samples" has its last entry's unit), and its passage is of the question's run or shares two
-   content words with it. A count without a unit ("2-D", "step 2") is never compared: where a question asks for a count,
-   its unit is what follows "how many" or a number in it, and one shared word is enough. A bare number (behind an equals
-   sign, in a table; a share where percent are asked for) and zero, which needs no unit, count where the passage is of the
-   question's run or shares three words. In texts on another preset's run more than half of the question's content words
-   are to be shared. Words are numbers too: "a dozen", "two thirds", "one in five"; a share or a multiple ("a sixth",
-   "twice") also stands for that part of each number of the same unit in the question.
-2. A sentence states a choice when its passage is of the question's run, or shares half of the question's content words
-   and at least three, and it holds a larger part of the words that only the right choice has than of any wrong choice's
-   own words. So "120° away: settled and wrong" gives away "Lower the RMSE to the end and be wrong".
-3. What neither rule can read is listed by hand, as patterns: for each question the sentences that would tell its answer.
+1. A number gives the answer away when it would be accepted as right, has the unit that is asked for
+   (m, cm and mm are one unit; a list "35, 169 or 574 samples" has its last entry's unit), and its
+   passage is of the question's run or shares two content words with it. A count without a unit
+   ("2-D", "step 2") is never compared: where a question asks for a count, its unit is what follows
+   "how many" or a number in it, and one shared word is enough. A bare number (behind an equals
+   sign, in a table; a share where percent are asked for) and zero, which needs no unit, count where
+   the passage is of the question's run or shares three words. In texts on another preset's run more
+   than half of the question's content words are to be shared. Words are numbers too: "a dozen",
+   "two thirds", "one in five"; a share or a multiple ("a sixth", "twice") also stands for that part
+   of each number of the same unit in the question.
+2. A sentence states a choice when its passage is of the question's run, or shares half of the
+   question's content words and at least three, and it holds a larger part of the words that only
+   the right choice has than of any wrong choice's own words. So "120° away: settled and wrong"
+   gives away "Lower the RMSE to the end and be wrong".
+3. What neither rule can read is listed by hand, as patterns: for each question the sentences that
+   would tell its answer.
 
 What the rules misread is listed too, and left out of what they read.
 """
@@ -44,7 +50,9 @@ from workbench.words.typeset import inline_html, page_html
 
 @dataclass(frozen=True)
 class Passage:
-    """One piece of text that is seen before answering: where it stands, its words, and whose run it speaks of."""
+    """One piece of text that is seen before answering: where it stands, its words, and whose run it
+    speaks of.
+    """
 
     where: str
     text: str
@@ -78,7 +86,10 @@ def _passages(lesson: Lesson) -> Iterator[Passage]:
             if isinstance(field.default, tuple)
             else str(field.default)
         )
-        shown = f"{field.label}: {field.knob.hint}. {', '.join(field.choices)}. {field.label}: {value} {field.knob.unit}"
+        shown = (
+            f"{field.label}: {field.knob.hint}. {', '.join(field.choices)}. {field.label}: {value}"
+            f" {field.knob.unit}"
+        )
         yield Passage(f"knob {field.name}", shown)
 
 
@@ -97,7 +108,9 @@ def plain(markup: str) -> str:
 
 
 def _by_preset(lesson: Lesson, text: str) -> Iterator[tuple[str, Any]]:
-    """Cut a text where it names a preset, by the title or its words up to a colon; each piece with that preset's params."""
+    """Cut a text where it names a preset, by the title or its words up to a colon; each piece with
+    that preset's params.
+    """
     starts: dict[int, Any] = {0: None}
     for preset in lesson.presets:
         at = text.lower().find(preset.title.split(":")[0].lower())
@@ -118,7 +131,9 @@ def read(name: str, innocent: str) -> Iterator[Passage]:
 
 @functools.cache
 def facts(name: str) -> tuple[dict[tuple[Any, int], str], dict[str, float]]:
-    """Return a lesson's captions where a run opens, by params and step, and the right answers; each run is made once."""
+    """Return a lesson's captions where a run opens, by params and step, and the right answers; each
+    run is made once.
+    """
     lesson = catalog()[name]
     opened = {(preset.params, opens(lesson, preset)) for preset in lesson.presets} | {
         (lesson.params(), lesson.first_step)
@@ -141,10 +156,23 @@ def opens(lesson: Lesson, preset: Preset) -> int:
     return lesson.first_step if preset.step is None else preset.step
 
 
-# numbers ----------------------------------------------------------------------------------------------------------------
+# numbers ------------------------------------------------------------------------------------------
 
-ONES = {"zero": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
-        "ten": 10, "eleven": 11, "twelve": 12}  # fmt: skip
+ONES = {
+    "zero": 0,
+    "one": 1,
+    "two": 2,
+    "three": 3,
+    "four": 4,
+    "five": 5,
+    "six": 6,
+    "seven": 7,
+    "eight": 8,
+    "nine": 9,
+    "ten": 10,
+    "eleven": 11,
+    "twelve": 12,
+}
 WORDS = ONES | {
     "none": 0,
     "dozen": 12,
@@ -154,21 +182,49 @@ WORDS = ONES | {
     "fifty": 50,
     "hundred": 100,
 }
-PARTS = {"half": 2, "halves": 2, "third": 3, "quarter": 4, "fifth": 5, "sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9,
-         "tenth": 10, "twentieth": 20, "hundredth": 100}  # fmt: skip
+PARTS = {
+    "half": 2,
+    "halves": 2,
+    "third": 3,
+    "quarter": 4,
+    "fifth": 5,
+    "sixth": 6,
+    "seventh": 7,
+    "eighth": 8,
+    "ninth": 9,
+    "tenth": 10,
+    "twentieth": 20,
+    "hundredth": 100,
+}
 UNITS = {
-    "m": ("m", 1.0), "metres": ("m", 1.0), "cm": ("m", 0.01), "mm": ("m", 0.001), "km": ("m", 1000.0), "m²": ("m²", 1.0),
-    "m⁻²": ("m⁻²", 1.0), "m⁻¹": ("m⁻¹", 1.0), "°": ("deg", 1.0), "deg": ("deg", 1.0), "degrees": ("deg", 1.0),
-    "rad": ("deg", 57.3), "px": ("px", 1.0), "pixels": ("px", 1.0), "pixel": ("px", 1.0), "π": ("π", 1.0),
-    "%": ("%", 1.0), "percent": ("%", 1.0), "times": ("times", 1.0),
-}  # fmt: skip
+    "m": ("m", 1.0),
+    "metres": ("m", 1.0),
+    "cm": ("m", 0.01),
+    "mm": ("m", 0.001),
+    "km": ("m", 1000.0),
+    "m²": ("m²", 1.0),
+    "m⁻²": ("m⁻²", 1.0),
+    "m⁻¹": ("m⁻¹", 1.0),
+    "°": ("deg", 1.0),
+    "deg": ("deg", 1.0),
+    "degrees": ("deg", 1.0),
+    "rad": ("deg", 57.3),
+    "px": ("px", 1.0),
+    "pixels": ("px", 1.0),
+    "pixel": ("px", 1.0),
+    "π": ("π", 1.0),
+    "%": ("%", 1.0),
+    "percent": ("%", 1.0),
+    "times": ("times", 1.0),
+}
 BASE = {base for base, _ in UNITS.values()}
 COUNT = rf"[−-]?\d[\d,]*(?:\.\d+)?|½|\b(?:{'|'.join(WORDS)})\b"
 NUMBERS = re.compile(
     rf"(?<![\w.])(?:{COUNT})(?:(?:,| or| and| to|, or|, and|–| →) (?:{COUNT}))*", re.IGNORECASE
 )
 PART = re.compile(
-    rf"\b(?:(a|{'|'.join(ONES)}) )?({'|'.join(PARTS)})s?\b|\b({'|'.join(WORDS)}|\d+) (?:in|out of) ({'|'.join(WORDS)}|\d+)\b"
+    rf"\b(?:(a|{'|'.join(ONES)}) )?({'|'.join(PARTS)})s?\b|\b({'|'.join(WORDS)}|\d+) (?:in|out of)"
+    rf" ({'|'.join(WORDS)}|\d+)\b"
     rf"|\b(twice|doubles?|doubled)\b|\b({'|'.join(WORDS)}|\d+)(?:fold| times)\b",
     re.IGNORECASE,
 )
@@ -180,7 +236,8 @@ def number(text: str) -> float:
 
 
 def numbers(text: str) -> Iterator[tuple[float, str]]:
-    """Yield each number of a text in its base unit, with that unit: a known one, or the stem of the word that follows.
+    """Yield each number of a text in its base unit, with that unit: a known one, or the stem of the
+    word that follows.
 
     A bare number, behind an equals sign or in a table, has the unit "".
     """
@@ -206,7 +263,9 @@ def parts(text: str) -> Iterator[float]:
 
 
 def units_of(question: Question) -> set[str]:
-    """Return the units that an answer may have: the question's, or what "how many" and its numbers count."""
+    """Return the units that an answer may have: the question's, or what "how many" and its numbers
+    count.
+    """
     if question.unit in UNITS:
         return {UNITS[question.unit][0]}
     counted = re.findall(r"[Hh]ow many ([a-z]+)|\d ([a-z]+)", question.text)
@@ -245,14 +304,15 @@ def by_number(
                 yield passage, f"a part or multiple of {part:.3g}"
 
 
-# choices ----------------------------------------------------------------------------------------------------------------
+# choices ------------------------------------------------------------------------------------------
 
 SMALL = frozenset(
     re.findall(
         r"\w+",
-        "a an and any are as at be because been but by can did do does end ends for from had has have how if in into is it"
-        " its like many more much no not of off on one only or other so some than that the their them then there these"
-        " they this those to too up was what when where which who will with without would you your",
+        "a an and any are as at be because been but by can did do does end ends for from had has"
+        " have how if in into is it its like many more much no not of off on one only or other so"
+        " some than that the their them then there these they this those to too up was what when"
+        " where which who will with without would you your",
     )
 )
 
@@ -279,7 +339,9 @@ def words(text: str) -> set[str]:
 
 
 def choice_words(text: str) -> set[str]:
-    """Return what a choice says: its content words; its numbers and small words where it has no others."""
+    """Return what a choice says: its content words; its numbers and small words where it has no
+    others.
+    """
     return words(text) or {stem(word) for word in re.findall(r"\w+", text)}
 
 
@@ -302,7 +364,10 @@ def by_choice(
             if held[which] > max(part for i, part in enumerate(held) if i != which):
                 yield (
                     passage,
-                    f"says {', '.join(sorted(own[which] & stated))!r} of {question.choices[which]!r}",
+                    (
+                        f"says {', '.join(sorted(own[which] & stated))!r} of"
+                        f" {question.choices[which]!r}"
+                    ),
                 )
 
 

@@ -1,4 +1,6 @@
-"""A file that somebody made costs a page little: it is read elsewhere, within limits, or refused in one line."""
+"""A file that somebody made costs a page little: it is read elsewhere, within limits, or refused in
+one line.
+"""
 
 import contextlib
 import gzip
@@ -25,7 +27,9 @@ from workbench.data.files.matches import read_matches
 from workbench.errors import InputError
 
 QUICK = 6.0
-"""Seconds of processor, a reader's start included; how long a person waits: tests/benchmarks/bench_uploads.py."""
+"""Seconds of processor, a reader's start included; how long a person waits:
+tests/benchmarks/bench_uploads.py.
+"""
 MOST_MEMORY = 500 * 10**6
 
 
@@ -82,7 +86,10 @@ def test_a_copy_of_this_process_has_readers_of_its_own(tmp_path):
 
 
 def test_readers_end_with_whoever_asked(tmp_path):
-    code = "import os, sys; from tests.test_apart import stands; print(stands(sys.argv[1], 'well'), flush=True); {end}"
+    code = (
+        "import os, sys; from tests.test_apart import stands; print(stands(sys.argv[1], 'well'),"
+        " flush=True); {end}"
+    )
     for end in ("", "os.kill(os.getpid(), 9)"):
         words = [sys.executable, "-W", "error", "-c", code.format(end=end), str(tmp_path)]
         done = subprocess.run(words, capture_output=True, text=True, cwd=Path(__file__).parents[1])
@@ -150,8 +157,8 @@ LARGE = {
     "rows.off": (lambda: b"OFF\n5500000 0 0\n" + b"0 0 0\n" * 5_500_000, read_mesh),
     "rows.ply": (
         lambda: (
-            b"ply\nformat ascii 1.0\nelement vertex 5000000\nproperty float x\nproperty float y\nproperty float z\n"
-            b"end_header\n" + b"0 0 0\n" * 5_000_000
+            b"ply\nformat ascii 1.0\nelement vertex 5000000\nproperty float x\nproperty float"
+            b" y\nproperty float z\nend_header\n" + b"0 0 0\n" * 5_000_000
         ),
         read_cloud,
     ),

@@ -1,4 +1,6 @@
-"""What an author may get wrong: each mistake is one line that names the lesson, the place, and what is wanted."""
+"""What an author may get wrong: each mistake is one line that names the lesson, the place, and what
+is wanted.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -58,7 +60,7 @@ def showing(**primitives: Callable[[], Any]) -> Callable:
     return draw
 
 
-# told where the lesson is made ------------------------------------------------------------------------------------------
+# told where the lesson is made --------------------------------------------------------------------
 
 
 def run_without_params():
@@ -177,7 +179,7 @@ def test_the_path_of_a_primitive_that_cannot_be_made_is_in_the_line_that_is_show
     one_line(stopped(lesson(draw=draw)), '`"wall/points": Points([[0, 0, 0]])')
 
 
-# told when the run is made ----------------------------------------------------------------------------------------------
+# told when the run is made ------------------------------------------------------------------------
 
 
 def one_line(text: str, *words: str) -> None:
@@ -241,12 +243,22 @@ class Picked:
 def test_a_pick_of_what_no_step_shows_or_nobody_can_hit_is_said_at_the_end_of_the_default_run():
     one_line(
         stopped(lesson(params=Picked, run=lambda params: iter([0]))),
-        "lesson mine: Picked.one is picked at 'clouds'", "shows nothing at 'clouds'", "can be picked: cloud",
-    )  # fmt: skip
+        "lesson mine: Picked.one is picked at 'clouds'",
+        "shows nothing at 'clouds'",
+        "can be picked: cloud",
+    )
     one_line(
-        stopped(lesson(params=Picked, run=lambda params: iter([0]), draw=showing(clouds=lambda: Scalar(1.0, "a", "b")))),
-        "lesson mine: Picked.one", "shows a Scalar at 'clouds'", "can be picked: nothing",
-    )  # fmt: skip
+        stopped(
+            lesson(
+                params=Picked,
+                run=lambda params: iter([0]),
+                draw=showing(clouds=lambda: Scalar(1.0, "a", "b")),
+            )
+        ),
+        "lesson mine: Picked.one",
+        "shows a Scalar at 'clouds'",
+        "can be picked: nothing",
+    )
     other = lesson(
         params=Picked, run=lambda params: iter([0]), draw=showing(clouds=lambda: Points(P))
     )
@@ -294,7 +306,7 @@ def test_a_question_that_its_run_does_not_answer_says_so(asked, words):
     one_line(str(told.value), "lesson mine, question 'how-many'", *words)
 
 
-# commands ---------------------------------------------------------------------------------------------------------------
+# commands -----------------------------------------------------------------------------------------
 
 FILE = """
 from pathlib import Path

@@ -1,4 +1,6 @@
-"""Nothing public is left over: what nobody calls in the workbench or a lesson has an example of its own, which is run."""
+"""Nothing public is left over: what nobody calls in the workbench or a lesson has an example of its
+own, which is run.
+"""
 
 import ast
 from collections import Counter
@@ -27,9 +29,16 @@ USES = sum((uses(tree) for tree in TREES.values()), Counter())
 
 
 def left_over(tree: ast.Module) -> list[str]:
-    """The functions, classes and constants of a module that nobody uses and that no example shows."""
-    names = [node.name for node in tree.body if isinstance(node, DEFINITION) and not node.decorator_list
-             and ">>>" not in (ast.get_docstring(node) or "")]  # fmt: skip
+    """The functions, classes and constants of a module that nobody uses and that no example
+    shows.
+    """
+    names = [
+        node.name
+        for node in tree.body
+        if isinstance(node, DEFINITION)
+        and not node.decorator_list
+        and ">>>" not in (ast.get_docstring(node) or "")
+    ]
     for node in tree.body:
         targets = node.targets if isinstance(node, ast.Assign) else ()
         names += [target.id for target in targets if isinstance(target, ast.Name)]

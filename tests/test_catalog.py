@@ -99,6 +99,9 @@ def test_the_list_asks_the_catalogue_where_the_source_does_not_tell(registered, 
 
 
 def loaded_by(command: str) -> set[str]:
-    code = f"import sys; sys.argv[1:] = [{command!r}]; from workbench.__main__ import main; main(); print('|', *sys.modules)"
+    code = (
+        f"import sys; sys.argv[1:] = [{command!r}]; from workbench.__main__ import main; main();"
+        " print('|', *sys.modules)"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     return set(done.stdout.split("|")[-1].split())

@@ -1,4 +1,6 @@
-"""The commands about recordings, as a shell sees them: exit codes, one line for whatever goes wrong, nothing lost."""
+"""The commands about recordings, as a shell sees them: exit codes, one line for whatever goes
+wrong, nothing lost.
+"""
 
 import json
 import os
@@ -31,7 +33,9 @@ def good(tmp_path_factory) -> Path:
 
 @pytest.fixture(autouse=True)
 def nothing_is_served(monkeypatch) -> None:
-    """Let a command that should not serve fail instead of waiting for ever; those in a process of their own do serve."""
+    """Let a command that should not serve fail instead of waiting for ever; those in a process of
+    their own do serve.
+    """
 
     def enter(server):
         raise AssertionError(f"served at {server.address}")

@@ -1,4 +1,6 @@
-"""What pyproject.toml asks for is what is imported, no more and no less, and the bounds are what was tried."""
+"""What pyproject.toml asks for is what is imported, no more and no less, and the bounds are what
+was tried.
+"""
 
 import ast
 import importlib.metadata
@@ -18,7 +20,9 @@ BESIDE = "workbench/exercise/child"
 
 
 def imported() -> dict[str, Path]:
-    """Return every top-level module that our packages import and do not hold themselves, with a file that does."""
+    """Return every top-level module that our packages import and do not hold themselves, with a
+    file that does.
+    """
     found = {}
     for file in sorted([*ROOT.glob("workbench/**/*.py"), *ROOT.glob("lessons/**/*.py")]):
         for node in ast.walk(ast.parse(file.read_bytes())):

@@ -29,7 +29,7 @@ def short(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
 
-# tests that are named ----------------------------------------------------------------------------------------------
+# tests that are named -----------------------------------------------------------------------------
 
 
 NAMED = re.findall(r"`(tests/[\w/]+\.py(?:::\w+)+)`", read("docs/security.md"))
@@ -54,7 +54,7 @@ def test_every_test_that_the_security_page_names_is_there(named):
         inside = found[0].body
 
 
-# links -------------------------------------------------------------------------------------------------------------
+# links --------------------------------------------------------------------------------------------
 
 
 def without_code(text: str) -> str:
@@ -96,14 +96,19 @@ def test_the_first_page_links_all_others():
     assert others <= linked, [short(page) for page in others - linked]
 
 
-# commands ----------------------------------------------------------------------------------------------------------
+# commands -----------------------------------------------------------------------------------------
 
 
 def commands(page: Path) -> list[str]:
-    """The command lines of the workbench in a page: in blocks of shell, and in the text between single backquotes."""
+    """The command lines of the workbench in a page: in blocks of shell, and in the text between
+    single backquotes.
+    """
     text = read(page)
-    lines = [line for block in re.findall(r"^```sh\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
-             for line in block.splitlines()]  # fmt: skip
+    lines = [
+        line
+        for block in re.findall(r"^```sh\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+        for line in block.splitlines()
+    ]
     lines += re.findall(r"`(workbench[^`]*)`", without_code(text))
     return [
         line.partition("#")[0].partition(";")[0].strip()
@@ -143,7 +148,7 @@ def test_a_command_has_a_name_and_flags_that_exist(page, line, capsys):
         )
 
 
-# modules and files -------------------------------------------------------------------------------------------------
+# modules and files --------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("page", PAGES, ids=short)

@@ -1,4 +1,6 @@
-"""The docstrings of geometry and algorithms are contracts: what is returned, what goes in, what is raised, whence it is."""
+"""The docstrings of geometry and algorithms are contracts: what is returned, what goes in, what is
+raised, whence it is.
+"""
 
 import ast
 import re
@@ -81,7 +83,7 @@ def raised(node: ast.FunctionDef) -> set[str]:
 def test_the_first_line_says_what_is_done_or_returned(name):
     node = FUNCTIONS[name]
     text = text_of(node)
-    first = text.split("\n")[0]
+    first = text.split("\n\n")[0]
     assert first.endswith((".", ":")), f"{name}: the first line is no sentence: {first}"
     if any(isinstance(mark, ast.Name) and mark.id == "property" for mark in node.decorator_list):
         return  # a property is named like what it is

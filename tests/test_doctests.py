@@ -1,8 +1,8 @@
 """The examples in the docstrings of geometry and algorithms are run.
 
-pytest's own `--doctest-modules` would find none of them: the checks of array shapes (`tests/conftest.py`) wrap every
-function, and doctest passes over functions that come from another module. Here the docstrings are read from the source and
-run in their module, shapes checked.
+pytest's own `--doctest-modules` would find none of them: the checks of array shapes
+(`tests/conftest.py`) wrap every function, and doctest passes over functions that come from another
+module. Here the docstrings are read from the source and run in their module, shapes checked.
 """
 
 import ast

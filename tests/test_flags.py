@@ -1,4 +1,6 @@
-"""Commands that are printed for a run open that run: each goes through a shell's words and the real parser."""
+"""Commands that are printed for a run open that run: each goes through a shell's words and the real
+parser.
+"""
 
 import functools
 import shlex

@@ -1,7 +1,9 @@
-"""Reads the names of motions: in a product frames must meet, and a name must say what is assigned to it.
+"""Reads the names of motions: in a product frames must meet, and a name must say what is assigned
+to it.
 
-`T_a_b @ T_b_c` is a motion from c to a; `T_a_b @ p_b` is a point in a; `R_a_b.T` and `inverse(T_a_b)` turn the frames
-round. Only names made of known frame words are read, so that other matrices are left alone.
+`T_a_b @ T_b_c` is a motion from c to a; `T_a_b @ p_b` is a point in a; `R_a_b.T` and
+`inverse(T_a_b)` turn the frames round. Only names made of known frame words are read, so that other
+matrices are left alone.
 """
 
 import ast
@@ -29,7 +31,9 @@ FILES = sorted([*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("
 
 
 def frames_of(node: ast.expr) -> tuple[str, ...] | None:
-    """Return (to, from) of a motion, (frame,) of a point or vector, None where the expression says nothing."""
+    """Return (to, from) of a motion, (frame,) of a point or vector, None where the expression says
+    nothing.
+    """
     if isinstance(node, ast.Name):
         kind, *words = (
             node.id.rstrip("s").split("_")
@@ -51,8 +55,14 @@ def frames_of(node: ast.expr) -> tuple[str, ...] | None:
         return inner[::-1] if inner is not None and len(inner) == 2 else None
     if isinstance(node, ast.Subscript):  # T[:3, :3] turns as T does
         inner = frames_of(node.value)
-        return inner if inner is not None and len(inner) == 2 and isinstance(node.slice, ast.Tuple) and all(
-            isinstance(part, ast.Slice) for part in node.slice.elts) else None  # fmt: skip
+        return (
+            inner
+            if inner is not None
+            and len(inner) == 2
+            and isinstance(node.slice, ast.Tuple)
+            and all(isinstance(part, ast.Slice) for part in node.slice.elts)
+            else None
+        )
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         if node.func.id == "inverse" and node.args:
             inner = frames_of(node.args[0])

@@ -39,54 +39,64 @@ ALLOWED = {
     "workbench.run.picking": DRAWING,
     "workbench.wire": LESSON | {"workbench.wire"},
     "workbench.recording": LESSON | {"workbench.recording", "workbench.words"},
-    "workbench.exercise": LESSON
-    | {"workbench.exercise", "workbench.recording", "workbench.numerals"},
-    "workbench.handout": LESSON
-    | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail"},
+    "workbench.exercise": (
+        LESSON | {"workbench.exercise", "workbench.recording", "workbench.numerals"}
+    ),
+    "workbench.handout": (
+        LESSON | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail"}
+    ),
     "workbench.page": LESSON | {"workbench.page", "workbench.words", "workbench.numerals"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
-    "workbench.publish": LESSON
-    | {
-        "workbench.publish",
-        "workbench.page",
-        "workbench.exercise",
-        "workbench.recording",
-        "workbench.wire",
-        "workbench.words",
-    },
-    "workbench.viewer": LESSON
-    | {
-        "workbench.viewer",
-        "workbench.page",
-        "workbench.wire",
-        "workbench.words",
-        "workbench.recording",
-        "workbench.exercise",
-        "workbench.authoring.reloading",
-    },
-    "workbench.authoring": LESSON
-    | {
-        "workbench.authoring",
-        "workbench.exercise",
-        "workbench.run.flags",
-        "workbench.words",
-        "workbench.page.article",
-    },
+    "workbench.publish": (
+        LESSON
+        | {
+            "workbench.publish",
+            "workbench.page",
+            "workbench.exercise",
+            "workbench.recording",
+            "workbench.wire",
+            "workbench.words",
+        }
+    ),
+    "workbench.viewer": (
+        LESSON
+        | {
+            "workbench.viewer",
+            "workbench.page",
+            "workbench.wire",
+            "workbench.words",
+            "workbench.recording",
+            "workbench.exercise",
+            "workbench.authoring.reloading",
+        }
+    ),
+    "workbench.authoring": (
+        LESSON
+        | {
+            "workbench.authoring",
+            "workbench.exercise",
+            "workbench.run.flags",
+            "workbench.words",
+            "workbench.page.article",
+        }
+    ),
     "workbench.notebook": None,  # a top of its own, as the commands are
     "workbench.cli": None,  # the top: it may import everything
     "workbench.__main__": None,
     "workbench": None,
-    "lessons": DRAWING
-    | {
-        "workbench.geometry",
-        "workbench.algorithms",
-        "workbench.data",
-        "workbench.lesson",
-        "lessons",
-        "workbench.exercise",
-        "workbench.numerals",
-        "workbench.certain",
-    },
+    "lessons": (
+        DRAWING
+        | {
+            "workbench.geometry",
+            "workbench.algorithms",
+            "workbench.data",
+            "workbench.lesson",
+            "lessons",
+            "workbench.exercise",
+            "workbench.numerals",
+            "workbench.certain",
+        }
+    ),
 }
 
 OUTSIDE = {"viser": ("workbench.wire", "workbench.publish.site"), "rerun": ("workbench.recording",)}
@@ -196,7 +206,10 @@ def test_nothing_imports_the_package_itself():
     "code", ["import workbench", "from workbench.lesson import catalog; catalog()"]
 )
 def test_the_catalogue_needs_no_viewer(code):
-    check = f"import sys; {code}; print([m for m in ('viser', 'rerun', 'trimesh', 'skimage') if m in sys.modules])"
+    check = (
+        f"import sys; {code}; print([m for m in ('viser', 'rerun', 'trimesh', 'skimage') if m in"
+        " sys.modules])"
+    )
     done = subprocess.run(
         [sys.executable, "-c", check], capture_output=True, text=True, cwd=ROOT, check=True
     )

@@ -1,4 +1,6 @@
-"""Lessons by path: a folder anywhere is a package of its own, with its exercises; what it clashes with is named."""
+"""Lessons by path: a folder anywhere is a package of its own, with its exercises; what it clashes
+with is named.
+"""
 
 import json
 import os
@@ -100,19 +102,18 @@ def test_a_name_of_the_catalogue_is_refused_with_both_places(folder):
 
 def test_a_lesson_of_the_course_by_its_path_is_loaded_anew_with_all_its_modules():
     code = (
-        "import sys; from pathlib import Path\n"
-        "from workbench.lesson import find; from workbench.run.loading import lesson_given\n"
-        "from workbench.exercise.finding import exercises_of\n"
-        "old, new = find('ransac'), lesson_given(sys.argv[1])\n"
-        "print(new.params.__module__ == old.params.__module__, new.params is not old.params, new.draw is not old.draw,"
-        " len(exercises_of(new)))"
+        "import sys; from pathlib import Path\nfrom workbench.lesson import find; from"
+        " workbench.run.loading import lesson_given\nfrom workbench.exercise.finding import"
+        " exercises_of\nold, new = find('ransac'),"
+        " lesson_given(sys.argv[1])\nprint(new.params.__module__ == old.params.__module__,"
+        " new.params is not old.params, new.draw is not old.draw, len(exercises_of(new)))"
     )
     words = [sys.executable, "-c", code, str(ROOT / "lessons" / "ransac")]
     done = subprocess.run(words, capture_output=True, text=True, check=True, cwd=ROOT)
     assert done.stdout.split() == ["True", "True", "True", "3"]
 
 
-# commands ---------------------------------------------------------------------------------------------------------------
+# commands -----------------------------------------------------------------------------------------
 
 
 def test_a_folder_is_shown_recorded_and_opened_again(folder, tmp_path, monkeypatch, capsys):
@@ -145,7 +146,10 @@ def test_a_folder_s_exercise_is_handed_out_watched_checked_and_graded(
     assert "workbench show circle --with my_fit_circle.py\n" in text
     assert "workbench check my_fit_circle.py --lesson circle\n" in text
     assert main(["check", str(mine), "--lesson", "circle", "--hidden"]) == 1
-    wrong = "x, y = p.mean(axis=0)\n    return np.array([x, y, np.linalg.norm(p - p.mean(axis=0), axis=1).mean()])"
+    wrong = (
+        "x, y = p.mean(axis=0)\n    return np.array([x, y, np.linalg.norm(p - p.mean(axis=0),"
+        " axis=1).mean()])"
+    )
     mine.write_text(text.replace("raise NotImplementedError", wrong), encoding="utf-8")
     capsys.readouterr()
     assert main(["check", str(mine), "--lesson", "circle", "--hidden"]) == 1

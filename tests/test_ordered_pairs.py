@@ -1,8 +1,9 @@
-"""Whatever was shown before leaves no trace: for all ordered pairs of a lesson's presets, A then B shows what B shows.
+"""Whatever was shown before leaves no trace: for all ordered pairs of a lesson's presets, A then B
+shows what B shows.
 
-A sink sends what differs, so what it holds can be stale. Every pair goes through a page's feed and through a recording: all
-presets at the step at which they open; steps some way on are seen between them. Runs that only a question opens are seen
-between two presets.
+A sink sends what differs, so what it holds can be stale. Every pair goes through a page's feed and
+through a recording: all presets at the step at which they open; steps some way on are seen between
+them. Runs that only a question opens are seen between two presets.
 """
 
 import itertools
@@ -53,7 +54,9 @@ def asked_alone(name: str) -> list[Scene]:
 
 
 def thinned(scene: Scene) -> Scene:
-    """Return a scene with few points and small images, the same in everything that a sink decides by."""
+    """Return a scene with few points and small images, the same in everything that a sink decides
+    by.
+    """
     return {path: _thinned(primitive) for path, primitive in scene.items()}
 
 
@@ -106,7 +109,9 @@ def fed(chromium) -> Iterator[Fed]:
 
 
 def walk_live(fed: Fed, scenes: Sequence[Scene], order: Sequence[int], by: int = 0) -> None:
-    """Show scenes in this order on a page; hold what its client draws to what it draws of each alone."""
+    """Show scenes in this order on a page; hold what its client draws to what it draws of each
+    alone.
+    """
     numbers = fed.add(scenes)
     for together in (1, 3):  # messages of so many are handled at once: a browser that draws slowly
         walk = "([order, by, together]) => walked(order, by, together)"
@@ -150,7 +155,9 @@ def test_a_walk_through_all_lessons_shows_each_as_alone(fed):
 
 
 class Stream:
-    """A recording stream that keeps the latest value of every component, as a viewer looks it up."""
+    """A recording stream that keeps the latest value of every component, as a viewer looks it
+    up.
+    """
 
     def __init__(self) -> None:
         self._latest: dict[str, dict[str, Any]] = {}
@@ -173,12 +180,16 @@ class Stream:
                     self._latest.setdefault(entity, {})[str(batch.component_descriptor())] = values
 
     def seen(self) -> dict[str, dict[str, Any]]:
-        """Return what is shown by entity and component, classes by name and colour; nothing of what was emptied."""
+        """Return what is shown by entity and component, classes by name and colour; nothing of what
+        was emptied.
+        """
         return {
             entity: {
-                name: [self._classes[i] for i in values.to_pylist()]
-                if name.endswith("class_ids")
-                else values
+                name: (
+                    [self._classes[i] for i in values.to_pylist()]
+                    if name.endswith("class_ids")
+                    else values
+                )
                 for name, values in components.items()
                 if len(values) or not name.startswith("EncodedImage")
             }

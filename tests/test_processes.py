@@ -1,4 +1,6 @@
-"""Processes that share out work end with it, with an error, and with the process that started them."""
+"""Processes that share out work end with it, with an error, and with the process that started
+them.
+"""
 
 import os
 import signal

@@ -1,4 +1,6 @@
-"""No text that a student reads holds a number that is none, rounding in place of a result, or a typist's signs."""
+"""No text that a student reads holds a number that is none, rounding in place of a result, or a
+typist's signs.
+"""
 
 import dataclasses
 import re
@@ -70,7 +72,9 @@ def said_of(scene: Scene) -> list[str]:
 
 
 def values_of(field: KnobField) -> st.SearchStrategy:
-    """Values that a person can give a knob: anywhere in its range, its ends, zero and what is next to zero."""
+    """Values that a person can give a knob: anywhere in its range, its ends, zero and what is next
+    to zero.
+    """
     knob = field.knob
     if field.kind in ("bool", "choice"):
         return st.sampled_from((False, True) if field.kind == "bool" else field.choices)

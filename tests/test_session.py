@@ -244,9 +244,11 @@ def test_reset_and_presets_keep_own_files_and_how_to_read_them(name, files):
     session.reset()
     assert session.params == mine
     session.change(
-        **dict.fromkeys(files, None)
-        if name != "icp"
-        else {"target": None, "source": None, "truth": None}
+        **(
+            dict.fromkeys(files, None)
+            if name != "icp"
+            else {"target": None, "source": None, "truth": None}
+        )
     )
     session.reset()
     assert (

@@ -1,6 +1,8 @@
-"""No text that stands before a prediction tells its answer; `tests.spoilers` says what is looked at and by which rules.
+"""No text that stands before a prediction tells its answer; `tests.spoilers` says what is looked at
+and by which rules.
 
-A page may teach the principle from which an answer follows; it may not state the case that a question asks about.
+A page may teach the principle from which an answer follows; it may not state the case that a
+question asks about.
 """
 
 import importlib

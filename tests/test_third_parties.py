@@ -1,4 +1,6 @@
-"""What third parties install joins the course; what clashes or breaks is left out in one line, and the course is whole."""
+"""What third parties install joins the course; what clashes or breaks is left out in one line, and
+the course is whole.
+"""
 
 import importlib.metadata
 import os
@@ -72,7 +74,9 @@ def packages(tmp_path, monkeypatch):
 
 @pytest.fixture
 def install(monkeypatch):
-    """Registers lessons of this module under the entry points of third parties; the catalogue is read anew."""
+    """Registers lessons of this module under the entry points of third parties; the catalogue is
+    read anew.
+    """
 
     def register(*values: str) -> None:
         entries = [
@@ -98,7 +102,10 @@ def install(monkeypatch):
         ),
         (
             ["tests.fake:lesson", "tests.test_third_parties:twin"],
-            r"lesson by-1 \(tests.test_third_parties:twin\) .*'fake' is taken by by-0 \(tests.fake:lesson\)",
+            (
+                r"lesson by-1 \(tests.test_third_parties:twin\) .*'fake' is taken by by-0"
+                r" \(tests.fake:lesson\)"
+            ),
         ),
         (["tests.test_third_parties:nothing"], "lesson by-0 .*of type Lesson"),
     ],
@@ -121,7 +128,10 @@ def test_a_lesson_with_a_taken_name_is_left_out_and_both_places_are_named(
     [
         (
             ["taken"],
-            r"exercise align_rigid of lesson taken \(their_taken.lesson\) .* taken by lesson icp \(lessons.icp",
+            (
+                r"exercise align_rigid of lesson taken \(their_taken.lesson\) .* taken by lesson"
+                r" icp \(lessons.icp"
+            ),
             [],
         ),
         (
@@ -131,7 +141,10 @@ def test_a_lesson_with_a_taken_name_is_left_out_and_both_places_are_named(
         ),
         (
             ["strange"],
-            "exercises of lesson strange .*: InputError: exercise odd: run .* has no keyword 'wheel'",
+            (
+                "exercises of lesson strange .*: InputError: exercise odd: run .* has no keyword"
+                " 'wheel'"
+            ),
             [],
         ),
         (
@@ -163,7 +176,8 @@ def test_a_third_party_s_exercises_join_in_course_order(packages, install):
 
 def test_what_is_left_out_is_one_line_where_a_person_reads_it(tmp_path):
     (tmp_path / "theirs.py").write_text(
-        "from dataclasses import replace\nfrom tests.fake import lesson as other\nlesson = replace(other, name='icp')\n"
+        "from dataclasses import replace\nfrom tests.fake import lesson as other\nlesson ="
+        " replace(other, name='icp')\n"
     )
     about = tmp_path / "theirs-1.0.dist-info"
     about.mkdir()
@@ -177,7 +191,8 @@ def test_what_is_left_out_is_one_line_where_a_person_reads_it(tmp_path):
     assert done.returncode == 0
     assert (
         done.stderr
-        == "workbench: lesson mine (theirs:lesson) is left out: its name 'icp' is taken by lessons.icp\n"
+        == "workbench: lesson mine (theirs:lesson) is left out: its name 'icp' is taken by"
+        " lessons.icp\n"
     )
     assert len(done.stdout.splitlines()) == len(OURS)
 
@@ -185,11 +200,23 @@ def test_what_is_left_out_is_one_line_where_a_person_reads_it(tmp_path):
 @pytest.mark.parametrize(
     ("names", "exercise", "command", "said"),
     [
-        (("same", "same"), "centroid", "list", "lessons.one and lessons.two are both named 'same': rename one"),
-        (("a", "b"), "centroid", "exercise",
-         "exercise centroid is in lesson a (lessons.one.lesson) and in lesson b (lessons.two.lesson): rename one"),
+        (
+            ("same", "same"),
+            "centroid",
+            "list",
+            "lessons.one and lessons.two are both named 'same': rename one",
+        ),
+        (
+            ("a", "b"),
+            "centroid",
+            "exercise",
+            (
+                "exercise centroid is in lesson a (lessons.one.lesson) and in lesson b"
+                " (lessons.two.lesson): rename one"
+            ),
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_clash_inside_the_course_is_refused_with_both_places(
     tmp_path, names, exercise, command, said
 ):
@@ -199,7 +226,10 @@ def test_a_clash_inside_the_course_is_refused_with_both_places(
         (tmp_path / "lessons" / folder / "lesson.py").write_text(LESSON.format(name=name))
         (tmp_path / "lessons" / folder / "exercises" / f"{exercise}.py").write_text(CENTROID)
     (tmp_path / "lessons" / "__init__.py").touch()
-    begin = f"import sys; sys.path[:0] = [{str(tmp_path)!r}, {str(ROOT)!r}]; from workbench.cli import main; exit(main())"
+    begin = (
+        f"import sys; sys.path[:0] = [{str(tmp_path)!r}, {str(ROOT)!r}]; from workbench.cli import"
+        " main; exit(main())"
+    )
     done = subprocess.run(
         [sys.executable, "-P", "-c", begin, command], capture_output=True, text=True, check=False
     )

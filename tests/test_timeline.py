@@ -141,9 +141,17 @@ def test_series_are_read_without_a_look_at_the_steps():
 
 
 def test_series_are_read_while_another_thread_computes():
-    timeline = Timeline(bare(lambda params: iter(range(4000)), lambda k: {
-        "caption": Caption("A step happened"), "k": Scalar(k, "k", "c"), f"at/{k // 40}": Scalar(k, "k", "c")
-    }), Bare())  # fmt: skip
+    timeline = Timeline(
+        bare(
+            lambda params: iter(range(4000)),
+            lambda k: {
+                "caption": Caption("A step happened"),
+                "k": Scalar(k, "k", "c"),
+                f"at/{k // 40}": Scalar(k, "k", "c"),
+            },
+        ),
+        Bare(),
+    )
     computing = threading.Thread(target=timeline.complete)
     computing.start()
     while computing.is_alive():

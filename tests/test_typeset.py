@@ -23,7 +23,8 @@ from workbench.words.typeset import (
 
 def test_maths_becomes_mathml_and_sections_are_named():
     page = page_html(
-        "# T\n\nText $x^2$.\n\n## Break it!\n\n$$\\sum_i \\lVert p_i \\rVert$$\n\n| a |\n|---|\n| 1 |\n"
+        "# T\n\nText $x^2$.\n\n## Break it!\n\n$$\\sum_i \\lVert p_i \\rVert$$\n\n| a |\n|---|\n|"
+        " 1 |\n"
     )
     assert page.count("<math") == 2
     assert '<section class="s-break-it">' in page

@@ -1,6 +1,8 @@
-"""A lesson's Params, run and draw belong together: the type checker refuses one of another lesson (it reads this file).
+"""A lesson's Params, run and draw belong together: the type checker refuses one of another lesson
+(it reads this file).
 
-An ignored line that is no error is an error, so this fails as soon as the checker lets the wrong ones pass.
+An ignored line that is no error is an error, so this fails as soon as the checker lets the wrong
+ones pass.
 """
 
 # pyright: reportUnnecessaryTypeIgnoreComment=error

@@ -1,4 +1,6 @@
-"""A visual workbench for geometry estimation: watch, touch, record and grade the algorithms of 3D vision."""
+"""A visual workbench for geometry estimation: watch, touch, record and grade the algorithms of 3D
+vision.
+"""
 
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +13,9 @@ if TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> Any:
-    """Import `record`, `open_recording` and `replay` when they are asked for: the rest starts without rerun and viser."""
+    """Import `record`, `open_recording` and `replay` when they are asked for: the rest starts
+    without rerun and viser.
+    """
     if name == "replay":
         from workbench import notebook
 

@@ -30,7 +30,9 @@ def _carry_out() -> int:
 
 
 def _tell_in_one_line() -> None:
-    """Let what is left out be told like everything else the commands tell, without Python's file and line."""
+    """Let what is left out be told like everything else the commands tell, without Python's file
+    and line.
+    """
     from workbench.errors import LeftOutWarning
 
     otherwise = warnings.showwarning

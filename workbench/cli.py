@@ -1,7 +1,8 @@
-"""The commands. Adding one is a matter of one function: `@command`, a signature of options, a docstring.
+"""The commands. Adding one is a matter of one function: `@command`, a signature of options, a
+docstring.
 
-Heavy modules (the viewer, the recorder) are imported inside the functions that need them: `workbench list` answers
-at once. Every InputError becomes one line on stderr and exit code 2.
+Heavy modules (the viewer, the recorder) are imported inside the functions that need them:
+`workbench list` answers at once. Every InputError becomes one line on stderr and exit code 2.
 """
 
 import sys
@@ -13,6 +14,7 @@ from typing import Annotated, Any
 from workbench.errors import InputError, not_among, one_line
 from workbench.knobs import called_by_flags
 from workbench.lesson import catalog
+from workbench.machinery.docstrings import summary_of
 from workbench.machinery.version import __version__
 from workbench.run.flags import Chosen, Option, Serving, ServingLive, parse
 from workbench.run.links import command_line
@@ -72,7 +74,9 @@ def show(
         Option("Your own function, loaded again whenever the file is saved.", "FILE.py"),
     ] = None,
 ) -> None:
-    """Open one lesson in the browser, at these params; one given by its path is loaded again when its files are saved."""
+    """Open one lesson in the browser, at these params; one given by its path is loaded again when
+    its files are saved.
+    """
     from workbench.viewer.serving import serve as serve_page
 
     watched = edited = None
@@ -308,14 +312,17 @@ def handout(
     sandbox: Sandbox = "auto",
     force: Annotated[bool, Option("Replace files that are there.")] = False,
 ) -> None:
-    """Write an assignment that a course system takes as it is, with starters, samples and a README."""
+    """Write an assignment that a course system takes as it is, with starters, samples and a
+    README.
+    """
     from workbench.handout.assignment import assigned
     from workbench.handout.writing import tried, write
 
     *names, out = words
     if not names:
         raise InputError(
-            f"which exercises? `workbench exercise` lists them; {out} is taken for the folder to write into"
+            f"which exercises? `workbench exercise` lists them; {out} is taken for the folder to"
+            " write into"
         )
     assignment = assigned(
         names, service=for_, weights=weight, release=release, due=due, sandbox=sandbox
@@ -347,7 +354,9 @@ def validate(
     ],
     /,
 ) -> int:
-    """Hold a lesson and its exercises to what is promised of all of them; exit code 1 where something is wrong."""
+    """Hold a lesson and its exercises to what is promised of all of them; exit code 1 where
+    something is wrong.
+    """
     from workbench.authoring.validate import validate as held_to_its_promises
 
     found = held_to_its_promises(
@@ -386,7 +395,8 @@ def publish(
     for word, one in zip(names or catalog(), chosen, strict=True):
         if one.name in given:
             raise InputError(
-                f"{given[one.name]} and {word} are both named {one.name!r}: a site has one of a name"
+                f"{given[one.name]} and {word} are both named {one.name!r}: a site has one of a"
+                " name"
             )
         given[one.name] = word
     with bar(sys.stderr, "Publishing") as progress:
@@ -434,10 +444,7 @@ def _carry_out(words: list[str]) -> int | None:
 
 
 def _overview() -> str:
-    lines = [
-        f"  {name:<9} {(function.__doc__ or '').splitlines()[0]}"
-        for name, function in COMMANDS.items()
-    ]
+    lines = [f"  {name:<9} {summary_of(function)}" for name, function in COMMANDS.items()]
     head = (
         "Watch, touch, record and grade the algorithms of 3D vision. Without a command: "
         + (serve.__doc__ or "").lower()

@@ -1,7 +1,9 @@
-"""Knobs: what a Params field says of itself, from which panels, command flags and links are generated.
+"""Knobs: what a Params field says of itself, from which panels, command flags and links are
+generated.
 
-A Params class is a frozen dataclass whose fields are `Annotated[type, Knob(...)]`. Types: `float`, `int`, `bool`,
-`Literal[...]` of strings, `tuple` of a fixed number of floats or ints, `Path | None`.
+A Params class is a frozen dataclass whose fields are `Annotated[type, Knob(...)]`. Types: `float`,
+`int`, `bool`, `Literal[...]` of strings, `tuple` of a fixed number of floats or ints, `Path |
+None`.
 """
 
 import contextlib
@@ -31,8 +33,8 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 class Gizmo:
     """The field is also set by a handle in the scene.
 
-    The field is a tuple of floats: 2 are a position in the plane z = 0, metres, 3 one in space, 6 a position and a rotation
-    vector (radians), in the world.
+    The field is a tuple of floats: 2 are a position in the plane z = 0, metres, 3 one in space, 6 a
+    position and a rotation vector (radians), in the world.
     """
 
     size: float = 0.5
@@ -42,8 +44,8 @@ class Gizmo:
 class Pick:
     """The field is also set by a click on the primitive at `path`.
 
-    The field is an int (the index of the nearest point or vertex), or a tuple of ints (the last so many clicks); on a
-    Picture a pair of ints is the pixel (u, v), column first.
+    The field is an int (the index of the nearest point or vertex), or a tuple of ints (the last so
+    many clicks); on a Picture a pair of ints is the pixel (u, v), column first.
     """
 
     path: str
@@ -57,15 +59,17 @@ class Knob:
         hint: One line that says what it does to the run.
         low: The lower end of the range, included; of every entry for tuples. Required for numbers.
         high: Its upper end, likewise.
-        unit: Written behind the value: `m`, `deg`, `px`. Degrees are converted in the first lines of `run`.
+        unit: Written behind the value: `m`, `deg`, `px`. Degrees are converted in the first lines
+            of `run`.
         step: The slider's step; None picks a fine one.
         label: The words on the control; None makes them from the field's name.
         parts: What the entries of a tuple are called, where x, y, z would mislead.
         by: A Gizmo or a Pick where the scene sets it too.
-        needs: Other params and the values they need for this one to have an effect, as {"metric": ("plane",)}; a page greys
-            it out while they have others, and says so. Changing it then changes nothing in the run. {"scan": (None,)}
-            asks that no own file is open as `scan`.
-        of_files: It says how to read a person's own files (their unit, which axis is up), and is kept as long as they are.
+        needs: Other params and the values they need for this one to have an effect, as {"metric":
+            ("plane",)}; a page greys it out while they have others, and says so. Changing it then
+            changes nothing in the run. {"scan": (None,)} asks that no own file is open as `scan`.
+        of_files: It says how to read a person's own files (their unit, which axis is up), and is
+            kept as long as they are.
     """
 
     hint: str
@@ -85,7 +89,9 @@ Kind = Literal["float", "int", "bool", "choice", "floats", "ints", "path"]
 
 @dataclass(frozen=True)
 class Field:
-    """One field of a Params class, read: its name, kind, default, choices or length, and its knob."""
+    """One field of a Params class, read: its name, kind, default, choices or length, and its
+    knob.
+    """
 
     name: str
     kind: Kind
@@ -96,7 +102,9 @@ class Field:
 
     @property
     def label(self) -> str:
-        """The words on the control; a name like `k1` is a symbol and is written as formulas write it."""
+        """The words on the control; a name like `k1` is a symbol and is written as formulas write
+        it.
+        """
         if self.knob.label is not None:
             return self.knob.label
         if symbol := _SYMBOL.fullmatch(self.name):
@@ -115,7 +123,9 @@ class Field:
 
     @property
     def sensitive(self) -> bool:
-        """Whether a value from a browser must not be taken: it names a file of the machine that serves."""
+        """Whether a value from a browser must not be taken: it names a file of the machine that
+        serves.
+        """
         return self.kind == "path"
 
     def clean(self, value: Any, *, clamp: bool = False) -> Any:
@@ -140,8 +150,11 @@ class Field:
             return None if value in (None, "", "None") else Path(value)
         if self.kind == "bool":
             if isinstance(value, str):
-                value = {"true": True, "1": True, "false": False, "0": False}[value.lower()] if value.lower() in (
-                    "true", "1", "false", "0") else value  # fmt: skip
+                value = (
+                    {"true": True, "1": True, "false": False, "0": False}[value.lower()]
+                    if value.lower() in ("true", "1", "false", "0")
+                    else value
+                )
             if not isinstance(value, (bool, int)) or value not in (0, 1):
                 raise ValueError
             return bool(value)
@@ -189,7 +202,8 @@ def fields_of(params: type) -> tuple[Field, ...]:
     """Read a Params class into its fields.
 
     Raises:
-        TypeError: If the class is not a frozen dataclass of annotated fields with defaults; says which field and why.
+        TypeError: If the class is not a frozen dataclass of annotated fields with defaults; says
+            which field and why.
     """
     if not dataclasses.is_dataclass(params) or not params.__dataclass_params__.frozen:  # type: ignore[attr-defined]
         raise TypeError(f"{params.__name__} must be a frozen dataclass")
@@ -234,7 +248,8 @@ def _kind(where: str, declared: Any) -> tuple[Kind, tuple[str, ...], int]:
     if origin in (Union, types.UnionType) and set(args) == {Path, type(None)}:
         return "path", (), 0
     raise TypeError(
-        f"{where}: {declared} is none of float, int, bool, Literal of strings, tuple of numbers, Path | None"
+        f"{where}: {declared} is none of float, int, bool, Literal of strings, tuple of numbers,"
+        " Path | None"
     )
 
 
@@ -266,7 +281,9 @@ def make(
 
 
 def only(params: P, *names: str) -> P:
-    """Return the defaults with these fields of the params: what one part of a run depends on, as the key of its cache."""
+    """Return the defaults with these fields of the params: what one part of a run depends on, as
+    the key of its cache.
+    """
     return dataclasses.replace(type(params)(), **{name: getattr(params, name) for name in names})  # type: ignore[type-var]
 
 
@@ -281,7 +298,8 @@ def names_files(params: Any) -> bool:
 
 
 def with_own_files(params: P, mine: P) -> P:
-    """Return the params with a person's own files in them, and with what says how to read these (`Knob.of_files`).
+    """Return the params with a person's own files in them, and with what says how to read these
+    (`Knob.of_files`).
 
     A preset or a reset keeps them so. Params that name files themselves stay as they are.
     """
@@ -294,7 +312,8 @@ def with_own_files(params: P, mine: P) -> P:
 
 
 def showing(params: P, files: Iterable[str], *, kept: Collection[str] = ()) -> P:
-    """Return the params with the choices under which files are read (`Knob.needs`); those that are so stay.
+    """Return the params with the choices under which files are read (`Knob.needs`); those that are
+    so stay.
 
     Args:
         params: What was asked for.
@@ -319,7 +338,9 @@ def showing(params: P, files: Iterable[str], *, kept: Collection[str] = ()) -> P
 
 
 def called(name: str) -> str:
-    """Return the name of a param for a message, in marks by which a page puts its label there, a command its flag."""
+    """Return the name of a param for a message, in marks by which a page puts its label there, a
+    command its flag.
+    """
     return f"“{name}”"
 
 
@@ -334,7 +355,9 @@ def called_by_flags() -> Iterator[None]:
 
 
 def in_words(message: str, params: type) -> str:
-    """Return a message with the names of params (`called`) as people see them: labels, or flags in `called_by_flags`."""
+    """Return a message with the names of params (`called`) as people see them: labels, or flags in
+    `called_by_flags`.
+    """
     labels = {field.name: field.label for field in fields_of(params)}
 
     def name(found: re.Match) -> str:
@@ -346,7 +369,9 @@ def in_words(message: str, params: type) -> str:
 
 
 def validated(params: Any) -> Any:
-    """Return the params when every field is inside its range; raise InputError with one line when one is not."""
+    """Return the params when every field is inside its range; raise InputError with one line when
+    one is not.
+    """
     return make(
         type(params), {field.name: getattr(params, field.name) for field in fields_of(type(params))}
     )
@@ -374,7 +399,9 @@ def from_json(params: type[P], text: str) -> P:
 
 
 def changed(params: Any, base: Any = None) -> dict[str, str]:
-    """Return the fields that differ from the base (or the defaults), as the text a link or command line takes."""
+    """Return the fields that differ from the base (or the defaults), as the text a link or command
+    line takes.
+    """
     base = type(params)() if base is None else base
     return {
         f.name: text_of(getattr(params, f.name))

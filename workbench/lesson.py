@@ -1,4 +1,6 @@
-"""A lesson: a page, Params, `run`, `draw`, presets and questions, as one value; and the catalogue of all lessons."""
+"""A lesson: a page, Params, `run`, `draw`, presets and questions, as one value; and the catalogue
+of all lessons.
+"""
 
 import functools
 import importlib
@@ -26,10 +28,11 @@ S = TypeVar("S")
 
 @dataclass(frozen=True)
 class View:
-    """How the scene is first seen: the eye, what it looks at, metres; +Z is up unless `up` says otherwise.
+    """How the scene is first seen: the eye, what it looks at, metres; +Z is up unless `up` says
+    otherwise.
 
-    `grid` is the spacing of the ground grid in metres at height `grid_height` along `up`; None draws none. `axes` draws
-    the world's axes, labelled, at the origin.
+    `grid` is the spacing of the ground grid in metres at height `grid_height` along `up`; None
+    draws none. `axes` draws the world's axes, labelled, at the origin.
     """
 
     eye: tuple[float, float, float] = (2.0, -2.0, 1.5)
@@ -50,8 +53,8 @@ class View:
     def seen_from(self) -> np.ndarray:
         """Return the eye, moved aside by a thousandth of its distance where it looks along `up`.
 
-        Straight down or up no direction of the picture would be decided: +y points up in it then, +z where y is vertical
-        itself (-z from above, so that +x is on the right).
+        Straight down or up no direction of the picture would be decided: +y points up in it then,
+        +z where y is vertical itself (-z from above, so that +x is on the right).
         """
         eye, target, up = (np.array(triple, float) for triple in (self.eye, self.target, self.up))
         away, up = eye - target, up / np.linalg.norm(up)
@@ -67,7 +70,9 @@ class View:
         return eye - above * 2e-3 * np.linalg.norm(away) * upwards
 
     def facing(self, right: float, up: float, nearer: float = 0.0) -> np.ndarray:
-        """Return the pose (4, 4) of a picture that stands upright before the eye, metres right of and above the target."""
+        """Return the pose (4, 4) of a picture that stands upright before the eye, metres right of
+        and above the target.
+        """
         ahead = np.array(self.target) - self.seen_from()
         axes = [np.cross(ahead, self.up), np.cross(ahead, np.cross(ahead, self.up)), ahead]
         pose = np.eye(4)
@@ -80,9 +85,9 @@ class View:
 class Preset(Generic[P]):
     """A named set of params: what to look for, and why it happens, in one line.
 
-    `step` is where it opens: an index, negative counts from the end; None opens at the lesson's first step worth seeing.
-    `view` is its own camera, where the lesson's does not show what it is about. `breaks` says that it goes wrong on purpose:
-    its captions stay calm.
+    `step` is where it opens: an index, negative counts from the end; None opens at the lesson's
+    first step worth seeing. `view` is its own camera, where the lesson's does not show what it is
+    about. `breaks` says that it goes wrong on purpose: its captions stay calm.
     """
 
     name: str
@@ -98,7 +103,8 @@ class Preset(Generic[P]):
 class Sweep:
     """One param of the default run at several values: a knob on pages that cannot compute too.
 
-    `knob` is the name of a field of Params, `values` what it takes, in the order in which they are shown.
+    `knob` is the name of a field of Params, `values` what it takes, in the order in which they are
+    shown.
     """
 
     knob: str
@@ -106,7 +112,9 @@ class Sweep:
 
 
 class Choice(str):
-    """A text to choose as the answer of a question, and `why`: what is said to those who chose it though it is wrong."""
+    """A text to choose as the answer of a question, and `why`: what is said to those who chose it
+    though it is wrong.
+    """
 
     why: str
 
@@ -131,7 +139,8 @@ class Question(Generic[P, S]):
         unit: The unit asked for, for numbers.
         tolerance: How far off a number still counts as right.
         step: Where the revealed run opens; None is its last step.
-        wrong: Known wrong numbers as (lowest, highest, what is said to those who gave one); none is within the tolerance.
+        wrong: Known wrong numbers as (lowest, highest, what is said to those who gave one); none is
+            within the tolerance.
     """
 
     name: str
@@ -146,7 +155,9 @@ class Question(Generic[P, S]):
     wrong: tuple[tuple[float, float, str], ...] = ()
 
     def reply(self, given: float) -> str:
-        """Return what is said to a known wrong answer, a number or the index of a choice; nothing where it is not known."""
+        """Return what is said to a known wrong answer, a number or the index of a choice; nothing
+        where it is not known.
+        """
         if self.choices:
             return getattr(self.choices[int(given)], "why", "")
         return next((words for low, high, words in self.wrong if low <= given <= high), "")
@@ -166,14 +177,16 @@ class Lesson(Generic[P, S]):
         draw: What one state looks like.
         order: The place in the course.
         view: How the scene is first seen.
-        view_for: How runs of some params are first seen, where the presets' cameras do not say it; None lets them.
+        view_for: How runs of some params are first seen, where the presets' cameras do not say it;
+            None lets them.
         presets: Named runs worth seeing.
         questions: What a student predicts before looking.
         first_step: Where the default run opens (negative counts from the end).
         sweeps: Params whose runs are published at several values.
         telling: The chart or title of what tells most beside the scene: it is shown first.
         needs: Names of the lessons it builds on; they stand before it in the course.
-        tries: Whether a state only tries what another start would lead to. Such states follow the run's own end.
+        tries: Whether a state only tries what another start would lead to. Such states follow the
+            run's own end.
     """
 
     name: str
@@ -204,9 +217,14 @@ class Lesson(Generic[P, S]):
         self.text()
 
     def _mistakes(self) -> Iterator[str]:
-        """Yield what is wrong with the values given, as ends of lines that begin with the lesson's name."""
+        """Yield what is wrong with the values given, as ends of lines that begin with the lesson's
+        name.
+        """
         if self.page is not None and not isinstance(self.page, Path):
-            yield f": page is a Path, not {self.page!r}: Path(__file__).with_name(...) finds it beside the lesson"
+            yield (
+                f": page is a Path, not {self.page!r}: Path(__file__).with_name(...) finds it"
+                " beside the lesson"
+            )
         yield from _not_called_with(
             self.run, "run", "the params and, by keyword, functions that have defaults"
         )
@@ -215,7 +233,10 @@ class Lesson(Generic[P, S]):
         for what, ones in (("preset", self.presets), ("question", self.questions)):
             for i, one in enumerate(ones, 1):
                 if one.name in places:
-                    yield f": {places[one.name]} and {what} {i} share the name {one.name!r}; each is a run of the page"
+                    yield (
+                        f": {places[one.name]} and {what} {i} share the name {one.name!r}; each is"
+                        " a run of the page"
+                    )
                 places[one.name] = f"{what} {i}"
         for what, one in [("preset", p) for p in self.presets] + [
             ("question", q) for q in self.questions
@@ -234,21 +255,26 @@ class Lesson(Generic[P, S]):
                 yield f", sweep {i} of {sweep.knob!r}: {error}"
 
     def swept(self, sweep: Sweep) -> tuple[P, ...]:
-        """Return the params of a sweep's runs: the default's, with its knob at each of its values."""
+        """Return the params of a sweep's runs: the default's, with its knob at each of its
+        values.
+        """
         return tuple(
             self.validated(replace(self.params(), **{sweep.knob: value})) for value in sweep.values
         )  # type: ignore[type-var]
 
     def view_of(self, params: P) -> View:
-        """Return how the run of these params is first seen: by its preset's camera where it has one."""
+        """Return how the run of these params is first seen: by its preset's camera where it has
+        one.
+        """
         preset = self.preset_of(params)
         return self.usual_view(params) if preset is None or preset.view is None else preset.view
 
     def usual_view(self, params: P) -> View:
-        """Return how runs of such params are first seen that are no preset with a camera of its own.
+        """Return how runs of such params are first seen that are no preset with a camera of its
+        own.
 
-        It is the camera of the default or the preset that is most alike in its choices, of which the first counts most: who
-        chooses another shape or stage sees it as its presets do.
+        It is the camera of the default or the preset that is most alike in its choices, of which
+        the first counts most: who chooses another shape or stage sees it as its presets do.
         """
         view = None if self.view_for is None else self.view_for(params)
         if view is not None:
@@ -318,7 +344,8 @@ def course() -> Mapping[str, Lesson]:
             lesson = lesson_in(importlib.import_module(f"{info.name}.lesson"))
             if lesson.name in places:
                 raise InputError(
-                    f"{places[lesson.name]} and {info.name} are both named {lesson.name!r}: rename one"
+                    f"{places[lesson.name]} and {info.name} are both named {lesson.name!r}:"
+                    " rename one"
                 )
             found.append(lesson)
             places[lesson.name] = info.name
@@ -327,10 +354,12 @@ def course() -> Mapping[str, Lesson]:
 
 @functools.cache
 def catalog() -> Mapping[str, Lesson]:
-    """Return all lessons by name, in course order: those of the course and those of installed third parties.
+    """Return all lessons by name, in course order: those of the course and those of installed third
+    parties.
 
-    A third party registers a lesson under the entry-point group `workbench.lessons`, as `name = "module:lesson"`. One that
-    cannot be loaded, or whose name is taken, is left out with a warning; the course itself is always whole.
+    A third party registers a lesson under the entry-point group `workbench.lessons`, as `name =
+    "module:lesson"`. One that cannot be loaded, or whose name is taken, is left out with a warning;
+    the course itself is always whole.
     """
     found, places = dict(course()), {name: f"lessons.{name}" for name in course()}
     for entry in importlib.metadata.entry_points(group="workbench.lessons"):
@@ -357,7 +386,8 @@ def _in_order(lessons: Iterable[Lesson]) -> Mapping[str, Lesson]:
 
 
 def find(name: str) -> Lesson:
-    """Return a lesson by its name in the catalogue. Nothing is run: the name may come out of a file or a link.
+    """Return a lesson by its name in the catalogue. Nothing is run: the name may come out of a file
+    or a link.
 
     Raises:
         InputError: If there is no such lesson; lists those there are.

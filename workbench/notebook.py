@@ -1,6 +1,8 @@
-"""A run in a notebook: the page in one frame, with all that it needs inside, so that it plays in a saved notebook too.
+"""A run in a notebook: the page in one frame, with all that it needs inside, so that it plays in a
+saved notebook too.
 
-A notebook that is not trusted shows no frames: a still picture stands behind it, with a line that says what to do.
+A notebook that is not trusted shows no frames: a still picture stands behind it, with a line that
+says what to do.
 """
 
 import base64
@@ -38,8 +40,8 @@ def replay(
 ) -> "Replay":
     """Return a run to be shown as the value of a notebook's cell.
 
-    It plays, steps back, pins and shows its code like any page, without a server and without any file or network, also
-    where the notebook was saved or exported as HTML.
+    It plays, steps back, pins and shows its code like any page, without a server and without any
+    file or network, also where the notebook was saved or exported as HTML.
 
         workbench.replay("icp", start_angle=120)
         workbench.replay("icp", preset="far", steps=40, height=500)
@@ -52,7 +54,8 @@ def replay(
         params: Fields of the lesson's Params.
 
     Raises:
-        InputError: If there is no such lesson, preset or param, a value is out of range, or the run gives no step.
+        InputError: If there is no such lesson, preset or param, a value is out of range, or the run
+            gives no step.
     """
     chosen = (
         lesson
@@ -95,7 +98,9 @@ class Replay:
             )
 
     def __repr__(self) -> str:
-        """Return the run as text: its last caption and numbers, and the command that opens it live."""
+        """Return the run as text: its last caption and numbers, and the command that opens it
+        live.
+        """
         last = len(self.timeline) - 1
         numbers = [
             f"{one.scalar.name}: {_said(one.values[last], one.scalar.unit)}"
@@ -162,10 +167,14 @@ class Replay:
     def _html(self) -> str:
         title = escape(f"{self.lesson.title}, a run to be played")
         caption = escape(self.timeline[self._first() % len(self.timeline)].caption.text)
-        still = f'<img src="data:image/png;base64,{self._still}" alt="{caption}" style="max-width:100%">'
+        still = (
+            f'<img src="data:image/png;base64,{self._still}" alt="{caption}"'
+            ' style="max-width:100%">'
+        )
         frame = (
-            f'<iframe srcdoc="{escape(self.document())}" title="{title}" style="position:absolute;inset:0;width:100%;'
-            'height:100%;border:1px solid #ccc;border-radius:6px;background:#fff"></iframe>'
+            f'<iframe srcdoc="{escape(self.document())}" title="{title}"'
+            ' style="position:absolute;inset:0;width:100%;height:100%;border:1px solid'
+            ' #ccc;border-radius:6px;background:#fff"></iframe>'
         )
         place = f"position:relative;height:{self.height}px;overflow:hidden"
         return f'<div style="{place}">{still}<p>{HOW_TO_PLAY}</p>{frame}</div>'

@@ -1,7 +1,8 @@
 """Watches where an algorithm stands each time it yields: its line, and its local variables.
 
-A suspended generator knows its line and its locals. `traced` reads them off at every yield, but only while somebody
-listens (`listening`), so an algorithm that nobody watches pays one attribute test per step.
+A suspended generator knows its line and its locals. `traced` reads them off at every yield, but
+only while somebody listens (`listening`), so an algorithm that nobody watches pays one attribute
+test per step.
 """
 
 import functools
@@ -20,7 +21,9 @@ State = TypeVar("State")
 
 @dataclass(frozen=True)
 class Variable:
-    """One local variable as a reader sees it: its name, its shape or type, and its value or range."""
+    """One local variable as a reader sees it: its name, its shape or type, and its value or
+    range.
+    """
 
     name: str
     shape: str
@@ -29,7 +32,9 @@ class Variable:
 
 @dataclass(frozen=True)
 class Moment:
-    """Where a generator stood when it yielded: the function, the line, the locals in order of definition."""
+    """Where a generator stood when it yielded: the function, the line, the locals in order of
+    definition.
+    """
 
     function: Callable[..., Any]
     line: int
@@ -37,13 +42,17 @@ class Moment:
 
     @property
     def source(self) -> tuple[tuple[str, ...], int]:
-        """The function's source lines without its decorators, and the number of the first of them in its file."""
+        """The function's source lines without its decorators, and the number of the first of them
+        in its file.
+        """
         return source_of(self.function)
 
 
 @functools.lru_cache(maxsize=256)
 def source_of(function: Callable[..., Any]) -> tuple[tuple[str, ...], int]:
-    """Return the source lines of a function without decorators, dedented, and the file line of the first."""
+    """Return the source lines of a function without decorators, dedented, and the file line of the
+    first.
+    """
     lines, first = inspect.getsourcelines(function)
     skip = next(
         (i for i, line in enumerate(lines) if line.lstrip().startswith(("def ", "async def "))), 0
@@ -77,7 +86,9 @@ def listening() -> Iterator[Callable[[], Moment | None]]:
 
 @contextmanager
 def untraced() -> Iterator[None]:
-    """Record nothing in this thread for the length of the block: for runs inside a run whose lines nobody looks at."""
+    """Record nothing in this thread for the length of the block: for runs inside a run whose lines
+    nobody looks at.
+    """
     before, _listener.on = _listener.on, False
     try:
         yield
@@ -86,9 +97,11 @@ def untraced() -> Iterator[None]:
 
 
 def traced(algorithm: Callable[Options, Iterator[State]]) -> Callable[Options, Iterator[State]]:
-    """Let whoever listens know the line and the locals of this generator function at each of its yields.
+    """Let whoever listens know the line and the locals of this generator function at each of its
+    yields.
 
-    Where one traced generator passes on what another yielded, the inner one, which did the work, is reported.
+    Where one traced generator passes on what another yielded, the inner one, which did the work, is
+    reported.
     """
 
     @functools.wraps(algorithm)

@@ -1,4 +1,6 @@
-"""The stage `axes`: the frame of one cloud after the other, their signs, and what laying them on each other gives."""
+"""The stage `axes`: the frame of one cloud after the other, their signs, and what laying them on
+each other gives.
+"""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -34,7 +36,9 @@ MOST_ASKED = 2000  # points whose nearest neighbour is looked up
 
 
 def axes_stage(params: Params, find: FindAxes | None, sign: Sign | None) -> Iterator[AxesState]:
-    """Yield the steps; where functions are given in place of ours (None), they end before the many turns."""
+    """Yield the steps; where functions are given in place of ours (None), they end before the many
+    turns.
+    """
     scans = scans_of(params)
     p_centre, covariance = centroid_and_covariance(scans.p_source)
     state = AxesState(params=params, scans=scans, moment="cloud", p_centre=p_centre)
@@ -116,13 +120,17 @@ def outcome_of(state: AxesState) -> Outcome:
 
 
 def gap(T_target_source: np.ndarray, scans: Scans) -> float:
-    """Return the root mean square distance from the moved source to the nearest points of the target, metres."""
+    """Return the root mean square distance from the moved source to the nearest points of the
+    target, metres.
+    """
     p = scans.p_source[every(len(scans.p_source), MOST_ASKED)]
     return rms(np.asarray(scipy.spatial.KDTree(scans.p_target).query(apply(T_target_source, p))[0]))
 
 
 def box_ratio(state: AxesState) -> float:
-    """Return the volume of the box along the source's axes over that of the box along the shape's own sides."""
+    """Return the volume of the box along the source's axes over that of the box along the shape's
+    own sides.
+    """
     sides, T = box_sides(state.params), state.scans.T_target_source
     if sides is None or T is None:
         return float("nan")
@@ -132,7 +140,9 @@ def box_ratio(state: AxesState) -> float:
 
 
 def many_turns(params: Params, scans: Scans, axes_target: np.ndarray) -> Turns:
-    """Turn the second scan at random, find its frame by the same recipe, and bring it over by the truth."""
+    """Turn the second scan at random, find its frame by the same recipe, and bring it over by the
+    truth.
+    """
     assert scans.T_target_source is not None
     rng = np.random.default_rng(params.seed)
     turns = scipy.spatial.transform.Rotation.random(

@@ -1,4 +1,6 @@
-"""What a step says: what just happened, its numbers, and at the end whether the second scan has come home."""
+"""What a step says: what just happened, its numbers, and at the end whether the second scan has
+come home.
+"""
 
 import numpy as np
 
@@ -16,8 +18,13 @@ PARTS = (
 )
 RULES = {
     "none": "Signs stay as the rotations happened to leave them.",
-    "largest-entry": "Axes 1 and 2 are turned so that their largest entry is positive; axis 3 is their cross product.",
-    "third-moment": "Axes 1 and 2 point to where their third moment is positive; axis 3 is their cross product.",
+    "largest-entry": (
+        "Axes 1 and 2 are turned so that their largest entry is positive; axis 3 is their cross"
+        " product."
+    ),
+    "third-moment": (
+        "Axes 1 and 2 point to where their third moment is positive; axis 3 is their cross product."
+    ),
 }
 FLIPS = {
     "least": "The direction of the least singular value is turned round",
@@ -39,16 +46,17 @@ def _of_axes(state: AxesState) -> Caption:
         return Caption(_of_cloud(state) if moment == "cloud" else _of_centroid(state))
     if moment == "covariance":
         return Caption(
-            "The covariance as an ellipsoid, two standard deviations large. In the axes x, y, z of the scan, the norm of"
-            f" its entries off the diagonal is {part(now.off)} of the norm of all."
+            "The covariance as an ellipsoid, two standard deviations large. In the axes x, y, z of"
+            f" the scan, the norm of its entries off the diagonal is {part(now.off)} of the norm of"
+            " all."
         )
     if moment == "rotation":
         return Caption(_of_rotation(state))
     if moment == "order" and state.variances is not None:
         sizes = [length(float(np.sqrt(max(value, 0.0)))) for value in state.variances]
         return Caption(
-            f"In the order of variance: standard deviations {sizes[0]}, {sizes[1]} and {sizes[2]}. So far an axis is a line;"
-            " no variance says which end is its tip."
+            f"In the order of variance: standard deviations {sizes[0]}, {sizes[1]} and {sizes[2]}."
+            " So far an axis is a line; no variance says which end is its tip."
         )
     if moment == "signs":
         return Caption(f"{RULES[state.params.signs]} {_skewness(state)}")
@@ -61,13 +69,13 @@ def _of_cloud(state: AxesState) -> str:
     counts = f"{n:,} points each" if n == m else f"{n:,} and {m:,} points"
     if scans.own:
         return (
-            f"Two scans of your own, {counts}, one metre long here. Which turn takes the second to the"
-            f" first?{_idle(params)}"
+            f"Two scans of your own, {counts}, one metre long here. Which turn takes the second to"
+            f" the first?{_idle(params)}"
         )
     what = params.source.name if params.source is not None else f"one {params.shape}"
     return (
-        f"Two scans of {what}, {counts}; the second is turned by {angle(params.turn)}. No point knows its partner: which"
-        f" turn takes it back?{_idle(params)}"
+        f"Two scans of {what}, {counts}; the second is turned by {angle(params.turn)}. No point"
+        f" knows its partner: which turn takes it back?{_idle(params)}"
     )
 
 
@@ -75,12 +83,18 @@ def _idle(params: Params) -> str:
     idle = [name.replace("_", " ") for name in params.idle]
     if not idle:
         return ""
-    return f" Your own clouds are open: {', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no effect."
+    return (
+        f" Your own clouds are open: {', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no"
+        " effect."
+    )
 
 
 def _of_centroid(state: AxesState) -> str:
     x, y, z = (fixed(100 * value, 1) for value in state.p_centre)
-    return f"The centroid, the mean of the points, at ({x}, {y}, {z}) cm: it moves with its scan and settles the shift."
+    return (
+        f"The centroid, the mean of the points, at ({x}, {y}, {z}) cm: it moves with its scan and"
+        " settles the shift."
+    )
 
 
 def _of_rotation(state: AxesState) -> str:
@@ -88,8 +102,9 @@ def _of_rotation(state: AxesState) -> str:
     i, j = ("xyz"[k] for k in sure(now.plane))
     was = np.linalg.norm(before - np.diag(np.diag(before))) / np.linalg.norm(before)
     return (
-        f"Rotation {state.rotations}: the frame turns by {angle(abs(np.degrees(now.angle)))} in its {i}-{j} plane, to where"
-        f" variance is largest and least. Off the diagonal, as a share of the norm: {part(float(was))} → {part(now.off)}."
+        f"Rotation {state.rotations}: the frame turns by {angle(abs(np.degrees(now.angle)))} in its"
+        f" {i}-{j} plane, to where variance is largest and least. Off the diagonal, as a share of"
+        f" the norm: {part(float(was))} → {part(now.off)}."
     )
 
 
@@ -116,12 +131,14 @@ def _of_pose(state: AxesState) -> Caption:
     )
     if not np.isfinite(outcome.rotation):
         return Caption(
-            f"Frame laid on frame: {near}. Nobody knows the truth here, and half a turn may look alike."
+            f"Frame laid on frame: {near}. Nobody knows the truth here, and half a turn may look"
+            " alike."
         )
     off = angle(outcome.rotation)
     if outcome.home:
         return Caption(
-            f"Frame laid on frame: the second scan is {off} from the truth; {near}. It has come home.{box}",
+            f"Frame laid on frame: the second scan is {off} from the truth; {near}. It has come"
+            f" home.{box}",
             "good",
         )
     return Caption(
@@ -133,9 +150,10 @@ def _of_turns(state: AxesState) -> Caption:
     turns = sure(state.turns)
     scan = "a new scan each time" if state.params.fresh else "the same scan"
     return Caption(
-        f"{len(turns.degrees)} random turns, {scan}, the same recipe: {percent(float(turns.home.mean()), 0)} come home,"
-        f" within {HOME_DEGREES:g}°. The median rotation error is {angle(float(np.median(turns.degrees)))}; axis 1 as a"
-        f" line is {angle(float(np.median(turns.axes[:, 0])))} off."
+        f"{len(turns.degrees)} random turns, {scan}, the same recipe:"
+        f" {percent(float(turns.home.mean()), 0)} come home, within {HOME_DEGREES:g}°. The median"
+        f" rotation error is {angle(float(np.median(turns.degrees)))}; axis 1 as a line is"
+        f" {angle(float(np.median(turns.axes[:, 0])))} off."
     )
 
 
@@ -145,24 +163,25 @@ def _of_pairs(state: PairsState) -> Caption:
     match now.stage:
         case "pairs":
             return Caption(
-                f"{len(state.scans.p_source):,} pairs: each point of the second scan knows its partner in the"
-                f" first.{_idle(state.params)}"
+                f"{len(state.scans.p_source):,} pairs: each point of the second scan knows its"
+                f" partner in the first.{_idle(state.params)}"
             )
         case "centre":
             return Caption(
-                f"Centroid on centroid: RMSE {length(now.rmse)}. What is left is a turn, perhaps a mirror image, and"
-                " a scale."
+                f"Centroid on centroid: RMSE {length(now.rmse)}. What is left is a turn, perhaps a"
+                " mirror image, and a scale."
             )
         case "cross":
             a, b, c = (brief(1e4 * value) for value in sure(now.D))
             return Caption(
-                f"The cross-covariance H = U D Vᵀ of the pairs has the singular values {a}, {b} and {c} cm²: three"
-                " directions in the one scan, three in the other."
+                f"The cross-covariance H = U D Vᵀ of the pairs has the singular values {a}, {b} and"
+                f" {c} cm²: three directions in the one scan, three in the other."
             )
         case "in":
             turn = angle(np.degrees(rotation_angle(sure(now.V).T)))
             return Caption(
-                f"Vᵀ turns the second scan by {turn}: its three directions lie along x, y and z now. {fall}."
+                f"Vᵀ turns the second scan by {turn}: its three directions lie along x, y and z"
+                f" now. {fall}."
             )
         case "out":
             if now.mirror:
@@ -170,7 +189,8 @@ def _of_pairs(state: PairsState) -> Caption:
                     f"U Vᵀ has the determinant −1: a mirror image, which no turn can make. {fall}."
                 )
             return Caption(
-                f"U turns them on to the directions of the first scan; the determinant is +1. {fall}."
+                "U turns them on to the directions of the first scan; the determinant is +1."
+                f" {fall}."
             )
         case "flip":
             return Caption(_of_flip(state, fall))
@@ -180,7 +200,10 @@ def _of_pairs(state: PairsState) -> Caption:
 
 def _of_flip(state: PairsState, fall: str) -> str:
     if not state.now.mirror:
-        return f"The determinant is +1, so no direction is turned round: RMSE {length(state.now.rmse)}."
+        return (
+            "The determinant is +1, so no direction is turned round: RMSE"
+            f" {length(state.now.rmse)}."
+        )
     return f"{FLIPS[state.params.flip]}. {fall}."
 
 
@@ -189,7 +212,8 @@ def _of_scale(state: PairsState) -> Caption:
     text = f"Scale {fixed(sure(now.scale), 3)} by least squares"
     if state.mirrored:
         return Caption(
-            f"{text}: RMSE {length(now.rmse)}. No turn and no scale makes a scan of its mirror image."
+            f"{text}: RMSE {length(now.rmse)}. No turn and no scale makes a scan of its mirror"
+            " image."
         )
     if not np.isfinite(state.outcome.rotation):
         return Caption(f"{text}: RMSE {length(now.rmse)}.")

@@ -1,4 +1,6 @@
-"""What stands beside the picture: variance by direction, what is left off the diagonal, the truth."""
+"""What stands beside the picture: variance by direction, what is left off the diagonal, the
+truth.
+"""
 
 import numpy as np
 
@@ -56,7 +58,9 @@ def beside_axes(state: AxesState) -> dict[str, Primitive]:
 
 
 def _to_axes(state: AxesState) -> float:
-    """Return the largest angle from an axis of the frame to the eigenvector that is nearest to it, degrees."""
+    """Return the largest angle from an axis of the frame to the eigenvector that is nearest to it,
+    degrees.
+    """
     assert state.jacobi is not None
     A, V = state.jacobi.A, state.jacobi.V
     vectors = np.linalg.eigh(V @ A @ V.T)[1]

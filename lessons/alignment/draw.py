@@ -1,4 +1,6 @@
-"""What one step looks like: two scans side by side, their frames, and the second one brought to the first."""
+"""What one step looks like: two scans side by side, their frames, and the second one brought to the
+first.
+"""
 
 import numpy as np
 
@@ -26,9 +28,11 @@ CORNERS = np.array([[(k >> bit) & 1 for bit in range(3)] for k in range(8)])
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    parts = _axes_stage(state) | beside_axes(state) if isinstance(state, AxesState) else (
-        _pairs_stage(state) | beside_pairs(state)
-    )  # fmt: skip
+    parts = (
+        _axes_stage(state) | beside_axes(state)
+        if isinstance(state, AxesState)
+        else (_pairs_stage(state) | beside_pairs(state))
+    )
     return {"caption": caption(state)} | parts
 
 
@@ -145,7 +149,9 @@ def _scans(
 
 
 def _missed(scans: Scans, outcome: Outcome, T_world_source: np.ndarray) -> dict[str, Primitive]:
-    """Return lines from where some points came to lie to where they belong, and how far the turn is off in words."""
+    """Return lines from where some points came to lie to where they belong, and how far the turn is
+    off in words.
+    """
     T = scans.T_target_source
     if T is None or not np.isfinite(outcome.rotation):
         return {}
@@ -173,7 +179,9 @@ def _lines(
     T: np.ndarray | None = None,
     opacity: float = 1.0,
 ) -> dict[str, Primitive]:
-    """Return three lines through a point, along the columns of a matrix and as long to either side."""
+    """Return three lines through a point, along the columns of a matrix and as long to either
+    side.
+    """
     ends = between(p - axes.T, p + axes.T)
     return {
         f"{path}/{k + 1}": Segments(

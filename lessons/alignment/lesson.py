@@ -1,8 +1,8 @@
 """The frame that a cloud carries, and the frame that pairs give.
 
-What it teaches: plane turns bring a covariance to its axes, which come without signs, and with equal variances without
-directions, so that two clouds aligned by them may be half a turn apart; pairs of points leave no such doubt, and their SVD
-reads off turn, mirror image and scale.
+What it teaches: plane turns bring a covariance to its axes, which come without signs, and with
+equal variances without directions, so that two clouds aligned by them may be half a turn apart;
+pairs of points leave no such doubt, and their SVD reads off turn, mirror image and scale.
 """
 
 from collections.abc import Iterator
@@ -28,7 +28,9 @@ def run(
     canonical_signs: Sign | None = None,
     similarity_scale: Scale = alignment.similarity_scale,
 ) -> Iterator[State]:
-    """Yield the steps of one stage: the second scan is brought to the first by axes, or by pairs."""
+    """Yield the steps of one stage: the second scan is brought to the first by axes, or by
+    pairs.
+    """
     if params.stage == "axes":
         yield from axes_stage(params, principal_axes, canonical_signs)
     else:
@@ -50,9 +52,11 @@ def pairs_stage(params: Params, similarity_scale: Scale) -> Iterator[PairsState]
             before=before,
             outcome=Outcome(
                 T_target_source=T,
-                rotation=float("nan")
-                if true is None or np.linalg.det(T[:3, :3]) < 0
-                else degrees_between(T, true),
+                rotation=(
+                    float("nan")
+                    if true is None or np.linalg.det(T[:3, :3]) < 0
+                    else degrees_between(T, true)
+                ),
                 axes=None,
                 gap=gap(T, scans),
             ),
@@ -65,7 +69,10 @@ def pairs_stage(params: Params, similarity_scale: Scale) -> Iterator[PairsState]
 lesson = Lesson(
     name="alignment",
     title="Principal axes and pairs",
-    summary="A cloud carries a frame of its own, but no signs; pairs of points know them, and mirror and scale as well.",
+    summary=(
+        "A cloud carries a frame of its own, but no signs; pairs of points know them, and mirror"
+        " and scale as well."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

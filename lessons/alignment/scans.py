@@ -1,4 +1,6 @@
-"""Two scans of one shape, the second turned away and with what went wrong; or a person's own clouds."""
+"""Two scans of one shape, the second turned away and with what went wrong; or a person's own
+clouds.
+"""
 
 import functools
 from collections.abc import Callable
@@ -26,7 +28,8 @@ Sample = Callable[[int, np.random.Generator], np.ndarray]
 
 
 def scans_of(params: Params) -> Scans:
-    """Return the scans that the params describe, the same arrays as long as nothing that makes them changes.
+    """Return the scans that the params describe, the same arrays as long as nothing that makes them
+    changes.
 
     Raises:
         InputError: If an own file cannot be used, or own clouds do not fit together.
@@ -34,7 +37,8 @@ def scans_of(params: Params) -> Scans:
     files = [path for path in (params.source, params.target, params.truth) if path is not None]
     if params.source is None and files:
         raise InputError(
-            f"an own first scan and a known pose come with an own cloud: give {called('source')} too"
+            "an own first scan and a known pose come with an own cloud: give"
+            f" {called('source')} too"
         )
     if params.truth is not None and params.target is None:
         raise InputError(
@@ -45,7 +49,9 @@ def scans_of(params: Params) -> Scans:
 
 
 def box_sides(params: Params) -> np.ndarray | None:
-    """Return the sides of the shape's own box, metres; None where it is not made of planes across them."""
+    """Return the sides of the shape's own box, metres; None where it is not made of planes across
+    them.
+    """
     if params.source is not None or params.shape not in ("box", "cube"):
         return None
     return np.array([1.0, params.side, LOW] if params.shape == "box" else [1.0, 1.0, 1.0])
@@ -106,7 +112,9 @@ def _defective(
 
 
 def _sampler(params: Params) -> Sample:
-    """Return what draws points of the shape; of an own cloud some of its points, or all that it has."""
+    """Return what draws points of the shape; of an own cloud some of its points, or all that it
+    has.
+    """
     if params.source is not None:
         p_file, how = _framed(params.source, params.up)
         p = how.shown(p_file)
@@ -122,7 +130,9 @@ def _sampler(params: Params) -> Sample:
 
 
 def _framed(path: Path, up: Up) -> tuple[np.ndarray, Frame]:
-    """Return the points of an own file, and how they stand in the picture: upright about their middle, 1 m long."""
+    """Return the points of an own file, and how they stand in the picture: upright about their
+    middle, 1 m long.
+    """
     p_file = read_cloud(path, 4)
     if not extent(p_file, FAR) > 0:
         raise InputError(f"{path.name}: all its points lie at one place")
@@ -142,12 +152,13 @@ def _own_pair(params: Params) -> Scans:
         )
         if holed is not None:
             raise InputError(
-                f"pairs go row by row, and {holed} has rows that are NaN: leave them out of both files"
+                f"pairs go row by row, and {holed} has rows that are NaN: leave them out of both"
+                " files"
             )
         if len(p_target) != len(p_source):
             raise InputError(
-                f"pairs go row by row: {params.target.name} has {len(p_target):,} points and {params.source.name}"
-                f" {len(p_source):,}; go by axes instead"
+                f"pairs go row by row: {params.target.name} has {len(p_target):,} points and"
+                f" {params.source.name} {len(p_source):,}; go by axes instead"
             )
         both = some_points(np.hstack([p_target, p_source]), params.points, rng)
         p_target, p_source = np.ascontiguousarray(both[:, :3]), np.ascontiguousarray(both[:, 3:])
@@ -164,7 +175,9 @@ def _own_pair(params: Params) -> Scans:
 def _beside(
     p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray | None, params: Params
 ) -> Scans:
-    """Return the scans, the first to the left of the second, whose stray point lies where it was dragged."""
+    """Return the scans, the first to the left of the second, whose stray point lies where it was
+    dragged.
+    """
     far = (
         FAR if params.source is not None else 0.0
     )  # a few far points of an own cloud push nothing out of the picture

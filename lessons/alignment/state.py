@@ -51,9 +51,15 @@ class Params:
     noisy: Annotated[Noisy, Knob("Which scan has the noise")] = "both"
     side: Annotated[
         float,
-        Knob("Middle side of the box or plate; its long one is 1 m", 0.4, 1, unit="m", step=0.01,
-             needs={"shape": ("box", "plate")}),
-    ] = 0.6  # fmt: skip
+        Knob(
+            "Middle side of the box or plate; its long one is 1 m",
+            0.4,
+            1,
+            unit="m",
+            step=0.01,
+            needs={"shape": ("box", "plate")},
+        ),
+    ] = 0.6
     density: Annotated[
         int, Knob("How many times as dense the second scan is above its middle", 1, 5, needs=AXES)
     ] = 1
@@ -111,7 +117,8 @@ class Scans:
     Attributes:
         p_target: The first scan.
         p_source: The second; row by row the partners of the first's where the lesson goes by pairs.
-        T_target_source: What truly brings the second to the first, scale included; None where nobody knows or nothing does.
+        T_target_source: What truly brings the second to the first, scale included; None where
+            nobody knows or nothing does.
         T_world_target: Where the first scan is shown, beside the second.
         own: Whether both are a person's own.
         stray: The stray point, source frame, where there is one.
@@ -132,8 +139,10 @@ class Outcome:
     Attributes:
         T_target_source: The map.
         rotation: Degrees to the truth; NaN where that is not known.
-        axes: Degrees between each axis, brought over by the truth, and its namesake of the target; None of pairs.
-        gap: Root mean square distance from the moved source's points to the nearest of the target, metres.
+        axes: Degrees between each axis, brought over by the truth, and its namesake of the target;
+            None of pairs.
+        gap: Root mean square distance from the moved source's points to the nearest of the target,
+            metres.
     """
 
     T_target_source: np.ndarray
@@ -153,8 +162,10 @@ class Turns:
 
     Attributes:
         degrees: How far each ended from the truth.
-        tips: Where axes 1 and 2 of the turned scan came to lie in the target's frame, unit vectors (k, 2, 3).
-        axes: How far each axis came from its namesake of the target, whatever its sign, degrees (k, 3).
+        tips: Where axes 1 and 2 of the turned scan came to lie in the target's frame, unit vectors
+            (k, 2, 3).
+        axes: How far each axis came from its namesake of the target, whatever its sign, degrees (k,
+            3).
     """
 
     degrees: np.ndarray
@@ -184,7 +195,8 @@ class AxesState:
         moments: Third moments of the source along the axes before they got their signs, m^3.
         outcome: What comes of laying the frames as they stand on each other.
         turns: What comes of many turns.
-        box: Volume of the box along the axes, as a multiple of the one along the shape's own sides; NaN where it has none.
+        box: Volume of the box along the axes, as a multiple of the one along the shape's own sides;
+            NaN where it has none.
     """
 
     params: Params
@@ -213,7 +225,8 @@ class PairsState:
         before: Root mean square distance of the pairs one stage earlier, m; NaN at first.
         outcome: How far the map is from the truth.
         back: The scale from target to source, in the last step.
-        sizes: The ratio of the clouds' sizes (root mean square distance from the centroid), target to source.
+        sizes: The ratio of the clouds' sizes (root mean square distance from the centroid), target
+            to source.
     """
 
     params: Params

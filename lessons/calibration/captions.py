@@ -62,15 +62,16 @@ def f_of(state: State) -> str:
 
 def _homography(state: State) -> Caption:
     text = (
-        f"View {state.subject.views[0]}: a homography takes the flat board to its picture, straight lines to straight"
-        f" lines. It misses the corners by {pixels(state.rms)} (rms)"
+        f"View {state.subject.views[0]}: a homography takes the flat board to its picture, straight"
+        f" lines to straight lines. It misses the corners by {pixels(state.rms)} (rms)"
     )
     if state.subject.K is None:
         return Caption(f"{text}: noise, and what a lens bends.{_left_out(state.subject.without)}")
     sigma = state.params.noise
     if state.rms > 1.4 * np.sqrt(2) * sigma:
         return Caption(
-            f"{text}, more than noise of {pixels(sigma)} in each coordinate explains: the lens bends lines."
+            f"{text}, more than noise of {pixels(sigma)} in each coordinate explains: the lens"
+            " bends lines."
         )
     return Caption(f"{text}, about what noise of {pixels(sigma)} in each coordinate leaves.")
 
@@ -95,7 +96,8 @@ def _constraints(state: State) -> Caption:
         )
     cx, cy = now.K[:2, 2]
     return Caption(
-        f"{text} K so far: {f_of(state)}; principal point ({fixed(cx, 0)}, {fixed(cy, 0)}). No lens is in it yet."
+        f"{text} K so far: {f_of(state)}; principal point ({fixed(cx, 0)}, {fixed(cy, 0)}). No lens"
+        " is in it yet."
     )
 
 
@@ -126,8 +128,8 @@ def _poses(state: State) -> Caption:
         )
         return Caption(f"{start}{said}: these are no poses.", "wrong")
     return Caption(
-        f"{start}With this K every view gets a pose: {counted(len(Ts), 'board')} before the camera. {f_of(state)}."
-        f" No lens yet: corners are off by {pixels(state.rms)} (rms)."
+        f"{start}With this K every view gets a pose: {counted(len(Ts), 'board')} before the camera."
+        f" {f_of(state)}. No lens yet: corners are off by {pixels(state.rms)} (rms)."
     )
 
 
@@ -150,11 +152,14 @@ def _refine(state: State) -> Caption:
     now = sure(state.now.adjustment)
     unknowns = int(now.free.sum()) + 6 * len(now.Ts_camera_board)
     if not now.accepted:
-        text = f"Iteration {now.iteration}: the step would raise the cost and is not taken; the damping grows tenfold."
+        text = (
+            f"Iteration {now.iteration}: the step would raise the cost and is not taken; the"
+            " damping grows tenfold."
+        )
     elif now.iteration == 1:
         text = (
-            f"Iteration 1: camera, lens and poses move together, {unknowns} unknowns at once. The rms falls from"
-            f" {pixels(state.before)} to {pixels(state.rms)}; {f_of(state)}."
+            f"Iteration 1: camera, lens and poses move together, {unknowns} unknowns at once. The"
+            f" rms falls from {pixels(state.before)} to {pixels(state.rms)}; {f_of(state)}."
         )
     else:
         text = f"Iteration {now.iteration}: rms {pixels(state.rms)}; {f_of(state)}."
@@ -165,9 +170,10 @@ def _views(state: State, ending: Ending) -> Caption:
     rms = state.per_view
     others = np.delete(rms, ending.worst)
     return Caption(
-        f"View {state.subject.views[ending.worst]} fits worst: {pixels(float(rms[ending.worst]))} (rms), the others"
-        f" {pixels(float(np.median(others)))} in the median. Its residuals carry"
-        f" {fixed(100 * float(rms[ending.worst] ** 2 / (rms**2).sum()), 0)} % of the sum of squares."
+        f"View {state.subject.views[ending.worst]} fits worst: {pixels(float(rms[ending.worst]))}"
+        f" (rms), the others {pixels(float(np.median(others)))} in the median. Its residuals carry"
+        f" {fixed(100 * float(rms[ending.worst] ** 2 / (rms**2).sum()), 0)} % of the sum of"
+        " squares."
     )
 
 
@@ -181,8 +187,9 @@ def _without(state: State, ending: Ending) -> Caption:
         else "with no ± to compare"
     )
     return Caption(
-        f"Without view {state.subject.views[ending.worst]}: f = {fixed(found.K[0, 0], 1)} px becomes"
-        f" {fixed(now.K[0, 0], 1)} px, a move of {pixels(abs(moved))}, {by}.{_cut_off(found, now)}"
+        f"Without view {state.subject.views[ending.worst]}: f = {fixed(found.K[0, 0], 1)} px"
+        f" becomes {fixed(now.K[0, 0], 1)} px, a move of {pixels(abs(moved))},"
+        f" {by}.{_cut_off(found, now)}"
     )
 
 
@@ -201,8 +208,8 @@ def _known(state: State, ending: Ending) -> Caption:
     text = f"f = {f} px" + ("" if np.isfinite(sd) else ", and the views do not determine it")
     if state.subject.K is None:
         return Caption(
-            f"{text}; rms {pixels(state.rms)}. Nobody knows the truth here: the ± takes the board for flat, and errors"
-            f" of corners for independent.{_cut_off(now)}"
+            f"{text}; rms {pixels(state.rms)}. Nobody knows the truth here: the ± takes the board"
+            f" for flat, and errors of corners for independent.{_cut_off(now)}"
         )
     text += f", in truth {fixed(state.subject.K[0, 0], 0)} px"
     worst = state.worst_in_picture

@@ -1,4 +1,6 @@
-"""What stands beside the picture: the rms beside the error to the truth, f, the camera in numbers, and its uncertainty."""
+"""What stands beside the picture: the rms beside the error to the truth, f, the camera in numbers,
+and its uncertainty.
+"""
 
 import numpy as np
 

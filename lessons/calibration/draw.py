@@ -1,4 +1,6 @@
-"""What one step looks like: the camera and the boards before it, one view enlarged, and what is known beside them."""
+"""What one step looks like: the camera and the boards before it, one view enlarged, and what is
+known beside them.
+"""
 
 import functools
 
@@ -87,7 +89,9 @@ def _boards(state: State) -> dict[str, Primitive]:
 
 
 def _scale(subject: Subject) -> float:
-    """Return by how much a scene is made larger, so that a board of any unit is as large as ours."""
+    """Return by how much a scene is made larger, so that a board of any unit is as large as
+    ours.
+    """
     ours = np.ptp(board_points(), axis=0).max()
     return 1.0 if subject.K is not None else float(ours / np.ptp(subject.p_board, axis=0).max())
 
@@ -102,7 +106,9 @@ def _outline(subject: Subject) -> np.ndarray:
 
 @functools.lru_cache(maxsize=16)
 def _rim(p_board: bytes, scale: float) -> np.ndarray:
-    """Return the rim of the board, a square's width around its corners, and the first corner's square."""
+    """Return the rim of the board, a square's width around its corners, and the first corner's
+    square.
+    """
     p = scale * np.frombuffer(p_board).reshape(-1, 3)
     low, high = p[:, :2].min(axis=0), p[:, :2].max(axis=0)
     edge = (high - low).max() / 8
@@ -134,6 +140,10 @@ def _picture(state: State) -> dict[str, Primitive]:
         "picture": picture,
         "picture/border": Segments(picture.border(LAYER), "highlight", 2.0),
         "corners": Points(on(uv), "target", 0.0045, name="corners as measured"),
-        "residuals": Segments(between(on(uv, 1.5 * LAYER), on(uv + long, 1.5 * LAYER)), "wrong", 2.5,
-                              name=f"residuals, {LONGER} times as long"),
-    }  # fmt: skip
+        "residuals": Segments(
+            between(on(uv, 1.5 * LAYER), on(uv + long, 1.5 * LAYER)),
+            "wrong",
+            2.5,
+            name=f"residuals, {LONGER} times as long",
+        ),
+    }

@@ -1,8 +1,9 @@
 """A camera from pictures of a board: closed form, refinement, and how well the answer is known.
 
-What it teaches: each picture of a flat board is a homography and gives two equations about K; that is only a start, for
-lens and poses have to be refined together; and the residual alone tells neither whether the views determine f, nor whether
-the model holds beyond the corners, nor whether the board was printed as one believes.
+What it teaches: each picture of a flat board is a homography and gives two equations about K; that
+is only a start, for lens and poses have to be refined together; and the residual alone tells
+neither whether the views determine f, nor whether the model holds beyond the corners, nor whether
+the board was printed as one believes.
 """
 
 from collections.abc import Callable, Iterator
@@ -25,7 +26,8 @@ from workbench.lesson import Lesson, Sweep
 
 Rms = Callable[[np.ndarray], float]
 MOST_ITERATIONS = 400
-TOLERANCE = 1e-8  # of the cost: where boards are hardly tilted, the valley is so flat that a millionth is no rest
+# of the cost: where boards are hardly tilted, the valley is so flat that a millionth is no rest
+TOLERANCE = 1e-8
 EACH, EVERY = 30, 10  # iterations that are shown one by one, and of those after them, which
 
 
@@ -80,7 +82,9 @@ def passed_over(now: calibration_steps.State) -> bool:
 
 
 def endings(state: State, corner: float | None) -> Iterator[State]:
-    """Yield how well each view fits, what changes without the worst one, and how well all is known."""
+    """Yield how well each view fits, what changes without the worst one, and how well all is
+    known.
+    """
     subject, found, worst = (
         state.subject,
         sure(state.now.adjustment),
@@ -91,9 +95,16 @@ def endings(state: State, corner: float | None) -> Iterator[State]:
     if len(subject.views) > 2:
         keep = np.arange(len(subject.views)) != worst
         *_, without = adjust(
-            found.K, found.lens, found.Ts_camera_board[keep], subject.p_board, subject.uv[keep],
-            coefficients=COEFFICIENTS[state.params.lens], corner=corner, max_iterations=MOST_ITERATIONS, tolerance=TOLERANCE,
-        )  # fmt: skip
+            found.K,
+            found.lens,
+            found.Ts_camera_board[keep],
+            subject.p_board,
+            subject.uv[keep],
+            coefficients=COEFFICIENTS[state.params.lens],
+            corner=corner,
+            max_iterations=MOST_ITERATIONS,
+            tolerance=TOLERANCE,
+        )
         yield replace(state, shown=worst, ending=replace(views, kind="without", without=without))
     known = Ending(
         kind="known",
@@ -107,7 +118,10 @@ def endings(state: State, corner: float | None) -> Iterator[State]:
 lesson = Lesson(
     name="calibration",
     title="Calibration",
-    summary="A camera from pictures of a board: two equations a view, one refinement of all, and an honest ± of f.",
+    summary=(
+        "A camera from pictures of a board: two equations a view, one refinement of all, and an"
+        " honest ± of f."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

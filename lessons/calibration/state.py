@@ -89,7 +89,8 @@ class Params:
     images: Annotated[
         Path | None,
         Knob(
-            "Own pictures of the views: a folder or a zip of jpg or png; or one picture, of the view shown"
+            "Own pictures of the views: a folder or a zip of jpg or png; or one picture, of the"
+            " view shown"
         ),
     ] = None
     seed: Annotated[int, Knob("Where boards are, and their noise", 0, 99)] = 0
@@ -130,8 +131,10 @@ class Ending:
         kind: How well each view fits; what changes without the worst; or how well all is known.
         worst: Which of the views that are used has the largest rms.
         without: The calibration without it, or None where too few views are left.
-        deviation: Predicted standard deviation of where a ray is seen, over the picture, pixels; NaN where unknown.
-        tilts: Of other boards at the same places: their tilt in degrees, and the predicted deviation of f, pixels.
+        deviation: Predicted standard deviation of where a ray is seen, over the picture, pixels;
+            NaN where unknown.
+        tilts: Of other boards at the same places: their tilt in degrees, and the predicted
+            deviation of f, pixels.
     """
 
     kind: Literal["views", "without", "known"]
@@ -152,7 +155,8 @@ class State:
         rms: Of all residuals so far, as the function in the slot has it, pixels.
         before: The rms one step earlier; NaN at the first.
         shown: Which of the views that are used has its picture shown.
-        map_error: How far off rays are seen, over a grid of the picture, pixels; empty where there is no camera or truth.
+        map_error: How far off rays are seen, over a grid of the picture, pixels; empty where there
+            is no camera or truth.
         ending: What is asked at the end, or None before.
     """
 

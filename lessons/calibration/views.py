@@ -1,4 +1,6 @@
-"""Where views come from, built-in or a person's own, what they look like, and how well a camera is known by them."""
+"""Where views come from, built-in or a person's own, what they look like, and how well a camera is
+known by them.
+"""
 
 import functools
 from dataclasses import replace
@@ -160,7 +162,9 @@ def _true_rays() -> np.ndarray:
 def deviations(
     size: tuple[int, int], K: np.ndarray, lens: Distortion, covariance: np.ndarray | None
 ) -> np.ndarray:
-    """Return over the picture the predicted standard deviation, in its worst direction, of where a ray is seen, pixels."""
+    """Return over the picture the predicted standard deviation, in its worst direction, of where a
+    ray is seen, pixels.
+    """
     xy = normalize(places(size), K, lens)
     if covariance is None:
         return np.full(GRID[::-1], np.nan)

@@ -28,10 +28,16 @@ def _start(state: State) -> Caption:
         if state.clouds.scale == 1
         else f" A unit of your files is {brief(state.clouds.scale)} m of the picture."
     )
-    text = f"The source is {state.clouds.name}: Chamfer {squared(now.chamfer)}, earth mover's {metres(now.earth_movers)}."
+    text = (
+        f"The source is {state.clouds.name}: Chamfer {squared(now.chamfer)}, earth mover's"
+        f" {metres(now.earth_movers)}."
+    )
     larger = f"the target 5 % larger ({squared(note.chamfer)}, {metres(note.earth_movers)})"
     if 0 < now.chamfer < note.chamfer and now.earth_movers > note.earth_movers:
-        text += f" The ranking flips: to Chamfer this is closer than {larger}, to earth mover's it is farther."
+        text += (
+            f" The ranking flips: to Chamfer this is closer than {larger}, to earth mover's it is"
+            " farther."
+        )
         return Caption(text + size)
     if now.chamfer == 0 < now.earth_movers:
         return Caption(
@@ -44,7 +50,10 @@ def _start(state: State) -> Caption:
             text + f" Only pairs by index see a change: {squared(now.index_mse)}." + size
         )
     if params.lowers == "source to target" and state.left.flow.stop is Stop.ARRIVED:
-        text += " Every source point lies on the target, so that side of Chamfer is 0 and the left flow has nothing to do;"
+        text += (
+            " Every source point lies on the target, so that side of Chamfer is 0 and the left flow"
+            " has nothing to do;"
+        )
         return Caption(text + f" the other side is {squared(now.to_source)}." + size)
     return Caption(text + ("" if params.start == "larger" else f" Compare {larger}.") + size)
 
@@ -55,7 +64,10 @@ def _step(state: State, before_left: Numbers, before_right: Numbers) -> Caption:
     if left.flow.step < state.step:
         text += f"ended at {_lowered_value(state)}"
     else:
-        text += f"{LOWERED[state.params.lowers]} {_value_before(state, before_left)} → {_lowered_value(state)}"
+        text += (
+            f"{LOWERED[state.params.lowers]} {_value_before(state, before_left)} →"
+            f" {_lowered_value(state)}"
+        )
     text += f", {percent(left.numbers.astray, 0)} of the mass astray. Right: earth mover's "
     if right.flow.step < state.step:
         text += f"ended at {metres(right.numbers.earth_movers)}"

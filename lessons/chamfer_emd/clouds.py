@@ -1,4 +1,6 @@
-"""The two clouds of a run, built-in or the person's own, and known changes of the target to compare with."""
+"""The two clouds of a run, built-in or the person's own, and known changes of the target to compare
+with.
+"""
 
 import numpy as np
 
@@ -62,7 +64,9 @@ def clouds_of(params: Params) -> Clouds:
 def changed(
     p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator
 ) -> np.ndarray:
-    """Return a source: a blob, or the target, with as many points as are asked for, after one change."""
+    """Return a source: a blob, or the target, with as many points as are asked for, after one
+    change.
+    """
     built_in, count = params.target is None, params.source_points or len(p_target)
     share = min(amount, 1.0)
     if start == "blob":
@@ -93,7 +97,9 @@ def changed(
 
 
 def yardsticks(clouds: Clouds, params: Params) -> tuple[tuple[str, np.ndarray], ...]:
-    """Return the target after each of the known changes, with as many points, for numbers to compare with."""
+    """Return the target after each of the known changes, with as many points, for numbers to
+    compare with.
+    """
     rng = np.random.default_rng(params.seed)
     alike = Params(shape=params.shape, points=params.points, target=params.target)
     return tuple(

@@ -1,6 +1,7 @@
 """The distances of the lesson: what each says of a cloud, and which way it falls.
 
-A student's function in a slot gives its value only; which way it falls is then found by differences.
+A student's function in a slot gives its value only; which way it falls is then found by
+differences.
 """
 
 from dataclasses import dataclass
@@ -95,7 +96,9 @@ def numbers_of_yardsticks(clouds: Clouds, params: Params, measures: Measures) ->
 
 
 def left(lowers: Lowers, measures: Measures) -> tuple[Distance, Gradient]:
-    """Return the distance that the left flow lowers, and its gradient with respect to the moving cloud."""
+    """Return the distance that the left flow lowers, and its gradient with respect to the moving
+    cloud.
+    """
     one_sided, ours = measures.one_sided, shape_distances.one_sided
     if lowers == "source to target":
         return one_sided, slope_of(one_sided, ours, one_sided_gradient)
@@ -107,16 +110,20 @@ def left(lowers: Lowers, measures: Measures) -> tuple[Distance, Gradient]:
 
 
 def right(measures: Measures) -> tuple[Distance, Gradient]:
-    """Return the distance that the right flow lowers, and its gradient with respect to the moving cloud."""
+    """Return the distance that the right flow lowers, and its gradient with respect to the moving
+    cloud.
+    """
     return measures.earth_movers, slope_of(
         measures.earth_movers, transport.earth_movers, earth_movers_gradient
     )
 
 
 def slope_of(distance: Distance, ours: Distance, gradient: Gradient) -> Gradient:
-    """Return the gradient of a distance: ours wherever the distance equals ours, here and nearby, else by differences.
+    """Return the gradient of a distance: ours wherever the distance equals ours, here and nearby,
+    else by differences.
 
-    So a right function flows exactly as ours does, at three calls a step, and a wrong one flows where it leads.
+    So a right function flows exactly as ours does, at three calls a step, and a wrong one flows
+    where it leads.
     """
     if distance is ours:
         return gradient
@@ -143,5 +150,7 @@ def swapped(distance: Distance) -> Distance:
 
 
 def one_sided_back_gradient(p: np.ndarray, p_target: np.ndarray) -> np.ndarray:
-    """Return the gradient of the side from the target back to the cloud: that of both sides less the other one."""
+    """Return the gradient of the side from the target back to the cloud: that of both sides less
+    the other one.
+    """
     return chamfer_gradient(p, p_target) - one_sided_gradient(p, p_target)

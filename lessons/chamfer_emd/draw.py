@@ -68,7 +68,9 @@ def _matched(side: Side) -> np.ndarray:
 
 
 def _owed(state: State) -> dict[str, Primitive]:
-    """Return, once both flows have ended, where the left one's mass belongs that is far from its place."""
+    """Return, once both flows have ended, where the left one's mass belongs that is far from its
+    place.
+    """
     left = state.left
     far = left.matching.distances > state.params.near
     if not state.last or not far.any():
@@ -81,7 +83,8 @@ def _owed(state: State) -> dict[str, Primitive]:
 
 
 def _clouds(state: State) -> dict[str, Primitive]:
-    """Return both clouds on both sides: each target point a disc, each source point a smaller one nearer to the viewer.
+    """Return both clouds on both sides: each target point a disc, each source point a smaller one
+    nearer to the viewer.
 
     So a target point that is covered is an orange dot in a blue ring, however the two round.
     """
@@ -107,7 +110,9 @@ def nearer(p: np.ndarray, share: np.ndarray | float) -> np.ndarray:
 
 
 def _clumps(side: str, p: np.ndarray, dot: float, T_world_side: np.ndarray) -> dict[str, Primitive]:
-    """Return a disc behind source points that share a place: its area is theirs, rounded up to 2, 4, 8, ... points."""
+    """Return a disc behind source points that share a place: its area is theirs, rounded up to 2,
+    4, 8, ... points.
+    """
     tree = scipy.spatial.KDTree(p)
     pairs = tree.sparse_distance_matrix(tree, 0.3 * dot, output_type="coo_matrix")
     links = scipy.sparse.coo_array(
@@ -118,11 +123,14 @@ def _clumps(side: str, p: np.ndarray, dot: float, T_world_side: np.ndarray) -> d
     doublings = np.ceil(np.log2(counts)).astype(int)
     return {
         f"{side}/clumps of {2**k}": Points(
-            nearer(p[first[doublings == k]], 0.5), "source", dot * np.sqrt(2.0**k), T_world_side, 0.6,
-
+            nearer(p[first[doublings == k]], 0.5),
+            "source",
+            dot * np.sqrt(2.0**k),
+            T_world_side,
+            0.6,
         )
         for k in np.unique(doublings[doublings > 0]).tolist()
-    }  # fmt: skip
+    }
 
 
 def _left_edges(state: State) -> dict[str, Primitive]:
@@ -145,7 +153,9 @@ def _left_edges(state: State) -> dict[str, Primitive]:
 
 
 def _busiest(left: Side, state: State) -> dict[str, Primitive]:
-    """Return a mark at the point of the cloud that is the nearest of the most target points, where they are many."""
+    """Return a mark at the point of the cloud that is the nearest of the most target points, where
+    they are many.
+    """
     i = int(np.argmax(left.served))
     if left.served[i] < 3 or state.params.lowers == "source to target":
         return {}
@@ -177,7 +187,9 @@ def _curves(state: State) -> dict[str, Primitive]:
 
 
 def _served(side: Side, name: str, color: Role) -> Curve:
-    """Return how many points of the cloud are the nearest of 0, 1, 2, ... target points: all at 1 where it is one to one."""
+    """Return how many points of the cloud are the nearest of 0, 1, 2, ... target points: all at 1
+    where it is one to one.
+    """
     counts = np.bincount(np.minimum(side.served, MOST_SERVED), minlength=MOST_SERVED + 1).astype(
         float
     )

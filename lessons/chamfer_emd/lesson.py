@@ -1,8 +1,8 @@
 """Chamfer and earth mover's: one cloud flows down two distances, side by side.
 
-What it teaches: nearest neighbours are not one to one, so a small Chamfer distance says little about density; the earth
-mover's distance matches one to one, so it does. "Chamfer" names several numbers, and every number of the table has a
-blind spot.
+What it teaches: nearest neighbours are not one to one, so a small Chamfer distance says little
+about density; the earth mover's distance matches one to one, so it does. "Chamfer" names several
+numbers, and every number of the table has a blind spot.
 """
 
 from collections.abc import Iterator
@@ -64,7 +64,10 @@ def side_by_side(lefts: Iterator[Flow], rights: Iterator[Flow]) -> Iterator[tupl
 lesson = Lesson(
     name="chamfer_emd",
     title="Chamfer and earth mover's",
-    summary="When are two shapes close? One cloud flows down two distances: see where each of them leads it.",
+    summary=(
+        "When are two shapes close? One cloud flows down two distances: see where each of them"
+        " leads it."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -1,7 +1,8 @@
-"""Evenly spread clouds of known shapes, and what can be done to them: grow, bunch, bulge, lose a part, a point, the order.
+"""Evenly spread clouds of known shapes, and what can be done to them: grow, bunch, bulge, lose a
+part, a point, the order.
 
-A shape is a map from t in [0, 1) to points, so that the same shape can be taken with any density along t. Metres, about a
-metre in radius. Flat shapes stand upright in the plane y = 0, +Z up.
+A shape is a map from t in [0, 1) to points, so that the same shape can be taken with any density
+along t. Metres, about a metre in radius. Flat shapes stand upright in the plane y = 0, +Z up.
 """
 
 from collections.abc import Callable
@@ -22,7 +23,8 @@ def shape_at(shape: Shape, t: Float[np.ndarray, "n"], count: int) -> Cloud:
     """Return the points of a shape at parameters t, taken modulo 1.
 
     Args:
-        shape: Which one. Equal steps of t cover equal lengths of ring and spiral, and equal areas of the others.
+        shape: Which one. Equal steps of t cover equal lengths of ring and spiral, and equal areas
+            of the others.
         t: Where, from 0 to 1.
         count: Of how many even points the winding of discs, sphere and torus is made.
     """
@@ -62,7 +64,8 @@ def spread(shape: Shape, count: int) -> Cloud:
 
 
 def bunched(shape: Shape, count: int, share: float, width: float = 0.04) -> Cloud:
-    """Return `count` points of a shape of which a share is crowded into the first `width` of it, the rest even.
+    """Return `count` points of a shape of which a share is crowded into the first `width` of it,
+    the rest even.
 
     Every part of the shape keeps some points near it, so that nearest neighbours hardly notice.
     """
@@ -74,7 +77,9 @@ def bunched(shape: Shape, count: int, share: float, width: float = 0.04) -> Clou
 
 
 def crowded(p: Cloud, share: float, part: float = 0.04) -> Cloud:
-    """Return as many points of any cloud, a share of them crowded on the `part` of it nearest to its highest point."""
+    """Return as many points of any cloud, a share of them crowded on the `part` of it nearest to
+    its highest point.
+    """
     crowd = min(round(share * len(p)), len(p) - 1)
     even = np.linspace(0, len(p) - 1, len(p) - crowd).round().astype(int)
     near = _nearest_to(p, p[np.argmax(p[:, 2])], round(part * len(p)))
@@ -88,7 +93,8 @@ def grown(p: Cloud, share: float) -> Cloud:
 
 
 def bumped(p: Cloud, height: float, part: float = 0.125) -> Cloud:
-    """Return the cloud with that part of its points which is nearest to its highest one pushed outward by `height`.
+    """Return the cloud with that part of its points which is nearest to its highest one pushed
+    outward by `height`.
 
     Every pushed point moves by `height` metres away from the middle of the cloud.
     """
@@ -101,9 +107,11 @@ def bumped(p: Cloud, height: float, part: float = 0.125) -> Cloud:
 
 
 def part_missing(p: Cloud, share: float) -> Cloud:
-    """Return as many points, all of them points of the cloud, but none from the share of it with the largest x.
+    """Return as many points, all of them points of the cloud, but none from the share of it with
+    the largest x.
 
-    Points that are left take the places of the missing ones, in turn, so that some count several times.
+    Points that are left take the places of the missing ones, in turn, so that some count several
+    times.
     """
     left = np.argsort(p[:, 0], kind="stable")[: max(round((1 - share) * len(p)), 1)]
     return p[np.resize(left, len(p))]
@@ -125,13 +133,17 @@ def shuffled(p: Cloud, share: float, rng: np.random.Generator) -> Cloud:
 
 
 def doubled(p: Cloud, share: float) -> Float[np.ndarray, "k 3"]:
-    """Return the cloud and once more a share of its points, those with the smallest x: other weights, no other place."""
+    """Return the cloud and once more a share of its points, those with the smallest x: other
+    weights, no other place.
+    """
     again = np.argsort(p[:, 0], kind="stable")[: round(share * len(p))]
     return np.concatenate([p, p[again]])
 
 
 def blob(count: int, radius: float, flat: bool, rng: np.random.Generator) -> Cloud:
-    """Return points spread at random over a disc, or a ball, left of and a little above the origin."""
+    """Return points spread at random over a disc, or a ball, left of and a little above the
+    origin.
+    """
     v = rng.normal(size=(count, 3))
     if flat:
         v[:, 1] = 0.0

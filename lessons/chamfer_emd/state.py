@@ -111,11 +111,13 @@ class Numbers:
     Attributes:
         chamfer: By the function in the slot: ours is the mean of squares, both sides.
         definitions: Two-sided Chamfer by the name of its definition.
-        to_target, to_source: One-sided Chamfer by the function in its slot: from the cloud to the target, and back.
+        to_target, to_source: One-sided Chamfer by the function in its slot: from the cloud to the
+            target, and back.
         earth_movers: By the function in the slot: ours is exact.
         hausdorff, f_score: As named.
         index_mse: Mean squared distance of rows with the same index; NaN where the counts differ.
-        astray: The share of the cloud's mass whose place in the best one-to-one matching is farther than `Params.near`.
+        astray: The share of the cloud's mass whose place in the best one-to-one matching is farther
+            than `Params.near`.
     """
 
     chamfer: float
@@ -142,7 +144,9 @@ class Side:
 
     @functools.cached_property
     def sinkhorn(self) -> float:
-        """The cost of Sinkhorn's blurred plan, metres; found when first asked for: nothing else depends on it."""
+        """The cost of Sinkhorn's blurred plan, metres; found when first asked for: nothing else
+        depends on it.
+        """
         return blurred_earth_movers(
             self.flow.p_moving, self.p_target, self.blur, max_sweeps=200, tolerance=1e-4
         )

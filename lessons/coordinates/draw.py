@@ -244,7 +244,9 @@ def _middle(places: Places) -> np.ndarray:
 
 
 def _raised(now: Raised) -> dict[str, Primitive]:
-    """Return the meridian of a planet, drawn flatter than it is, with both lines at the latitude reached."""
+    """Return the meridian of a planet, drawn flatter than it is, with both lines at the latitude
+    reached.
+    """
     latitude = now.latitude[-1:]
     rho, z = FLAT.meridian(latitude)[0]
     p, turn = np.array([rho, 0.0, z]), np.linspace(-np.pi, np.pi, 145)

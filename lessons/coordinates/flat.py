@@ -1,4 +1,6 @@
-"""Pictures of the stages in a plane: bearings, lines that become parallel, an object on a plane through it."""
+"""Pictures of the stages in a plane: bearings, lines that become parallel, an object on a plane
+through it.
+"""
 
 import numpy as np
 
@@ -68,7 +70,9 @@ def _arc(now: Ranged) -> np.ndarray:
 
 
 def met(now: Met) -> dict[str, Primitive]:
-    """Return the plane w = 1, both lines with the planes that they span with the origin, and the vector of their meeting."""
+    """Return the plane w = 1, both lines with the planes that they span with the origin, and the
+    vector of their meeting.
+    """
     scene: dict[str, Primitive] = {
         "plane": Segments(
             segments(at_height(rectangle(LOW, HIGH), 1.0), closed=True),
@@ -161,7 +165,9 @@ def seen(state: State, now: Seen) -> dict[str, Primitive]:
 
 
 def _picture(thing: Thing, now: Seen | None, role: Role, name: str) -> Primitive:
-    """Return the picture of an object on the plane y = 0: through the eye where there is one, else by parallel rays."""
+    """Return the picture of an object on the plane y = 0: through the eye where there is one, else
+    by parallel rays.
+    """
     p = thing.lines.reshape(-1, 3) if len(thing.lines) else thing.p
     factor = np.ones(len(p)) if now is None else -now.eye[1] / (p[:, 1] - now.eye[1])
     flat = np.column_stack([p[:, 0] * factor, np.zeros(len(p)), p[:, 2] * factor])

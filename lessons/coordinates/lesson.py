@@ -1,8 +1,8 @@
 """Coordinate systems: what they name, where their names fail, and what one number more buys.
 
-What it teaches: spherical coordinates have poles where they change without bound although nothing turns fast; even angles
-are not even on a sphere, straight numbers are no straight way, means of angles are no means; and homogeneous coordinates
-name what the others cannot: points at infinity.
+What it teaches: spherical coordinates have poles where they change without bound although nothing
+turns fast; even angles are not even on a sphere, straight numbers are no straight way, means of
+angles are no means; and homogeneous coordinates name what the others cannot: points at infinity.
 """
 
 from collections.abc import Iterator
@@ -86,7 +86,9 @@ def run(
 
 
 def moments(scale: float) -> np.ndarray:
-    """Return the times of a passage, seconds: evenly, and where the pan axis has turned evenly, so that none is missed."""
+    """Return the times of a passage, seconds: evenly, and where the pan axis has turned evenly, so
+    that none is missed.
+    """
     turned = scale * np.tan(np.radians(np.arange(-80.0, 81.0, 20.0)))
     times = np.concatenate([np.linspace(-SECONDS, SECONDS, 17), turned[np.abs(turned) < SECONDS]])
     return np.unique(times.round(9))
@@ -95,7 +97,10 @@ def moments(scale: float) -> np.ndarray:
 lesson = Lesson(
     name="coordinates",
     title="Coordinates and their poles",
-    summary="Coordinates name points, and every system has places where names fail. One number more names infinity.",
+    summary=(
+        "Coordinates name points, and every system has places where names fail. One number more"
+        " names infinity."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

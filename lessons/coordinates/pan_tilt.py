@@ -1,9 +1,11 @@
-"""A camera on a pan-tilt mount that follows a target: what angles, and how fast they have to change.
+"""A camera on a pan-tilt mount that follows a target: what angles, and how fast they have to
+change.
 
 Pan is the azimuth, tilt the elevation above the horizon: coordinates with a pole at the zenith.
 
-Reference: Stewart and others on the zenith keyhole, e.g. Crawford and Brush, Trajectory Optimization to Compensate for
-Azimuth Rate Limits at High Elevations, 1995; the rates are the derivatives of spherical coordinates.
+Reference: Stewart and others on the zenith keyhole, e.g. Crawford and Brush, Trajectory
+Optimization to Compensate for Azimuth Rate Limits at High Elevations, 1995; the rates are the
+derivatives of spherical coordinates.
 """
 
 from collections.abc import Iterator
@@ -55,7 +57,8 @@ def follow(
     times: Float[np.ndarray, " n"],
     spherical_from_cartesian: Spherical,
 ) -> Iterator[Followed]:
-    """Yield where a mount at the origin has to look, and how fast its axes have to turn, at each time.
+    """Yield where a mount at the origin has to look, and how fast its axes have to turn, at each
+    time.
 
     Args:
         p_start: Where the target is at time 0, m.

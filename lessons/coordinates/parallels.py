@@ -1,4 +1,5 @@
-"""Homogeneous coordinates at work: one point by many vectors, lines until they are parallel, the horizon brought near.
+"""Homogeneous coordinates at work: one point by many vectors, lines until they are parallel, the
+horizon brought near.
 
 And its counterpart in space, an eye that goes away until its picture is a parallel projection.
 
@@ -21,7 +22,8 @@ Meet = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Scaled:
-    """A homogeneous vector (x, y, z, w) whose last entry changes, or in the end the mean of two such vectors.
+    """A homogeneous vector (x, y, z, w) whose last entry changes, or in the end the mean of two
+    such vectors.
 
     Attributes:
         p_h: The vector.
@@ -38,7 +40,8 @@ class Scaled:
 def scale_last(
     p: Float[np.ndarray, "3"], ws: Iterable[float], other_h: Float[np.ndarray, "4"]
 ) -> Iterator[Scaled]:
-    """Yield (x, y, z, w) for many w, and then the mean of (x, y, z, 1) and another vector, entry by entry.
+    """Yield (x, y, z, w) for many w, and then the mean of (x, y, z, 1) and another vector, entry by
+    entry.
 
     Args:
         p: x, y and z.
@@ -84,7 +87,8 @@ def turn_parallel(
     stops: Float[np.ndarray, "4"],
     meet: Meet,
 ) -> Iterator[Met]:
-    """Yield two lines that become parallel, and then their pictures by homographies that bring the horizon near.
+    """Yield two lines that become parallel, and then their pictures by homographies that bring the
+    horizon near.
 
     Args:
         angles: Between the lines, radians, at each step.
@@ -138,7 +142,8 @@ class Seen:
 def step_back(
     p: Float[np.ndarray, "n 3"], half_depth: float, times: Iterable[float]
 ) -> Iterator[Seen]:
-    """Yield the pictures of an object about the origin on the plane y = 0, by an eye on -Y ever farther away.
+    """Yield the pictures of an object about the origin on the plane y = 0, by an eye on -Y ever
+    farther away.
 
     The focal length is the distance of the eye, so that what lies in the plane is seen in its size.
 

@@ -1,7 +1,9 @@
-"""Points placed by their coordinates, walked over the axis, scattered by angles, and measured by range and bearing.
+"""Points placed by their coordinates, walked over the axis, scattered by angles, and measured by
+range and bearing.
 
-Reference: ISO 80000-2:2019, 2-17. Marsaglia, Choosing a Point from the Surface of a Sphere, 1972. Lerro and Bar-Shalom,
-Tracking with Debiased Consistent Converted Measurements versus EKF, 1993, eq. 4.
+Reference: ISO 80000-2:2019, 2-17. Marsaglia, Choosing a Point from the Surface of a Sphere, 1972.
+Lerro and Bar-Shalom, Tracking with Debiased Consistent Converted Measurements versus EKF, 1993, eq.
+4.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -73,7 +75,8 @@ class Cell:
         high: Its highest.
         volume: What it holds, m^3.
         product: What its three sides multiply to, in units of their own.
-        solid: The sum over the cells of a solid about the origin with the density, m^3, and of the products alone.
+        solid: The sum over the cells of a solid about the origin with the density, m^3, and of the
+            products alone.
     """
 
     low: Float[np.ndarray, "3"]
@@ -139,7 +142,9 @@ class Walked:
 
 @traced
 def walk(p: Float[np.ndarray, "n 3"], system: Coordinates) -> Iterator[Walked]:
-    """Yield ever more points of a walk with the coordinates of each, and how well these tell where it is."""
+    """Yield ever more points of a walk with the coordinates of each, and how well these tell where
+    it is.
+    """
     c = system.of_points(p)
     misses = np.linalg.norm(system.to_points(c) - p, axis=1)
     for n in range(1, len(p) + 1):
@@ -159,8 +164,8 @@ def scatter(counts: Iterable[int], even: Even, rng: np.random.Generator) -> Iter
 
     Args:
         counts: How many there are at each step.
-        even: `angle` draws polar angle and azimuth uniformly; `area` draws z and azimuth so (Archimedes: a band's area goes
-            with its height).
+        even: `angle` draws polar angle and azimuth uniformly; `area` draws z and azimuth so
+            (Archimedes: a band's area goes with its height).
         rng: Chance.
     """
     counts = tuple(counts)
@@ -179,7 +184,8 @@ class Ranged:
         true: The point, m.
         p: The measured points, m.
         mean: Their mean.
-        debiased: Their mean divided by exp(-sigma^2 / 2), sigma being the bearing's standard deviation.
+        debiased: Their mean divided by exp(-sigma^2 / 2), sigma being the bearing's standard
+            deviation.
         polar_mean: The point at the mean range and the mean bearing.
         expected: Where the mean tends to.
     """

@@ -1,4 +1,6 @@
-"""The stage `point`: a point placed by three numbers, the cell about it, and a walk past the axis."""
+"""The stage `point`: a point placed by three numbers, the cell about it, and a walk past the
+axis.
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace

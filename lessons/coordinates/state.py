@@ -18,8 +18,12 @@ from workbench.knobs import Gizmo, Knob
 Stage = Literal["point", "sphere", "radar", "globe", "latitude", "mount", "projective", "project"]
 Named = Literal["cartesian", "cylindrical", "spherical", "homogeneous"]
 Route = Literal[
-    "London – Los Angeles", "Frankfurt – Anchorage", "Tokyo – London", "Suva – Apia", "Quito – Kampala"
-]  # fmt: skip
+    "London – Los Angeles",
+    "Frankfurt – Anchorage",
+    "Tokyo – London",
+    "Suva – Apia",
+    "Quito – Kampala",
+]
 Planet = Literal["Earth", "Mars", "Saturn"]
 WALKED = 17  # points of the walk past the axis
 SECONDS = 1.6  # that somebody who passes is followed, before and after the middle
@@ -51,9 +55,15 @@ class Params:
     ] = (0.66, 0.38, 0.64)
     miss: Annotated[
         float,
-        Knob("How far from the axis something passes, as seen from the origin", 0.1, 30, unit="deg", step=0.1,
-             needs={"stage": ("point", "mount")}),
-    ] = 1.0  # fmt: skip
+        Knob(
+            "How far from the axis something passes, as seen from the origin",
+            0.1,
+            30,
+            unit="deg",
+            step=0.1,
+            needs={"stage": ("point", "mount")},
+        ),
+    ] = 1.0
     even: Annotated[Even, Knob("What is drawn evenly", needs={"stage": ("sphere",)})] = "angle"
     samples: Annotated[
         int,
@@ -115,7 +125,9 @@ class Params:
 
 @dataclass(frozen=True, eq=False)
 class Thing:
-    """What is seen from far away: points about the origin, m, its lines where it has any, and its half-depth."""
+    """What is seen from far away: points about the origin, m, its lines where it has any, and its
+    half-depth.
+    """
 
     p: np.ndarray
     lines: np.ndarray
@@ -146,7 +158,8 @@ class State:
     Attributes:
         params: The inputs.
         now: What the stage knows.
-        subject: What it is about and stays for the whole run: coordinates, places, or a thing; None where it needs none.
+        subject: What it is about and stays for the whole run: coordinates, places, or a thing; None
+            where it needs none.
     """
 
     params: Params

@@ -1,7 +1,8 @@
-"""Ways over a globe: straight in latitude and longitude beside the great circle; a walk from the equator to a pole.
+"""Ways over a globe: straight in latitude and longitude beside the great circle; a walk from the
+equator to a pole.
 
-Reference: Veness, Movable Type Scripts, "Calculate distance, bearing and more between latitude/longitude points". Snyder,
-Map Projections: A Working Manual, USGS 1395, 1987, eq. 3-28.
+Reference: Veness, Movable Type Scripts, "Calculate distance, bearing and more between
+latitude/longitude points". Snyder, Map Projections: A Working Manual, USGS 1395, 1987, eq. 3-28.
 """
 
 from collections.abc import Callable, Iterator

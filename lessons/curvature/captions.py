@@ -23,7 +23,10 @@ def _mesh(state: State) -> Caption:
     border = int(np.count_nonzero(subject.border))
     text += f", {border} vertices on the border." if border else ", no border."
     if subject.truth is None:
-        text += f" A length of 1 in its file is {brief(subject.enlarged)} m here; its {subject.up} axis points up."
+        text += (
+            f" A length of 1 in its file is {brief(subject.enlarged)} m here; its {subject.up} axis"
+            " points up."
+        )
         text += "".join(f" Mended: {', '.join(subject.mended)}." for _ in subject.mended[:1])
     elif params.jitter or params.noise:
         ways = [f"up to {brief(params.jitter)} cells along it"] * bool(params.jitter)
@@ -37,7 +40,10 @@ def _mesh(state: State) -> Caption:
 def _ring(state: State) -> Caption:
     angles = sure(state.now.angles)
     total = np.degrees(angles.sum())
-    text = f"{len(angles)} triangles meet at vertex {state.now.vertex:,}; their angles add up to {total:.2f}°."
+    text = (
+        f"{len(angles)} triangles meet at vertex {state.now.vertex:,}; their angles add up to"
+        f" {total:.2f}°."
+    )
     if state.on_border:
         return Caption(
             text + " It lies on the border: on a straight, flat border they would add up to 180°."
@@ -47,8 +53,8 @@ def _ring(state: State) -> Caption:
 
 def _unfolding(state: State) -> Caption:
     return Caption(
-        f"Cut along one edge, the ring unfolds, {100 * state.unfolded:.0f} % of the way: each of its"
-        f" {len(state.now.angles)} triangles keeps its shape and its angle."
+        f"Cut along one edge, the ring unfolds, {100 * state.unfolded:.0f} % of the way: each of"
+        f" its {len(state.now.angles)} triangles keeps its shape and its angle."
     )
 
 
@@ -57,7 +63,8 @@ def _defect(state: State) -> Caption:
     here = np.degrees(float(defects[state.now.vertex]))
     if abs(here) < 5e-7:
         return Caption(
-            "Laid flat, the ring closes: angle defect 0. Flat triangles can bend around an edge without one."
+            "Laid flat, the ring closes: angle defect 0. Flat triangles can bend around an edge"
+            " without one."
         )
     text = (
         f"Laid flat, the ring leaves a gap of {here:.2f}°"
@@ -73,8 +80,8 @@ def _defect(state: State) -> Caption:
             "wrong",
         )
     return Caption(
-        f"On the border angles are taken from 180°: {here:.2f}° is how the border itself turns here, not how the surface"
-        " bends."
+        f"On the border angles are taken from 180°: {here:.2f}° is how the border itself turns"
+        " here, not how the surface bends."
     )
 
 
@@ -91,7 +98,10 @@ def _gaussian(state: State) -> Caption:
             text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}",
             "wrong",
         )
-    text = f"K = defect / area = {brief(now.defects[v])} rad / {brief(now.areas[v])} m² = {brief(now.K[v])} m⁻²"
+    text = (
+        f"K = defect / area = {brief(now.defects[v])} rad / {brief(now.areas[v])} m² ="
+        f" {brief(now.K[v])} m⁻²"
+    )
     return Caption(
         text + _truth(true, "m⁻²") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²")
     )
@@ -105,12 +115,13 @@ def _normal(state: State) -> Caption:
     side = "outward" if v @ now.normals[now.vertex] > 0 else "inward"
     if np.linalg.norm(v) < 1e-6:
         return Caption(
-            f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H n = 0."
+            f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H"
+            " n = 0."
         )
     return Caption(
-        f"Each neighbour pushes the vertex away from itself, weighted by the cotangents opposite their edge; over twice the"
-        f" area the pushes at vertex {now.vertex:,} add up to 2 H n, {brief(float(np.linalg.norm(v)))} m⁻¹ long and"
-        f" pointing {side}."
+        "Each neighbour pushes the vertex away from itself, weighted by the cotangents opposite"
+        f" their edge; over twice the area the pushes at vertex {now.vertex:,} add up to 2 H n,"
+        f" {brief(float(np.linalg.norm(v)))} m⁻¹ long and pointing {side}."
     )
 
 
@@ -157,12 +168,15 @@ def _quadric(state: State) -> Caption:
         return Caption(
             f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}."
         )
-    text = f"Another way: a quadric fitted to {n} vertices bends by K = {brief(K)} m⁻², H = {brief(H)} m⁻¹."
+    text = (
+        f"Another way: a quadric fitted to {n} vertices bends by K = {brief(K)} m⁻², H = {brief(H)}"
+        " m⁻¹."
+    )
     if state.errors:
         e = state.errors
         text += (
-            f" Relative errors (RMS over all vertices): K {percent(e['K by fit'])} (angles {percent(e['K'])}), H"
-            f" {percent(e['H by fit'])} (cotangents {percent(e['H'])})."
+            f" Relative errors (RMS over all vertices): K {percent(e['K by fit'])} (angles"
+            f" {percent(e['K'])}), H {percent(e['H by fit'])} (cotangents {percent(e['H'])})."
         )
     return Caption(text)
 
@@ -170,11 +184,18 @@ def _quadric(state: State) -> Caption:
 def _total(state: State) -> Caption:
     now = state.now
     expected = 2 * np.pi * now.chi
-    text = f"All {len(now.p):,} defects add up to {brief(now.total)} rad = {brief(now.total / np.pi)} π;"
+    text = (
+        f"All {len(now.p):,} defects add up to {brief(now.total)} rad ="
+        f" {brief(now.total / np.pi)} π;"
+    )
     text += f" V − E + F = {brief(now.chi)} promises {brief(2 * now.chi)} π."
     if abs(now.total - expected) < 1e-6:
-        return Caption(text + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and borders do.",
-                       "good")  # fmt: skip
+        return Caption(
+            text
+            + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and"
+            " borders do.",
+            "good",
+        )
     halves = (now.total - expected) / np.pi
     text += f" The sum is {brief(now.total - expected)} rad too large"
     if state.params.mistake == "2 pi on the border":
@@ -184,7 +205,10 @@ def _total(state: State) -> Caption:
 
 def _finer(state: State) -> Caption:
     study = sure(state.study)
-    text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles (RMS) goes from"
+    text = (
+        f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from"
+        " angles (RMS) goes from"
+    )
     text += f" {percent(study.K[0])} to {percent(study.K[-1])}, by quadric fit from"
     text += f" {percent(study.K_fit[0])} to {percent(study.K_fit[-1])}."
     missing = {"defect taken for K": "division by the area", "H without the half": "½ in H"}.get(
@@ -200,7 +224,8 @@ def _finer(state: State) -> Caption:
     if study.K[-1] > study.K[0] / 4:
         return Caption(
             text
-            + " On such meshes the quotient defect / area does not converge to K; the defects' sum stays exact.",
+            + " On such meshes the quotient defect / area does not converge to K; the defects' sum"
+            " stays exact.",
             "wrong",
         )
     return Caption(text + " On such meshes angles converge.", "good")
@@ -237,4 +262,7 @@ def _colors(state: State, values: np.ndarray, fixed: float, unit: str) -> str:
     if state.subject.truth is not None:
         return ""
     limit = reach(state, values, fixed)
-    return f" The colours reach to ±{brief(limit)} {unit}; {share_within(values, limit)} of the vertices lie within."
+    return (
+        f" The colours reach to ±{brief(limit)} {unit}; {share_within(values, limit)} of the"
+        " vertices lie within."
+    )

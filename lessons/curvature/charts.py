@@ -1,4 +1,6 @@
-"""What stands beside the picture: estimates against the truth, errors, sums, and the vertex in numbers."""
+"""What stands beside the picture: estimates against the truth, errors, sums, and the vertex in
+numbers.
+"""
 
 import numpy as np
 
@@ -46,7 +48,9 @@ def _errors(state: State) -> dict[str, Primitive]:
 def _against(
     state: State, letter: str, name: str, estimate: np.ndarray, which: int
 ) -> dict[str, Primitive]:
-    """Return the estimates of some vertices in the order of their truth; without a truth a histogram."""
+    """Return the estimates of some vertices in the order of their truth; without a truth a
+    histogram.
+    """
     unit = "m⁻²" if letter == "K" else "m⁻¹"
     rows = np.flatnonzero(state.subject.inside & np.isfinite(estimate))
     if not len(rows):

@@ -1,4 +1,6 @@
-"""What one step looks like: the mesh in the colours of what was measured, and the vertex from close by."""
+"""What one step looks like: the mesh in the colours of what was measured, and the vertex from close
+by.
+"""
 
 import numpy as np
 

@@ -1,8 +1,9 @@
 """How a surface bends, measured on triangles.
 
-What it teaches: angles around a vertex that do not add up to a full turn *are* Gaussian curvature, times area; the
-cotangent formula gives the mean-curvature normal; both follow from a few triangles and suffer with them, which a fit to
-a neighbourhood does not; and the defects' sum knows nothing of the mesh but its number of holes.
+What it teaches: angles around a vertex that do not add up to a full turn *are* Gaussian curvature,
+times area; the cotangent formula gives the mean-curvature normal; both follow from a few triangles
+and suffer with them, which a fit to a neighbourhood does not; and the defects' sum knows nothing of
+the mesh but its number of holes.
 """
 
 from collections.abc import Iterator
@@ -35,7 +36,9 @@ def run(
     gaussian_curvature: Gaussian = curvature.gaussian_curvature,
     mean_curvature_normals: MeanNormals = curvature.mean_curvature_normals,
 ) -> Iterator[State]:
-    """Yield the stages of measuring one mesh, then, where the truth is known, the errors on ever finer meshes."""
+    """Yield the stages of measuring one mesh, then, where the truth is known, the errors on ever
+    finer meshes.
+    """
     subject = subject_of(params)
     defects, gaussian, normals = with_mistake(
         params, angle_defects, gaussian_curvature, mean_curvature_normals
@@ -95,7 +98,9 @@ def with_mistake(
 lesson = Lesson(
     name="curvature",
     title="Curvature of a mesh",
-    summary="Angles that miss a full turn, a normal made of cotangents, and a sum that counts holes.",
+    summary=(
+        "Angles that miss a full turn, a normal made of cotangents, and a sum that counts holes."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

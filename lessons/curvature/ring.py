@@ -1,4 +1,6 @@
-"""What is drawn close to the vertex: its angles, its faces laid flat, its area, circles that bend as it does."""
+"""What is drawn close to the vertex: its angles, its faces laid flat, its area, circles that bend
+as it does.
+"""
 
 import numpy as np
 
@@ -52,7 +54,8 @@ def angles(now: Measured) -> dict[str, Primitive]:
 
 
 def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
-    """Return the ring, cut along an edge and laid flat above the vertex to a share of the way; no triangle is bent.
+    """Return the ring, cut along an edge and laid flat above the vertex to a share of the way; no
+    triangle is bent.
 
     Where it is flat and does not close, the gap is the defect.
     """
@@ -111,7 +114,9 @@ def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
 
 
 def _unbent(along: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    """Return directions near those given, each at its angle from the one before, so that triangles keep their shape."""
+    """Return directions near those given, each at its angle from the one before, so that triangles
+    keep their shape.
+    """
     found = [along[0] / np.linalg.norm(along[0])]
     for wanted, angle in zip(along[1:], angles, strict=True):
         aside = wanted - (wanted @ found[-1]) * found[-1]
@@ -160,7 +165,9 @@ def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
 
 
 def circles(now: Measured) -> dict[str, Primitive]:
-    """Return the two osculating circles at the vertex: radius 1/|k|, on the side to which the surface bends."""
+    """Return the two osculating circles at the vertex: radius 1/|k|, on the side to which the
+    surface bends.
+    """
     scene: dict[str, Primitive] = {}
     here, n = now.p[now.vertex], now.normals[now.vertex]
     both: tuple[tuple[str, Role, np.ndarray, np.ndarray], ...] = (

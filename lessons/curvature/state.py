@@ -20,7 +20,9 @@ MOST_OWN = 200_000
 
 @dataclass(frozen=True)
 class Params:
-    """A surface whose curvature is known, or an own mesh; how it is meshed; and the vertex that is looked at."""
+    """A surface whose curvature is known, or an own mesh; how it is meshed; and the vertex that is
+    looked at.
+    """
 
     surface: Annotated[Shape, Knob("A surface whose curvature is known in closed form")] = "torus"
     vertices: Annotated[int, Knob("About how many vertices its mesh has", 50, 6000, step=10)] = 400
@@ -60,7 +62,8 @@ class Subject:
         name: What it is called in sentences.
         p: Vertices, metres.
         faces: Triangles, counterclockwise seen from outside.
-        truth: The surface from which it was made, with its analytic curvature; None for an own mesh.
+        truth: The surface from which it was made, with its analytic curvature; None for an own
+            mesh.
         edges: Every edge once.
         border: Which vertices lie on its border.
         front: The vertex inside the border that faces the viewer best.
@@ -145,7 +148,9 @@ class State:
         return vertices_within(self.subject.edges, self.now.vertex, 2)
 
     def true(self, name: str) -> float:
-        """Return the analytic `gaussian`, `mean`, `k1` or `k2` at the vertex; NaN where nobody knows."""
+        """Return the analytic `gaussian`, `mean`, `k1` or `k2` at the vertex; NaN where nobody
+        knows.
+        """
         surface = self.subject.truth
         return float("nan") if surface is None else float(getattr(surface, name)[self.now.vertex])
 

@@ -21,7 +21,9 @@ COUNTS = (400, 1000, 2500, 6400)
 def study_of(
     params: Params, gaussian_curvature: Gaussian, mean_curvature_normals: MeanNormals
 ) -> Study:
-    """Measure a built-in surface on four meshes, the last with edges four times shorter than the first."""
+    """Measure a built-in surface on four meshes, the last with edges four times shorter than the
+    first.
+    """
     errors: dict[str, list[float]] = {name: [] for name in ("K", "H", "K_fit", "H_fit")}
     meshes = _meshes(
         replace(shape_of(params), vertices=Params.vertices)
@@ -72,8 +74,8 @@ def _made(surface: Surface) -> _Made:
 def error_of(surface: Surface, inside: np.ndarray, name: Letter, estimate: np.ndarray) -> float:
     """Return the relative L2 error of K or H over the vertices inside the border.
 
-    Where the truth is 0 everywhere, the error is related to what the larger principal curvature alone would give, and on
-    a plane to a sphere of one metre.
+    Where the truth is 0 everywhere, the error is related to what the larger principal curvature
+    alone would give, and on a plane to a sphere of one metre.
     """
     true = getattr(surface, name)[inside]
     size = np.linalg.norm(true)

@@ -1,4 +1,6 @@
-"""What stands beside the scene: maps and windows, the cost curve of the followed pixel, and the numbers per step."""
+"""What stands beside the scene: maps and windows, the cost curve of the followed pixel, and the
+numbers per step.
+"""
 
 import math
 
@@ -77,7 +79,9 @@ def _curves(state: State) -> dict[str, Primitive]:
 
 
 def _error_curves(state: State) -> dict[str, Primitive]:
-    """Return the predicted error over depth, and beside it the measured one where the truth is known."""
+    """Return the predicted error over depth, and beside it the measured one where the truth is
+    known.
+    """
     setup = state.setup
     camera = setup.pair.camera
     known = np.isfinite(state.depth) & (state.depth <= setup.far)

@@ -1,4 +1,6 @@
-"""What one step looks like: the two cameras with their pictures, the cloud so far, and the ray of the followed pixel."""
+"""What one step looks like: the two cameras with their pictures, the cloud so far, and the ray of
+the followed pixel.
+"""
 
 import functools
 import math
@@ -55,7 +57,9 @@ def _cameras(setup: Setup) -> dict[str, Primitive]:
 
 
 def _cloud(state: State) -> dict[str, Primitive]:
-    """Show the points that the disparities stand for, by the colours of the picture, in the last step by their error."""
+    """Show the points that the disparities stand for, by the colours of the picture, in the last
+    step by their error.
+    """
     setup = state.setup
     h, w = state.depth.shape
     stride = math.ceil(math.sqrt(h * w / MOST_POINTS))
@@ -154,7 +158,9 @@ def _along(setup: Setup, depths: np.ndarray) -> np.ndarray:
 
 
 def _swept(state: State) -> dict[str, Primitive]:
-    """Show where everything would be that has the disparity just compared: a plane before the cameras."""
+    """Show where everything would be that has the disparity just compared: a plane before the
+    cameras.
+    """
     setup = state.setup
     depth = float(_depth(state, np.array([state.done - 1.0]))[0])
     if state.stage is not Stage.COMPARE or not depth <= setup.far:
@@ -170,7 +176,9 @@ def _swept(state: State) -> dict[str, Primitive]:
 
 @functools.lru_cache(maxsize=16)
 def _ruler(setup: Setup) -> dict[str, Primitive]:
-    """Show what the cameras see as a faint pyramid, along one edge of which the metres are counted."""
+    """Show what the cameras see as a faint pyramid, along one edge of which the metres are
+    counted.
+    """
     far = _corners(setup, setup.far / 1.25)
     edges = between(np.zeros(3), far)
     shown: dict[str, Primitive] = {

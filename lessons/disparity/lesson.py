@@ -1,8 +1,9 @@
 """Disparity: the same row of two pictures, shifted until it fits, tells how far away everything is.
 
-What it teaches: a match is a valley in a curve of costs. Where the curve is flat (no texture), has many valleys (a
-repeated pattern) or no right answer (hidden from one camera), neighbours must help, or the pixel must be left out. Depth
-is one over disparity, so its error grows with the square of the distance.
+What it teaches: a match is a valley in a curve of costs. Where the curve is flat (no texture), has
+many valleys (a repeated pattern) or no right answer (hidden from one camera), neighbours must help,
+or the pixel must be left out. Depth is one over disparity, so its error grows with the square of
+the distance.
 """
 
 import functools
@@ -56,7 +57,9 @@ def run(
     cost_volume: CostVolume = sad_cost_volume,
     choose: Choose = winner_takes_all,
 ) -> Iterator[State]:
-    """Yield the steps from two pictures to a depth cloud; `cost_volume` is used where the knob says SAD."""
+    """Yield the steps from two pictures to a depth cloud; `cost_volume` is used where the knob says
+    SAD.
+    """
     setup = setup_of(params)
     compare = OTHER_COSTS.get(params.cost, cost_volume)
     penalties = (
@@ -136,7 +139,10 @@ def _mean_lowest(now: Matching) -> float:
 lesson = Lesson(
     name="disparity",
     title="Disparity and depth",
-    summary="Shift one picture over the other until it fits: two eyes measure depth, and know where they cannot.",
+    summary=(
+        "Shift one picture over the other until it fits: two eyes measure depth, and know where"
+        " they cannot."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

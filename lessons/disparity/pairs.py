@@ -58,8 +58,9 @@ def setup_of(params: Params) -> Setup:
     cells = h * w * (max_disparity + 1)
     if cells > MOST_CELLS:
         raise InputError(
-            f"{w} x {h} pixels with {max_disparity + 1} disparities are {cells:,} costs, at most {MOST_CELLS:,} are shown"
-            f" step by step: raise shrink (now {shrink}) or lower max_disparity"
+            f"{w} x {h} pixels with {max_disparity + 1} disparities are {cells:,} costs, at most"
+            f" {MOST_CELLS:,} are shown step by step: raise shrink (now {shrink}) or lower"
+            " max_disparity"
         )
     pair = _mistaken(pair, params)
     times = shrink if params.mistake == "f not rescaled" else 1
@@ -90,7 +91,9 @@ def _mistaken(pair: StereoPair, params: Params) -> StereoPair:
 
 
 def _far(pair: StereoPair, max_disparity: int) -> float:
-    """Return the depth up to which the scene goes: the truth's, or that of a tenth of the largest disparity."""
+    """Return the depth up to which the scene goes: the truth's, or that of a tenth of the largest
+    disparity.
+    """
     camera = pair.camera
     d = (
         max_disparity / 10
@@ -120,7 +123,9 @@ def _own(
     doffs: float,
     shrink: int,
 ) -> StereoPair:
-    """Return an own pair; where its cameras are not known they are made up: as wide as usual, and a hand apart."""
+    """Return an own pair; where its cameras are not known they are made up: as wide as usual, and a
+    hand apart.
+    """
     pair = read_pair(left, right, *(cameras or (1.0, MADE_UP_BASELINE)), doffs)
     if cameras is None:
         pair = replace(pair, camera=replace(pair.camera, f=float(pair.left.shape[1])))

@@ -1,4 +1,6 @@
-"""Where things stand: both pictures upright side by side, the map of disparities below, and beside it the depths."""
+"""Where things stand: both pictures upright side by side, the map of disparities below, and beside
+it the depths.
+"""
 
 import functools
 import math
@@ -63,7 +65,9 @@ def _named(picture: Picture, name: str, color: Role) -> Label:
 
 
 def _row(state: State, left: Picture, right: Picture) -> dict[str, Primitive]:
-    """Return the row of the followed pixel across both pictures: where it is, where its partner is sought, and found."""
+    """Return the row of the followed pixel across both pictures: where it is, where its partner is
+    sought, and found.
+    """
     setup = state.setup
     (u, v), w = setup.pixel, setup.left.shape[1]
     ends = between(

@@ -72,9 +72,15 @@ class Params:
     ] = 0.0
     mistake: Annotated[Mistake, Knob("A classic mistake on the way; the scene stays true")] = "none"
     pixel: Annotated[
-        tuple[int, int], Knob("The left pixel (u, v) that is followed: click the left picture", 0, 639, unit="px",
-                              by=Pick("left/picture"))
-    ] = (54, 80)  # fmt: skip
+        tuple[int, int],
+        Knob(
+            "The left pixel (u, v) that is followed: click the left picture",
+            0,
+            639,
+            unit="px",
+            by=Pick("left/picture"),
+        ),
+    ] = (54, 80)
     shrink: Annotated[
         int,
         Knob(
@@ -136,11 +142,13 @@ class Setup:
         params: What was asked for.
         pair: The pictures as they are matched, and the truth about the left one.
         left, right: Their brightness, 0 .. 255.
-        f: The focal length with which depths are made: the camera's, but for the mistake of not rescaling it.
+        f: The focal length with which depths are made: the camera's, but for the mistake of not
+            rescaling it.
         pixel: The pixel (u, v) that is followed, inside the picture.
         max_disparity: The largest that is tried: below the width of the pictures.
         far: Depth up to which things are drawn, metres.
-        metric: Whether the cameras are known. Where they are not, the pair's camera is made up: nothing is in metres.
+        metric: Whether the cameras are known. Where they are not, the pair's camera is made up:
+            nothing is in metres.
     """
 
     params: Params
@@ -155,18 +163,23 @@ class Setup:
 
     @functools.cached_property
     def true_depth(self) -> np.ndarray:
-        """The true depth of every left pixel, metres: infinite where nothing shifts, NaN where the truth is not known."""
+        """The true depth of every left pixel, metres: infinite where nothing shifts, NaN where the
+        truth is not known.
+        """
         true = self.pair.disparity
         return np.full(self.left.shape, np.nan) if true is None else self.pair.camera.depth(true)
 
     @property
     def scale(self) -> float:
-        """How large the scene is drawn: all there is to see fits the same stage, whatever its depth."""
+        """How large the scene is drawn: all there is to see fits the same stage, whatever its
+        depth.
+        """
         return 2.3 / self.far
 
     @functools.cached_property
     def agreeing(self) -> tuple[float, float]:
-        """The share of left pixels whose partners choose them back; and the same with the pictures exchanged.
+        """The share of left pixels whose partners choose them back; and the same with the pictures
+        exchanged.
 
         By census, on one row in four.
         """
@@ -206,7 +219,8 @@ class State:
         jumps: P1 and P2.
         lowest: Mean of the lowest cost per pixel, while comparing.
         energy: E(D) per pixel; NaN while comparing.
-        wrong: Share of the pixels that both cameras see whose disparity is over 1 px off; NaN without truth.
+        wrong: Share of the pixels that both cameras see whose disparity is over 1 px off; NaN
+            without truth.
         error: Mean error of the others, pixels; NaN without truth.
         unknown: Share of pixels without a disparity.
         uncertainty: How far `disparity_error` moves each depth, metres, in the last step.

@@ -1,4 +1,6 @@
-"""What stands beside the picture: errors to the truth, what they shrink with, and who is near by which distance."""
+"""What stands beside the picture: errors to the truth, what they shrink with, and who is near by
+which distance.
+"""
 
 import numpy as np
 
@@ -81,13 +83,17 @@ def _found(state: State, now: Found) -> dict[str, Primitive]:
         scene["times"] = TIME.curve(*now.times, "mean error", "truth", marks=(state.params.time,))
     if len(now.asymmetry):
         scene["metric"] = Table(
-            "Is heat distance a metric?", ("axiom", "broken"),
+            "Is heat distance a metric?",
+            ("axiom", "broken"),
             (
-                ("d(a, b) = d(b, a)", f"by {percent(float(np.median(now.asymmetry)))} (median),"
-                                      f" {percent(float(now.asymmetry.max()))} at most"),
+                (
+                    "d(a, b) = d(b, a)",
+                    f"by {percent(float(np.median(now.asymmetry)))} (median),"
+                    f" {percent(float(now.asymmetry.max()))} at most",
+                ),
                 ("d(a, c) ≤ d(a, b) + d(b, c)", f"by {percent(now.broken)} of the triples"),
             ),
-        )  # fmt: skip
+        )
     return scene | _goal(state, now)
 
 

@@ -1,4 +1,6 @@
-"""What one step looks like: balls and scatters in the plane, fronts and errors on what ways lead over."""
+"""What one step looks like: balls and scatters in the plane, fronts and errors on what ways lead
+over.
+"""
 
 import numpy as np
 
@@ -167,9 +169,15 @@ def _scatter(now: Scatter) -> dict[str, Primitive]:
         np.uint8
     )
     named = Classes(
-        ids, ("target", "other", "source", "wrong"),
-        ("of the scatter", "of it, beyond 95 %", "second cluster, beyond 95 %", "second cluster, within 95 %"),
-    )  # fmt: skip
+        ids,
+        ("target", "other", "source", "wrong"),
+        (
+            "of the scatter",
+            "of it, beyond 95 %",
+            "second cluster, beyond 95 %",
+            "second cluster, within 95 %",
+        ),
+    )
     told: Color = named if now.phase in ("told", "dimensions") or now.outlier.any() else "target"
     return {
         "nodes": Points(at_height(now.p), told, 0.035, name="points"),
@@ -193,11 +201,24 @@ def _landmarks(now: Landmarks) -> dict[str, Primitive]:
         "nodes": Points(show(now.landmarks), "target", 0.02, name="landmarks"),
         "seen": Points(show(seen, 0.01), "source", 0.012, name="measured"),
         "camera": Label("↓ 4 m to the camera", np.array([0.0, -1.25, 0.0]), "neutral"),
-        "rims": Segments(show(np.stack([now.rims[:, :-1], now.rims[:, 1:]], axis=2).reshape(-1, 2, 2)), "correspondence",
-                         1.0, opacity=0.6, name="95 % of a measurement"),
+        "rims": Segments(
+            show(np.stack([now.rims[:, :-1], now.rims[:, 1:]], axis=2).reshape(-1, 2, 2)),
+            "correspondence",
+            1.0,
+            opacity=0.6,
+            name="95 % of a measurement",
+        ),
         "right": Segments(show(between(seen, ends)), "truth", 2.0, name="to the true landmark"),
-        "euclid": Segments(show(between(seen, now.landmarks[now.euclid[new]])[wrong]), "wrong", 3.0,
-                           name="wrong, by Euclid's distance"),
-        "missed": Segments(show(between(seen, now.landmarks[now.mahalanobis[new]])[missed], 0.005), "highlight", 3.0,
-                           name="wrong, by Mahalanobis'"),
-    }  # fmt: skip
+        "euclid": Segments(
+            show(between(seen, now.landmarks[now.euclid[new]])[wrong]),
+            "wrong",
+            3.0,
+            name="wrong, by Euclid's distance",
+        ),
+        "missed": Segments(
+            show(between(seen, now.landmarks[now.mahalanobis[new]])[missed], 0.005),
+            "highlight",
+            3.0,
+            name="wrong, by Mahalanobis'",
+        ),
+    }

@@ -1,8 +1,8 @@
 """What is near depends on the distance, and most of them are computed along something.
 
-What it teaches: a distance is a claim, whose axioms can be tested; Mahalanobis' is Euclid's in a space that was made round;
-ways along edges are too long however fine the grid, fast marching and heat are wrong by less the finer it is; and one edge
-that leaves a surface ruins all ways over it.
+What it teaches: a distance is a claim, whose axioms can be tested; Mahalanobis' is Euclid's in a
+space that was made round; ways along edges are too long however fine the grid, fast marching and
+heat are wrong by less the finer it is; and one edge that leaves a surface ruins all ways over it.
 """
 
 from collections.abc import Iterator
@@ -40,7 +40,10 @@ def run(
 lesson = Lesson(
     name="distances",
     title="Distances",
-    summary="What is near, by which distance and along what: a claim, and how far off it is can be measured.",
+    summary=(
+        "What is near, by which distance and along what: a claim, and how far off it is can be"
+        " measured."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

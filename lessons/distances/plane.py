@@ -1,4 +1,6 @@
-"""The stages in the plane: balls, axioms, a scatter that is made round, and landmarks seen by a stereo camera."""
+"""The stages in the plane: balls, axioms, a scatter that is made round, and landmarks seen by a
+stereo camera.
+"""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -46,7 +48,9 @@ def distance_in(params: Params, metric: Metric) -> Distance:
 
 
 def balls(params: Params, _: Functions) -> Steps:
-    """Yield the ball of a metric about a point as it grows to the nearest other, and whose nearest it changes."""
+    """Yield the ball of a metric about a point as it grows to the nearest other, and whose nearest
+    it changes.
+    """
     rng = np.random.default_rng(params.seed)
     p = np.concatenate([np.array([[0.15, 0.1]]), rng.uniform(-HALF, HALF, (DOTS - 1, 2))])
     query = max(params.source, 0) % len(p)
@@ -85,7 +89,9 @@ def from_point(distance: Distance, p: np.ndarray, query: int) -> np.ndarray:
 
 
 def outline(params: Params, centre: np.ndarray, radius: float) -> np.ndarray:
-    """Return where the distance from a centre is the radius: closed, but for the cosine, whose ball is a wedge."""
+    """Return where the distance from a centre is the radius: closed, but for the cosine, whose ball
+    is a wedge.
+    """
     if params.metric == "cosine":
         units = np.array([1.0, float(params.stretch)])
         towards = np.arctan2(*(centre * units)[::-1])
@@ -114,7 +120,9 @@ def axioms(params: Params, _: Functions) -> Steps:
 
 @traced
 def tried(distance: Distance, rng: np.random.Generator) -> Iterator[Trials]:
-    """Yield how many triples so far break the triangle inequality, and how often the other axioms are broken."""
+    """Yield how many triples so far break the triangle inequality, and how often the other axioms
+    are broken.
+    """
     broken, names = (
         0,
         ("d(a, a) = 0", "d(a, b) > 0", "d(a, b) = d(b, a)", "d(a, c) ≤ d(a, b) + d(b, c)"),
@@ -134,12 +142,19 @@ def tried(distance: Distance, rng: np.random.Generator) -> Iterator[Trials]:
         ]
         worst = int(np.argmax(excess))
         shares = dict(zip(names, (*(counts / (k * TRIPLES)), broken / (k * TRIPLES)), strict=True))
-        yield Trials(tried=k * TRIPLES, broken=broken, corners=np.stack([a[worst], b[worst], c[worst]]),
-                     sides=sides[worst], axioms=shares)  # fmt: skip
+        yield Trials(
+            tried=k * TRIPLES,
+            broken=broken,
+            corners=np.stack([a[worst], b[worst], c[worst]]),
+            sides=sides[worst],
+            axioms=shares,
+        )
 
 
 def whiten(params: Params, functions: Functions) -> Steps:
-    """Yield a scatter as it is centred, turned and scaled to a round one, and which of its points lie far out."""
+    """Yield a scatter as it is centred, turned and scaled to a round one, and which of its points
+    lie far out.
+    """
     rng = np.random.default_rng(params.seed)
     p = rng.multivariate_normal([0, 0], covariance_of(params), params.points)
     p = np.concatenate([p, params.away * SECOND + SPREAD * rng.normal(size=(params.outliers, 2))])
@@ -200,7 +215,9 @@ def stereo(params: Params, functions: Functions) -> Steps:
 
 @traced
 def sighted(rng: np.random.Generator, mahalanobis: Callable) -> Iterator[Landmarks]:
-    """Yield sights of random landmarks from above, thirty at a time, with the covariance of depth by disparity."""
+    """Yield sights of random landmarks from above, thirty at a time, with the covariance of depth
+    by disparity.
+    """
     landmarks = np.column_stack([rng.uniform(-1, 1, LANDMARKS), rng.uniform(4, 6, LANDMARKS)])
     seen, true, near, told = [np.empty((0, 2))], [], [], []
     for _ in range(VIEWS):
@@ -222,6 +239,10 @@ def sighted(rng: np.random.Generator, mahalanobis: Callable) -> Iterator[Landmar
         seen.append(np.column_stack([across, depth]))
         true.extend(k.tolist())
         yield Landmarks(
-            landmarks=landmarks, seen=np.concatenate(seen), true=np.array(true), euclid=np.array(near),
-            mahalanobis=np.array(told), rims=np.array(rims),
-        )  # fmt: skip
+            landmarks=landmarks,
+            seen=np.concatenate(seen),
+            true=np.array(true),
+            euclid=np.array(near),
+            mahalanobis=np.array(told),
+            rims=np.array(rims),
+        )

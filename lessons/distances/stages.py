@@ -124,7 +124,9 @@ def distances_by(
 def spread(
     edges: np.ndarray, lengths: np.ndarray, d: np.ndarray, shown: int | None = None
 ) -> Iterator[Front]:
-    """Yield how Dijkstra's front grows: nodes are accepted in the order of their distance, their neighbours are on trial."""
+    """Yield how Dijkstra's front grows: nodes are accepted in the order of their distance, their
+    neighbours are on trial.
+    """
     farthest = float(np.max(d, where=np.isfinite(d), initial=0.0))
     for reach in np.linspace(0.0, farthest, BANDS + 1) if farthest > 0 else (0.0,):
         accepted = d <= reach + 1e-12 * farthest
@@ -162,7 +164,9 @@ def _found(subject: Subject, d: np.ndarray, path: np.ndarray) -> Found:
 
 
 def relative(d: np.ndarray, truth: np.ndarray) -> np.ndarray:
-    """Return the relative error of distances; NaN near the source, out of reach and where the truth is not known."""
+    """Return the relative error of distances; NaN near the source, out of reach and where the truth
+    is not known.
+    """
     known = (
         np.isfinite(d)
         & np.isfinite(truth)
@@ -172,7 +176,9 @@ def relative(d: np.ndarray, truth: np.ndarray) -> np.ndarray:
 
 
 def _as_a_metric(method: HeatMethod) -> tuple[np.ndarray, float]:
-    """Return the asymmetry of heat distances between some vertices, and the share of triples that break the triangle."""
+    """Return the asymmetry of heat distances between some vertices, and the share of triples that
+    break the triangle.
+    """
     chosen = np.unique(np.linspace(0, method.measured.count - 1, PAIRS).astype(int))
     D = method.between(chosen)
     i, j = np.triu_indices(len(chosen), 1)
@@ -198,7 +204,9 @@ def _over_time(subject: Subject, measured: Corners) -> tuple[np.ndarray, np.ndar
 
 @functools.cache
 def finer_grids() -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Return by method the worst error (%) of distances from a corner over the unit square, over the spacing (m)."""
+    """Return by method the worst error (%) of distances from a corner over the unit square, over
+    the spacing (m).
+    """
     errors: dict[str, list[float]] = {}
     for side in SIDES:
         x = np.linspace(0.0, 1.0, side)
@@ -217,7 +225,8 @@ def finer_grids() -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 @functools.cache
 def finer_spheres(jitter: float = 0.0) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Return by method the worst error (%) of distances over the unit sphere, over the mean length of its edges (m).
+    """Return by method the worst error (%) of distances over the unit sphere, over the mean length
+    of its edges (m).
 
     Args:
         jitter: By how much of a cell vertices are moved.

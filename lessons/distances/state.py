@@ -95,16 +95,26 @@ class Params:
     disc: Annotated[
         float,
         Knob(
-            "Around the source distances are given within this radius", 0, 0.2, unit="m", step=0.05,
+            "Around the source distances are given within this radius",
+            0,
+            0.2,
+            unit="m",
+            step=0.05,
             needs={"stage": ("grid",), "neighbours": ("march",)},
         ),
-    ] = 0.0  # fmt: skip
+    ] = 0.0
     shape: Annotated[Shape, Knob("The surface", needs=ON_SURFACE)] = "sphere"
     jitter: Annotated[
         float,
-        Knob("How far vertices stray along the sphere", 0, MOST_JITTER, unit="cells", step=0.05,
-             needs=ON_SURFACE | {"shape": ("sphere",)}),
-    ] = 0.0  # fmt: skip
+        Knob(
+            "How far vertices stray along the sphere",
+            0,
+            MOST_JITTER,
+            unit="cells",
+            step=0.05,
+            needs=ON_SURFACE | {"shape": ("sphere",)},
+        ),
+    ] = 0.0
     method: Annotated[
         Literal["edges", "heat"], Knob("Along edges, or by heat", needs=ON_SURFACE)
     ] = "edges"
@@ -119,24 +129,34 @@ class Params:
     ] = 0
     time: Annotated[
         float,
-        Knob("How long heat flows, in squared mean edges: log₁₀", -2, 3, step=0.5,
-             needs=ON_SURFACE | {"method": ("heat",)}),
-    ] = 0.0  # fmt: skip
+        Knob(
+            "How long heat flows, in squared mean edges: log₁₀",
+            -2,
+            3,
+            step=0.5,
+            needs=ON_SURFACE | {"method": ("heat",)},
+        ),
+    ] = 0.0
     delaunay: Annotated[
         bool,
-        Knob("Edges are flipped within the surface until no weight is negative",
-             needs=ON_SURFACE | {"method": ("heat",)}),
-    ] = False  # fmt: skip
+        Knob(
+            "Edges are flipped within the surface until no weight is negative",
+            needs=ON_SURFACE | {"method": ("heat",)},
+        ),
+    ] = False
     k: Annotated[
         int, Knob("Neighbours of every point of the roll", 4, 30, needs={"stage": ("roll",)})
     ] = 15
     source: Annotated[
         int,
         Knob(
-            "Where distances start: click a place; -1 takes ours", -1, 25_920, by=Pick("nodes"),
+            "Where distances start: click a place; -1 takes ours",
+            -1,
+            25_920,
+            by=Pick("nodes"),
             needs={"stage": ("balls", "grid", "surface", "roll")},
         ),
-    ] = -1  # fmt: skip
+    ] = -1
     mesh: Annotated[
         Path | None,
         Knob("Own mesh for the stage surface: off, obj, ply, stl, glb", needs=ON_SURFACE),
@@ -165,7 +185,8 @@ class Subject:
         lengths: Of the edges, metres.
         source: Where distances start.
         goal: A node to which the way is shown; -1 for the one whose distance is farthest off.
-        truth: The true distance of every node; empty where only a reference can be computed, or nothing.
+        truth: The true distance of every node; empty where only a reference can be computed, or
+            nothing.
         free: Which nodes can be reached; those of a wall cannot.
         shortcuts: Which edges leave the surface; empty where nobody knows.
         h: Mean length of the edges, or spacing of the grid, metres.
@@ -218,12 +239,16 @@ class Found:
         path: Nodes of the way to the goal.
         error: d over the truth, minus 1, where it means something; NaN elsewhere.
         truth: What they should be; empty where nobody knows.
-        asymmetry: How much d(a, b) and d(b, a) differ for some pairs, as a share; none for ways along edges.
+        asymmetry: How much d(a, b) and d(b, a) differ for some pairs, as a share; none for ways
+            along edges.
         broken: The share of triples of these nodes that break the triangle inequality.
-        study: Of ever finer grids or meshes: log10 of their spacing, and by method log10 of the worst error in per cent.
-        times: Of heat: log10 of the time in squared edges, and the mean size of the error in per cent.
+        study: Of ever finer grids or meshes: log10 of their spacing, and by method log10 of the
+            worst error in per cent.
+        times: Of heat: log10 of the time in squared edges, and the mean size of the error in per
+            cent.
         negative: Of heat: how many edges have a negative weight.
-        eight: Of fast marching: the worst error of ways to 8 neighbours on the same grid; NaN elsewhere.
+        eight: Of fast marching: the worst error of ways to 8 neighbours on the same grid; NaN
+            elsewhere.
     """
 
     d: np.ndarray
@@ -267,7 +292,8 @@ class Ball:
         rims: The outline of the ball by this distance, and of Euclid's, closed or open lines.
         nearest: By every distance the nearest of the others, y being in the unit of the params.
         straight: The nearest by Euclid's distance with x and y in metres.
-        changed: Of many other queries: which have another nearest point than by Euclid's; empty before the end.
+        changed: Of many other queries: which have another nearest point than by Euclid's; empty
+            before the end.
         queries: Where these are.
     """
 

@@ -68,7 +68,9 @@ def true_distances(subject: Subject, source: int) -> np.ndarray:
 
 
 def reference(subject: Subject) -> np.ndarray:
-    """Return the distances that a subject's ways are held against, computed where no formula is known; empty for clouds."""
+    """Return the distances that a subject's ways are held against, computed where no formula is
+    known; empty for clouds.
+    """
     if len(subject.truth) or not len(subject.faces):
         return subject.truth
     count = POINTS_ON_EDGES if len(subject.p) <= LARGE else 2
@@ -100,9 +102,19 @@ def _square(side: int, wall: float) -> Subject:
         int(np.argmin(np.linalg.norm(flat - at, axis=1) + 9.0 * ~free)) for at in (FROM, TO)
     )
     return Subject(
-        name="the square", p=at_height(flat), faces=faces, edges=np.empty((0, 2), int),
-        lengths=np.empty(0), source=source, goal=goal, free=free, h=h, tip=tip, side=side, radius=0.3 * h,
-    )  # fmt: skip
+        name="the square",
+        p=at_height(flat),
+        faces=faces,
+        edges=np.empty((0, 2), int),
+        lengths=np.empty(0),
+        source=source,
+        goal=goal,
+        free=free,
+        h=h,
+        tip=tip,
+        side=side,
+        radius=0.3 * h,
+    )
 
 
 @functools.lru_cache(maxsize=12)
@@ -158,9 +170,15 @@ def _mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
     lengths = geodesics.edge_lengths(p, edges)
     h = float(lengths.mean())
     return Subject(
-        name=name, p=p, faces=np.ascontiguousarray(faces, np.int64), edges=edges, lengths=lengths,
-        source=int(np.argmax(p @ TOWARDS_EYE)), h=h, radius=0.25 * h,
-    )  # fmt: skip
+        name=name,
+        p=p,
+        faces=np.ascontiguousarray(faces, np.int64),
+        edges=edges,
+        lengths=lengths,
+        source=int(np.argmax(p @ TOWARDS_EYE)),
+        h=h,
+        radius=0.25 * h,
+    )
 
 
 @functools.lru_cache(maxsize=4)
@@ -198,13 +216,21 @@ def _neighbours(name: str, p: np.ndarray, k: int) -> Subject:
     edges = graphs.edges_of(graphs.directed_graph(graphs.neighbours(p, k)[0]))
     lengths = geodesics.edge_lengths(p, edges)
     return Subject(
-        name=name, p=p, faces=np.empty((0, 3), int), edges=edges, lengths=lengths, source=0, h=float(lengths.mean()),
+        name=name,
+        p=p,
+        faces=np.empty((0, 3), int),
+        edges=edges,
+        lengths=lengths,
+        source=0,
+        h=float(lengths.mean()),
         radius=0.4 / np.sqrt(len(p)),
-    )  # fmt: skip
+    )
 
 
 def true_way(subject: Subject, goal: int) -> np.ndarray:
-    """Return points along the true shortest way to a node, a little above the surface; none where nobody knows it."""
+    """Return points along the true shortest way to a node, a little above the surface; none where
+    nobody knows it.
+    """
     p, q = subject.p[subject.source], subject.p[goal]
     t = np.linspace(0.0, 1.0, 60)[:, None]
     if subject.tip is not None:

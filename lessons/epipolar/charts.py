@@ -1,4 +1,6 @@
-"""What stands beside the scene: distances to lines, errors of the pose, singular values, the four motions, rows."""
+"""What stands beside the scene: distances to lines, errors of the pose, singular values, the four
+motions, rows.
+"""
 
 import numpy as np
 

@@ -1,4 +1,6 @@
-"""What one step looks like: both pictures upright, below them the scene with both cameras, and the numbers beside."""
+"""What one step looks like: both pictures upright, below them the scene with both cameras, and the
+numbers beside.
+"""
 
 import functools
 from dataclasses import dataclass
@@ -85,7 +87,9 @@ def _sides(state: State) -> tuple[Side, Side]:
 
 
 def _rectifying(state: State) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return what takes pixels to the rectified pictures as they are shown; None where they are not, or cannot be."""
+    """Return what takes pixels to the rectified pictures as they are shown; None where they are
+    not, or cannot be.
+    """
     found = None if isinstance(state.now, Followed) else state.now.rectification
     if found is None:
         return None
@@ -103,7 +107,9 @@ def _shown_size(views, k: int) -> tuple[int, int]:
 
 @functools.lru_cache(maxsize=32)
 def _hung(views, k: int, H: bytes | None, word: str) -> Picture:
-    """Return a picture where it stands, warped where H is given: the same object at every step that shows the same."""
+    """Return a picture where it stands, warped where H is given: the same object at every step that
+    shows the same.
+    """
     w, h = _shown_size(views, k)
     image = views.images[k]
     image = np.full((h, w, 3), 247, np.uint8) if image is None else image
@@ -117,7 +123,9 @@ def _hung(views, k: int, H: bytes | None, word: str) -> Picture:
 
 
 def _pictures(state: State) -> dict[str, Primitive]:
-    """Return both pictures with matches, the followed pixel, its line, and the lines of some matches."""
+    """Return both pictures with matches, the followed pixel, its line, and the lines of some
+    matches.
+    """
     now, views, sides = state.now, state.views, _sides(state)
     scene: dict[str, Primitive] = {}
     kind = (
@@ -174,7 +182,9 @@ def _pictures(state: State) -> dict[str, Primitive]:
 
 
 def _space(state: State) -> dict[str, Primitive]:
-    """Return the cameras, the followed ray and plane, and the points, all as large as they are drawn."""
+    """Return the cameras, the followed ray and plane, and the points, all as large as they are
+    drawn.
+    """
     views, now = state.views, state.now
     T_world_first = inverse(views.T_first_world)
     w, h = views.sizes[0]
@@ -235,7 +245,9 @@ def _drawn(T: np.ndarray | None, model: float) -> np.ndarray | None:
 def _followed(
     now: Followed, p_center: np.ndarray, T_world_first: np.ndarray, model: float
 ) -> dict[str, Primitive]:
-    """Return the ray of the followed pixel with marks, the rays that the second camera sees them by, and the plane."""
+    """Return the ray of the followed pixel with marks, the rays that the second camera sees them
+    by, and the plane.
+    """
     near = now.depths <= DEEP * model
     p = now.p_first[near] / model
     end = now.p_first[-1] * min(1.0 / model, DEEP / now.p_first[-1, 2])
@@ -266,7 +278,9 @@ def _followed(
 
 
 def _ellipsoids(state: State, p: np.ndarray, T_world_first: np.ndarray) -> Segments:
-    """Return where points lie with two standard deviations, from the noise or what the lines say of it."""
+    """Return where points lie with two standard deviations, from the noise or what the lines say of
+    it.
+    """
     T = sure(_drawn(state.T_second_first, state.views.model))
     n = len(state.views.matches)
     sigma = state.views.sigma or state.to_lines(state.views.matches) * np.sqrt(n / max(n - 5, 1))
@@ -284,7 +298,9 @@ def _ellipsoids(state: State, p: np.ndarray, T_world_first: np.ndarray) -> Segme
 
 @functools.cache
 def _scenery(what: What | None) -> dict[str, Primitive]:
-    """Return the outlines of what was photographed, as large as it is drawn; none of a person's scene."""
+    """Return the outlines of what was photographed, as large as it is drawn; none of a person's
+    scene.
+    """
     if what is None:
         return {}
     if what == "far":

@@ -1,7 +1,9 @@
-"""Epipolar geometry: a pixel of one picture is a line of the other, and many matches hold the motion of the camera.
+"""Epipolar geometry: a pixel of one picture is a line of the other, and many matches hold the
+motion of the camera.
 
-What it teaches: where the other camera's centre is seen all lines meet; eight matches and a singular value decomposition
-give the lines, K makes a motion of them, up to four readings and an unknown length; and some matches hold no motion at all.
+What it teaches: where the other camera's centre is seen all lines meet; eight matches and a
+singular value decomposition give the lines, K makes a motion of them, up to four readings and an
+unknown length; and some matches hold no motion at all.
 """
 
 from collections.abc import Iterator
@@ -43,7 +45,9 @@ def run(
     essential_to_poses: Poses = essential_to_poses,
     triangulate: Triangulate = triangulate,
 ) -> Iterator[State]:
-    """Yield the line of one pixel, where the true cameras are known, and the way from matches to a motion."""
+    """Yield the line of one pixel, where the true cameras are known, and the way from matches to a
+    motion.
+    """
     views = views_of(params)
     w, h = views.sizes[0]
     believed = np.array(
@@ -125,7 +129,10 @@ def views_of(params: Params) -> TwoViews:
 lesson = Lesson(
     name="epipolar",
     title="Epipolar geometry",
-    summary="A pixel of one picture is a line of the other, and eight such pairs hold the motion between two cameras.",
+    summary=(
+        "A pixel of one picture is a line of the other, and eight such pairs hold the motion"
+        " between two cameras."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -77,9 +77,14 @@ class Params:
     ] = True
     pixel: Annotated[
         tuple[int, int],
-        Knob("The pixel (u, v) that is followed: click the first picture", 0, LARGEST - 1, unit="px",
-             by=Pick("first/picture")),
-    ] = (318, 119)  # fmt: skip
+        Knob(
+            "The pixel (u, v) that is followed: click the first picture",
+            0,
+            LARGEST - 1,
+            unit="px",
+            by=Pick("first/picture"),
+        ),
+    ] = (318, 119)
     own_matches: Annotated[
         Path | None, Knob("Own matches: npz (x1, x2; K; R, t if known) or lines of u v u' v'")
     ] = None
@@ -129,7 +134,9 @@ class State:
 
     @cached_property
     def parallax(self) -> float:
-        """How far points are seen from where they would be infinitely far away: the median, pixels; NaN if not known."""
+        """How far points are seen from where they would be infinitely far away: the median, pixels;
+        NaN if not known.
+        """
         p, T = self.views.p_first, self.T_true
         if p is None or T is None:
             return float("nan")
@@ -146,7 +153,9 @@ class State:
 
     @cached_property
     def direction_error(self) -> float:
-        """How far the direction of the translation is from the true one, degrees; NaN also where nothing moved."""
+        """How far the direction of the translation is from the true one, degrees; NaN also where
+        nothing moved.
+        """
         T, true = self.T_second_first, self.T_true
         if T is None or true is None or not self.moved:
             return float("nan")
@@ -154,13 +163,17 @@ class State:
 
     @cached_property
     def right(self) -> bool | None:
-        """Whether the pose is right, None where nobody knows: within 1 degree, and its direction within 5."""
+        """Whether the pose is right, None where nobody knows: within 1 degree, and its direction
+        within 5.
+        """
         if np.isnan(self.turn_error):
             return None
         return self.moved and self.turn_error < GOOD_TURN and self.direction_error < GOOD_DIRECTION
 
     def depth_sigma(self, p_first: np.ndarray) -> np.ndarray:
-        """Return how uncertain the noise of the pixels makes the depths of points, metres, through the true cameras."""
+        """Return how uncertain the noise of the pixels makes the depths of points, metres, through
+        the true cameras.
+        """
         Ps = (
             camera_matrix(self.views.K_first, np.eye(4)),
             camera_matrix(self.views.K_second, sure(self.T_true)),
@@ -168,7 +181,9 @@ class State:
         return np.sqrt(triangulation_covariances(*Ps, p_first, self.params.noise)[:, 2, 2])
 
     def to_lines(self, matches: np.ndarray) -> float:
-        """Return the root mean square distance of matches to the lines of F, pixels; NaN where there is no F or no match."""
+        """Return the root mean square distance of matches to the lines of F, pixels; NaN where
+        there is no F or no match.
+        """
         if not isinstance(self.now, Related) or not len(matches):
             return float("nan")
         return rms(sampson_distances(self.now.F, matches[:, :2], matches[:, 2:]))

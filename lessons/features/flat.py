@@ -1,4 +1,6 @@
-"""What one step looks like where pictures or outlines are matched: both lie side by side in a plane, seen from above."""
+"""What one step looks like where pictures or outlines are matched: both lie side by side in a
+plane, seen from above.
+"""
 
 import numpy as np
 
@@ -58,7 +60,9 @@ def _picture(now: Pictured, k: int) -> Picture:
 
 
 def _marks(found: Sift, some: slice | np.ndarray) -> np.ndarray:
-    """Return circles as wide as some keypoints and lines along their directions, pixels, (k, 2, 2)."""
+    """Return circles as wide as some keypoints and lines along their directions, pixels, (k, 2,
+    2).
+    """
     uv, angle, radius = found.uv[some], found.angle[some], ROUND * found.sigma[some, None]
     rims = uv[:, None] + radius[:, None] * circle(24)
     tips = uv + radius * np.column_stack([np.cos(angle), np.sin(angle)])
@@ -117,7 +121,8 @@ def lines_between(
     known: np.ndarray | None = None,
     thin: str = "wrong match",
 ) -> dict[str, Primitive]:
-    """Return lines between matches: those that are wrong are thin where there are many, so that the right ones show.
+    """Return lines between matches: those that are wrong are thin where there are many, so that the
+    right ones show.
 
     Args:
         a: Places of the first set, metres.

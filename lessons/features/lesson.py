@@ -1,8 +1,8 @@
 """Descriptors: number-pictures of a neighbourhood that stay the same when the object moves.
 
-What it teaches: equal descriptors vote for a motion, so registration needs no start and ICP only polishes; most votes may be
-wrong as long as the right ones agree; and what a descriptor does not change with (a turn, brightness, which side a normal
-faces) is a choice somebody made.
+What it teaches: equal descriptors vote for a motion, so registration needs no start and ICP only
+polishes; most votes may be wrong as long as the right ones agree; and what a descriptor does not
+change with (a turn, brightness, which side a normal faces) is a choice somebody made.
 """
 
 from collections.abc import Iterator
@@ -40,7 +40,10 @@ def run(
 lesson = Lesson(
     name="features",
     title="Features and descriptors",
-    summary="Find the same place twice: descriptors that do not change with a motion vote for one, from any start.",
+    summary=(
+        "Find the same place twice: descriptors that do not change with a motion vote for one, from"
+        " any start."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

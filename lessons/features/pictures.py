@@ -1,4 +1,6 @@
-"""Finding places of a picture in another: gradient, structure tensor, corners and patches, or SIFT; then matches."""
+"""Finding places of a picture in another: gradient, structure tensor, corners and patches, or SIFT;
+then matches.
+"""
 
 import functools
 from collections.abc import Callable, Iterator
@@ -113,7 +115,8 @@ def checked(harris_response: Response, image: np.ndarray) -> np.ndarray:
 
 
 def pictures_of(params: Params) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
-    """Return the grey levels of both pictures, the second turned, and the true disparity where it is known.
+    """Return the grey levels of both pictures, the second turned, and the true disparity where it
+    is known.
 
     Raises:
         InputError: If own files are no pair of pictures.
@@ -123,7 +126,8 @@ def pictures_of(params: Params) -> tuple[np.ndarray, np.ndarray, np.ndarray | No
         first, second, disparity = motorcycle_levels()
     elif files[0] is None or files[1] is None:
         raise InputError(
-            f"own pictures come in pairs: give both {called('first_image')} and {called('second_image')}"
+            f"own pictures come in pairs: give both {called('first_image')} and"
+            f" {called('second_image')}"
         )
     else:
         first, second, disparity = *(_own(file, stamp(file)) for file in files if file), None

@@ -142,7 +142,8 @@ def matched_points(params: Params, p: np.ndarray) -> np.ndarray:
     found = iss_keypoints(p, SALIENT * params.radius, SALIENT * params.radius / 2)
     if len(found) < RIGID.sample_size:
         raise InputError(
-            f"{len(found)} ISS keypoints in {len(p):,} points: match every point, or change the radius"
+            f"{len(found)} ISS keypoints in {len(p):,} points: match every point, or change the"
+            " radius"
         )
     return found
 
@@ -150,7 +151,8 @@ def matched_points(params: Params, p: np.ndarray) -> np.ndarray:
 def chosen(
     params: Params, found: Nearest, a: np.ndarray, b: np.ndarray, mutual_matches: Matcher
 ) -> np.ndarray:
-    """Return the matches that the params keep; both filters together are the function that was given.
+    """Return the matches that the params keep; both filters together are the function that was
+    given.
 
     Raises:
         InputError: If that function names what is not there.

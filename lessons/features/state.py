@@ -66,18 +66,31 @@ class Params:
     ] = "plain"
     keep: Annotated[
         Filter,
-        Knob("Keep every nearest, by ratio of the two nearest, nearest both ways, or both",
-             needs={"part": ("scans", "pictures")}),
-    ] = "both"  # fmt: skip
+        Knob(
+            "Keep every nearest, by ratio of the two nearest, nearest both ways, or both",
+            needs={"part": ("scans", "pictures")},
+        ),
+    ] = "both"
     ratio: Annotated[
         float,
-        Knob("Nearest over second nearest distance, at most", 0.5, 1, step=0.05,
-             needs={"part": ("scans", "pictures"), "keep": ("ratio", "both")}),
-    ] = 0.9  # fmt: skip
+        Knob(
+            "Nearest over second nearest distance, at most",
+            0.5,
+            1,
+            step=0.05,
+            needs={"part": ("scans", "pictures"), "keep": ("ratio", "both")},
+        ),
+    ] = 0.9
     picked: Annotated[
-        int, Knob("The source point whose descriptor is shown: click one; -1 takes ours", -1, 4000, by=Pick("source"),
-                  needs=SCANS)
-    ] = -1  # fmt: skip
+        int,
+        Knob(
+            "The source point whose descriptor is shown: click one; -1 takes ours",
+            -1,
+            4000,
+            by=Pick("source"),
+            needs=SCANS,
+        ),
+    ] = -1
     describe: Annotated[
         Describe,
         Knob(
@@ -104,9 +117,16 @@ class Params:
     second_image: Annotated[Path | None, Knob("Own second picture", needs=PICTURES)] = None
     up: Annotated[Up, Knob("Which axis of own scans points up", of_files=True)] = "z"
     voxel: Annotated[
-        float, Knob("Own scans: edge of the voxels that thin them, of the target's longest extent", 1, 10, unit="%",
-                    step=0.5, of_files=True)
-    ] = 2.5  # fmt: skip
+        float,
+        Knob(
+            "Own scans: edge of the voxels that thin them, of the target's longest extent",
+            1,
+            10,
+            unit="%",
+            step=0.5,
+            of_files=True,
+        ),
+    ] = 2.5
     seed: Annotated[int, Knob("What chance draws: points, noise, samples", 0, 99)] = 0
 
 
@@ -139,7 +159,8 @@ class Scanned:
         around: The other points of these pairs.
         f_source: Descriptors.
         f_target: Descriptors.
-        there: The target point that is nearest to the truth of the picked one; the most alike where nobody knows.
+        there: The target point that is nearest to the truth of the picked one; the most alike where
+            nobody knows.
         asked: The source points that are matched.
         pairs: Matches (source, target).
         right: Which of them are right; None where nobody knows.
@@ -176,7 +197,9 @@ class Scanned:
 
     @property
     def home(self) -> bool:
-        """Whether the motion is the true one to `HOME_DEGREES` and, by root mean square, to `RIGHT`."""
+        """Whether the motion is the true one to `HOME_DEGREES` and, by root mean square, to
+        `RIGHT`.
+        """
         return self.error.rotation < HOME_DEGREES and self.error.displacement < RIGHT
 
 
@@ -257,7 +280,9 @@ class State:
 
     @property
     def right_share(self) -> float:
-        """The share of the matches that are right, of those whose truth is known; NaN without any, and of a single one."""
+        """The share of the matches that are right, of those whose truth is known; NaN without any,
+        and of a single one.
+        """
         right = self.now.right
         known = self.now.known if isinstance(self.now, Pictured) else None
         if right is None or self.now.phase == "patch":

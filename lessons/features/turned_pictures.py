@@ -1,4 +1,6 @@
-"""Pairs of pictures, the second turned about its middle: a photograph with its true disparity, or a person's own."""
+"""Pairs of pictures, the second turned about its middle: a photograph with its true disparity, or a
+person's own.
+"""
 
 import functools
 from pathlib import Path
@@ -18,14 +20,17 @@ MOST_SIDE, LEAST_SIDE = 400, 80  # own pictures, pixels
 
 @functools.lru_cache(maxsize=1)
 def motorcycle_levels() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the grey levels of the left and of the right picture of the motorcycle, and the left one's true disparity."""
+    """Return the grey levels of the left and of the right picture of the motorcycle, and the left
+    one's true disparity.
+    """
     made = shrunk(motorcycle_pair(), SHRINK)
     assert made.disparity is not None
     return grey(made.left), grey(made.right), made.disparity
 
 
 def read_levels(file: Path) -> Image:
-    """Return a picture's grey levels, its longer side at most 400 pixels: means of blocks where it is larger.
+    """Return a picture's grey levels, its longer side at most 400 pixels: means of blocks where it
+    is larger.
 
     Raises:
         InputError: If it cannot be read, or is less than 80 pixels wide or high then.
@@ -42,7 +47,8 @@ def read_levels(file: Path) -> Image:
 
 
 def turned(image: Image, angle: float) -> Image:
-    """Return the picture turned about its middle, u towards v, of the same size; what comes from outside is mid-grey.
+    """Return the picture turned about its middle, u towards v, of the same size; what comes from
+    outside is mid-grey.
 
     Args:
         image: Grey levels.
@@ -60,11 +66,13 @@ def turned(image: Image, angle: float) -> Image:
 def places_in_turned(
     uv: Int[np.ndarray, "n 2"] | Float[np.ndarray, "n 2"], disparity: Image, angle: float
 ) -> Float[np.ndarray, "n 2"]:
-    """Return where places (u, v) of the left picture lie in the turned right one; NaN where the disparity is.
+    """Return where places (u, v) of the left picture lie in the turned right one; NaN where the
+    disparity is.
 
     Args:
         uv: Places in the left picture, pixels.
-        disparity: How far to the left the right picture has each pixel, pixels; a place has that of the nearest.
+        disparity: How far to the left the right picture has each pixel, pixels; a place has that of
+            the nearest.
         angle: How far the right picture is turned, radians.
     """
     u, v = np.rint(uv).astype(int).T

@@ -1,4 +1,6 @@
-"""What a step says: what just happened, the number that changed, and in the end whether it is right."""
+"""What a step says: what just happened, the number that changed, and in the end whether it is
+right.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -52,15 +54,16 @@ def _walked(state: State, walked: Walked) -> Caption:
     if now.phase == "linearised":
         shape = state.subject.kind.name if state.subject.kind else ""
         return Caption(
-            f"Iteration {now.iteration}: the {shape} is replaced by its tangents at the places nearest to the"
-            f" points. Against them each distance is linear in the {now.jacobian.shape[1]} unknowns."
+            f"Iteration {now.iteration}: the {shape} is replaced by its tangents at the places"
+            " nearest to the points. Against them each distance is linear in the"
+            f" {now.jacobian.shape[1]} unknowns."
         )
     if now.phase == "tried":
         promise = square(max(now.cost - now.predicted, 0.0), scale)
         gain = f", {percent(now.gain)} of the promised change" if now.gain > 0.0 else ""
         return Caption(
-            f"The solution of the linear problem, tried out (dashed). It promised {promise} for {cost}; the sum of"
-            f" squares is {square(now.trial_cost, scale)}{gain}."
+            f"The solution of the linear problem, tried out (dashed). It promised {promise} for"
+            f" {cost}; the sum of squares is {square(now.trial_cost, scale)}{gain}."
         )
     if now.phase == "accepted":
         rose = (
@@ -70,13 +73,13 @@ def _walked(state: State, walked: Walked) -> Caption:
         )
         damped = f" The damping falls to {damping_in_words(now.damping)}." if now.damping else ""
         return Caption(
-            f"Iteration {now.iteration}: the step is kept. R = {radius_of(state, now.unknown)}, sum of squares"
-            f" {cost}{rose}.{damped}"
+            f"Iteration {now.iteration}: the step is kept. R = {radius_of(state, now.unknown)}, sum"
+            f" of squares {cost}{rose}.{damped}"
         )
     return Caption(
-        f"Iteration {now.iteration}: the step is taken back, for it would raise the sum from {cost} to"
-        f" {square(now.trial_cost, scale)}. The damping rises to {damping_in_words(now.damping)}: the next one is"
-        " shorter."
+        f"Iteration {now.iteration}: the step is taken back, for it would raise the sum from {cost}"
+        f" to {square(now.trial_cost, scale)}. The damping rises to"
+        f" {damping_in_words(now.damping)}: the next one is shorter."
     )
 
 
@@ -98,10 +101,16 @@ def _stopped(state: State, now: Descent) -> Caption:
         if now.stop is Stop.CONVERGED
         else "is not at rest, and no more are allowed; it is"
     )
-    text = f"After {after} the sum of squares {rests} {square(now.cost, scale)}, R = {radius_of(state, now.unknown)}"
+    text = (
+        f"After {after} the sum of squares {rests} {square(now.cost, scale)}, R ="
+        f" {radius_of(state, now.unknown)}"
+    )
     is_least = now.cost <= (1.0 + LEAST) * least + 1e-12
     if abs(now.unknown[-1]) > AWAY and now.cost < 1.5 * straight:
-        text += f": the best straight line has {square(straight, scale)} as well, and that is what this circle is."
+        text += (
+            f": the best straight line has {square(straight, scale)} as well, and that is what this"
+            " circle is."
+        )
         if is_least or np.isnan(least):
             return Caption(f"{text} Nothing round fits better.")
         return Caption.verdict(f"{text} A circle of {square(least, scale)} exists.", right=False)
@@ -126,16 +135,16 @@ def _spread(state: State, now: Spread) -> Caption:
     if not len(now.radii):
         sd = length(now.radius_deviation * scale)
         return Caption(
-            f"The covariance s² (JᵀJ)⁻¹ says R = {radius_of(state, now.unknown)} ± {sd}. It takes the errors as"
-            f" independent and the problem as straight. The errors seem to have s = {length(now.sigma * scale)},"
-            f" the condition number of JᵀJ is {brief(now.condition)}."
+            f"The covariance s² (JᵀJ)⁻¹ says R = {radius_of(state, now.unknown)} ± {sd}. It takes"
+            " the errors as independent and the problem as straight. The errors seem to have s ="
+            f" {length(now.sigma * scale)}, the condition number of JᵀJ is {brief(now.condition)}."
         )
     low, high = (length(x * scale) for x in now.predicted)
     found = tuple(length(x * scale) for x in now.repeated)
     how = "measured anew" if state.subject.p_true is not None else "drawn anew from the points"
     text = (
-        f"{counted(len(now.radii), 'time')} {how} and fitted again: the middle 90 % of radii reach from {found[0]} to"
-        f" {found[1]}. The covariance said {low} to {high}"
+        f"{counted(len(now.radii), 'time')} {how} and fitted again: the middle 90 % of radii reach"
+        f" from {found[0]} to {found[1]}. The covariance said {low} to {high}"
     )
     if len(now.radii) < 100:
         return Caption(f"{text}.")
@@ -192,11 +201,16 @@ def _rivals(state: State, now: Rivals) -> Caption:
 
 
 FITS = {
-    "Kåsa": "Kåsa's fit, one linear system. It makes |d² − R²| small, about 2 R times the distance, so a small R pays:",
+    "Kåsa": (
+        "Kåsa's fit, one linear system. It makes |d² − R²| small, about 2 R times the distance, so"
+        " a small R pays:"
+    ),
     "Pratt": "Pratt's fit makes the same small as a share of R:",
     "Taubin": "Taubin's fit divides it by its mean squared slope at the points:",
     "Hyper": "Hyper divides it such that the bias cancels:",
-    "geometric": "The geometric fit makes the distances themselves small, in iterations from Taubin's fit:",
+    "geometric": (
+        "The geometric fit makes the distances themselves small, in iterations from Taubin's fit:"
+    ),
 }
 
 
@@ -204,13 +218,14 @@ def _lines(state: State, now: Lines) -> Caption:
     slope = angle(state.params.slope)
     if not now.lines:
         return Caption(
-            f"{counted(len(state.subject.p), 'point')} of a line at {slope}, with errors in x and in y. Which"
-            " distance shall be squared?"
+            f"{counted(len(state.subject.p), 'point')} of a line at {slope}, with errors in x and"
+            " in y. Which distance shall be squared?"
         )
     if now.angles:
         means = ", ".join(f"{name} {angle(float(np.median(a)))}" for name, a in now.angles.items())
         return Caption(
-            f"{len(now.angles['upright'])} times measured anew, median angles: {means}. The truth is {slope}."
+            f"{len(now.angles['upright'])} times measured anew, median angles: {means}. The truth"
+            f" is {slope}."
         )
     name, line = list(now.lines.items())[-1]
     found = angle(float(np.degrees(line_angle(line))))
@@ -231,8 +246,9 @@ def _trusted(state: State, now: Trusted) -> Caption:
         text = "All points weigh 1 again: the plane stays, and there is nothing to repeat."
     else:
         text = (
-            f"{now.loss.name}, round {fit.iteration}: {counted(int(np.count_nonzero(fit.weights < 0.5)), 'point')} of"
-            f" {len(fit.weights)} weigh less than half, by a corner of {length(now.corner * state.subject.scale)}."
+            f"{now.loss.name}, round {fit.iteration}:"
+            f" {counted(int(np.count_nonzero(fit.weights < 0.5)), 'point')} of {len(fit.weights)}"
+            f" weigh less than half, by a corner of {length(now.corner * state.subject.scale)}."
         )
     if not now.last or not off:
         return Caption(f"{text}{off}." if off else text)
@@ -241,5 +257,10 @@ def _trusted(state: State, now: Trusted) -> Caption:
 
 
 WRITTEN: dict[type, Callable[[State, Any], Caption]] = {
-    Walked: _walked, Spread: _spread, Basin: _basin, Rivals: _rivals, Lines: _lines, Trusted: _trusted,
-}  # fmt: skip
+    Walked: _walked,
+    Spread: _spread,
+    Basin: _basin,
+    Rivals: _rivals,
+    Lines: _lines,
+    Trusted: _trusted,
+}

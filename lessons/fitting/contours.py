@@ -22,7 +22,9 @@ DOT, HEIGHT = 0.026, 0.02  # metres; the way lies above the circles, the lines b
 
 
 def on_contours(p: np.ndarray, walked: Walked) -> dict[str, Primitive]:
-    """Return the level lines of the sum of squares over the centre of a circle, and centres kept, tried and taken back."""
+    """Return the level lines of the sum of squares over the centre of a circle, and centres kept,
+    tried and taken back.
+    """
     now, kept = walked.now, walked.kept[:, :2]
     scene: dict[str, Primitive] = {
         "valley": _contours(p.tobytes()),
@@ -48,7 +50,9 @@ def on_contours(p: np.ndarray, walked: Walked) -> dict[str, Primitive]:
 
 @lru_cache(maxsize=8)
 def _contours(p: bytes) -> Segments:
-    """Return the lines on which centres are equally good, each with its best radius; twice as bad from line to line."""
+    """Return the lines on which centres are equally good, each with its best radius; twice as bad
+    from line to line.
+    """
     points = np.frombuffer(p).reshape(-1, 2)
     side = int(np.clip(np.sqrt(MOST_DISTANCES / len(points)), COARSEST, FINEST))
     x = np.linspace(-REACH, REACH, side)

@@ -47,9 +47,15 @@ ANGLES = Chart("Angles, measured anew", "angle (°)", "how many")
 PULL = Chart("How hard a point pulls", "distance (mm)", "weight × distance (mm)")
 PLANE_ERROR = Chart("Error to the truth", unit="mm")
 COLORS: dict[str, Role] = {
-    "Kåsa": "wrong", "Pratt": "neutral", "Taubin": "source", "Hyper": "other", "geometric": "highlight",
-    "upright": "wrong", "level": "other", "perpendicular": "source",
-}  # fmt: skip
+    "Kåsa": "wrong",
+    "Pratt": "neutral",
+    "Taubin": "source",
+    "Hyper": "other",
+    "geometric": "highlight",
+    "upright": "wrong",
+    "level": "other",
+    "perpendicular": "source",
+}
 
 
 def draw(state: State) -> Scene:
@@ -205,8 +211,11 @@ def _rivals(state: State, now: Rivals) -> dict[str, Primitive]:
             lines, COLORS[name], 3.0, name=f"{name}'s" if name in ALGEBRAIC else name
         )
     rows = tuple((name, fixed(c[2] * subject.scale, 3)) for name, c in now.circles.items())
-    scene["table"] = Table("Radius of these points (m)" if subject.rim is None else "Radius (of the rim's)",
-                           ("fit", "R"), rows)  # fmt: skip
+    scene["table"] = Table(
+        "Radius of these points (m)" if subject.rim is None else "Radius (of the rim's)",
+        ("fit", "R"),
+        rows,
+    )
     if len(now.arcs) > 1:
         x, medians = np.array(now.arcs), np.array(now.medians)
         for k, name in enumerate(names):
@@ -286,5 +295,10 @@ def _trusted(state: State, now: Trusted) -> dict[str, Primitive]:
 
 
 DRAWN: dict[type, Callable[[State, Any], dict[str, Primitive]]] = {
-    Walked: _walked, Spread: _spread, Basin: _basin, Rivals: _rivals, Lines: _lines, Trusted: _trusted,
-}  # fmt: skip
+    Walked: _walked,
+    Spread: _spread,
+    Basin: _basin,
+    Rivals: _rivals,
+    Lines: _lines,
+    Trusted: _trusted,
+}

@@ -1,4 +1,6 @@
-"""Fits put to the test: the covariance beside repetition, many starts, rival circles over arcs, rival lines."""
+"""Fits put to the test: the covariance beside repetition, many starts, rival circles over arcs,
+rival lines.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -75,7 +77,8 @@ class Spread:
 def repeat_fit(
     shape: RoundShape, end: Descent, p_anew: Float[np.ndarray, "k n d"], counts: Sequence[int]
 ) -> Iterator[Spread]:
-    """Yield what the covariance at the end of a descent says, and then fits to points measured anew, ever more of them.
+    """Yield what the covariance at the end of a descent says, and then fits to points measured
+    anew, ever more of them.
 
     Nothing is yielded where the covariance is not finite.
 
@@ -85,7 +88,8 @@ def repeat_fit(
         p_anew: The points, measured again and again.
         counts: How many fits to show.
 
-    Reference: Efron and Tibshirani, An introduction to the bootstrap, 1993, chapter 6 (repetition as the measure).
+    Reference: Efron and Tibshirani, An introduction to the bootstrap, 1993, chapter 6 (repetition
+    as the measure).
     """
     found = covariance(end.residuals, end.jacobian)
     if not np.isfinite(found).all():
@@ -116,7 +120,9 @@ class Basin:
 
     @property
     def fates(self) -> Int[np.ndarray, " k"]:
-        """What became of each start, as its place in FATES; the sign of a radius does not matter."""
+        """What became of each start, as its place in FATES; the sign of a radius does not
+        matter.
+        """
         unknowns, best = (
             np.column_stack([u[..., :-1], np.abs(u[..., -1])])
             for u in (self.now.unknowns, self.best[None])
@@ -136,7 +142,8 @@ def try_starts(
     damping: float,
     shown: Sequence[int],
 ) -> Iterator[Basin]:
-    """Yield what becomes of descents to a circle from many starts, after some numbers of iterations and at the end.
+    """Yield what becomes of descents to a circle from many starts, after some numbers of iterations
+    and at the end.
 
     Args:
         p: The points.
@@ -177,7 +184,8 @@ class Rivals:
 def compare_circles(
     p: Float[np.ndarray, "n 2"], drawn: Iterator[tuple[float, Float[np.ndarray, "k n 2"]]]
 ) -> Iterator[Rivals]:
-    """Yield the algebraic fits of points and the geometric one, and then their medians over sets drawn for each arc.
+    """Yield the algebraic fits of points and the geometric one, and then their medians over sets
+    drawn for each arc.
 
     Reference: Al-Sharadqah and Chernov, Error analysis for circle fitting algorithms, 2009.
     """
@@ -199,7 +207,9 @@ def compare_circles(
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Lines by the distance that they make small, as (a, b, c), and the angles that repetition gives, degrees."""
+    """Lines by the distance that they make small, as (a, b, c), and the angles that repetition
+    gives, degrees.
+    """
 
     lines: dict[str, Float[np.ndarray, "3"]] = field(default_factory=dict)
     angles: dict[str, Float[np.ndarray, " k"]] = field(default_factory=dict)
@@ -215,7 +225,8 @@ LINE_FITS = {
 def compare_lines(
     p: Float[np.ndarray, "n 2"], p_anew: Float[np.ndarray, "k n 2"]
 ) -> Iterator[Lines]:
-    """Yield lines by upright, level and perpendicular distances, and then their angles for points measured anew.
+    """Yield lines by upright, level and perpendicular distances, and then their angles for points
+    measured anew.
 
     Reference: Fuller, Measurement error models, 1987, section 1.1 (why regression is too flat).
     """

@@ -1,8 +1,9 @@
 """Fitting: walk down the sum of squares.
 
-What it teaches: a fit makes squared distances small. Linear problems are solved in one step, others by repeating a linear
-one around the current guess. Which distance is squared, where one starts, and how much a far point may pull decide the
-answer more than the solver does; and what a covariance promises can be compared with measuring anew.
+What it teaches: a fit makes squared distances small. Linear problems are solved in one step, others
+by repeating a linear one around the current guess. Which distance is squared, where one starts, and
+how much a far point may pull decide the answer more than the solver does; and what a covariance
+promises can be compared with measuring anew.
 """
 
 from collections.abc import Iterator
@@ -58,7 +59,9 @@ def run(
 lesson = Lesson(
     name="fitting",
     title="Fitting",
-    summary="Walk down the sum of squares: which distance, from where, and how far a point may pull.",
+    summary=(
+        "Walk down the sum of squares: which distance, from where, and how far a point may pull."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -1,4 +1,6 @@
-"""Circles, spheres and cylinders as least squares needs them: distances, their slopes, and what a small step does."""
+"""Circles, spheres and cylinders as least squares needs them: distances, their slopes, and what a
+small step does.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -22,9 +24,11 @@ class RoundShape:
 
     Attributes:
         name: What it is called.
-        linearise: From unknowns (*k, m) and points (*k, n, d) the distances and their slopes by a small step.
+        linearise: From unknowns (*k, m) and points (*k, n, d) the distances and their slopes by a
+            small step.
         retract: Gives the unknowns that a small step leads to.
-        names: Of the entries of a small step; the first two move the centre, the last is the radius.
+        names: Of the entries of a small step; the first two move the centre, the last is the
+            radius.
     """
 
     name: RoundName
@@ -60,7 +64,8 @@ def feet(
         unknown: Its numbers.
         p: The points.
 
-    Reference: a distance falls fastest straight towards its foot; its slopes by a shift of the centre tell that way.
+    Reference: a distance falls fastest straight towards its foot; its slopes by a shift of the
+    centre tell that way.
     """
     residuals, jacobian = shape.linearise(unknown, p)
     ways = np.stack(across(unknown[3:6])) if shape is CYLINDER else np.eye(p.shape[1])
@@ -74,7 +79,8 @@ def outline(
 
     Args:
         shape: What it is.
-        unknown: Its numbers; none are returned where one is not finite, or the radius is beyond 10⁹.
+        unknown: Its numbers; none are returned where one is not finite, or the radius is beyond
+            10⁹.
         reach: Of a larger circle the arc nearest to the origin, half of it so long.
 
     Reference: as `linearise_sphere` and `linearise_cylinder`.

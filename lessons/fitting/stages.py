@@ -69,7 +69,9 @@ def walk(
     linearise: Linearised,
     step: DampedStep,
 ) -> Iterator[Now]:
-    """Yield the moments of a descent, and what its end is worth: made points get other errors, own points are drawn anew."""
+    """Yield the moments of a descent, and what its end is worth: made points get other errors, own
+    points are drawn anew.
+    """
     kind, p, now = sure(subject.kind), subject.p, None
     moments = descend(
         lambda unknown: linearise(unknown, p),
@@ -111,7 +113,9 @@ def basin(params: Params, subject: Subject) -> Iterator[Basin]:
 
 
 def rivals(params: Params, subject: Subject, rng: np.random.Generator) -> Iterator[Rivals]:
-    """Yield the circles of the points, and medians over draws from ever shorter arcs, or over windows of a coin's rim."""
+    """Yield the circles of the points, and medians over draws from ever shorter arcs, or over
+    windows of a coin's rim.
+    """
     if subject.rim is not None:
         return compare_circles(subject.p, iter([(params.arc, subject.rim.windows(params.arc))]))
     arcs = [] if subject.truth is None else [arc for arc in ARCS if arc > params.arc] + [params.arc]
@@ -133,7 +137,9 @@ def lines(params: Params, subject: Subject, rng: np.random.Generator) -> Iterato
 
 
 def trust(params: Params, subject: Subject, huber_weights: Weights) -> Iterator[Trusted]:
-    """Yield the rounds of a reweighted fit of a plane, by one loss or by two, the second from the end of the first."""
+    """Yield the rounds of a reweighted fit of a plane, by one loss or by two, the second from the
+    end of the first.
+    """
     sigma = max(params.noise / subject.scale, 1e-4)
     losses = [
         {**LOSSES, "Huber": replace(HUBER, weights=huber_weights)}[name]

@@ -109,8 +109,15 @@ class Params:
     side: Annotated[Literal["one", "both"], Knob("On which side of it", needs=ROBUST)] = "one"
     coin: Annotated[
         tuple[int, int],
-        Knob("A pixel inside the coin", 0, 900, unit="px", parts=("u", "v"), needs={"stage": ("coin",)}),
-    ] = (337, 125)  # fmt: skip
+        Knob(
+            "A pixel inside the coin",
+            0,
+            900,
+            unit="px",
+            parts=("u", "v"),
+            needs={"stage": ("coin",)},
+        ),
+    ] = (337, 125)
     cloud: Annotated[
         Path | None,
         Knob(
@@ -157,7 +164,9 @@ class Subject:
 
     @property
     def straight_cost(self) -> float:
-        """The sum of squares of the best straight line through points in the plane; NaN where there is none."""
+        """The sum of squares of the best straight line through points in the plane; NaN where there
+        is none.
+        """
         line = self.straight
         return np.nan if line is None else float(np.square(self.p @ line[:-1] + line[-1]).sum())
 
@@ -169,7 +178,9 @@ class Subject:
         return float(np.square(self.kind.linearise(self.best, self.p)[0]).sum())
 
     def off_best(self, unknown: np.ndarray) -> float:
-        """Return how far the numbers of a fit are from those with the least squares, metres; NaN where nobody knows."""
+        """Return how far the numbers of a fit are from those with the least squares, metres; NaN
+        where nobody knows.
+        """
         return np.nan if self.best is None else float(np.abs(unknown - self.best).max())
 
 
@@ -186,7 +197,9 @@ class State:
 
     @property
     def plane_errors(self) -> tuple[float, float]:
-        """The RMS distances of the true plane from the fit and from that of least squares, metres; NaN if not known."""
+        """The RMS distances of the true plane from the fit and from that of least squares, metres;
+        NaN if not known.
+        """
         if not isinstance(self.now, Trusted) or self.subject.truth is None:
             return np.nan, np.nan
         fit, first = (

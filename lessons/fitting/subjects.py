@@ -50,7 +50,8 @@ def subject_of(params: Params, rng: np.random.Generator) -> Subject:
     if params.stage == "line":
         if params.cloud is not None:
             raise InputError(
-                f"own points are not used in the stage line: set {called('stage')} to descent or robust"
+                f"own points are not used in the stage line: set {called('stage')} to descent or"
+                " robust"
             )
         turn = np.radians(params.slope)
         p_true = line_points(rng, turn, params.points)
@@ -80,7 +81,9 @@ def subject_of(params: Params, rng: np.random.Generator) -> Subject:
 
 
 def _round(p: np.ndarray, kind: RoundShape, truth: np.ndarray | None = None, **more) -> Subject:
-    """Add the best straight line to points in the plane, and the unknowns with the least squares."""
+    """Add the best straight line to points in the plane, and the unknowns with the least
+    squares.
+    """
     start = truth if kind is CYLINDER else fit_algebraic(p)
     best = None if start is None else fit_round(kind, p[None], start[None], tolerance=1e-15)[0]
     straight = fit_hyperplane(p) if kind.name == "circle" else None
@@ -88,7 +91,9 @@ def _round(p: np.ndarray, kind: RoundShape, truth: np.ndarray | None = None, **m
 
 
 def own(params: Params, path: Path) -> Subject:
-    """Return a person's points: about the origin, where their closed-form circle or sphere has the radius 1 m."""
+    """Return a person's points: about the origin, where their closed-form circle or sphere has the
+    radius 1 m.
+    """
     shape: RoundName = params.shape if params.stage == "descent" else "circle"
     p, unit = read_round(path, "plane" if params.stage == "robust" else shape, most=MOST_POINTS)
     scale = METRES[params.cloud_unit] * unit

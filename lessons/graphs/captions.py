@@ -52,7 +52,10 @@ def _grown(state: State, now: Grown) -> str:
     edges = counted(len(edges_of(now.adjacency)), "edge")
     pieces = counted(now.count, "component")
     if not now.k:
-        text = f"{state.subject.name[0].upper()}{state.subject.name[1:]}: {counted(len(state.subject.p), 'node')}, {edges}"
+        text = (
+            f"{state.subject.name[0].upper()}{state.subject.name[1:]}:"
+            f" {counted(len(state.subject.p), 'node')}, {edges}"
+        )
         return f"{text}, {pieces}." + (
             "" if now.count == 1 else " An edge joins two components, or closes a cycle."
         )
@@ -79,9 +82,15 @@ def _matrix(state: State, now: Matrix) -> str:
             if state.params.laplacian == "cotangent"
             else "the weight of its edge"
         )
-        return f"A: the entry of two nodes is {kind}, else 0. {entries} fill {percent(filled, 1)} of the matrix."
+        return (
+            f"A: the entry of two nodes is {kind}, else 0. {entries} fill {percent(filled, 1)} of"
+            " the matrix."
+        )
     if now.part == "degrees":
-        return f"D: on the diagonal the sum of each row of A, the degree. That of node {called} is {d}."
+        return (
+            f"D: on the diagonal the sum of each row of A, the degree. That of node {called} is"
+            f" {d}."
+        )
     if now.part == "laplacian":
         sums = float(np.abs(L @ np.ones(L.shape[0])).max())
         row = f"row {called} holds {d} on the diagonal, and minus its weights"
@@ -89,15 +98,16 @@ def _matrix(state: State, now: Matrix) -> str:
     x = state.subject.p[:, 0]
     if now.part == "applied":
         return (
-            f"L x adds up by how much a node is above its neighbours: {brief(float((L @ x)[v]))} at node {called}."
-            f" Over all nodes xᵀ L x = {brief(float(x @ (L @ x)))} is the sum of the edges' squared differences."
+            f"L x adds up by how much a node is above its neighbours: {brief(float((L @ x)[v]))} at"
+            f" node {called}. Over all nodes xᵀ L x = {brief(float(x @ (L @ x)))} is the sum of the"
+            " edges' squared differences."
         )
     a, b = edges_of(state.adjacency).T
     places = np.arange(len(now.order)), np.argsort(now.order)
     before, after = (brief(float(np.abs(place[a] - place[b]).mean()), 2) for place in places)
     return (
-        "The same matrix with its nodes in the order of the second eigenvector of L: joined nodes come to stand together,"
-        f" {after} places apart on average, where it was {before}."
+        "The same matrix with its nodes in the order of the second eigenvector of L: joined nodes"
+        f" come to stand together, {after} places apart on average, where it was {before}."
     )
 
 
@@ -108,15 +118,18 @@ def _mode(state: State, now: Mode) -> str:
             for k, name in enumerate(("A", "L = D − A"))
         )
         return (
-            f"Two graphs of {counted(len(now.spectra[0][0]), 'node')} each. Eigenvalues {told}. Drawn: eigenvector"
-            f" {now.index + 1} of the two taken as one graph, λ = {brief(now.values[now.index])}."
+            f"Two graphs of {counted(len(now.spectra[0][0]), 'node')} each. Eigenvalues {told}."
+            f" Drawn: eigenvector {now.index + 1} of the two taken as one graph, λ ="
+            f" {brief(now.values[now.index])}."
         )
     value, number = float(now.values[now.index]), now.index + 1
     text = f"Eigenvector {number}: λ = {brief(value)}"
     true = state.subject.eigenvalues
-    if len(true) > now.index and state.params.laplacian != "normalised" and (
-        state.subject.of_surface or state.params.laplacian == "plain"
-    ):  # fmt: skip
+    if (
+        len(true) > now.index
+        and state.params.laplacian != "normalised"
+        and (state.subject.of_surface or state.params.laplacian == "plain")
+    ):
         text += f", the truth is {brief(float(true[now.index]))}"
     zeros = int(
         np.count_nonzero(np.abs(now.values) < 1e-9 * max(1.0, float(np.abs(now.values).max())))
@@ -129,7 +142,10 @@ def _mode(state: State, now: Mode) -> str:
         )
         return f"{text}: {why}."
     changes = _sign_changes(state, now)
-    return f"{text}. Slow first: {changes} of the {counted(len(edges_of(state.adjacency)), 'edge')} join two signs."
+    return (
+        f"{text}. Slow first: {changes} of the {counted(len(edges_of(state.adjacency)), 'edge')}"
+        " join two signs."
+    )
 
 
 def _both(spectra: list[np.ndarray]) -> str:
@@ -153,7 +169,10 @@ def _sign_changes(state: State, now: Mode) -> int:
 def _cut(state: State, now: Cut) -> str:
     n = len(state.subject.p)
     if now.phase == "graph":
-        return f"The graph: {counted(n, 'node')}, {counted(len(edges_of(now.adjacency)), 'edge')}. Where is it thin?"
+        return (
+            f"The graph: {counted(n, 'node')}, {counted(len(edges_of(now.adjacency)), 'edge')}."
+            " Where is it thin?"
+        )
     if now.phase == "fiedler":
         zeros = int(
             np.count_nonzero(now.eigenvalues < 1e-9 * max(float(degrees(now.adjacency).max()), 1.0))
@@ -168,8 +187,8 @@ def _cut(state: State, now: Cut) -> str:
         )
         left = "one value on each part" if zeros == 2 else "a mixture that is not determined"
         return (
-            f"The smallest eigenvalue of L is {pieces}. A solver returns any mixture of the parts' constants; with the"
-            f" constant of all nodes taken out, what is left is {left}."
+            f"The smallest eigenvalue of L is {pieces}. A solver returns any mixture of the parts'"
+            f" constants; with the constant of all nodes taken out, what is left is {left}."
         )
     sizes = f"{counted(int(now.side.sum()), 'node')} against {n - int(now.side.sum()):,}"
     cost = f"{brief(now.cut)} {'edge is' if now.cut == 1 else 'edges are'} cut"
@@ -185,7 +204,10 @@ def _cut(state: State, now: Cut) -> str:
         return f"Cut by sign: {text}{_sides(state)}"
     if now.phase == "sweep":
         return f"One of the {n - 1:,} cuts along the vector, after node {now.k + 1:,}: {text}"
-    return f"The cut of least conductance along the vector: {text}{_sides(state)}{_by_sign(state, now)}"
+    return (
+        "The cut of least conductance along the vector:"
+        f" {text}{_sides(state)}{_by_sign(state, now)}"
+    )
 
 
 def _by_sign(state: State, now: Cut) -> str:
@@ -198,7 +220,10 @@ def _by_sign(state: State, now: Cut) -> str:
     edges = brief(cut_weight(now.adjacency, now.fiedler > 0))
     if before <= sure(right(state)):
         return ""
-    return f" By sign it was {before:,}, for a cut of {edges}: the least conductance need not be the truth."
+    return (
+        f" By sign it was {before:,}, for a cut of {edges}: the least conductance need not be the"
+        " truth."
+    )
 
 
 def _sides(state: State) -> str:
@@ -217,18 +242,24 @@ def _sides(state: State) -> str:
 def _heat(state: State, now: Heat) -> str:
     if now.step == 0:
         dt = f"{state.params.step_size:g} / λmax"
-        return f"All heat is at node {state.subject.called(state.vertex)}. A step is u ← u − dt L u with dt = {dt}."
+        return (
+            f"All heat is at node {state.subject.called(state.vertex)}. A step is u ← u − dt L u"
+            f" with dt = {dt}."
+        )
     hottest, touched = float(np.abs(now.u).max()), int(np.count_nonzero(now.u))
     if hottest > 1.0 + 1e-9:
         return (
-            f"Step {now.step}: the largest heat is {_size(hottest)}, where 1 was put in. dt is above 2 / λmax: the fastest"
-            " eigenvector grows at every step and changes its sign."
+            f"Step {now.step}: the largest heat is {_size(hottest)}, where 1 was put in. dt is"
+            " above 2 / λmax: the fastest eigenvector grows at every step and changes its sign."
         )
     n = len(now.u)
     where = (
         f"{touched:,} of {counted(n, 'node')} have some" if touched < n else "all nodes have some"
     )
-    return f"Step {now.step}: largest heat {_size(hottest)}, {where}; off the exact heat by {_size(now.error)} at most."
+    return (
+        f"Step {now.step}: largest heat {_size(hottest)}, {where}; off the exact heat by"
+        f" {_size(now.error)} at most."
+    )
 
 
 def _size(value: float) -> str:
@@ -245,7 +276,10 @@ def _smoothed(state: State, now: Smoothed) -> str:
     share, off = volume_share(state), from_clean(state, now.p)
     volume = f", {percent(share, 0)} of the volume" if np.isfinite(share) else ""
     if now.step == 0:
-        return f"The nodes with noise: {brief(off, 2)} mean edges (RMS) from where they should be{volume}."
+        return (
+            f"The nodes with noise: {brief(off, 2)} mean edges (RMS) from where they should"
+            f" be{volume}."
+        )
     way = "half way to the mean of its neighbours"
     if state.params.filter == "taubin":
         way += ", and then a little more than half the way back"
@@ -253,7 +287,10 @@ def _smoothed(state: State, now: Smoothed) -> str:
         assert isinstance(state.first, Smoothed)
         before = from_clean(state, state.first.p)
         way += "" if off <= before else f"; the noise alone was {brief(before, 2)}"
-    return f"Round {now.step}: every node went {way}. {brief(off, 2)} mean edges (RMS) from the clean places{volume}."
+    return (
+        f"Round {now.step}: every node went {way}. {brief(off, 2)} mean edges (RMS) from the clean"
+        f" places{volume}."
+    )
 
 
 def _layer(state: State, now: Layer) -> str:
@@ -263,10 +300,16 @@ def _layer(state: State, now: Layer) -> str:
         return _readout(state, now)
     if now.part == "input":
         one, other = (state.subject.called(i) for i in state.subject.labelled)
-        return f"Only two nodes have a label: node {one} says (1, 0), node {other} says (0, 1). All others say (0, 0)."
+        return (
+            f"Only two nodes have a label: node {one} says (1, 0), node {other} says (0, 1). All"
+            " others say (0, 0)."
+        )
     if now.part == "loops":
         count = int(np.count_nonzero(now.matrix[v]))
-        return f"A + I: every node also hears itself. Node {called} gathers from {counted(count, 'node')}."
+        return (
+            f"A + I: every node also hears itself. Node {called} gathers from"
+            f" {counted(count, 'node')}."
+        )
     if now.part == "normalised":
         return (
             f"Each entry over the roots of both degrees, loops counted: node {called} counts itself"
@@ -274,9 +317,15 @@ def _layer(state: State, now: Layer) -> str:
         )
     if now.part == "gathered":
         said = ", ".join(brief(x, 2) for x in now.features[v])
-        return f"Gathered: node {called} has ({said}). W is the identity here and nothing is negative, so ReLU leaves it."
+        return (
+            f"Gathered: node {called} has ({said}). W is the identity here and nothing is negative,"
+            " so ReLU leaves it."
+        )
     heard, correct = int(np.count_nonzero(reached(state))), right(state)
-    text = f"Layer {now.layer}: the labels have reached {'all' if heard == n else f'{heard:,} of'} {n:,} nodes"
+    text = (
+        f"Layer {now.layer}: the labels have reached {'all' if heard == n else f'{heard:,} of'}"
+        f" {n:,} nodes"
+    )
     text += "" if correct is None else f"; {correct:,} are right"
     return f"{text}. {percent(apart(state))} of the features still tell nodes apart."
 
@@ -286,7 +335,10 @@ def _readout(state: State, now: Layer) -> str:
     sums = [now.features[classes == which].sum(axis=0) for which in (0, 1)]
     gap, size = float(np.abs(sums[0] - sums[1]).max()), float(np.abs(sums).max())
     if now.layer == 0:
-        return "Two graphs, and every node begins with the same four features, all 1. Does any layer tell the graphs apart?"
+        return (
+            "Two graphs, and every node begins with the same four features, all 1. Does any layer"
+            " tell the graphs apart?"
+        )
     if now.part != "layer":
         return f"{_part(now)} Both graphs' features are summed up in the table."
     same = gap <= 1e-9 * max(size, 1.0)
@@ -309,5 +361,8 @@ def _part(now: Layer) -> str:
 def _trained(state: State, now: Trained) -> str:
     correct, n = right(state), len(state.subject.p)
     layers = counted(max(state.params.layers, 1), "layer")
-    text = f"Iteration {now.iteration} of a network of {layers}: loss {brief(max(now.loss, 0.0), 2)} on the two labels"
+    text = (
+        f"Iteration {now.iteration} of a network of {layers}: loss {brief(max(now.loss, 0.0), 2)}"
+        " on the two labels"
+    )
     return f"{text}." if correct is None else f"{text}, {correct:,} of {n:,} nodes right."

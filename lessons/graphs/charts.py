@@ -1,4 +1,6 @@
-"""What stands beside the picture: the matrix, the spectrum, cuts, error to the truth, and one node in numbers."""
+"""What stands beside the picture: the matrix, the spectrum, cuts, error to the truth, and one node
+in numbers.
+"""
 
 import numpy as np
 

@@ -1,4 +1,6 @@
-"""What one step looks like: nodes in the colours of what was computed, edges, and those that are cut."""
+"""What one step looks like: nodes in the colours of what was computed, edges, and those that are
+cut.
+"""
 
 import numpy as np
 
@@ -116,7 +118,9 @@ def _edges(state: State, p: np.ndarray) -> dict[str, Primitive]:
 
 
 def _marks(state: State, p: np.ndarray) -> dict[str, Primitive]:
-    """Draw rims: of the node that is looked at, of labelled nodes, and of nodes that are told wrongly."""
+    """Draw rims: of the node that is looked at, of labelled nodes, and of nodes that are told
+    wrongly.
+    """
     now, subject, scene = state.now, state.subject, dict[str, Primitive]()
     under = below(state)
     if isinstance(now, Matrix | Heat | Layer):

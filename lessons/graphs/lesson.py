@@ -1,8 +1,9 @@
 """A cloud whose points know their neighbours is a matrix, and its slow eigenvectors cut and smooth.
 
-What it teaches: "neighbour of" is not mutual; L = D - A measures how far each node is above its neighbours, its second
-eigenvector finds the bridge, though not always by its sign; steps of L smooth until they shrink or explode; and a layer
-of a graph network is one such step and a learned matrix, so that many layers make all nodes alike.
+What it teaches: "neighbour of" is not mutual; L = D - A measures how far each node is above its
+neighbours, its second eigenvector finds the bridge, though not always by its sign; steps of L
+smooth until they shrink or explode; and a layer of a graph network is one such step and a learned
+matrix, so that many layers make all nodes alike.
 """
 
 from collections.abc import Callable, Iterator
@@ -31,7 +32,9 @@ def run(
     knn_adjacency: Neighbours = graphs.knn_adjacency,
     gcn_layer: GcnLayer = graphs.gcn_layer,
 ) -> Iterator[State]:
-    """Yield the steps of one stage; above 2,000 nodes, too many for dense matrices, without these functions."""
+    """Yield the steps of one stage; above 2,000 nodes, too many for dense matrices, without these
+    functions.
+    """
     functions = Functions(laplacian=laplacian, knn_adjacency=knn_adjacency, gcn_layer=gcn_layer)
     try:
         yield from states(params, subject_of(params), functions)
@@ -44,7 +47,10 @@ def run(
 lesson = Lesson(
     name="graphs",
     title="Graphs and their spectra",
-    summary="Neighbours become a matrix, and its slow eigenvectors cut and smooth; a graph network is one such step.",
+    summary=(
+        "Neighbours become a matrix, and its slow eigenvectors cut and smooth; a graph network is"
+        " one such step."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -67,7 +67,9 @@ def grow(
 def joined(
     params: Params, subject: Subject, directed: Sparse, functions: Functions, k: int
 ) -> Sparse:
-    """Return the graph of who names whom, joined as the params say; the union by the function in the slot."""
+    """Return the graph of who names whom, joined as the params say; the union by the function in
+    the slot.
+    """
     if params.join != "union" or len(subject.p) > MOST_DENSE:
         return graphs.joined(directed, params.join)
     return scipy.sparse.csr_array(_finite("knn_adjacency", functions.knn_adjacency(subject.p, k)))
@@ -83,7 +85,8 @@ def adjacency_of(params: Params, subject: Subject, functions: Functions) -> Spar
         return graphs.graph_of(subject.edges, len(subject.p), subject.weights)
     if params.join == "directed":
         raise InputError(
-            "a one-way graph has no symmetric Laplacian: set join to union or mutual, or stage to graph"
+            "a one-way graph has no symmetric Laplacian: set join to union or mutual, or stage to"
+            " graph"
         )
     rows, _ = graphs.neighbours(subject.p, params.k)
     return joined(params, subject, graphs.directed_graph(rows), functions, params.k)
@@ -100,7 +103,8 @@ def laplacian_of(
     if params.laplacian == "cotangent":
         if not len(subject.faces):
             raise InputError(
-                "cotangents need triangles: set graph to sphere or rabbit mesh, or take another laplacian"
+                "cotangents need triangles: set graph to sphere or rabbit mesh, or take another"
+                " laplacian"
             )
         return Laplacian(
             cotangent_laplacian(subject.p, subject.faces), mixed_areas(subject.p, subject.faces)
@@ -120,7 +124,9 @@ def laplacian_of(
 def matrix_steps(
     params: Params, subject: Subject, adjacency: Sparse, functions: Functions
 ) -> Iterator[Now]:
-    """Yield A, D, L = D - A, L applied to a function of the nodes, and L with its nodes in a better order."""
+    """Yield A, D, L = D - A, L applied to a function of the nodes, and L with its nodes in a better
+    order.
+    """
     laplacian = laplacian_of(params, subject, adjacency, functions)
     return matrices(laplacian, len(subject.p))
 
@@ -155,7 +161,9 @@ def spectrum_steps(
 
 @traced
 def modes(laplacian: Laplacian, count: int, relative: bool, pair: tuple) -> Iterator[Mode]:
-    """Yield the slowest eigenvectors of a Laplacian, its eigenvalues as ratios where only these mean something."""
+    """Yield the slowest eigenvectors of a Laplacian, its eigenvalues as ratios where only these
+    mean something.
+    """
     values, functions = laplacian.smallest(count)
     if relative and count > 3:
         values = values * 2 / values[1:4].mean()  # the first three of a sphere are 2
@@ -164,7 +172,9 @@ def modes(laplacian: Laplacian, count: int, relative: bool, pair: tuple) -> Iter
 
 
 def of_unit_sphere(params: Params, subject: Subject) -> bool:
-    """Tell whether eigenvalues of a graph are to be compared with those of a surface: up to a factor."""
+    """Tell whether eigenvalues of a graph are to be compared with those of a surface: up to a
+    factor.
+    """
     return subject.of_surface and params.laplacian != "cotangent"
 
 
@@ -225,7 +235,9 @@ def edge_length(subject: Subject, adjacency: Sparse) -> float:
 def network_steps(
     params: Params, subject: Subject, adjacency: Sparse, functions: Functions
 ) -> Iterator[Now]:
-    """Yield a network's features: two labels that spread, or of a pair of graphs what messages make of equal nodes."""
+    """Yield a network's features: two labels that spread, or of a pair of graphs what messages make
+    of equal nodes.
+    """
     dense = _dense(adjacency)
     if params.graph in PAIRS and len(subject.classes):
         features, rng = np.ones((len(dense), 4)), np.random.default_rng(params.seed)
@@ -242,8 +254,15 @@ def training_steps(
     dense, rng, n = _dense(adjacency), np.random.default_rng(params.seed), len(subject.p)
     sizes = [n, *[HIDDEN] * (max(params.layers, 1) - 1), 2]
     weights = [rng.normal(size=(a, b)) * np.sqrt(2 / (a + b)) for a, b in pairwise(sizes)]
-    steps = train(dense, np.eye(n), weights, np.array(subject.labelled), np.array([0, 1]),
-                  iterations=ITERATIONS, gcn_layer=functions.gcn_layer)  # fmt: skip
+    steps = train(
+        dense,
+        np.eye(n),
+        weights,
+        np.array(subject.labelled),
+        np.array([0, 1]),
+        iterations=ITERATIONS,
+        gcn_layer=functions.gcn_layer,
+    )
     return (now for now in steps if now.iteration % EVERY == 0)
 
 

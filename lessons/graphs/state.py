@@ -15,9 +15,17 @@ from workbench.geometry.graphs.spectra import Laplacian
 from workbench.knobs import Knob, Pick
 
 GraphName = Literal[
-    "dumbbell", "karate", "grid", "ring", "sphere", "uneven sphere", "rabbit", "rabbit mesh", "star and square",
+    "dumbbell",
+    "karate",
+    "grid",
+    "ring",
+    "sphere",
+    "uneven sphere",
+    "rabbit",
+    "rabbit mesh",
+    "star and square",
     "hexagon and triangles",
-]  # fmt: skip
+]
 Stage = Literal["graph", "matrix", "spectrum", "cut", "heat", "smooth", "network", "training"]
 Kind = Literal["plain", "normalised", "cotangent"]
 
@@ -142,7 +150,8 @@ class Subject:
         faces: Triangles of a mesh; none elsewhere.
         classes: Which of two groups each node truly belongs to; empty where nobody knows.
         eigenvalues: What the smallest eigenvalues truly are, ascending; empty where nobody knows.
-        of_surface: Whether these are of the surface, to which a graph's can be compared up to a factor only.
+        of_surface: Whether these are of the surface, to which a graph's can be compared up to a
+            factor only.
         front: The node that is looked at by default.
         labelled: Two nodes whose class a network is told.
         names: What an own graph calls its nodes.
@@ -201,7 +210,9 @@ class Grown:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Matrix:
-    """One of the matrices of a graph; `part` says which, or that L is applied to the nodes' places along x."""
+    """One of the matrices of a graph; `part` says which, or that L is applied to the nodes' places
+    along x.
+    """
 
     part: Literal["adjacency", "degrees", "laplacian", "applied", "ordered"]
     laplacian: Laplacian
@@ -211,9 +222,11 @@ class Matrix:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Mode:
-    """One eigenvector: its number from 0, all eigenvalues that are shown, and of a pair of graphs both spectra.
+    """One eigenvector: its number from 0, all eigenvalues that are shown, and of a pair of graphs
+    both spectra.
 
-    `values` are in the unit of the truth; `spectra` are the eigenvalues of A and of L of each graph of a pair.
+    `values` are in the unit of the truth; `spectra` are the eigenvalues of A and of L of each graph
+    of a pair.
     """
 
     index: int

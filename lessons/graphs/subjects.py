@@ -152,7 +152,8 @@ def _own(path: Path, _stamp: tuple[int, int], *, kind: str, up: Upward, seed: in
         p, faces = meshes.welded(*read_mesh(path))
         if len(p) > MOST_OWN:
             raise InputError(
-                f"{path.name}: {len(p):,} vertices; at most {MOST_OWN:,} are taken, simplify it first"
+                f"{path.name}: {len(p):,} vertices; at most {MOST_OWN:,} are taken, simplify it"
+                " first"
             )
         if len(p) < 3 or not len(faces):
             raise InputError(f"{path.name}: no triangle with three different corners")

@@ -1,7 +1,8 @@
 """Where ICP ends from a row of starts: its basin of convergence.
 
-The tries are an experiment of their own, and quicker than the run: a thinned source, turned the other way about the
-vertical, not shifted, and fewer iterations. What `lessons.icp.captions` says of a try tells all of this but the last.
+The tries are an experiment of their own, and quicker than the run: a thinned source, turned the
+other way about the vertical, not shifted, and fewer iterations. What `lessons.icp.captions` says of
+a try tells all of this but the last.
 """
 
 import functools
@@ -27,7 +28,9 @@ SLIDING = (
 
 
 def tries_of(params: Params) -> Iterator[Try]:
-    """Yield a try for each of ANGLES, none for SLIDING. They do not depend on the params' start, so they are kept."""
+    """Yield a try for each of ANGLES, none for SLIDING. They do not depend on the params' start, so
+    they are kept.
+    """
     if params.target is None and params.shape in SLIDING:
         return
     same = replace(params, guess=(0.0,) * 6)
@@ -38,7 +41,9 @@ def tries_of(params: Params) -> Iterator[Try]:
 
 
 def gate_of(params: Params, scans: Scans) -> Gate:
-    """Return the gate that the params name; its distance is one of the picture, whatever the size of the scans."""
+    """Return the gate that the params name; its distance is one of the picture, whatever the size
+    of the scans.
+    """
     return {
         "all": Gate(),
         "trimmed": Gate(keep=params.keep),

@@ -1,4 +1,6 @@
-"""What a step of ICP says: what just happened, its numbers, and at the end whether it has come home."""
+"""What a step of ICP says: what just happened, its numbers, and at the end whether it has come
+home.
+"""
 
 import numpy as np
 
@@ -30,7 +32,10 @@ def caption(state: State) -> Caption:
 def _of_match(state: State) -> str:
     now = state.icp
     kept, n = int(np.count_nonzero(now.kept)), len(now.kept)
-    text = f"Match {now.iteration}: each source point takes its nearest target point. {kept:,} of {n:,} are kept"
+    text = (
+        f"Match {now.iteration}: each source point takes its nearest target point. {kept:,} of"
+        f" {n:,} are kept"
+    )
     if kept < n:
         text += f" (up to {length(now.limit)} apart)"
     text += f"; RMSE {length(now.rmse)}." if kept else "."
@@ -46,12 +51,15 @@ def _of_fit(state: State) -> str:
 
 
 def _of_try(state: State) -> str:
-    """Return what came of another start, an experiment: where it ends wrong, the run itself has not gone wrong."""
+    """Return what came of another start, an experiment: where it ends wrong, the run itself has not
+    gone wrong.
+    """
     last = state.tries[-1]
     home = state.scans.at_home(last.error)
     text = (
-        f"{_other_setup(state)}: from {last.start_angle:.0f}° away, ICP {'comes home' if home else 'ends'}"
-        f" {angle(last.error.rotation)} and {length(last.error.translation)} from the truth, at RMSE {length(last.rmse)}."
+        f"{_other_setup(state)}: from {last.start_angle:.0f}° away, ICP"
+        f" {'comes home' if home else 'ends'} {angle(last.error.rotation)} and"
+        f" {length(last.error.translation)} from the truth, at RMSE {length(last.rmse)}."
     )
     if last.start_angle < 180:
         return text
@@ -72,13 +80,21 @@ def _other_setup(state: State) -> str:
 
 
 def _at_start(state: State) -> str:
-    """Say what of the params has no effect on own scans, and where scans that start far apart need a guess."""
+    """Say what of the params has no effect on own scans, and where scans that start far apart need
+    a guess.
+    """
     text, idle = "", [name.replace("_", " ") for name in state.params.idle]
     if idle:
-        text += f" Your own scans are open: {', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no effect on them."
+        text += (
+            f" Your own scans are open: {', '.join(idle)} {'has' if len(idle) == 1 else 'have'} no"
+            " effect on them."
+        )
     gap, width = float(state.icp.distances.min()), WIDTH / state.scans.frame.scale
     if gap > width:
-        text += f" The scans start {length(gap)} apart, and the target is {length(width)} wide: bring the source near it."
+        text += (
+            f" The scans start {length(gap)} apart, and the target is {length(width)} wide: bring"
+            " the source near it."
+        )
     return text
 
 

@@ -1,4 +1,6 @@
-"""What one step of ICP looks like: two clouds, their matches, the curves, and what just happened in words."""
+"""What one step of ICP looks like: two clouds, their matches, the curves, and what just happened in
+words.
+"""
 
 import numpy as np
 
@@ -29,8 +31,13 @@ TIP, DIAL = (
     0.62,
     0.7,
 )  # metres of the picture from its middle: of the arrows, and of the dial of starts
-ARROW = np.array([[[0.0, 0.0, 0.0], [TIP, 0.0, 0.0]], [[TIP, 0.0, 0.0], [0.54, 0.035, 0.0]],
-                  [[TIP, 0.0, 0.0], [0.54, -0.035, 0.0]]])  # fmt: skip
+ARROW = np.array(
+    [
+        [[0.0, 0.0, 0.0], [TIP, 0.0, 0.0]],
+        [[TIP, 0.0, 0.0], [0.54, 0.035, 0.0]],
+        [[TIP, 0.0, 0.0], [0.54, -0.035, 0.0]],
+    ]
+)
 RMSE, OVERLAP = Chart("RMSE", unit="m"), Chart("Overlap", unit="%")
 TURN, SHIFT = Chart("Rotation error", unit="deg"), Chart("Translation error", unit="m")
 BASIN_TURNS = Chart("Basin: final rotation error", "start angle (deg)", "deg")
@@ -87,7 +94,9 @@ def _from_another_start(state: State) -> dict[str, Primitive]:
 def _arrow(
     path: str, scans: Scans, T_target_source: np.ndarray, color: Role, error: MotionError | None
 ):
-    """Return an arrow fixed to the source, which points along the picture's x axis at the truth; its turn stands at it."""
+    """Return an arrow fixed to the source, which points along the picture's x axis at the truth;
+    its turn stands at it.
+    """
     pose = _arrow_pose(scans, T_target_source)
     scene: dict[str, Primitive] = {f"{path} arrow": Segments(ARROW, color, 4, pose)}
     if error is not None:
@@ -97,7 +106,9 @@ def _arrow(
 
 
 def _dial(state: State) -> dict[str, Primitive]:
-    """Return the starts around the target, each an arc where its arrow starts, green where ICP comes home from there."""
+    """Return the starts around the target, each an arc where its arrow starts, green where ICP
+    comes home from there.
+    """
     home = np.array([state.scans.at_home(one.error) for one in state.tries])
     starts = np.radians([one.start_angle for one in state.tries])[:, None]
     height = float(state.scans.grid[0, 0, 2])
@@ -107,8 +118,13 @@ def _dial(state: State) -> dict[str, Primitive]:
             [radius * np.cos(turn), radius * np.sin(turn), np.full_like(turn, height)], axis=-1
         )
 
-    arcs = np.stack([at(starts + HALF * np.array([-1, -1 / 3, 1 / 3]), DIAL),
-                     at(starts + HALF * np.array([-1 / 3, 1 / 3, 1]), DIAL)], axis=2)  # fmt: skip
+    arcs = np.stack(
+        [
+            at(starts + HALF * np.array([-1, -1 / 3, 1 / 3]), DIAL),
+            at(starts + HALF * np.array([-1 / 3, 1 / 3, 1]), DIAL),
+        ],
+        axis=2,
+    )
     color = Classes.marking(
         np.repeat(~home, 3),
         "neutral",
@@ -179,7 +195,9 @@ def _source_color(scans: Scans) -> Color:
 
 
 def _arrow_pose(scans: Scans, T_target_source: np.ndarray) -> np.ndarray:
-    """Return the pose of an arrow fixed to the source, which points along the picture's x axis at the truth."""
+    """Return the pose of an arrow fixed to the source, which points along the picture's x axis at
+    the truth.
+    """
     return scans.frame.shown_motion(
         T_target_source if scans.T_truth is None else T_target_source @ inverse(scans.T_truth)
     )

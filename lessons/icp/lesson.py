@@ -1,7 +1,9 @@
-"""Iterative closest point: match every source point to its nearest target point, fit a motion, repeat.
+"""Iterative closest point: match every source point to its nearest target point, fit a motion,
+repeat.
 
-What it teaches: ICP walks downhill from where it starts, home or into another valley, so a small RMSE proves nothing; the
-start, the gate, the error measure and how evenly the scans are sampled decide.
+What it teaches: ICP walks downhill from where it starts, home or into another valley, so a small
+RMSE proves nothing; the start, the gate, the error measure and how evenly the scans are sampled
+decide.
 """
 
 from collections.abc import Iterator
@@ -27,9 +29,11 @@ def run(
     match: Match | None = None,
     step: PlaneStep | None = None,
 ) -> Iterator[State]:
-    """Yield the steps of ICP on the scans, then, where the truth is known, one try from each of a row of starts.
+    """Yield the steps of ICP on the scans, then, where the truth is known, one try from each of a
+    row of starts.
 
-    There are none where a shape can be moved onto itself, nor where a function is given in place of ours (None).
+    There are none where a shape can be moved onto itself, nor where a function is given in place of
+    ours (None).
     """
     scans = scans_of(params)
     T_before, rmse_before, state = scans.T_start, float("nan"), None

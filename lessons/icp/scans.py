@@ -1,4 +1,6 @@
-"""Where the scans of a run come from: built-in shapes, a lidar on a street, or the person's own files."""
+"""Where the scans of a run come from: built-in shapes, a lidar on a street, or the person's own
+files.
+"""
 
 import functools
 from collections.abc import Callable
@@ -126,7 +128,9 @@ def _read(target: Path, source: Path, params: Params, *_stamps: tuple[int, int])
 def _thinned(
     p_target: np.ndarray, p_source: np.ndarray, params: Params
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Thin both scans by the same voxels, and draw at most so many points of the source by chance."""
+    """Thin both scans by the same voxels, and draw at most so many points of the source by
+    chance.
+    """
     if params.thinning == "voxel":
         size = params.voxel / 100.0 * extent(p_target, FAR)
         p_target, p_source = voxel_means(p_target, size), voxel_means(p_source, size)
@@ -134,7 +138,9 @@ def _thinned(
 
 
 def _framed(p_target: np.ndarray, p_source: np.ndarray, up: Up, planes: Planes) -> Scans:
-    """Bring scans of any size and place into the picture, WIDTH wide and upright about the target's middle."""
+    """Bring scans of any size and place into the picture, WIDTH wide and upright about the target's
+    middle.
+    """
     how = frame(p_target, WIDTH, up=up, far=FAR)
     target_shown, cell = how.shown(p_target), round_below(0.5 / how.scale)
     return Scans(

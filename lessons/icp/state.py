@@ -73,7 +73,8 @@ class Params:
     planes: Annotated[
         Planes,
         Knob(
-            "Point-to-plane, lidar and own scans: all target points pull, or only where neighbours spread, not in a line",
+            "Point-to-plane, lidar and own scans: all target points pull, or only where neighbours"
+            " spread, not in a line",
             needs={"fit": ("point-to-plane",)},
         ),
     ] = "spread"
@@ -159,8 +160,8 @@ class Scans:
         cell: The edge of its squares, metres of the scans.
         p_target_shown: The target as the picture has it.
         p_source_shown: The source likewise, before any motion.
-        n_target: Gives the normals of the target, computed when first asked for: unit vectors, or zero for a point that
-            shall not pull because its neighbours lie along a line.
+        n_target: Gives the normals of the target, computed when first asked for: unit vectors, or
+            zero for a point that shall not pull because its neighbours lie along a line.
     """
 
     p_target: np.ndarray
@@ -177,7 +178,9 @@ class Scans:
     n_target: Callable[[], np.ndarray]
 
     def about_centre(self, w_world: np.ndarray) -> np.ndarray:
-        """Return the turn by a rotation vector of the picture about its middle, as a motion of the target frame."""
+        """Return the turn by a rotation vector of the picture about its middle, as a motion of the
+        target frame.
+        """
         return turn_about(self.frame.centre, exp_so3(self.frame.R_world_file.T @ w_world))
 
     def error(self, T_target_source: np.ndarray) -> MotionError:
@@ -187,13 +190,16 @@ class Scans:
     def at_home(self, error: MotionError) -> bool:
         """Tell whether a motion with this error is the true one, but for sampling.
 
-        It turns by less than HOME_DEGREES, and its points are, by root mean square, less than HOME_SPACINGS times the
-        spacing of the target's points away from where they belong. Not so where the truth is not known.
+        It turns by less than HOME_DEGREES, and its points are, by root mean square, less than
+        HOME_SPACINGS times the spacing of the target's points away from where they belong. Not so
+        where the truth is not known.
         """
         return error.rotation < HOME_DEGREES and error.displacement < HOME_SPACINGS * self.spacing
 
     def right_share(self, indices: np.ndarray, kept: np.ndarray) -> float:
-        """Return the share of kept matches whose partner lies within two spacings of where the source point belongs."""
+        """Return the share of kept matches whose partner lies within two spacings of where the
+        source point belongs.
+        """
         if self.T_truth is None or not kept.any():
             return float("nan")
         off = self.p_target[indices[kept]] - apply(self.T_truth, self.p_source[kept])
@@ -208,7 +214,8 @@ class Try:
 
     Attributes:
         start_angle: Degrees about the vertical, away from the truth.
-        T_target_truth: The end as a motion of the truly placed source: the identity when it came home.
+        T_target_truth: The end as a motion of the truly placed source: the identity when it came
+            home.
         error: How far that is from the truth.
         rmse: Of the kept matches at the end, metres.
     """
@@ -255,7 +262,9 @@ class State:
 
     @property
     def edge(self) -> float | None:
-        """The largest start angle up to which every try came home, degrees; None when not even the first did."""
+        """The largest start angle up to which every try came home, degrees; None when not even the
+        first did.
+        """
         edge = None
         for attempt in self.tries:
             if not self.scans.at_home(attempt.error):

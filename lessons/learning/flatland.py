@@ -1,4 +1,5 @@
-"""A flat world of three coloured discs, and cameras around it whose photographs are one row of pixels.
+"""A flat world of three coloured discs, and cameras around it whose photographs are one row of
+pixels.
 
 Reference: Abbott, Flatland, 1884, section 1: how its people see.
 """
@@ -21,7 +22,9 @@ _FINE = 300
 def medium(
     p: Float[np.ndarray, "*n 2"],
 ) -> tuple[Float[np.ndarray, "*n"], Float[np.ndarray, "*n 3"]]:
-    """Return density (1/m) and colour at points of the plane: every disc has darker and lighter slices."""
+    """Return density (1/m) and colour at points of the plane: every disc has darker and lighter
+    slices.
+    """
     density, color = np.zeros(p.shape[:-1]), np.zeros((*p.shape[:-1], 3))
     for (x, y, radius), own in zip(DISCS, COLORS, strict=True):
         away = p - [x, y]
@@ -33,7 +36,8 @@ def medium(
 
 
 def rays_of(angle: float, pixels: int) -> tuple[Float[np.ndarray, "w 2"], Float[np.ndarray, "w 2"]]:
-    """Return where the rays of a camera begin and their unit directions; it stands on a circle and looks at the middle.
+    """Return where the rays of a camera begin and their unit directions; it stands on a circle and
+    looks at the middle.
 
     Args:
         angle: Where on the circle, radians.

@@ -1,4 +1,6 @@
-"""Small clouds of five shapes, each with its class: a sphere, a box, a cylinder, a cone and a torus about the z axis."""
+"""Small clouds of five shapes, each with its class: a sphere, a box, a cylinder, a cone and a torus
+about the z axis.
+"""
 
 from typing import Literal
 
@@ -17,7 +19,8 @@ NOISE, STRETCH = 0.02, (0.8, 1.2)
 def labelled_clouds(
     of: Int[np.ndarray, " b"], count: int, turned: Turned, rng: np.random.Generator
 ) -> Float[np.ndarray, "b {count} 3"]:
-    """Return a cloud for each class that is asked for: stretched a little along its axes, turned, with noise, metres.
+    """Return a cloud for each class that is asked for: stretched a little along its axes, turned,
+    with noise, metres.
 
     The points of each are listed from the lowest to the highest.
 
@@ -37,7 +40,9 @@ def labelled_clouds(
 
 
 def _points(of: np.ndarray, count: int, rng: np.random.Generator) -> np.ndarray:
-    """Return points on the shapes, all shapes made for all points and one taken: loops over clouds would take longer."""
+    """Return points on the shapes, all shapes made for all points and one taken: loops over clouds
+    would take longer.
+    """
     of, shape = np.repeat(of, count), (len(of), count, 3)
     u, v, w = rng.random((3, len(of)))
     a, end = 2 * np.pi * u, rng.random(len(of)) < 0.3

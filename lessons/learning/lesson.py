@@ -1,7 +1,8 @@
-"""When geometry is the loss: a network makes small what the loss measures, over what its output can express.
+"""When geometry is the loss: a network makes small what the loss measures, over what its output can
+express.
 
-What it teaches: numbers with a cut cannot be learned across it; a mean is what the loss calls one; what a loss does not
-measure is left to chance; and training error is no geometry.
+What it teaches: numbers with a cut cannot be learned across it; a mean is what the loss calls one;
+what a loss does not measure is left to chance; and training error is no geometry.
 """
 
 from collections.abc import Iterator

@@ -38,10 +38,24 @@ class Params:
     rotation: Annotated[
         Rotation, Knob("The numbers put out for a rotation", needs=on("rotation"))
     ] = "6D"
-    loss: Annotated[Compared, Knob("What the loss compares: those numbers, or the matrices that they mean",
-                                   needs=on("angle", "rotation"))] = "numbers"  # fmt: skip
-    largest: Annotated[float, Knob("The largest turn, in training and in the test", 45, 180, step=5, unit="deg",
-                                   needs=on("angle", "rotation"))] = 180.0  # fmt: skip
+    loss: Annotated[
+        Compared,
+        Knob(
+            "What the loss compares: those numbers, or the matrices that they mean",
+            needs=on("angle", "rotation"),
+        ),
+    ] = "numbers"
+    largest: Annotated[
+        float,
+        Knob(
+            "The largest turn, in training and in the test",
+            45,
+            180,
+            step=5,
+            unit="deg",
+            needs=on("angle", "rotation"),
+        ),
+    ] = 180.0
     set_loss: Annotated[SetLoss, Knob("How two sets of points are compared", needs=on("sets"))] = (
         "Chamfer"
     )
@@ -54,8 +68,12 @@ class Params:
     edge: Annotated[
         float, Knob("Weight of the energy of edges", 0, 1, step=0.01, needs=on("mesh"))
     ] = 0.0
-    noise: Annotated[float, Knob("Standard deviation of the given points", 0, 0.1, step=0.005, unit="m",
-                                 needs=on("mesh"))] = 0.04  # fmt: skip
+    noise: Annotated[
+        float,
+        Knob(
+            "Standard deviation of the given points", 0, 0.1, step=0.005, unit="m", needs=on("mesh")
+        ),
+    ] = 0.04
     pool: Annotated[
         Pool, Knob("How the points of a cloud become one row", needs=on("classify"))
     ] = "max"
@@ -70,9 +88,15 @@ class Params:
     )
     stray: Annotated[
         tuple[float, float, float],
-        Knob("Where the first point of every test cloud is put; at the origin: left alone", -3, 3, unit="m",
-             by=Gizmo(0.5), needs=on("classify")),
-    ] = (0.0, 0.0, 0.0)  # fmt: skip
+        Knob(
+            "Where the first point of every test cloud is put; at the origin: left alone",
+            -3,
+            3,
+            unit="m",
+            by=Gizmo(0.5),
+            needs=on("classify"),
+        ),
+    ] = (0.0, 0.0, 0.0)
     views: Annotated[int, Knob("Photographs it is learned from", 2, 24, needs=on("field"))] = 12
     updates: Annotated[
         int, Knob("Steps of Adam; 0 takes what suits the task", 0, 2000, step=50)
@@ -101,7 +125,8 @@ class Turns:
     """Test inputs of `angle` and `rotation`.
 
     Attributes:
-        places: Where each is shown: on the unit circle, or its rotation vector with half a turn at 1 m.
+        places: Where each is shown: on the unit circle, or its rotation vector with half a turn at
+            1 m.
         degrees: By how much each is turned; signed in the plane.
     """
 

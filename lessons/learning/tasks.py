@@ -161,7 +161,9 @@ def _mesh(
 def _surface(
     scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int
 ) -> tuple[np.ndarray, ...]:
-    """Return points of the surface to be fitted, more of them, and its mesh: cached, as most knobs leave them alone."""
+    """Return points of the surface to be fitted, more of them, and its mesh: cached, as most knobs
+    leave them alone.
+    """
     rng = np.random.default_rng(1000 + seed)
     if scan is None:
         return rabbit(GIVEN, rng), rabbit(TRUE, rng), *rabbit_mesh()

@@ -1,4 +1,6 @@
-"""What one step looks like: the shape, what was counted of it so far, and the charts of its errors."""
+"""What one step looks like: the shape, what was counted of it so far, and the charts of its
+errors.
+"""
 
 import functools
 

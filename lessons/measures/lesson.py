@@ -1,7 +1,8 @@
 """Area and volume: how large a shape is, as a sum over faces, over cells, or over throws of dice.
 
-What it teaches: each sum has an error with a law of its own: h², h, 1/√n, or one that never shrinks; and what a sum takes
-for granted (closed, consistently turned, not overlapping, evenly drawn) is where it goes wrong without a word.
+What it teaches: each sum has an error with a law of its own: h², h, 1/√n, or one that never
+shrinks; and what a sum takes for granted (closed, consistently turned, not overlapping, evenly
+drawn) is where it goes wrong without a word.
 """
 
 from collections.abc import Iterator
@@ -125,7 +126,9 @@ def _ball(subject: Subject) -> tuple[np.ndarray, float]:
 lesson = Lesson(
     name="measures",
     title="Area and volume",
-    summary="Sums over faces, over cells, over throws of dice: each has an error with a law of its own.",
+    summary=(
+        "Sums over faces, over cells, over throws of dice: each has an error with a law of its own."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -1,4 +1,6 @@
-"""Shapes whose area and volume are known in closed form, and Schwarz's lantern. Metres, about 2 m large, in the middle."""
+"""Shapes whose area and volume are known in closed form, and Schwarz's lantern. Metres, about 2 m
+large, in the middle.
+"""
 
 import functools
 from collections.abc import Callable
@@ -86,7 +88,9 @@ def box() -> Measurable:
 
 @functools.lru_cache(maxsize=16)
 def two_spheres(subdivisions: int) -> Measurable:
-    """Return two meshes of balls of radius 1 that overlap, their middles 1 m apart; area and volume are of the union."""
+    """Return two meshes of balls of radius 1 that overlap, their middles 1 m apart; area and volume
+    are of the union.
+    """
     one, shift = sphere(subdivisions), np.array([APART / 2, 0.0, 0.0])
     cap = RADIUS - APART / 2
     lens = np.pi * (4 * RADIUS + APART) * (2 * RADIUS - APART) ** 2 / 12
@@ -107,13 +111,15 @@ def two_spheres(subdivisions: int) -> Measurable:
 def lantern(sectors: int, rings: int) -> Measurable:
     """Return Schwarz's lantern: a cylinder without lids, radius and height 1 m, all vertices on it.
 
-    Each ring of vertices is turned by half a sector against the one below, so that the triangles between them lean inwards.
+    Each ring of vertices is turned by half a sector against the one below, so that the triangles
+    between them lean inwards.
 
     Args:
         sectors: Vertices in a ring.
         rings: Bands of triangles from bottom to top.
 
-    Reference: Schwarz, Gesammelte Mathematische Abhandlungen II, 1890: an area that does not follow.
+    Reference: Schwarz, Gesammelte Mathematische Abhandlungen II, 1890: an area that does not
+    follow.
     """
     k, j = np.meshgrid(np.arange(rings + 1), np.arange(sectors), indexing="ij")
     turn = 2 * np.pi * (j + 0.5 * (k % 2)) / sectors

@@ -1,4 +1,6 @@
-"""Points on a surface: first in one triangle, to see how, then on all faces, those of one half cut in four."""
+"""Points on a surface: first in one triangle, to see how, then on all faces, those of one half cut
+in four.
+"""
 
 from collections.abc import Callable, Iterator
 
@@ -50,7 +52,8 @@ def numbers_of(
 ) -> Callable[[int], np.ndarray]:
     """Return what draws rows of three numbers, bent where the params ask for a mistake.
 
-    The function that makes points of them stays the right one: were the root forgotten, it would see the square.
+    The function that makes points of them stays the right one: were the root forgotten, it would
+    see the square.
     """
     reached = np.cumsum(areas) / areas.sum()
 
@@ -70,13 +73,17 @@ def numbers_of(
 
 
 def quarters(q: np.ndarray) -> np.ndarray:
-    """Return which share of points of the triangle lies in each of its three corner quarters, and in the middle one."""
+    """Return which share of points of the triangle lies in each of its three corner quarters, and
+    in the middle one.
+    """
     corner = at_corners(q)
     return np.append(corner.mean(axis=0), 1 - corner.any(axis=1).mean())
 
 
 def at_corners(q: np.ndarray) -> np.ndarray:
-    """Tell for points of the triangle whether they lie in each of its three corner quarters, (n, 3)."""
+    """Tell for points of the triangle whether they lie in each of its three corner quarters, (n,
+    3).
+    """
     a, b, c = TRIANGLE
     weights = np.linalg.lstsq(np.stack([b - a, c - a], axis=1), (q - a).T)[0].T
     return np.column_stack([1 - weights.sum(axis=1), weights]) > 0.5

@@ -117,7 +117,8 @@ class Params:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Subject:
-    """What is measured. Lengths are in its `unit`; the picture is `scale` times as large, in metres.
+    """What is measured. Lengths are in its `unit`; the picture is `scale` times as large, in
+    metres.
 
     Attributes:
         name: What it is called in sentences.
@@ -164,7 +165,8 @@ class Study:
 
     Attributes:
         faces: How many faces the meshes have.
-        errors: By name, one for each mesh; areas as shares of the true one where the mesh is a lantern.
+        errors: By name, one for each mesh; areas as shares of the true one where the mesh is a
+            lantern.
     """
 
     faces: np.ndarray
@@ -185,8 +187,8 @@ class State:
         half_hits: The share of the points there.
         middle: The middle of the surface.
         study: Errors on ever finer meshes, in the last step.
-        peeked: Of many more runs like this one, in the last step: the share whose interval misses the truth there, and the
-            share where it did so at one step or more.
+        peeked: Of many more runs like this one, in the last step: the share whose interval misses
+            the truth there, and the share where it did so at one step or more.
     """
 
     params: Params
@@ -202,7 +204,9 @@ class State:
 
     @property
     def volume_error(self) -> float:
-        """The relative error of a volume that was just measured; NaN where none was or the truth is not known."""
+        """The relative error of a volume that was just measured; NaN where none was or the truth is
+        not known.
+        """
         now, true = self.now, self.subject.volume
         if isinstance(now, Sums):
             return now.volume / true - 1 if now.count == len(self.subject.faces) else float("nan")

@@ -37,7 +37,8 @@ def subject_of(params: Params) -> Subject:
     """Return what the params describe.
 
     Raises:
-        InputError: If an own file cannot be used, or the shape has no volume where one is asked for.
+        InputError: If an own file cannot be used, or the shape has no volume where one is asked
+            for.
     """
     if params.mesh is not None and params.voxels is not None:
         raise InputError(
@@ -127,7 +128,9 @@ def _of_mesh(
 
 
 def _grids(subject: Subject, params: Params) -> tuple[tuple[int, Grid], ...]:
-    """Return grids whose cells are halved every second step, each beginning at a place of its own."""
+    """Return grids whose cells are halved every second step, each beginning at a place of its
+    own.
+    """
     rng = np.random.default_rng(params.seed)
     steps = np.arange(4, 2 * np.log2(params.cells) - 1e-9)
     across = [*np.unique(np.rint(2 ** (steps / 2)).astype(int)).tolist(), params.cells]
@@ -163,7 +166,9 @@ def _own(path: Path, _stamp: tuple[int, int], up: Upward, unit: Unit) -> Subject
 def _voxels(
     path: Path, _stamp: tuple[int, int], spacing: tuple[float, float, float], label: int, unit: Unit
 ) -> Subject:
-    """Return labelled voxels: their surface for what needs one, the bits themselves for counting."""
+    """Return labelled voxels: their surface for what needs one, the bits themselves for
+    counting.
+    """
     labels = read_voxels(path)
     bits = labels == label if label else labels != 0
     if not bits.any():
@@ -172,7 +177,8 @@ def _voxels(
     bits = bits[np.ix_(*(_used(bits.any(axis=tuple({0, 1, 2} - {axis}))) for axis in range(3)))]
     if bits.size > MOST_VOXELS:
         raise InputError(
-            f"{path.name}: {bits.size:,} voxels around the label; at most {MOST_VOXELS:,} are measured"
+            f"{path.name}: {bits.size:,} voxels around the label; at most {MOST_VOXELS:,} are"
+            " measured"
         )
     edges = np.array(spacing)
     low = -edges * np.array(bits.shape) / 2
@@ -190,9 +196,11 @@ def _voxels(
     return replace(
         subject,
         smooth=True,
-        area=surface_area(*marched_surface(*_every(bits, low, edges, 1)))
-        if finest > 1
-        else subject.area,
+        area=(
+            surface_area(*marched_surface(*_every(bits, low, edges, 1)))
+            if finest > 1
+            else subject.area
+        ),
         volume=counted_volume(bits, edges),
         full=full,
         grids=tuple((max(grid.shape), grid) for grid in grids),

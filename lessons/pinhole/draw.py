@@ -1,4 +1,6 @@
-"""What one stage looks like: the street, the camera with its picture, the points, and the followed one's numbers."""
+"""What one stage looks like: the street, the camera with its picture, the points, and the followed
+one's numbers.
+"""
 
 import functools
 import math
@@ -118,7 +120,9 @@ def _point_color(state: State):
 
 
 def _camera(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
-    """Lead from the camera to the followed point along its own axes, and where the calculation says it is, if elsewhere."""
+    """Lead from the camera to the followed point along its own axes, and where the calculation says
+    it is, if elsewhere.
+    """
     true = apply(state.shot.T_camera_world, state.now.p_world[state.params.point])
     got = state.now.p_camera[state.params.point]
     if np.allclose(got, true):
@@ -275,7 +279,9 @@ def _lens_curves(lens: Distortion, r_chosen: float) -> dict[str, Primitive]:
 
 
 def _tables(state: State) -> dict[str, Primitive]:
-    """Return the followed point's journey so far, and what can be measured of the camera and in its picture."""
+    """Return the followed point's journey so far, and what can be measured of the camera and in its
+    picture.
+    """
     shot, now, k = state.shot, state.now, state.params.point
     rows = [("in the world", f"{coordinates(now.p_world[k], 2)} m")]
     if now.reached("camera"):

@@ -1,6 +1,8 @@
-"""Follows points through a pinhole camera with a lens: world, camera, division by depth, lens, pixels, and back.
+"""Follows points through a pinhole camera with a lens: world, camera, division by depth, lens,
+pixels, and back.
 
-Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 6.1 (the camera) and 7.4 (the lens).
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 6.1 (the camera) and 7.4 (the
+lens).
 """
 
 from collections.abc import Callable, Iterator
@@ -17,7 +19,9 @@ from workbench.geometry.motions import apply
 from workbench.tracing import traced
 
 Project = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
-"""project(p_world, T_camera_world, K) -> pixels (n, 2) without a lens, NaN for points behind the camera."""
+"""project(p_world, T_camera_world, K) -> pixels (n, 2) without a lens, NaN for points behind the
+camera.
+"""
 Distort = Callable[[np.ndarray, float, float, float, float], np.ndarray]
 """distort(xy_camera, k1, k2, p1, p2) -> where the lens puts normalised points (n, 2)."""
 Center = Callable[[np.ndarray], np.ndarray]
@@ -29,7 +33,8 @@ STAGES: tuple[Stage, ...] = ("world", "camera", "divide", "distort", "pixels", "
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """How far the points have come; numbers are NaN before their stage, and for points that drop out.
+    """How far the points have come; numbers are NaN before their stage, and for points that drop
+    out.
 
     Attributes:
         stage: The last stage done.
@@ -74,7 +79,8 @@ def follow(
     camera_center: Center = cameras.camera_center,
     depth: Float[np.ndarray, " n"] | None = None,
 ) -> Iterator[State]:
-    """Yield the points on their way from the world to pixels, one stage per state, and then back along their rays.
+    """Yield the points on their way from the world to pixels, one stage per state, and then back
+    along their rays.
 
     Args:
         p_world: Points, metres.
@@ -84,7 +90,8 @@ def follow(
         project: The pinhole without a lens; NaN where it sees nothing.
         distort: The lens on normalised coordinates.
         camera_center: Where the rays start.
-        depth: What is taken for the depth of each pixel on the way back, metres; Z where it is not given.
+        depth: What is taken for the depth of each pixel on the way back, metres; Z where it is not
+            given.
     """
     state = start(p_world)
     yield state
@@ -134,5 +141,7 @@ def onto_pixels(
 def off_pixels(
     uv: Float[np.ndarray, "n 2"], K: Float[np.ndarray, "3 3"]
 ) -> Float[np.ndarray, "n 2"]:
-    """Return the points, on the plane one metre in front of the camera, that these pixels show: `onto_pixels` undone."""
+    """Return the points, on the plane one metre in front of the camera, that these pixels show:
+    `onto_pixels` undone.
+    """
     return (uv - K[:2, 2]) @ np.linalg.inv(K[:2, :2]).T

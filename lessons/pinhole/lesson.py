@@ -1,7 +1,7 @@
 """A pinhole camera: from a point in the world to a pixel, and back to a ray.
 
-What it teaches: five small steps, each with its own classic mistake. The photograph is always true; the calculation is
-laid over it in orange, so a mistake is seen where it is made.
+What it teaches: five small steps, each with its own classic mistake. The photograph is always true;
+the calculation is laid over it in orange, so a mistake is seen where it is made.
 """
 
 from collections.abc import Iterator
@@ -29,7 +29,9 @@ def run(
     distort: Distort = distortion.distort,
     camera_center: Center = cameras.camera_center,
 ) -> Iterator[State]:
-    """Yield the stages of the street's points through the calculated camera, beside the true one."""
+    """Yield the stages of the street's points through the calculated camera, beside the true
+    one.
+    """
     shot = shot_of(params)
     model = model_of(params, shot, project, distort, camera_center)
     outlines = laid_out(model)
@@ -49,9 +51,11 @@ def run(
 
 
 def compare(shot: Shot, now: pinhole.State) -> tuple[float, int, int, int]:
-    """Return the median distance from the true pixels, and how many points are found, missed and false.
+    """Return the median distance from the true pixels, and how many points are found, missed and
+    false.
 
-    Before pixels are reached, both sides are scaled with the true K, so that all stages speak of pixels.
+    Before pixels are reached, both sides are scaled with the true K, so that all stages speak of
+    pixels.
     """
     if not now.reached("divide"):
         return float("nan"), 0, 0, 0
@@ -73,7 +77,9 @@ def compare(shot: Shot, now: pinhole.State) -> tuple[float, int, int, int]:
 lesson = Lesson(
     name="pinhole",
     title="The pinhole camera",
-    summary="From world point to pixel in five steps, and what each step's classic mistake looks like.",
+    summary=(
+        "From world point to pixel in five steps, and what each step's classic mistake looks like."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

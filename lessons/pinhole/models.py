@@ -1,4 +1,6 @@
-"""The camera as it is calculated: the given functions, or one of them replaced by a classic mistake."""
+"""The camera as it is calculated: the given functions, or one of them replaced by a classic
+mistake.
+"""
 
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -31,7 +33,9 @@ Model = Callable[[np.ndarray], Iterator[State]]
 
 
 def laid_out(model: Model) -> Model:
-    """Return the model up to its pixels, which calculates the same points once only: others may own its functions."""
+    """Return the model up to its pixels, which calculates the same points once only: others may own
+    its functions.
+    """
     known: dict[bytes, tuple[State, ...]] = {}
 
     def stages(p_world: np.ndarray) -> Iterator[State]:
@@ -44,9 +48,11 @@ def laid_out(model: Model) -> Model:
 
 
 def pixels(model: Model, stage: Stage, K: np.ndarray, p_world: np.ndarray) -> np.ndarray:
-    """Return where the calculation puts these points in the picture at a stage from the division on.
+    """Return where the calculation puts these points in the picture at a stage from the division
+    on.
 
-    Before it has pixels itself, the true K makes them of the places on the plane one metre in front.
+    Before it has pixels itself, the true K makes them of the places on the plane one metre in
+    front.
     """
     now = next(state for state in model(p_world) if state.stage in (stage, "pixels"))
     return (
@@ -99,7 +105,8 @@ def divide_anyway(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
 
 
 def overlaid(shot: Shot, model: Model, stage: Stage, point: int) -> np.ndarray:
-    """Return the photograph with the outlines and points that a stage has calculated laid over it, whatever hides them.
+    """Return the photograph with the outlines and points that a stage has calculated laid over it,
+    whatever hides them.
 
     From the division on; before it, only the followed point's true pixel.
     """
@@ -111,8 +118,13 @@ def overlaid(shot: Shot, model: Model, stage: Stage, point: int) -> np.ndarray:
     lines = wires(shot.T_camera_world)
     drawn = render(
         [SegmentItem(lines, color_rows("source", len(lines)))],
-        shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=to_pixels,
-    )  # fmt: skip
+        shot.T_camera_world,
+        shot.K,
+        w,
+        h,
+        shot.lens,
+        to_pixels=to_pixels,
+    )
     uv = to_pixels(street().points)
     spots = [_flat(uv, "source", 3), true, _flat(uv[[point]], "highlight", 7)]
     return _over(

@@ -1,4 +1,6 @@
-"""The true camera and its photograph: everything that holds whatever the functions under test do."""
+"""The true camera and its photograph: everything that holds whatever the functions under test
+do.
+"""
 
 import functools
 
@@ -76,7 +78,9 @@ def _shot(params: Params) -> Shot:
 
 
 def wires(T_camera_world: np.ndarray) -> np.ndarray:
-    """Return the outlines (n, 2, 3) of boxes, house, rails and ball, the last as this camera sees it."""
+    """Return the outlines (n, 2, 3) of boxes, house, rails and ball, the last as this camera sees
+    it.
+    """
     scene = street()
     ball = np.zeros((0, 2, 3))
     if np.linalg.norm(camera_center(T_camera_world) - BALL_CENTER) > 1.01 * BALL_RADIUS:
@@ -107,7 +111,9 @@ def _height(ends: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray, lens: D
 
 
 def _ball_ratio(T_camera_world: np.ndarray, K: np.ndarray) -> float:
-    """Measure the outline's longest and shortest radius; NaN where the ball's middle is not in the picture."""
+    """Measure the outline's longest and shortest radius; NaN where the ball's middle is not in the
+    picture.
+    """
     u, v = project(BALL_CENTER[None], T_camera_world, K)[0]
     inside = (
         depths(BALL_CENTER[None], T_camera_world)[0] > 1.01 * BALL_RADIUS
@@ -123,7 +129,9 @@ def _ball_ratio(T_camera_world: np.ndarray, K: np.ndarray) -> float:
 
 
 def _gap(T_camera_world: np.ndarray, K: np.ndarray, subject_depth: float) -> float:
-    """Return the largest distance in pixels between the corners' pixels and their orthographic ones."""
+    """Return the largest distance in pixels between the corners' pixels and their orthographic
+    ones.
+    """
     K_flat = K.copy()
     K_flat[:2, :2] /= subject_depth
     corners = street().edges.reshape(-1, 3)

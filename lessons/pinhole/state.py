@@ -26,7 +26,9 @@ Mistake = Literal[
 
 @dataclass(frozen=True)
 class Params:
-    """A camera in the street, its lens, what happens to its picture, and the point that is followed."""
+    """A camera in the street, its lens, what happens to its picture, and the point that is
+    followed.
+    """
 
     camera: Annotated[
         tuple[float, float, float],
@@ -82,12 +84,14 @@ class Shot:
         picture: The photograph after the edit, (h, w, 3).
         uv: Pixels of the followed points, NaN where it does not see them.
         xy: Ideal normalised coordinates of the points, NaN likewise.
-        crate, tower: Heights of an edge in this picture, pixels; NaN where an end of it has no pixel.
+        crate, tower: Heights of an edge in this picture, pixels; NaN where an end of it has no
+            pixel.
         crate_before, tower_before: The same at a dolly of 1.
-        ball_ratio: Length over width of the ball's outline, without the lens; NaN where it is not in the picture.
+        ball_ratio: Length over width of the ball's outline, without the lens; NaN where it is not
+            in the picture.
         vanishing: Pixel in which the rails meet, NaN where they do not.
-        gaps: For each of FACTORS, how far the corners that are in front are from their orthographic pixels, at most,
-            before the edit and without the lens.
+        gaps: For each of FACTORS, how far the corners that are in front are from their orthographic
+            pixels, at most, before the edit and without the lens.
         gap: The same at the dolly of this shot.
     """
 
@@ -116,10 +120,12 @@ class State:
         params: The inputs.
         shot: The true camera and its photograph.
         now: How far the calculation has come.
-        picture: The photograph with the outlines and points on it that this stage has calculated, if it has any.
-        error: Median distance to the true pixels, as far as the stage tells, px; NaN before the division.
-        found, missed, false: How many points have a calculated pixel; how many lack one that the camera does see;
-            and how many have one that the camera does not see.
+        picture: The photograph with the outlines and points on it that this stage has calculated,
+            if it has any.
+        error: Median distance to the true pixels, as far as the stage tells, px; NaN before the
+            division.
+        found, missed, false: How many points have a calculated pixel; how many lack one that the
+            camera does see; and how many have one that the camera does not see.
     """
 
     params: Params

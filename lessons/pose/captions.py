@@ -72,20 +72,23 @@ def _given(state: State) -> str:
         u, v = params.principal
         given = f"{n} points of your own and their pixels."
         if params.focal == GUESSED_FOCAL:
-            ask = f"What is its focal length? Until you set it, {pixels(params.focal)} is taken as a guess"
+            ask = (
+                f"What is its focal length? Until you set it, {pixels(params.focal)} is taken as a"
+                " guess"
+            )
             return (
                 f"{given} Where was your camera? {ask}, and ({u:g}, {v:g}) as the principal point."
             )
         return (
-            f"{given} Where was your camera, with the focal length that you say, {pixels(params.focal)}, and the principal"
-            f" point ({u:g}, {v:g})?"
+            f"{given} Where was your camera, with the focal length that you say,"
+            f" {pixels(params.focal)}, and the principal point ({u:g}, {v:g})?"
         )
     noise = f"with noise of σ = {pixels(params.noise)}" if params.noise > 0 else "without noise"
     wrong = int(subject.given.is_outlier.sum())
     also = f"; {wrong} of the points are seen somewhere else altogether" if wrong else ""
     return (
-        f"{len(subject.p_shown)} known points (blue), and in the picture where a camera saw them, {noise}{also}. Where"
-        " was the camera? The green one is the truth, which no method knows."
+        f"{len(subject.p_shown)} known points (blue), and in the picture where a camera saw them,"
+        f" {noise}{also}. Where was the camera? The green one is the truth, which no method knows."
     )
 
 
@@ -94,8 +97,8 @@ def _rays(state: State, now: Searched) -> str:
     sides = ", ".join(length(float(np.linalg.norm(p[i] - p[j]))) for i, j in SIDES)
     angles = ", ".join(angle(float(np.degrees(angle_between(n[i], n[j])))) for i, j in SIDES)
     return (
-        f"Three points (purple), three rays. Known are the sides of the triangle, {sides}, and the angles between the"
-        f" rays to their ends, {angles}; unknown is how long the three rays are."
+        f"Three points (purple), three rays. Known are the sides of the triangle, {sides}, and the"
+        f" angles between the rays to their ends, {angles}; unknown is how long the three rays are."
     )
 
 
@@ -103,15 +106,19 @@ def _quartic(state: State, now: Searched) -> str:
     v = np.sort(now.lengths[:, 2] / now.lengths[:, 0])
     listed = f": v = {', '.join(fixed(value, 3) for value in v)}" if len(v) else ""
     return (
-        "Three laws of cosines in three lengths come down to one quartic in v, the third length over the first. Of its"
-        f" roots {COUNTS[len(v)]} {'gives' if len(v) == 1 else 'give'} three positive lengths{listed}."
+        "Three laws of cosines in three lengths come down to one quartic in v, the third length"
+        f" over the first. Of its roots {COUNTS[len(v)]} {'gives' if len(v) == 1 else 'give'} three"
+        f" positive lengths{listed}."
     )
 
 
 def _root(state: State, now: Searched) -> str:
     k, subject = len(now.candidates), state.subject
     if state.T is None:
-        return f"Solution {k} of {len(now.lengths)}: its pose holds numbers that are not finite. It is wrong."
+        return (
+            f"Solution {k} of {len(now.lengths)}: its pose holds numbers that are not finite. It is"
+            " wrong."
+        )
     miss = rms(subject.pixel_errors(state.T)[:3])
     sees = (
         "exactly where they were seen"
@@ -121,21 +128,25 @@ def _root(state: State, now: Searched) -> str:
     rays = ", ".join(length(s) for s in now.lengths[k - 1])
     where = coordinates(subject.frame.shown(camera_center(state.T)), 2)
     return (
-        f"Solution {k} of {len(now.lengths)}: rays of {rays} put the triangle's corners as far apart as they are. The"
-        f" camera at {where} sees the three points {sees}."
+        f"Solution {k} of {len(now.lengths)}: rays of {rays} put the triangle's corners as far"
+        f" apart as they are. The camera at {where} sees the three points {sees}."
     )
 
 
 def _both(state: State, now: Searched) -> str:
     return (
-        f"A plane, so there are two poses, {angle(degrees_between(*now.candidates))} apart, that give the same picture"
-        f" to first order about its middle. Perspective tells them apart: they miss the points by {_misses(state, now)}."
+        f"A plane, so there are two poses, {angle(degrees_between(*now.candidates))} apart, that"
+        " give the same picture to first order about its middle. Perspective tells them apart:"
+        f" they miss the points by {_misses(state, now)}."
     )
 
 
 def _choose(state: State, now: Searched) -> str:
     if state.params.method == "IPPE":
-        return f"Both refined: they miss the points by {_misses(state, now)}, root mean square. The better one is taken."
+        return (
+            f"Both refined: they miss the points by {_misses(state, now)}, root mean square. The"
+            " better one is taken."
+        )
     if len(now.candidates) == 1:
         return f"The fourth point agrees with the only solution to {_misses(state, now)}."
     cameras = f"{COUNTS[len(now.candidates)]} cameras"
@@ -148,10 +159,18 @@ def _solved(state: State, now: Searched) -> str:
         "three" if is_flat(state.subject.given.p_world) else "four",
     )
     text = {
-        "DLT": f"The linear transform: a 3×4 matrix from all {n} points at once, and the rotation nearest to its left",
-        "EPnP": f"EPnP: all {n} points are weighted sums of {controls} control points, which are put before the camera so"
-        " that the points come near their rays and these are as far apart as they are",
-        "SQPnP": f"SQPnP: of all rotations the one that brings all {n} points nearest to their rays",
+        "DLT": (
+            f"The linear transform: a 3×4 matrix from all {n} points at once, and the rotation"
+            " nearest to its left"
+        ),
+        "EPnP": (
+            f"EPnP: all {n} points are weighted sums of {controls} control points, which are put"
+            " before the camera so that the points come near their rays and these are as far apart"
+            " as they are"
+        ),
+        "SQPnP": (
+            f"SQPnP: of all rotations the one that brings all {n} points nearest to their rays"
+        ),
     }[state.params.method]
     return f"{text}. RMS error in the picture {_px(state.rms)}."
 
@@ -186,11 +205,18 @@ def _sampled(state: State, now: ransac.State) -> Caption:
         {
             "sample": f"{sample}: three points by chance.{truth}",
             "degenerate": f"{sample} has no solution: no camera sees its three points like this.",
-            "model": f"{sample} gives a camera. All points vote: yes if it sees them within {limit}.{off}",
+            "model": (
+                f"{sample} gives a camera. All points vote: yes if it sees them within"
+                f" {limit}.{off}"
+            ),
             "inliers": f"{sample}: its camera sees {within} within {limit}.{off}",
-            "refit": f"Refit on the inliers, by least squares: now {within} are within {limit}.{off}",
-            "best": f"New best after {counted(now.iteration, 'sample')}: {within} within {limit}. If that is the share"
-            f" of inliers, {needed} give 99 % confidence.{off}",
+            "refit": (
+                f"Refit on the inliers, by least squares: now {within} are within {limit}.{off}"
+            ),
+            "best": (
+                f"New best after {counted(now.iteration, 'sample')}: {within} within {limit}. If"
+                f" that is the share of inliers, {needed} give 99 % confidence.{off}"
+            ),
         }[now.phase]
     )
 
@@ -203,7 +229,10 @@ def _repeated(state: State, now: Repeated) -> Caption:
             "wrong",
         )
     turn, centre = angle(float(np.median(now.degrees))), length(float(np.median(now.metres)))
-    text = f"The same in {n} other pictures, with other noise: half of the rotations are within {turn}, half of the"
+    text = (
+        f"The same in {n} other pictures, with other noise: half of the rotations are within"
+        f" {turn}, half of the"
+    )
     text += f" centres within {centre}."
     if now.swapped:
         text += f" In {percent(now.swapped / n, 0)} the wrong one of the two poses fitted better."
@@ -217,7 +246,10 @@ def _repeated(state: State, now: Repeated) -> Caption:
     text += f" {right} of {n} are right." if right < n else f" All {n} are right."
     if now.anew is not None:
         far = [percent(share, 0) for share in now.far]
-        text += f" Apart from these, of {ANEW} random cameras with as many random points our EPnP is over"
+        text += (
+            f" Apart from these, of {ANEW} random cameras with as many random points our EPnP is"
+            " over"
+        )
         text += f" {angle(FAR_DEGREES)} off in {far[0]}, SQPnP in {far[1]}."
     return Caption(text, "good" if right == n else "wrong" if right < 0.9 * n else "info")
 
@@ -234,7 +266,9 @@ def _px(error: float) -> str:
 
 
 def _misses(state: State, now: Searched) -> str:
-    """Say how far each candidate sees the points that judge, or the fourth one, from their pixels."""
+    """Say how far each candidate sees the points that judge, or the fourth one, from their
+    pixels.
+    """
     errors: Sequence[float] = [state.judged(T) for T in now.candidates]
     words = [pixels(error) if np.isfinite(error) else "from behind" for error in errors]
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

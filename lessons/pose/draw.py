@@ -1,4 +1,6 @@
-"""What one step looks like: the target, the cameras that could have seen it, the picture, and the errors."""
+"""What one step looks like: the target, the cameras that could have seen it, the picture, and the
+errors.
+"""
 
 import functools
 from dataclasses import dataclass
@@ -40,7 +42,9 @@ ALONG = View(eye=(7.5, -14.0, 8.5), target=(5.2, 5.0, 1.8), grid=None, axes=Fals
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """How a kind of target is drawn: seen from where, the photograph where and how wide, points and cameras how large."""
+    """How a kind of target is drawn: seen from where, the photograph where and how wide, points and
+    cameras how large.
+    """
 
     view: View
     screen: np.ndarray
@@ -100,7 +104,9 @@ def draw(state: State) -> Scene:
 
 @functools.lru_cache(maxsize=64)
 def _still(subject: Subject) -> dict[str, Primitive]:
-    """Return what is the same in all steps: the target, its points, the photograph and where points were seen in it."""
+    """Return what is the same in all steps: the target, its points, the photograph and where points
+    were seen in it.
+    """
     look = LOOKS[subject.kind]
     photograph = Picture(subject.photograph, "What the camera saw", look.width, look.screen)
     scene: dict[str, Primitive] = {
@@ -208,7 +214,9 @@ def _curve(now: Searched) -> dict[str, Primitive]:
 
 
 def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
-    """Return the motions to choose from, as cameras with the rays to their points, and for planes as planes."""
+    """Return the motions to choose from, as cameras with the rays to their points, and for planes
+    as planes.
+    """
     subject, scene = state.subject, dict[str, Primitive]()
     if now.phase not in ("root", "both", "choose"):
         return scene
@@ -249,7 +257,9 @@ def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
 
 
 def _as_seen(subject: Subject, T: np.ndarray) -> np.ndarray:
-    """Return the lines of the target where the true camera would have to see them, were this its pose."""
+    """Return the lines of the target where the true camera would have to see them, were this its
+    pose.
+    """
     assert subject.T_true is not None
     assert subject.body is not None
     ends = subject.body.lines.reshape(-1, 3) + subject.frame.centre

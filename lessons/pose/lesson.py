@@ -1,8 +1,10 @@
-"""Where was the camera: three points, four places; a fourth point, all of them, and a plane that has two answers.
+"""Where was the camera: three points, four places; a fourth point, all of them, and a plane that
+has two answers.
 
-What it teaches: three known points leave up to four cameras and mostly two, one more chooses; all together average the
-noise, linear methods first and Gauss-Newton after them. Flat targets have two explanations wherever perspective is
-weak, and no solver can know which is true. A small reprojection error is no proof of a pose.
+What it teaches: three known points leave up to four cameras and mostly two, one more chooses; all
+together average the noise, linear methods first and Gauss-Newton after them. Flat targets have two
+explanations wherever perspective is weak, and no solver can know which is true. A small
+reprojection error is no proof of a pose.
 """
 
 from collections.abc import Iterator
@@ -47,7 +49,9 @@ def run(
     choose_pose: ChoosePose = choose_pose,
     pose_step: PoseStep = pose_step,
 ) -> Iterator[State]:
-    """Yield the steps of one method, those downhill from its answer, and what it finds in other pictures."""
+    """Yield the steps of one method, those downhill from its answer, and what it finds in other
+    pictures.
+    """
     subject = subject_of(params)
     yield State(params=params, subject=subject)
     if params.method == "RANSAC":
@@ -110,7 +114,10 @@ def sampled(params: Params, subject: Subject) -> Iterator[Sampled]:
 lesson = Lesson(
     name="pose",
     title="Pose from points",
-    summary="Three known points leave up to four places for the camera, one more chooses, and all together average.",
+    summary=(
+        "Three known points leave up to four places for the camera, one more chooses, and all"
+        " together average."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

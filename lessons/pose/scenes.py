@@ -132,7 +132,9 @@ def _street() -> Solid:
 def _mapped(
     T: np.ndarray, K: np.ndarray, photograph: Image, most: int, rng: np.random.Generator
 ) -> np.ndarray:
-    """Return points of the street's map that its photograph shows: the same ones as far as the camera sees them."""
+    """Return points of the street's map that its photograph shows: the same ones as far as the
+    camera sees them.
+    """
     order = rng.permutation(MAPPED)
     p, n = (one[order] for one in street_map())
     ahead = ((camera_center(T) - p) * n).sum(axis=1) > 0.0
@@ -145,7 +147,9 @@ def _mapped(
 
 
 def _window(uv: np.ndarray) -> np.ndarray:
-    """Return the part of the picture around some pixels, with a margin, as wide to high as the photograph."""
+    """Return the part of the picture around some pixels, with a margin, as wide to high as the
+    photograph.
+    """
     low, high = uv.min(axis=0), uv.max(axis=0)
     middle, size = (low + high) / 2, 1.5 * np.maximum(high - low, 8.0)
     w, h = PHOTOGRAPH

@@ -61,7 +61,9 @@ def repeated(params: Params, subject: Subject) -> Repeated:
 
 @lru_cache(maxsize=8)
 def drawn_anew(n: int, sigma: float, seed: int) -> np.ndarray:
-    """Return the rotation errors of EPnP and of SQPnP, degrees (2, k), in pictures of n random points each."""
+    """Return the rotation errors of EPnP and of SQPnP, degrees (2, k), in pictures of n random
+    points each.
+    """
     rng = np.random.default_rng([seed, 4])
     R_true, p, xy = random_views(ANEW, n, rng)
     xy = xy + sigma * rng.standard_normal(xy.shape)

@@ -39,7 +39,8 @@ def _sample(state: State) -> Caption:
     )
     proportion = _proportion(state) if now.iteration == 1 else ""
     return Caption(
-        f"Sample {now.iteration}: {COUNTS[len(now.sample)]} {noun}, {how}.{_in_truth(state)}{proportion}"
+        f"Sample {now.iteration}: {COUNTS[len(now.sample)]} {noun},"
+        f" {how}.{_in_truth(state)}{proportion}"
     )
 
 
@@ -56,15 +57,19 @@ def _in_truth(state: State) -> str:
 
 def _degenerate(state: State) -> Caption:
     model = state.subject.model
-    text = f"Sample {state.now.iteration} is degenerate: {model.degenerate_when}, so it gives no {model.name}."
+    text = (
+        f"Sample {state.now.iteration} is degenerate: {model.degenerate_when}, so it gives no"
+        f" {model.name}."
+    )
     return Caption(f"{text} It counts as drawn.")
 
 
 def _model(state: State) -> Caption:
     now, model, noun = state.now, state.subject.model, state.subject.noun
     return Caption(
-        f"Sample {now.iteration} gives a {model.name} through its {COUNTS[len(now.sample)]} {noun} (purple). Now all"
-        f" {len(state.subject.p):,} {noun} vote: yes from those within {_limit(state)} of it."
+        f"Sample {now.iteration} gives a {model.name} through its {COUNTS[len(now.sample)]} {noun}"
+        f" (purple). Now all {len(state.subject.p):,} {noun} vote: yes from those within"
+        f" {_limit(state)} of it."
     )
 
 
@@ -83,7 +88,10 @@ def _inliers(state: State) -> Caption:
 def _best(state: State) -> Caption:
     now, best = state.now, sure(state.now.best)
     share = best.count / len(best.inliers)
-    text = f"New best after {counted(now.iteration, 'sample')}: {_points(state, best)}, {percent(share, 0)} of all"
+    text = (
+        f"New best after {counted(now.iteration, 'sample')}: {_points(state, best)},"
+        f" {percent(share, 0)} of all"
+    )
     text += f" {state.subject.noun}.{_trusted(state)}"
     if text.endswith(BY_CHANCE):
         return Caption(text + _to_the_truth(state))
@@ -92,7 +100,10 @@ def _best(state: State) -> Caption:
         allowed = counted(state.params.most_samples, "sample")
         text += f" If that is the share of inliers, the {allowed} allowed give no {asked}."
     else:
-        text += f" If that is the share of inliers, {counted(round(now.needed), 'sample')} give {asked}."
+        text += (
+            f" If that is the share of inliers, {counted(round(now.needed), 'sample')} give"
+            f" {asked}."
+        )
     return Caption(text + _to_the_truth(state))
 
 
@@ -110,7 +121,10 @@ def _refit(state: State) -> Caption:
         text += f" {before.count:,} → {best.count:,} votes"
         if len(state.subject.p_true):
             old = state.subject.error(before.estimate)
-            text += f"; RMS error to the truth {_distance(state, old)} → {_distance(state, state.best_error)}"
+            text += (
+                f"; RMS error to the truth {_distance(state, old)} →"
+                f" {_distance(state, state.best_error)}"
+            )
     return Caption(text + ".")
 
 
@@ -120,7 +134,10 @@ def _stop(state: State) -> Caption:
     text = f"Stop after {counted(now.iteration, 'sample')}: {now.stop.message}. "
     if now.best is None:
         return Caption(text + _why_none(state), "wrong")
-    text += f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are within {_limit(state)}"
+    text += (
+        f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are within"
+        f" {_limit(state)}"
+    )
     text += f" of the {state.subject.model.name}"
     if not np.isfinite(state.best_error):
         return Caption(
@@ -136,7 +153,10 @@ def _stop(state: State) -> Caption:
 def _why_none(state: State) -> str:
     model = state.subject.model
     if state.degenerate == state.now.iteration:
-        return f"Every sample was degenerate ({model.degenerate_when}): such {state.subject.noun} determine no {model.name}."
+        return (
+            f"Every sample was degenerate ({model.degenerate_when}): such {state.subject.noun}"
+            f" determine no {model.name}."
+        )
     return "A larger inlier distance or more samples may help."
 
 
@@ -157,13 +177,15 @@ def _proportion(state: State) -> str:
         else f"Is the cloud in {params.cloud_unit} (cloud_unit)?"
     )
     return (
-        f" Mind: the {state.subject.noun} extend over {_distance(state, size)}, so {few} of them can be expected within"
-        f" {_limit(state)} of any {state.subject.model.name}. {unsure}"
+        f" Mind: the {state.subject.noun} extend over {_distance(state, size)}, so {few} of them"
+        f" can be expected within {_limit(state)} of any {state.subject.model.name}. {unsure}"
     )
 
 
 def is_right(state: State) -> bool:
-    """Tell whether the best is the true model, but for noise: nearer than the noise allows single rows to be."""
+    """Tell whether the best is the true model, but for noise: nearer than the noise allows single
+    rows to be.
+    """
     in_pixels = state.subject.model.unit == "px"
     sigma = state.params.noise_pixels if in_pixels else state.params.noise
     return bool(state.best_error < max(sigma, 0.5 if in_pixels else 0.005))

@@ -1,4 +1,6 @@
-"""What one step of RANSAC looks like: points, the sample, the model it gives, the best so far, and the curves."""
+"""What one step of RANSAC looks like: points, the sample, the model it gives, the best so far, and
+the curves.
+"""
 
 import numpy as np
 
@@ -40,7 +42,9 @@ def draw(state: State) -> Scene:
 
 
 def _rows(state: State) -> dict[str, Primitive]:
-    """Draw all rows, coloured by their votes on the fit in question: the trial, or else the best."""
+    """Draw all rows, coloured by their votes on the fit in question: the trial, or else the
+    best.
+    """
     subject, now = state.subject, state.now
     fit = (
         now.trial
@@ -93,7 +97,9 @@ def _sample(state: State) -> dict[str, Primitive]:
 
 
 def _models(state: State) -> dict[str, Primitive]:
-    """Draw the truth, the best so far and the model under test, one of them with its slab, and at the end the rivals."""
+    """Draw the truth, the best so far and the model under test, one of them with its slab, and at
+    the end the rivals.
+    """
     subject, now = state.subject, state.now
     scene: dict[str, Primitive] = {}
     if subject.truth is not None:
@@ -221,7 +227,9 @@ def _curves(state: State) -> dict[str, Primitive]:
 
 
 def _histogram(fit: Fit, state: State) -> Curve:
-    """Count how many rows lie how far from the model in question; the mark is the inlier distance."""
+    """Count how many rows lie how far from the model in question; the mark is the inlier
+    distance.
+    """
     limit, unit = state.inlier_distance, state.subject.model.unit
     chart = Chart("Distances to the model", f"distance ({unit})", "how many")
     return chart.histogram(

@@ -1,8 +1,9 @@
 """RANSAC: guess a model from the fewest points, count who agrees, keep the best guess, refit it.
 
-What it teaches: a fit to all points is dragged off by those that do not belong; a guess from few points is right
-whenever the few are, and a formula says how often one must guess. What wins is the model with the most points near it:
-mind the distance that counts as near, the noise in the sample, and models one did not mean.
+What it teaches: a fit to all points is dragged off by those that do not belong; a guess from few
+points is right whenever the few are, and a formula says how often one must guess. What wins is the
+model with the most points near it: mind the distance that counts as near, the noise in the sample,
+and models one did not mean.
 """
 
 from collections.abc import Callable, Iterator
@@ -42,10 +43,11 @@ def run(
     count_inliers: Callable[[np.ndarray, np.ndarray, float], float] = count_inliers,
     iterations_needed: Callable[[float, int, float], float] = iterations_needed,
 ) -> Iterator[State]:
-    """Yield the steps of RANSAC. With the plane, its minimal fit and the count are the functions given here.
+    """Yield the steps of RANSAC. With the plane, its minimal fit and the count are the functions
+    given here.
 
-    The count gives the share of inliers for which the number of samples is asked, and is the score if that is "count".
-    PROSAC asks for the largest share among the most trusted, whoever counts.
+    The count gives the share of inliers for which the number of samples is asked, and is the score
+    if that is "count". PROSAC asks for the largest share among the most trusted, whoever counts.
     """
     subject = subject_of(params)
     rng = np.random.default_rng(params.seed)
@@ -98,7 +100,9 @@ def shown(params: Params, phase: str, iteration: int) -> bool:
 
 
 def score_of(params: Params, subject: Subject) -> Score:
-    """Return the score that the params name. An outlier may be anywhere in the window of the model."""
+    """Return the score that the params name. An outlier may be anywhere in the window of the
+    model.
+    """
     span = float(np.linalg.norm(subject.high - subject.low))
     return {"count": count_score, "MSAC": msac_score, "MLESAC": partial(mlesac_score, span=span)}[
         params.score
@@ -114,7 +118,8 @@ def checked(
         found = np.asarray(plane_from_points(p), dtype=float)
         if found.shape != (4,):
             raise InputError(
-                f"plane_from_points returned {found.shape} numbers; a plane is 4 numbers: a, b, c, d"
+                f"plane_from_points returned {found.shape} numbers; a plane is 4 numbers: a, b,"
+                " c, d"
             )
         return found
 
@@ -155,7 +160,8 @@ def samples_of(params: Params, subject: Subject, rng: np.random.Generator) -> It
         return uniform_samples(n, size, rng)
     if subject.quality is None:
         raise InputError(
-            "PROSAC draws the most trusted first, and this file does not say whom to trust: set sampler to uniform"
+            "PROSAC draws the most trusted first, and this file does not say whom to trust: set"
+            " sampler to uniform"
         )
     return prosac_samples(subject.quality, size, rng)
 
@@ -168,7 +174,9 @@ def chosen_sample(params: Params, subject: Subject) -> list[np.ndarray]:
 
 
 def rivals_of(subject: Subject, corner: float) -> tuple[Rival, ...]:
-    """Return least squares over all rows, and Huber's fit with its corner at the inlier distance."""
+    """Return least squares over all rows, and Huber's fit with its corner at the inlier
+    distance.
+    """
     if len(subject.p) < subject.model.fewest:
         return ()
     with np.errstate(
@@ -188,7 +196,10 @@ def rivals_of(subject: Subject, corner: float) -> tuple[Rival, ...]:
 lesson = Lesson(
     name="ransac",
     title="RANSAC",
-    summary="Guess from few points, count who agrees, keep the best: fits that outliers cannot drag off.",
+    summary=(
+        "Guess from few points, count who agrees, keep the best: fits that outliers cannot drag"
+        " off."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -1,4 +1,6 @@
-"""Seeded scenes for robust fitting: points or matches, most of them of one model, the others of none or of another."""
+"""Seeded scenes for robust fitting: points or matches, most of them of one model, the others of
+none or of another.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -22,10 +24,11 @@ class RobustScene:
     Attributes:
         p: The rows: points in metres, or matches (u, v, u', v') in pixels. Shuffled.
         is_inlier: Which rows were made from the model.
-        truth: The model: a line (a, b, c), plane (a, b, c, d), circle (x, y, r), sphere (x, y, z, r), H or F.
+        truth: The model: a line (a, b, c), plane (a, b, c, d), circle (x, y, r), sphere (x, y, z,
+            r), H or F.
         p_true: The inliers without their noise, for the error to the truth.
-        quality: How much each row is trusted before anything is fitted, as by the score of a match. Inliers mostly have
-            more.
+        quality: How much each row is trusted before anything is fitted, as by the score of a match.
+            Inliers mostly have more.
     """
 
     p: Float[np.ndarray, "n d"]
@@ -38,7 +41,9 @@ class RobustScene:
 def line_scene(
     rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
 ) -> RobustScene:
-    """Return points along a line across a window of 2 m by 2 m, with clutter above it, which drags least squares up."""
+    """Return points along a line across a window of 2 m by 2 m, with clutter above it, which drags
+    least squares up.
+    """
     inliers, outliers = _split(count, outlier_ratio)
     slope, height = rng.uniform(-0.3, 0.3), rng.uniform(-0.6, -0.3)
     x = rng.uniform(-1.0, 1.0, inliers)
@@ -53,7 +58,9 @@ def line_scene(
 def plane_scene(
     rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
 ) -> RobustScene:
-    """Return points of a tilted table top of 2 m by 2 m, with clutter standing on it, which drags least squares up."""
+    """Return points of a tilted table top of 2 m by 2 m, with clutter standing on it, which drags
+    least squares up.
+    """
     inliers, outliers = _split(count, outlier_ratio)
     truth, up = _table(rng)
     p_true = up(rng.uniform(-1.0, 1.0, (inliers, 2)), np.zeros(inliers))
@@ -64,7 +71,9 @@ def plane_scene(
 def two_planes_scene(
     rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
 ) -> RobustScene:
-    """Return a small table top, which is the truth, beside a wall that holds twice as many points, and clutter."""
+    """Return a small table top, which is the truth, beside a wall that holds twice as many points,
+    and clutter.
+    """
     inliers, outliers = _split(count, outlier_ratio)
     table = inliers // 3
     truth, up = _table(rng)
@@ -80,7 +89,8 @@ def two_planes_scene(
 def wire_scene(
     rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
 ) -> RobustScene:
-    """Return a table top with two thirds of its points exactly along a taut wire: samples of the wire are degenerate.
+    """Return a table top with two thirds of its points exactly along a taut wire: samples of the
+    wire are degenerate.
 
     The first three rows are points of the wire.
     """
@@ -100,7 +110,9 @@ def wire_scene(
 def circle_scene(
     rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
 ) -> RobustScene:
-    """Return points of two thirds of a circle in a window of 2 m by 2 m, with clutter mostly to one side."""
+    """Return points of two thirds of a circle in a window of 2 m by 2 m, with clutter mostly to one
+    side.
+    """
     inliers, outliers = _split(count, outlier_ratio)
     center, radius = rng.uniform(-0.35, 0.0, 2), rng.uniform(0.45, 0.6)
     angle = rng.uniform(0.0, 2.0) * np.pi + rng.uniform(0.0, 4.0 / 3.0, inliers) * np.pi
@@ -125,9 +137,11 @@ def sphere_scene(
 def match_scene(
     rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float, flat: bool = False
 ) -> RobustScene:
-    """Return matches between two views, 640 by 480 pixels, of a deep scene (truth: F) or of one wall (truth: H).
+    """Return matches between two views, 640 by 480 pixels, of a deep scene (truth: F) or of one
+    wall (truth: H).
 
-    The noise is in both views; a wrong match joins any two pixels. H takes pixels of the first view to the second.
+    The noise is in both views; a wrong match joins any two pixels. H takes pixels of the first view
+    to the second.
     """
     inliers, outliers = _split(count, outlier_ratio)
     turn = exp_so3(rng.normal(size=3) * [0.04, 0.06, 0.1] + [0.0, -0.15, 0.0])
@@ -172,7 +186,9 @@ def _split(count: int, outlier_ratio: float) -> tuple[int, int]:
 def _table(
     rng: np.random.Generator,
 ) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
-    """Return a tilted plane, and the function that puts places on it, at heights above it, into the world."""
+    """Return a tilted plane, and the function that puts places on it, at heights above it, into the
+    world.
+    """
     R_world_table = exp_so3(np.append(rng.uniform(-0.15, 0.15, 2), 0.0))
     shift = np.array([0.0, 0.0, rng.uniform(-0.05, 0.05)])
 

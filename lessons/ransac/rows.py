@@ -1,4 +1,6 @@
-"""Where the rows of a run come from, built-in scenes or the person's own files, and where they stand in the picture."""
+"""Where the rows of a run come from, built-in scenes or the person's own files, and where they
+stand in the picture.
+"""
 
 from collections.abc import Callable
 from functools import lru_cache
@@ -35,7 +37,8 @@ def subject_of(params: Params) -> Subject:
     ):
         if given is not None and (model.unit != unit or model.columns == 2):
             raise InputError(
-                f"{name} {given.name} cannot be fitted with a {model.name}: set {called('model')} to {others}"
+                f"{name} {given.name} cannot be fitted with a {model.name}: set {called('model')}"
+                f" to {others}"
             )
     if params.cloud is not None:
         return _own_cloud(params, model)
@@ -117,15 +120,24 @@ def _own_matches(params: Params, model: Model) -> Subject:
         for file in (params.first_image, params.second_image)
     )
     sizes = tuple(
-        1.05 * p[:, 2 * k : 2 * k + 2].max(axis=0)
-        if image is None
-        else np.array(image.shape[1::-1], float)
+        (
+            1.05 * p[:, 2 * k : 2 * k + 2].max(axis=0)
+            if image is None
+            else np.array(image.shape[1::-1], float)
+        )
         for k, image in enumerate(images)
     )
     return _of_matches(
-        model, p, sizes, 1.28 / max(float(np.max(sizes)), 1.0), images,
-        truth=truth, p_true=p[near], is_inlier=None if truth is None else near, quality=quality,
-    )  # fmt: skip
+        model,
+        p,
+        sizes,
+        1.28 / max(float(np.max(sizes)), 1.0),
+        images,
+        truth=truth,
+        p_true=p[near],
+        is_inlier=None if truth is None else near,
+        quality=quality,
+    )
 
 
 def _of_matches(

@@ -14,7 +14,8 @@ NOTHING = np.zeros((0, 2, 3))
 
 
 def outline(subject: Subject, estimate: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Return the segments (n, 2, 3) that show an estimate; for a fundamental matrix, the lines of the matches `rows`.
+    """Return the segments (n, 2, 3) that show an estimate; for a fundamental matrix, the lines of
+    the matches `rows`.
 
     The same question has the same answer, so that a viewer is not sent again what has not changed.
     """
@@ -50,9 +51,11 @@ def _outline(
 
 
 def slab(subject: Subject, estimate: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the outlines of a model moved to either side by a distance, and in a plane the corners of the band between.
+    """Return the outlines of a model moved to either side by a distance, and in a plane the corners
+    of the band between.
 
-    The last number of a line, plane or circle is where it lies, in metres; of other models no slab is drawn.
+    The last number of a line, plane or circle is where it lies, in metres; of other models no slab
+    is drawn.
     """
     nothing = np.zeros((0, 3))
     if subject.model.name not in ("line", "plane", "circle"):

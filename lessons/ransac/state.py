@@ -63,9 +63,16 @@ class Params:
     ] = 1.0
     inlier_pixels: Annotated[
         float,
-        Knob("Matches this near to a model vote for it; 95 % of the true ones lie within 3.46 sigma for a homography, within"
-             " 1.96 sigma for a fundamental matrix", 0.1, 30, unit="px", step=0.1, needs=IN_PIXELS),
-    ] = 3.5  # fmt: skip
+        Knob(
+            "Matches this near to a model vote for it; 95 % of the true ones lie within 3.46 sigma"
+            " for a homography, within 1.96 sigma for a fundamental matrix",
+            0.1,
+            30,
+            unit="px",
+            step=0.1,
+            needs=IN_PIXELS,
+        ),
+    ] = 3.5
     score: Annotated[
         ScoreName, Knob("How good a candidate is, from the distances of all points")
     ] = "count"
@@ -87,9 +94,13 @@ class Params:
     ] = "every sample"
     sample: Annotated[
         tuple[int, int, int, int],
-        Knob("Your own first sample: click points; the last clicks count, -1 is none", -1, MOST_POINTS - 1,
-             by=Pick("points")),
-    ] = (-1, -1, -1, -1)  # fmt: skip
+        Knob(
+            "Your own first sample: click points; the last clicks count, -1 is none",
+            -1,
+            MOST_POINTS - 1,
+            by=Pick("points"),
+        ),
+    ] = (-1, -1, -1, -1)
     cloud: Annotated[
         Path | None,
         Knob("Own cloud for a plane or a sphere: ply, pcd, obj, xyz, csv, npz", needs=OF_A_CLOUD),
@@ -122,7 +133,8 @@ class Subject:
         is_inlier: Which rows were made from the model, where known.
         quality: How much each row is trusted, where known.
         low, high: The ends of the window in which models are drawn, in the unit of the rows.
-        places: For each half of a row that is a point (one, or two for a match), where it stands in the picture.
+        places: For each half of a row that is a point (one, or two for a match), where it stands in
+            the picture.
         sizes: Of the two images, pixels; for matches only.
         images: The images themselves, where the person gave them.
         noun: What a row is called.
@@ -148,12 +160,16 @@ class Subject:
         return tuple(place(self.p[:, k * d : (k + 1) * d]) for k, place in enumerate(self.places))
 
     def most_trusted(self, fit: ransac.Fit) -> tuple[int, float]:
-        """Return among how many of the most trusted rows a fit has the largest share of votes, and this share."""
+        """Return among how many of the most trusted rows a fit has the largest share of votes, and
+        this share.
+        """
         assert self.quality is not None
         return termination_length(fit.inliers, self.quality, self.model.sample_size)
 
     def error(self, estimate: np.ndarray | None) -> float:
-        """Return the root mean square distance of the noiseless rows to an estimate; NaN where that is not known."""
+        """Return the root mean square distance of the noiseless rows to an estimate; NaN where that
+        is not known.
+        """
         if estimate is None or not len(self.p_true):
             return float("nan")
         return rms_distance(self.model, estimate, self.p_true)
@@ -183,7 +199,8 @@ class State:
         subject: The rows, the same for the whole run.
         now: What RANSAC yielded.
         inlier_distance: In the unit of the model.
-        best_error: Of the best so far to the truth; NaN where there is none or the truth is not known.
+        best_error: Of the best so far to the truth; NaN where there is none or the truth is not
+            known.
         chosen: Whether the sample was picked by the person.
         rivals: Least squares and Huber, over all rows.
         before: The best one step earlier, if any: what a new best or a refit replaced.

@@ -1,4 +1,6 @@
-"""What stands beside the picture: error for bytes, errors by step, tables, and how searches grow."""
+"""What stands beside the picture: error for bytes, errors by step, tables, and how searches
+grow.
+"""
 
 import numpy as np
 
@@ -20,8 +22,12 @@ LOOKED = Chart("Points looked at, 3 dimensions", "log₁₀ points", "points loo
 SHARE = Chart("Share looked at, of 4,000 points", "dimensions", "%")
 FIELD = Chart("Along x through the middle", "x (m)", "m")
 ROLES: dict[str, Role] = {
-    "cloud": "correspondence", "mesh": "target", "voxels": "neutral", "distances": "other", "patches": "highlight",
-}  # fmt: skip
+    "cloud": "correspondence",
+    "mesh": "target",
+    "voxels": "neutral",
+    "distances": "other",
+    "patches": "highlight",
+}
 
 
 def beside(state: State) -> dict[str, Primitive]:

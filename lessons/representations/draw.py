@@ -1,4 +1,6 @@
-"""What one step looks like: the true shape, what is stored of it, and the surface that comes back."""
+"""What one step looks like: the true shape, what is stored of it, and the surface that comes
+back.
+"""
 
 import functools
 
@@ -102,7 +104,9 @@ def _cells(state: State, now: Cells | Fitted) -> dict[str, Primitive]:
 
 
 def _slice(values: np.ndarray, grid: Grid, *, aside: bool) -> Picture:
-    """Return the distances in the layer of cells behind y = 0, as an upright picture there, or out of the way."""
+    """Return the distances in the layer of cells behind y = 0, as an upright picture there, or out
+    of the way.
+    """
     layer = grid.shape[1] // 2
     shown = Field(
         values[:, layer, ::-1].T.astype(float), -REACH, REACH, "Stored distance", "m", "diverging"

@@ -1,4 +1,6 @@
-"""The forms: each is refined step by step, and what comes back of it is measured against the true shape."""
+"""The forms: each is refined step by step, and what comes back of it is measured against the true
+shape.
+"""
 
 import functools
 from collections.abc import Callable, Iterator
@@ -106,9 +108,14 @@ def neighbours(params: Params, subject: Subject, functions: Functions) -> Steps:
         edges = edges_of(graph)
         away = np.abs(subject.distance(p[edges].mean(axis=1)))
         now = Joined(
-            p=p, k=k, edges=edges, pieces=int(components(graph).max()) + 1,
-            mean=float(away.mean()), worst=float(away.max()), bridge=int(away.argmax()),
-        )  # fmt: skip
+            p=p,
+            k=k,
+            edges=edges,
+            pieces=int(components(graph).max()) + 1,
+            mean=float(away.mean()),
+            worst=float(away.max()),
+            bridge=int(away.argmax()),
+        )
         state = grown(replace(state, now=now), 12 * len(p) + 4 * k * len(p), now.mean)
         yield state
 
@@ -123,7 +130,9 @@ def mesh(params: Params, subject: Subject, functions: Functions) -> Steps:
 
 
 def meshes(params: Params, subject: Subject) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield ever finer meshes: vertices on a torus, boxes cut finer, others with vertices made one in ever smaller cells."""
+    """Yield ever finer meshes: vertices on a torus, boxes cut finer, others with vertices made one
+    in ever smaller cells.
+    """
     made = params.mesh is None
     if made and params.shape not in ("torus", "rabbit"):
         p, faces = subject.p, subject.faces
@@ -272,9 +281,14 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
         faces = np.concatenate([quads + len(uv) * k for k in range(n)])
         away = np.abs(subject.distance(at))
         surface = Surface(
-            p=at, faces=faces, mean=float(away.mean()), worst=float(away.max()), area=float("nan"),
-            volume=float("nan"), tilt=float("nan"),
-        )  # fmt: skip
+            p=at,
+            faces=faces,
+            mean=float(away.mean()),
+            worst=float(away.max()),
+            area=float("nan"),
+            volume=float("nan"),
+            tilt=float("nan"),
+        )
         state = replace(state, now=replace(now, count=n), surface=surface)
         if n == 16:
             state = grown(state, state.bytes, surface.mean)

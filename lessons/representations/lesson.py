@@ -1,7 +1,9 @@
-"""One object, many forms: each answers one question at once and pays elsewhere, all on one scale of errors over bytes.
+"""One object, many forms: each answers one question at once and pays elsewhere, all on one scale of
+errors over bytes.
 
-What it teaches: how a cloud, a mesh, bits, distances, an octree, a k-d tree, patches and a network store a shape, what
-comes back of it, and by which law the error falls with the bytes; where each form fails without a word.
+What it teaches: how a cloud, a mesh, bits, distances, an octree, a k-d tree, patches and a network
+store a shape, what comes back of it, and by which law the error falls with the bytes; where each
+form fails without a word.
 """
 
 from collections.abc import Iterator
@@ -49,7 +51,10 @@ def run(
 lesson = Lesson(
     name="representations",
     title="One object, many forms",
-    summary="Points, triangles, bits, distances, patches, a network: each answers one question at once and pays elsewhere.",
+    summary=(
+        "Points, triangles, bits, distances, patches, a network: each answers one question at once"
+        " and pays elsewhere."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -43,9 +43,14 @@ class Params:
     ] = 5
     points: Annotated[
         int,
-        Knob("Points at the end, of a mesh vertices at most", 100, 100_000, step=100,
-             needs={"form": ("cloud", "neighbours", "mesh", "k-d tree")}),
-    ] = 4000  # fmt: skip
+        Knob(
+            "Points at the end, of a mesh vertices at most",
+            100,
+            100_000,
+            step=100,
+            needs={"form": ("cloud", "neighbours", "mesh", "k-d tree")},
+        ),
+    ] = 4000
     neighbours: Annotated[
         int, Knob("How many each point is joined to", 1, 16, needs={"form": ("neighbours",)})
     ] = 8
@@ -74,14 +79,21 @@ class Params:
     place: Annotated[
         tuple[float, float],
         Knob("Where on the first patch", 0, 1, parts=("u", "v"), needs={"form": ("patches",)}),
-    ] = (0.4, 0.6)  # fmt: skip
+    ] = (0.4, 0.6)
     dimensions: Annotated[
         int, Knob("Coordinates of each point", 2, 20, needs={"form": ("k-d tree",)})
     ] = 3
     query: Annotated[
         tuple[float, float, float],
-        Knob("Whose nearest point is looked for", -1, 1, unit="m", by=Gizmo(0.3), needs={"form": ("k-d tree",)}),
-    ] = (0.35, -0.6, 0.25)  # fmt: skip
+        Knob(
+            "Whose nearest point is looked for",
+            -1,
+            1,
+            unit="m",
+            by=Gizmo(0.3),
+            needs={"form": ("k-d tree",)},
+        ),
+    ] = (0.35, -0.6, 0.25)
     mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
     cloud: Annotated[
         Path | None, Knob("Own points instead: ply, pcd, obj, xyz, csv, npz", needs=OF_CLOUDS)
@@ -100,7 +112,8 @@ class Subject:
         name: What it is called in sentences.
         p: Vertices of a fine mesh of it; of an own cloud its points.
         faces: Counterclockwise seen from outside; none of a cloud.
-        distance: The true distance of points to it, negative inside; nowhere negative where it is open.
+        distance: The true distance of points to it, negative inside; nowhere negative where it is
+            open.
         field: What is stored as its distance.
         inside: Which points it encloses.
         area: The true area.
@@ -161,7 +174,9 @@ class Cloud:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Joined:
-    """Points, each joined to its k nearest: edges (e, 2), pieces, how far middles of edges are off, m, whose is worst."""
+    """Points, each joined to its k nearest: edges (e, 2), pieces, how far middles of edges are off,
+    m, whose is worst.
+    """
 
     p: np.ndarray
     k: int
@@ -174,7 +189,9 @@ class Joined:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Cells:
-    """One number for each cell of a grid: bits, or distances. `walls` is the area of the walls of full cells, m^2."""
+    """One number for each cell of a grid: bits, or distances. `walls` is the area of the walls of
+    full cells, m^2.
+    """
 
     grid: Grid
     values: np.ndarray
@@ -183,12 +200,14 @@ class Cells:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Patches:
-    """Patches of a torus: their control points (w x, w y, w z, w), and which of them were evaluated.
+    """Patches of a torus: their control points (w x, w y, w z, w), and which of them were
+    evaluated.
 
     Attributes:
         control: The control points.
         net: The different ones.
-        levels: De Casteljau's points so far: those of the four rows, and then of the column that they give.
+        levels: De Casteljau's points so far: those of the four rows, and then of the column that
+            they give.
         point: Where the student's function says that the place is.
         count: How many patches were evaluated.
     """
@@ -229,7 +248,9 @@ class Fitted:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Growth:
-    """How many points a search looks at on average: of ever more points in 3 dimensions, of 4,000 in ever more of them."""
+    """How many points a search looks at on average: of ever more points in 3 dimensions, of 4,000
+    in ever more of them.
+    """
 
     counts: np.ndarray
     looked: np.ndarray

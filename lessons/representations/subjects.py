@@ -1,4 +1,6 @@
-"""What is stored: a shape whose distance is known in closed form, the rabbit, or a person's own mesh."""
+"""What is stored: a shape whose distance is known in closed form, the rabbit, or a person's own
+mesh.
+"""
 
 import functools
 from collections.abc import Callable
@@ -52,14 +54,16 @@ def subject_of(params: Params, box_sdf: BoxSdf) -> Subject:
         if params.form not in OF_CLOUDS["form"]:
             forms = ", ".join(OF_CLOUDS["form"])
             raise InputError(
-                f"{params.cloud.name} is points, which have no faces and no inside; {called('form')} is one of {forms}"
+                f"{params.cloud.name} is points, which have no faces and no inside;"
+                f" {called('form')} is one of {forms}"
             )
         return _own_cloud(params.cloud, stamp(params.cloud), params.up)
     if params.mesh is not None:
         subject = _own(params.mesh, stamp(params.mesh), params.up)
         if not subject.closed and params.form not in ("cloud", "mesh"):
             raise InputError(
-                f"{subject.name} is open, or its faces disagree: inside has no meaning; store it as cloud or mesh"
+                f"{subject.name} is open, or its faces disagree: inside has no meaning; store it as"
+                " cloud or mesh"
             )
         return subject
     if params.shape == "rabbit":
@@ -110,7 +114,9 @@ def measured(subject: Subject, p: np.ndarray, faces: np.ndarray) -> Surface:
 
 
 def covered(subject: Subject, p: np.ndarray) -> tuple[float, float, np.ndarray]:
-    """Return how far the surface is from the nearest of some points, on average and at worst, and where it is worst."""
+    """Return how far the surface is from the nearest of some points, on average and at worst, and
+    where it is worst.
+    """
     away = np.asarray(scipy.spatial.cKDTree(p).query(subject.on)[0])
     return float(away.mean()), float(away.max()), subject.on[int(away.argmax())]
 
@@ -218,6 +224,14 @@ def _own_cloud(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
         return np.asarray(tree.query(q)[0])
 
     return Subject(
-        name=path.name, p=p, faces=np.empty((0, 3), int), distance=distance, field=distance,
-        inside=lambda q: np.zeros(len(q), dtype=bool), area=float("nan"), volume=float("nan"), on=p, quick=False,
-    )  # fmt: skip
+        name=path.name,
+        p=p,
+        faces=np.empty((0, 3), int),
+        distance=distance,
+        field=distance,
+        inside=lambda q: np.zeros(len(q), dtype=bool),
+        area=float("nan"),
+        volume=float("nan"),
+        on=p,
+        quick=False,
+    )

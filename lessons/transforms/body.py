@@ -112,7 +112,9 @@ def shape_factors(params: Params) -> list[Factor]:
 def motion_factors(
     params: Params, euler_to_matrix: FromEuler, rotation_from_axis_angle: Rodrigues
 ) -> list[Factor]:
-    """Return the three turns, the handle's turn if there is one, and the translation, in the chosen order."""
+    """Return the three turns, the handle's turn if there is one, and the translation, in the chosen
+    order.
+    """
     numbers, turns, R_before = numbers_of(params), [], np.eye(3)
     for k, letter in enumerate(params.order):
         R = euler_to_matrix(np.where(np.arange(3) <= k, numbers.angles, 0.0), params.order)

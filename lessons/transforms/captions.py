@@ -26,7 +26,9 @@ TAKEN_BACK = ("nothing", "undo by (Rᵀ, −t)", "undo all as if rigid")  # what
 
 
 def caption_of_build(state: Built) -> Caption:
-    """Say what the newest factor did, and how the second reading compares once the map is complete."""
+    """Say what the newest factor did, and how the second reading compares once the map is
+    complete.
+    """
     caption = _factor_caption(state)
     if state.factor.kind == "undo" and state.ghosts:
         (ghost,) = state.ghosts
@@ -89,18 +91,36 @@ def _factor_caption(state: Built) -> Caption:
         size += "" if np.isnan(volume) else f", volume {brief(volume)} m³"
         return Caption(f"The {state.body.name} before anything is done: {size}; T is the identity.")
     if kind == "scale":
-        text = f"Scaled, {words}: edges change by up to {percent(change['edge lengths'])}, volumes × {det}."
+        text = (
+            f"Scaled, {words}: edges change by up to {percent(change['edge lengths'])}, volumes ×"
+            f" {det}."
+        )
     elif kind == "shear":
-        text = f"Sheared, {words}: angles change by up to {angle(np.degrees(change['angles']))}, yet det is {det}: the"
+        text = (
+            f"Sheared, {words}: angles change by up to {angle(np.degrees(change['angles']))}, yet"
+            f" det is {det}: the"
+        )
         text += " volume stays."
     elif kind == "perspective":
-        text = f"Divided by {words}: straight edges stay straight, but edges that were parallel are now up to"
-        text += f" {angle(np.degrees(change['parallel edges']))} apart. The last row of T is no longer 0 0 0 1."
+        text = (
+            f"Divided by {words}: straight edges stay straight, but edges that were parallel are"
+            " now up to"
+        )
+        text += (
+            f" {angle(np.degrees(change['parallel edges']))} apart. The last row of T is no longer"
+            " 0 0 0 1."
+        )
     elif kind == "mirror":
-        text = f"Mirrored, {words}: det is {det}. Every length and angle is kept, but a left hand would now be a right"
+        text = (
+            f"Mirrored, {words}: det is {det}. Every length and angle is kept, but a left hand"
+            " would now be a right"
+        )
         text += " one; no rotation does that."
     elif kind == "translate":
-        text = f"Translated by {words}: every point (w = 1) moved {length(moved)}, every direction (w = 0) 0 m."
+        text = (
+            f"Translated by {words}: every point (w = 1) moved {length(moved)}, every direction (w"
+            " = 0) 0 m."
+        )
     else:
         return _turn_caption(state, moved, f"Turned {words}", point)
     return Caption(text + _lock_words(state))
@@ -114,18 +134,27 @@ def _turn_caption(state: Built, moved: float, turned: str, point: int) -> Captio
         text = f"{turned}, that is not at all: nothing moved."
     else:
         solid = "volume" if any(change.name == "volume" for change in state.by_factor) else "area"
-        text = f"{turned}: vertex {point} moved {length(moved)}, and every length, angle and {solid} survived."
+        text = (
+            f"{turned}: vertex {point} moved {length(moved)}, and every length, angle and {solid}"
+            " survived."
+        )
     return Caption(text + _lock_words(state))
 
 
 def _undo_caption(state: Built) -> Caption:
     if state.left < SAME:
-        text = f"Taken back with (Rᵀ, −Rᵀt): all {len(state.body.solid.p):,} vertices are where they were before the motion."
+        text = (
+            f"Taken back with (Rᵀ, −Rᵀt): all {len(state.body.solid.p):,} vertices are where they"
+            " were before the motion."
+        )
         stays = _shape_that_stays(state)
         return Caption(
             text + stays, "good" if not stays and state.params.compare in TAKEN_BACK else "info"
         )
-    text = f"Taken back by the given inverse: the farthest vertex is {length(state.left)} from where it was before"
+    text = (
+        f"Taken back by the given inverse: the farthest vertex is {length(state.left)} from where"
+        " it was before"
+    )
     return Caption(f"{text} the motion.", "wrong")
 
 
@@ -148,7 +177,10 @@ def _shape_that_stays(state: Built) -> str:
         (change for change in state.by_all if change.name == "volume" and not change.kept), None
     )
     size = "" if volume is None else f", and with it the volume {times(volume.factor)}"
-    return f" The {' and the '.join(done)} came before it and {'stays' if len(done) == 1 else 'stay'}{size}."
+    return (
+        f" The {' and the '.join(done)} came before it and"
+        f" {'stays' if len(done) == 1 else 'stay'}{size}."
+    )
 
 
 def times(factor: float) -> str:
@@ -173,10 +205,14 @@ def caption_of_move(state: Moved) -> Caption:
     method = state.params.method
     if len(way.times) == 1:
         return Caption(
-            f"t = 0: the start. The shortest turn to the end is {fixed(shortest, 1)}°; {_HOW[method]}."
+            f"t = 0: the start. The shortest turn to the end is {fixed(shortest, 1)}°;"
+            f" {_HOW[method]}."
         )
     step = way.turned[-1] - way.turned[-2]
-    text = f"t = {state.t:.2f} by {method.replace('-q', '−q')}: turned {fixed(way.turned[-1], 1)}° so far, pose by pose,"
+    text = (
+        f"t = {state.t:.2f} by {method.replace('-q', '−q')}: turned {fixed(way.turned[-1], 1)}° so"
+        " far, pose by pose,"
+    )
     text += f" {fixed(step, 1)}° of it in this step"
     if abs(state.volume - 1.0) > SAME:
         share = f"the volume is {percent(abs(state.volume))} of the start's"
@@ -196,7 +232,9 @@ def caption_of_move(state: Moved) -> Caption:
 
 
 def _arrival(state: Moved, text: str, shortest: float) -> Caption:
-    """Say at t = 1 whether the end is met, and whether the way there was the shortest turn of a rigid body."""
+    """Say at t = 1 whether the end is met, and whether the way there was the shortest turn of a
+    rigid body.
+    """
     p, lowest = state.body.solid.p, float(np.abs(state.way.volume).min())
     missed = np.linalg.norm(
         transform(state.T_world_body, p) - transform(state.T_world_end, p), axis=1

@@ -1,4 +1,6 @@
-"""Second readings of the same numbers: each the picture of one mistake, or of two names for one thing."""
+"""Second readings of the same numbers: each the picture of one mistake, or of two names for one
+thing.
+"""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -28,7 +30,8 @@ CONVENTIONS: tuple[EulerOrder, ...] = ("xyz", "XYZ", "ZYX", "ZXZ")
 
 
 def ghosts_of(params: Params, body: Body, numbers: Numbers, A: np.ndarray) -> tuple[Ghost, ...]:
-    """Return the second readings of the whole map, to be compared with the body before it is taken back.
+    """Return the second readings of the whole map, to be compared with the body before it is taken
+    back.
 
     Args:
         params: Which comparison is asked for.
@@ -94,7 +97,9 @@ def _fixed_and_own(numbers: Numbers) -> list[tuple[str, np.ndarray]]:
 
 
 def other_triples(numbers: Numbers) -> np.ndarray:
-    """Return other angles for the same rotation: three of a family in gimbal lock, elsewhere the only other one."""
+    """Return other angles for the same rotation: three of a family in gimbal lock, elsewhere the
+    only other one.
+    """
     if gimbal_margin(numbers.angles, numbers.order) < 1e-12:
         return locked_family(numbers.angles, numbers.order, np.radians([40.0, 80.0, -60.0]))
     return other_triple(numbers.angles, numbers.order)[None]

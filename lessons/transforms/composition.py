@@ -1,6 +1,7 @@
 """Build a map factor by factor, and undo its rigid part.
 
-References: Foley, van Dam, Feiner and Hughes, Computer Graphics: Principles and Practice, 2nd ed., 1990, chapter 5.
+References: Foley, van Dam, Feiner and Hughes, Computer Graphics: Principles and Practice, 2nd ed.,
+1990, chapter 5.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -43,7 +44,8 @@ class State:
 def compose(
     shape: Sequence[Factor], motions: Sequence[Factor], invert_rigid: Invert
 ) -> Iterator[State]:
-    """Yield the product after each factor, multiplied from right to left, and then with the rigid ones undone.
+    """Yield the product after each factor, multiplied from right to left, and then with the rigid
+    ones undone.
 
     Args:
         shape: Factors that change the body's shape; they act first.

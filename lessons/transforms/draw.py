@@ -1,4 +1,6 @@
-"""What one step looks like: the body and where it started, the numbers beside it, and what just happened in words."""
+"""What one step looks like: the body and where it started, the numbers beside it, and what just
+happened in words.
+"""
 
 import functools
 
@@ -138,7 +140,9 @@ def _above(word: str, body: Body, T: np.ndarray) -> Label:
 
 
 def _axes_of_turns(state: Moved) -> dict[str, Primitive]:
-    """Return the axis of the shortest turn, and the line about which the body turned to come here: for a screw, its own."""
+    """Return the axis of the shortest turn, and the line about which the body turned to come here:
+    for a screw, its own.
+    """
     axis, turn = axis_angle_from_rotation(state.T_world_end[:3, :3] @ state.T_world_start[:3, :3].T)
     scene: dict[str, Primitive] = {}
     if turn > ROUND_OFF:
@@ -171,7 +175,9 @@ def _line(
 def _shown(
     path: str, body: Body, T: np.ndarray, color: Role, opacity: float, name: str = ""
 ) -> dict[str, Primitive]:
-    """Return the body as a surface with its edges; the faces of a mirrored one go round the other way."""
+    """Return the body as a surface with its edges; the faces of a mirrored one go round the other
+    way.
+    """
     p, faces, pose = body.solid.p, body.solid.faces, T
     if not is_affine(T):
         p, pose = transform(T, p), None
@@ -211,7 +217,9 @@ def _front(body: Body, T: np.ndarray) -> Segments:
 
 
 def _turning_axes(state: Built) -> dict[str, Primitive]:
-    """Return the directions about which the three angles now turn the body; the one turned last is thick."""
+    """Return the directions about which the three angles now turn the body; the one turned last is
+    thick.
+    """
     axes = euler_axes(state.angles, state.params.order)
     last = (
         state.params.first == "rotate, then translate"
@@ -280,7 +288,9 @@ def _invariants(state: State) -> Table:
 
 
 def _one_point(state: Built) -> Table:
-    """Show the followed vertex (w = 1) and the direction to the front (w = 0) before and after the map."""
+    """Show the followed vertex (w = 1) and the direction to the front (w = 0) before and after the
+    map.
+    """
     columns = [np.append(state.body.p_point, 1.0), np.append(FRONT, 0.0)]
     p, v = columns
     after_p, after_v = state.T @ p, state.T @ v
@@ -293,7 +303,8 @@ def _one_point(state: Built) -> Table:
 
 
 def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder) -> Table:
-    """Show the rotation in a 4×4 under its other names; what stretches or mirrors is split off first.
+    """Show the rotation in a 4×4 under its other names; what stretches or mirrors is split off
+    first.
 
     A projective map has no such parts: then the rotation is that of its rigid factors alone.
     """

@@ -1,7 +1,8 @@
 """Transforms: one motion, many numbers, and what each kind of map leaves as it was.
 
-What it teaches: a 4x4 is a product in which the order counts; lengths, angles, volumes and orientation tell the kinds of
-maps apart; Euler angles, matrices and quaternions are names of one rotation, and only some of them can be blended.
+What it teaches: a 4x4 is a product in which the order counts; lengths, angles, volumes and
+orientation tell the kinds of maps apart; Euler angles, matrices and quaternions are names of one
+rotation, and only some of them can be blended.
 """
 
 from collections.abc import Iterator
@@ -72,11 +73,13 @@ def _build(
             by_all=changes(body.measures, after),
             trail=trail,
             complete=complete,
-            ghosts=undo_ghosts_of(params, body, now.T_world_body, A)
-            if undone
-            else ghosts
-            if complete
-            else (),
+            ghosts=(
+                undo_ghosts_of(params, body, now.T_world_body, A)
+                if undone
+                else ghosts
+                if complete
+                else ()
+            ),
             left=float(np.linalg.norm(p_now - p_shaped, axis=1).max()) if undone else float("nan"),
         )
         before = after
@@ -164,7 +167,10 @@ def _gone(way: Way, now: between.State, before: between.State, p_point: np.ndarr
 lesson = Lesson(
     name="transforms",
     title="Transforms",
-    summary="The same motion, many numbers: build a 4×4 matrix factor by factor, and blend two poses in five ways.",
+    summary=(
+        "The same motion, many numbers: build a 4×4 matrix factor by factor, and blend two poses in"
+        " five ways."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -46,9 +46,16 @@ class Params:
     ] = "build a map"
     angles: Annotated[
         tuple[float, float, float],
-        Knob("Three turns, in the order of the letters below; the start pose when moving", -180, 180, unit="deg", step=1,
-             label="Angle", parts=("1", "2", "3")),
-    ] = (30.0, 20.0, 60.0)  # fmt: skip
+        Knob(
+            "Three turns, in the order of the letters below; the start pose when moving",
+            -180,
+            180,
+            unit="deg",
+            step=1,
+            label="Angle",
+            parts=("1", "2", "3"),
+        ),
+    ] = (30.0, 20.0, 60.0)
     order: Annotated[
         EulerOrder,
         Knob(
@@ -58,7 +65,8 @@ class Params:
     pose: Annotated[
         tuple[float, float, float, float, float, float],
         Knob(
-            "Translation (m), and one more turn as a rotation vector (radians), by numbers or handle",
+            "Translation (m), and one more turn as a rotation vector (radians), by numbers or"
+            " handle",
             -4,
             4,
             by=Gizmo(0.5),
@@ -82,9 +90,17 @@ class Params:
     ] = "nothing"
     angles_end: Annotated[
         tuple[float, float, float],
-        Knob("The three turns of the end pose, when moving", -180, 180, unit="deg", step=1,
-             label="End angle", parts=("1", "2", "3"), needs=MOVING),
-    ] = (0.0, 0.0, -110.0)  # fmt: skip
+        Knob(
+            "The three turns of the end pose, when moving",
+            -180,
+            180,
+            unit="deg",
+            step=1,
+            label="End angle",
+            parts=("1", "2", "3"),
+            needs=MOVING,
+        ),
+    ] = (0.0, 0.0, -110.0)
     method: Annotated[
         Method, Knob("What runs at constant speed between the two poses", needs=MOVING)
     ] = "slerp + lerp"
@@ -100,7 +116,9 @@ class Params:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Body:
-    """What moves: its mesh and lines in its own frame, its measures, and the vertex that is followed."""
+    """What moves: its mesh and lines in its own frame, its measures, and the vertex that is
+    followed.
+    """
 
     name: str
     solid: Solid
@@ -162,7 +180,8 @@ class Built:
         trail: Where the followed vertex was after every factor so far, (k, 3).
         complete: Whether this was the last factor of the map.
         ghosts: The second readings of the complete map, once it is; after `undo`, of its inverse.
-        left: After `undo`: how far the farthest vertex is from where it was before the motion, metres.
+        left: After `undo`: how far the farthest vertex is from where it was before the motion,
+            metres.
     """
 
     params: Params

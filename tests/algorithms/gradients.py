@@ -1,4 +1,6 @@
-"""Gradients that a training loop goes down, held against differences of the loss that it reports."""
+"""Gradients that a training loop goes down, held against differences of the loss that it
+reports.
+"""
 
 from collections.abc import Callable, Iterator
 from types import ModuleType
@@ -30,7 +32,8 @@ def assert_gradient(
     tolerance: float = 1e-6,
     h: float = 1e-6,
 ) -> None:
-    """Hold a gradient against differences along each of 30 numbers and of five directions of all; batches stay the same.
+    """Hold a gradient against differences along each of 30 numbers and of five directions of all;
+    batches stay the same.
 
     Args:
         values: What is learned; written to, and put back.

@@ -93,8 +93,11 @@ def test_the_covariance_is_that_of_all_unknowns_and_of_repetition():
     assert found.covariance is not None
     block = linearised(
         np.array([*found.K[[0, 1, 0, 1], [0, 1, 2, 2]], *found.lens]),
-        found.Ts_camera_board[:, :3, :3], found.Ts_camera_board[:, :3, 3], P, uv,
-    )  # fmt: skip
+        found.Ts_camera_board[:, :3, :3],
+        found.Ts_camera_board[:, :3, 3],
+        P,
+        uv,
+    )
     J = np.zeros((uv.size, 9 + 24))
     for k in range(4):
         rows = slice(108 * k, 108 * (k + 1))
@@ -151,7 +154,7 @@ def test_a_start_from_which_nothing_can_be_projected_stops():
     assert not found.accepted
 
 
-# two real cameras ---------------------------------------------------------------------------------------------------------
+# two real cameras ---------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module", params=["left", "right"])

@@ -97,7 +97,7 @@ def test_too_few_views_are_refused():
         states_of(views()[:1])
 
 
-# real corners -------------------------------------------------------------------------------------------------------------
+# real corners -------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -135,7 +135,9 @@ def test_one_bad_view_of_thirteen(left):
 
 
 def test_views_have_errors_of_their_own(left):
-    """Over bootstrapped views f varies by half as much again as the covariance, which takes corners for independent."""
+    """Over bootstrapped views f varies by half as much again as the covariance, which takes corners
+    for independent.
+    """
     p, uv = left
     rng = np.random.default_rng(0)
     f = [

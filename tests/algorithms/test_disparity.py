@@ -1,4 +1,6 @@
-"""Disparity maps: the pieces against their definitions, the whole against exact scenes and real pictures."""
+"""Disparity maps: the pieces against their definitions, the whole against exact scenes and real
+pictures.
+"""
 
 import dataclasses
 from typing import Any
@@ -44,7 +46,9 @@ def made(scene, noise=2.0, camera=CAMERA, seed=0) -> tuple[Any, np.ndarray, np.n
 
 
 def disparity_map(left, right, max_disparity) -> tuple[np.ndarray, np.ndarray]:
-    """Return the last map of census and eight paths, and which pixels were matched; a jump costs the worst match."""
+    """Return the last map of census and eight paths, and which pixels were matched; a jump costs
+    the worst match.
+    """
     *_, last = match(
         left, right, max_disparity, 1, lambda _: (CENSUS_BITS // 3, CENSUS_BITS), census_cost_volume
     )
@@ -52,7 +56,9 @@ def disparity_map(left, right, max_disparity) -> tuple[np.ndarray, np.ndarray]:
 
 
 def filled(last: Matching) -> np.ndarray:
-    """Return the last map with the unmatched pixels given the background, as `match` has it before it leaves them out."""
+    """Return the last map with the unmatched pixels given the background, as `match` has it before
+    it leaves them out.
+    """
     everywhere = median3(fill(sub_pixel(last.cost, winner_takes_all(last.cost)), last.matched))
     assert np.array_equal(everywhere[last.matched], last.disparity[last.matched])
     return everywhere
@@ -115,8 +121,12 @@ def test_sub_pixel_stays_whole_where_there_is_no_valley():
     cost = np.array(list(curves.values()), float).T[:, None]
     refined = sub_pixel(cost, winner_takes_all(cost))[0]
     assert dict(zip(curves, refined, strict=True)) == {
-        "low end": 0, "high end": 3, "flat": 0, "beside infinity": 1, "plateau": 1.5,
-    }  # fmt: skip
+        "low end": 0,
+        "high end": 3,
+        "flat": 0,
+        "beside infinity": 1,
+        "plateau": 1.5,
+    }
     assert sub_pixel(cost[:2], np.ones((1, 5), int)).tolist() == [[1.0] * 5]
 
 
@@ -150,8 +160,10 @@ def test_the_steps_are_all_there_and_in_order():
     states = list(match(left, right, 15, 5, lambda cost: (20.0, 60.0)))
     stages = [state.stage for state in states]
     assert stages == [Stage.COMPARE] * 16 + [Stage.AGGREGATE] + [Stage.PATHS] * 8 + [
-        Stage.CHECK, Stage.REFINE, Stage.SMOOTH,
-    ]  # fmt: skip
+        Stage.CHECK,
+        Stage.REFINE,
+        Stage.SMOOTH,
+    ]
     assert [state.done for state in states[:16]] == list(range(1, 17))
     assert all(
         len(state.cost) == state.done and state.disparity.max() <= state.done - 1
@@ -271,9 +283,11 @@ def true_depth(pair):
 
 
 def plane_normal(depth, camera, rows, columns) -> np.ndarray:
-    """Return the unit normal of the plane n . p = 1 that most points of a part of the picture lie on.
+    """Return the unit normal of the plane n . p = 1 that most points of a part of the picture lie
+    on.
 
-    Divided by its depth that reads n . (x, y, 1) = 1 / Z, in which an error of the disparity weighs the same everywhere.
+    Divided by its depth that reads n . (x, y, 1) = 1 / Z, in which an error of the disparity weighs
+    the same everywhere.
     """
     part = np.full_like(depth, np.nan)
     part[rows, columns] = depth[rows, columns]

@@ -1,4 +1,6 @@
-"""Fast marching: the one solution of its equation, whatever the bands; a heap beside it; published figures."""
+"""Fast marching: the one solution of its equation, whatever the bands; a heap beside it; published
+figures.
+"""
 
 import heapq
 import itertools

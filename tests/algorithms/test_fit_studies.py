@@ -1,4 +1,6 @@
-"""Fits put to the test: repetition that agrees with a covariance, starts that are counted, medians, angles."""
+"""Fits put to the test: repetition that agrees with a covariance, starts that are counted, medians,
+angles.
+"""
 
 import numpy as np
 import pytest
@@ -24,7 +26,7 @@ def ended(p: np.ndarray):
     return end
 
 
-def test_repetition_agrees_with_the_covariance_where_errors_are_independent_and_not_where_they_are_alike():
+def test_repetition_agrees_with_the_covariance_where_errors_are_independent_and_not_where_they_are_alike():  # noqa: E501
     rng, places = np.random.default_rng(0), arc_points(np.pi, 60)
     end = ended(places + errors(rng, (60, 2), 0.02))
     ratios = []

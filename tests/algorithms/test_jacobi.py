@@ -1,4 +1,6 @@
-"""Jacobi's rotations: laws of every step, eigenvalues against numpy, and matrices that need none or never end."""
+"""Jacobi's rotations: laws of every step, eigenvalues against numpy, and matrices that need none or
+never end.
+"""
 
 import itertools
 

@@ -1,4 +1,6 @@
-"""The k-d tree: as near as scipy's, whatever the points; what is passed over is farther; few are looked at."""
+"""The k-d tree: as near as scipy's, whatever the points; what is passed over is farther; few are
+looked at.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,6 @@
-"""Descents: what each step promises, that damping never lets the sum rise, scipy's answers, and ends that say why."""
+"""Descents: what each step promises, that damping never lets the sum rise, scipy's answers, and
+ends that say why.
+"""
 
 import numpy as np
 import pytest
@@ -59,7 +61,9 @@ def test_a_step_solves_the_damped_system_by_longer_rows(seed):
 
 
 def test_a_step_keeps_its_digits_where_the_normal_matrix_would_lose_half_of_them():
-    """Columns that differ by a millionth have JᵀJ with a condition of 10¹²; the step is exact here to nine digits."""
+    """Columns that differ by a millionth have JᵀJ with a condition of 10¹²; the step is exact here
+    to nine digits.
+    """
     rng = np.random.default_rng(0)
     a, b = rng.normal(size=20), rng.normal(size=20)
     J, right = np.stack([a, a + 1e-6 * b], axis=1), np.array([3.0, -2.0])
@@ -132,7 +136,10 @@ def test_a_way_has_every_step_kept_and_every_one_taken_back():
 def test_singular_and_infinite_ends_are_told():
     constant = lambda x: (np.ones(3), np.zeros((3, 1)))  # noqa: E731
     assert list(descend(constant, np.add, np.zeros(1), damped_step))[-1].stop is Stop.SINGULAR
-    steep = lambda x: (np.exp(np.minimum(x, 800) ** 2) * np.ones(2), np.full((2, 1), 1e-3))  # noqa: E731
+
+    def steep(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return np.exp(np.minimum(x, 800) ** 2) * np.ones(2), np.full((2, 1), 1e-3)
+
     assert (
         list(descend(steep, np.add, np.array([1.0]), lambda r, J, d: np.array([900.0]), 0.0))[
             -1

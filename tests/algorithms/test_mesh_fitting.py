@@ -1,4 +1,6 @@
-"""A mesh pulled to points: gradients by differences through points drawn on it, and what its terms do."""
+"""A mesh pulled to points: gradients by differences through points drawn on it, and what its terms
+do.
+"""
 
 import numpy as np
 import pytest
@@ -27,7 +29,9 @@ NONE = np.empty((0, 3))
     "weights", [NOTHING, {"laplacian": 2.0, "normal": 0.3, "edge": 0.5}], ids=["data", "all"]
 )
 def test_gradients_are_those_of_differences_where_points_stay_in_their_faces(monkeypatch, weights):
-    """Which face a point is drawn on jumps with the areas; the gradient is that of points that move with their corners."""
+    """Which face a point is drawn on jumps with the areas; the gradient is that of points that move
+    with their corners.
+    """
     rng = np.random.default_rng(1)
     training = fit_mesh(
         0.8 * BALL.p, BALL.faces, GIVEN, NONE, weights=weights, counts=(0, 1), rng=rng

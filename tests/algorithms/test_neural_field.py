@@ -1,4 +1,6 @@
-"""The network: gradients against finite differences, Adam against its definition, and what it learns."""
+"""The network: gradients against finite differences, Adam against its definition, and what it
+learns.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,6 @@
-"""The octree: its cells cover the surface, its bits are those of a dense grid, and its bytes grow with the surface."""
+"""The octree: its cells cover the surface, its bits are those of a dense grid, and its bytes grow
+with the surface.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,6 @@
-"""PointNet: gradients by differences, the order of points, critical points, and a first training."""
+"""PointNet: gradients by differences, the order of points, critical points, and a first
+training.
+"""
 
 import numpy as np
 import pytest
@@ -84,9 +86,10 @@ def test_left_and_right_are_told_apart_and_states_stay_as_they_were():
 
     def draw(count: int) -> tuple[np.ndarray, np.ndarray]:
         of = rng.integers(2, size=count)
-        return rng.normal(size=(count, 8, 3)) + np.array([3.0, 0, 0]) * (2 * of - 1)[
-            :, None, None
-        ], of
+        return (
+            rng.normal(size=(count, 8, 3)) + np.array([3.0, 0, 0]) * (2 * of - 1)[:, None, None],
+            of,
+        )
 
     clouds, of = draw(40)
     found = list(

@@ -1,4 +1,6 @@
-"""The steps of the least-squares similarity: their end, the cost of every flip, and libraries to distrust."""
+"""The steps of the least-squares similarity: their end, the cost of every flip, and libraries to
+distrust.
+"""
 
 import numpy as np
 import pytest

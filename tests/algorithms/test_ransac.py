@@ -217,7 +217,9 @@ def test_the_local_refit_ends_sooner():
 
 
 def test_few_samples_without_outliers_reach_most_of_the_inliers():
-    """With noise of half the inlier distance only about 9 % of the clean plane samples reach 90 % of the inliers."""
+    """With noise of half the inlier distance only about 9 % of the clean plane samples reach 90 %
+    of the inliers.
+    """
     rng = np.random.default_rng(0)
     scene = plane_scene(rng, count=1000, outlier_ratio=0.5, sigma=0.02)
     clean = np.flatnonzero(scene.is_inlier)
@@ -326,7 +328,9 @@ def test_repeated_rows_are_survived_and_nothing_is_nothing():
 
 @pytest.mark.parametrize(("model", "bound"), [(HOMOGRAPHY, 1.25), (FUNDAMENTAL, 1.5)])
 def test_it_comes_close_to_a_fit_that_knows_the_inliers(model, bound):
-    """On 300 matches, a third of them wrong, noise 1 px, with the inlier distance that keeps 95 % of the others."""
+    """On 300 matches, a third of them wrong, noise 1 px, with the inlier distance that keeps 95 %
+    of the others.
+    """
     ratios, flat = [], model is HOMOGRAPHY
     for seed in range(6):
         scene = match_scene(
@@ -354,7 +358,9 @@ def test_the_photographs_give_back_their_true_matches(shared_data):
 
 
 def test_floor_and_wall_of_a_real_room_meet_at_a_right_angle(shared_data):
-    """The wall is farther away and four times as noisy as the floor: it is refitted with an inlier distance of its own."""
+    """The wall is farther away and four times as noisy as the floor: it is refitted with an inlier
+    distance of its own.
+    """
     p = read_cloud(shared_data / "ransac" / "capture0001.pcd")[::6]
     rest, fits = p, []
     while len(fits) < 4:

@@ -117,7 +117,9 @@ def test_all_weights_are_slopes_divided_by_distances(loss, distance, corner):
 
 @pytest.mark.parametrize("loss", LOSSES.values(), ids=LOSSES)
 def test_efficient_corners_cost_five_per_cent(loss):
-    """Asymptotic efficiency at normal errors, (E ψ')² / E ψ², by sums; Holland and Welsch 1977, table 1."""
+    """Asymptotic efficiency at normal errors, (E ψ')² / E ψ², by sums; Holland and Welsch 1977,
+    table 1.
+    """
     x = np.linspace(-8, 8, 20_001)
     density = np.exp(-(x**2) / 2) / np.sqrt(2 * np.pi) * (x[1] - x[0])
     corner = loss.efficient_corner if np.isfinite(loss.efficient_corner) else 1.0

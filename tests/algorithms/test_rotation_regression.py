@@ -1,4 +1,6 @@
-"""Networks that tell turns: the gradient of both losses through every representation, and what is learned."""
+"""Networks that tell turns: the gradient of both losses through every representation, and what is
+learned.
+"""
 
 import numpy as np
 import pytest

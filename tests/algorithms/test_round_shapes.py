@@ -1,4 +1,6 @@
-"""Circles, spheres and cylinders are found where scipy finds them, and exactly where the points are exact."""
+"""Circles, spheres and cylinders are found where scipy finds them, and exactly where the points are
+exact.
+"""
 
 import numpy as np
 import pytest

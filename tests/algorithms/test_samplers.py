@@ -90,7 +90,9 @@ def test_prosac_finds_a_clean_sample_sooner_when_trust_means_something():
     share=st.floats(0.0, 1.0),
 )
 def test_the_termination_length_is_the_papers(seed, n, size, share):
-    """By the sums of its equations 7 to 9: the largest share that chance hardly gives, with all rows below twenty."""
+    """By the sums of its equations 7 to 9: the largest share that chance hardly gives, with all
+    rows below twenty.
+    """
     rng = np.random.default_rng(seed)
     inliers, quality = rng.random(n) < share, rng.random(n)
     by_trust = inliers[np.argsort(-quality)]

@@ -1,4 +1,6 @@
-"""Semi-global paths: against the recursion written pixel by pixel, and against every map there is."""
+"""Semi-global paths: against the recursion written pixel by pixel, and against every map there
+is.
+"""
 
 import itertools
 
@@ -144,7 +146,8 @@ def test_energy_is_what_it_says():
     cost = np.array(
         [[[1.0, 2.0], [3.0, np.inf]], [[5.0, 6.0], [7.0, 8.0]], [[0.0, 0.0], [0.0, 9.0]]]
     )
-    # four pixels: costs 1, 6, 0, 9; steps 1 (right), 2 (down), 2 (right), 1 (down), 0 and 2 ... on six pairs
+    # four pixels: costs 1, 6, 0, 9; steps 1 (right), 2 (down), 2 (right), 1 (down), 0 and 2 ... on
+    # six pairs
     disparity = np.array([[0.0, 1.0], [2.0, 2.0]])
     steps = [abs(a - b) for a, b in [(0, 1), (2, 2), (0, 2), (1, 2), (0, 2), (1, 2)]]
     expected = 1 + 6 + 0 + 9 + 10 * steps.count(1) + 100 * steps.count(2)

@@ -18,7 +18,9 @@ def test_gradients_are_those_of_differences(monkeypatch, set_loss):
 
 
 def test_earth_movers_of_squares_ends_in_the_mean_of_partners():
-    """Two targets, the same points moved by different ways: one to one, the mean is moved by the mean of the ways."""
+    """Two targets, the same points moved by different ways: one to one, the mean is moved by the
+    mean of the ways.
+    """
     start, ways = (
         np.random.default_rng(2).normal(size=(8, 3)),
         iter(np.tile([[0.5, 0, 0], [1.5, 0, 0]], (1000, 1))),
@@ -30,7 +32,9 @@ def test_earth_movers_of_squares_ends_in_the_mean_of_partners():
 
 
 def test_under_chamfer_points_share_the_targets_among_them():
-    """Two points and two targets of one spot each: either is near one of the spots, and not in the middle."""
+    """Two points and two targets of one spot each: either is near one of the spots, and not in the
+    middle.
+    """
     spots = np.array([[-1.0, 0, 0], [1, 0, 0]])
     turn = iter(range(10_000))
     start = np.array([[-0.2, 0.1, 0], [0.2, -0.1, 0]])

@@ -17,7 +17,9 @@ def costs(seed, n, m, offset=0.5):
 
 
 def log_domain(cost, regularisation, g, sweeps):
-    """Sinkhorn's updates of the potentials themselves, Peyre and Cuturi 2019, equations 4.40 and 4.41."""
+    """Sinkhorn's updates of the potentials themselves, Peyre and Cuturi 2019, equations 4.40 and
+    4.41.
+    """
     n, m = cost.shape
     f = np.zeros(n)
     for _ in range(sweeps):
@@ -47,8 +49,8 @@ def test_every_sweep_is_that_of_the_log_domain(seed, n, m, regularisation):
 @few
 @given(seeds, st.integers(1, 20), st.integers(1, 20), st.floats(1, 5))
 def test_the_plan_does_not_depend_on_the_start(seed, n, m, blur):
-    # with as much blur as the largest cost a sweep shrinks Hilbert's distance of two scalings by tanh(1/2)^2, below 1/4:
-    # Peyre and Cuturi 2019, theorem 4.1
+    # with as much blur as the largest cost a sweep shrinks Hilbert's distance of two scalings by
+    # tanh(1/2)^2, below 1/4: Peyre and Cuturi 2019, theorem 4.1
     cost = costs(seed, n, m)
     regularisation = blur * cost.max()
     found = sinkhorn(cost, regularisation, tolerance=1e-13, max_sweeps=40)
@@ -107,7 +109,8 @@ def test_scalings_that_would_overflow_are_absorbed():
 
 
 def test_a_gradual_climb_of_the_scalings_is_absorbed():
-    # a chain of points that must all shift by one: the potentials climb along it, beyond what exp can hold
+    # a chain of points that must all shift by one: the potentials climb along it, beyond what exp
+    # can hold
     cost = np.abs(np.arange(40.0)[:, None] - np.arange(40.0) - 0.9)
     found = sinkhorn(cost, 0.004, max_sweeps=3000, tolerance=1e-6)
     assert np.ptp(found.f) / found.regularisation > 1000

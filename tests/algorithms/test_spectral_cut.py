@@ -1,4 +1,6 @@
-"""Cuts, flows and networks on graphs, step by step, beside what must hold and what finite differences say."""
+"""Cuts, flows and networks on graphs, step by step, beside what must hold and what finite
+differences say.
+"""
 
 import numpy as np
 import pytest

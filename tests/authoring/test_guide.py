@@ -1,4 +1,6 @@
-"""The authors' guide: its code is run or is the template's, and what it says of limits and names is what is asked."""
+"""The authors' guide: its code is run or is the template's, and what it says of limits and names is
+what is asked.
+"""
 
 import inspect
 import re
@@ -125,6 +127,9 @@ def test_limits_and_names_are_those_that_are_asked():
 def test_commands_and_fields_that_are_named_are_there():
     for command in re.findall(r"`workbench (\w+)", PLAIN):
         assert command in COMMANDS, command
-    for kind, names in ((View, "up grid grid_height fov_degrees axes eye"), (Lesson, "order first_step"),
-                        (Question, "choices unit tolerance why step")):  # fmt: skip
+    for kind, names in (
+        (View, "up grid grid_height fov_degrees axes eye"),
+        (Lesson, "order first_step"),
+        (Question, "choices unit tolerance why step"),
+    ):
         assert set(names.split()) <= {field.name for field in fields(kind)}

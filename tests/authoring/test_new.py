@@ -1,4 +1,6 @@
-"""A new lesson: its folder runs, holds what is promised of all lessons, records, publishes and is graded as it is."""
+"""A new lesson: its folder runs, holds what is promised of all lessons, records, publishes and is
+graded as it is.
+"""
 
 from pathlib import Path
 
@@ -31,8 +33,11 @@ def test_it_is_recorded_and_published(written, tmp_path):
     page = (tmp_path / "site" / "beacon" / "index.html").read_text(encoding="utf-8")
     assert "The weighted mean" in page
     assert {path.stem for path in (tmp_path / "site" / "beacon" / "runs").glob("*.js")} == {
-        "default", "weighted", "equal", "stray",
-    }  # fmt: skip
+        "default",
+        "weighted",
+        "equal",
+        "stray",
+    }
 
 
 def test_its_exercise_is_handed_out_and_judged(written, tmp_path, capfd):

@@ -1,4 +1,6 @@
-"""Own files in all lessons: each knob shows one and refuses a bad one; a stage that shows it opens; messages name knobs."""
+"""Own files in all lessons: each knob shows one and refuses a bad one; a stage that shows it opens;
+messages name knobs.
+"""
 
 from dataclasses import replace
 
@@ -20,8 +22,11 @@ WITH_FILES = [
     for field in fields_of(lesson.params)
     if field.kind == "path"
 ]
-BOUND = [(name, field) for name, field in WITH_FILES
-         if next(one for one in fields_of(course()[name].params) if one.name == field).knob.needs]  # fmt: skip
+BOUND = [
+    (name, field)
+    for name, field in WITH_FILES
+    if next(one for one in fields_of(course()[name].params) if one.name == field).knob.needs
+]
 
 
 def test_a_file_that_is_not_read_is_found():

@@ -1,4 +1,6 @@
-"""Every promise is seen broken once: a lesson that holds, changed in one place, is told by its place in one line."""
+"""Every promise is seen broken once: a lesson that holds, changed in one place, is told by its
+place in one line.
+"""
 
 import re
 import shutil
@@ -174,7 +176,10 @@ BROKEN = [
     (
         LESSON,
         "run=run,",
-        "run=lambda params, *, fit_circle=fit_circle: iter([State(k, np.eye(2), TRUE) for k in (0, 1)]),",
+        (
+            "run=lambda params, *, fit_circle=fit_circle: iter([State(k, np.eye(2), TRUE) for k in"
+            " (0, 1)]),"
+        ),
         "step 0 has no line to show",
     ),
     # knobs, presets, questions
@@ -205,7 +210,10 @@ BROKEN = [
     (
         STATE,
         'seed: Annotated[int, Knob("Which noise is drawn", 0, 99)] = 0',
-        'seed: Annotated[int, Knob("Which", 0, 99, needs={"b": (True,)})] = 0\n    b: Annotated[bool, Knob("B")] = True',
+        (
+            'seed: Annotated[int, Knob("Which", 0, 99, needs={"b": (True,)})] = 0\n    b:'
+            ' Annotated[bool, Knob("B")] = True'
+        ),
         "seed = 99 changes 'points' although its needs are not met, at {'b': 'False'}",
     ),
     (

@@ -1,4 +1,6 @@
-"""A lesson that is edited: every save of one of its files is a new lesson, a broken one keeps the lesson before."""
+"""A lesson that is edited: every save of one of its files is a new lesson, a broken one keeps the
+lesson before.
+"""
 
 import os
 import shutil
@@ -98,7 +100,10 @@ def test_a_broken_save_keeps_the_lesson_and_says_where_until_it_is_mended(
 def test_a_file_is_followed_with_its_page(tmp_path):
     (tmp_path / "page.md").write_text("# One")
     file = tmp_path / "mine.py"
-    source = "from pathlib import Path\nfrom dataclasses import replace\nfrom tests.fake import lesson as other\n"
+    source = (
+        "from pathlib import Path\nfrom dataclasses import replace\nfrom tests.fake import lesson"
+        " as other\n"
+    )
     file.write_text(
         source + 'lesson = replace(other, name="mine", page=Path(__file__).with_name("page.md"))\n'
     )

@@ -1,7 +1,9 @@
-"""Those who mean a live server ill, in a process of their own: python -m tests.benchmarks.attackers ADDRESS SECONDS
+"""Those who mean a live server ill, in a process of their own: python -m tests.benchmarks.attackers
+ADDRESS SECONDS
 
-300 sockets that say nothing, ten pages that wish for large pictures and take nothing, three that wish as fast as they can,
-three that send garbage. Prints "here" when all are, and each second what was sent.
+300 sockets that say nothing, ten pages that wish for large pictures and take nothing, three that
+wish as fast as they can, three that send garbage. Prints "here" when all are, and each second what
+was sent.
 """
 
 import asyncio

@@ -1,9 +1,11 @@
-"""Compares principal axes and the similarity of pairs with scikit-learn, numpy, open3d, scikit-image and trimesh.
+"""Compares principal axes and the similarity of pairs with scikit-learn, numpy, open3d,
+scikit-image and trimesh.
 
     python -m tests.benchmarks.bench_alignment
 
-Peers that are not installed are left out. Times are the best of a few runs, ours and the peers in turn, so that a ratio is
-of one run on one machine. Below the time stands how far axis 3 of each is off, a thousand kilometres from the origin.
+Peers that are not installed are left out. Times are the best of a few runs, ours and the peers in
+turn, so that a ratio is of one run on one machine. Below the time stands how far axis 3 of each is
+off, a thousand kilometres from the origin.
 """
 
 from collections.abc import Callable

@@ -1,9 +1,11 @@
-"""A camera calibrated from 13 pictures of a board, beside OpenCV: `python -m tests.benchmarks.bench_calibration`.
+"""A camera calibrated from 13 pictures of a board, beside OpenCV: `python -m
+tests.benchmarks.bench_calibration`.
 
-The same corners for both, all nine shared unknowns free, every step of ours computed; on one thread, taking turns: the least
-of the rounds in CPU milliseconds, and the median of the ratios of the turns. Ours may take twice as long. Behind
-them how far the answers are apart: the rms in px, the largest entry of K in px, the largest of nine standard deviations.
-Real corners where ../shared/data is beside the project, else a scene of ours.
+The same corners for both, all nine shared unknowns free, every step of ours computed; on one
+thread, taking turns: the least of the rounds in CPU milliseconds, and the median of the ratios of
+the turns. Ours may take twice as long. Behind them how far the answers are apart: the rms in px,
+the largest entry of K in px, the largest of nine standard deviations. Real corners where
+../shared/data is beside the project, else a scene of ours.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
@@ -31,7 +33,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=11)
     rounds, cv2 = parser.parse_args().rounds, peer("cv2")
     print(
-        f"{'camera':12}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>8}{'at most':>9}{'rms':>11}{'K':>11}{'±':>11}"
+        f"{'camera':12}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>8}{'at most':>9}{'rms':>11}{'K':>11}{'±':>11}"  # noqa: E501
     )
     for name, (p, uv) in cameras().items():
 

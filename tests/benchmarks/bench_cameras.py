@@ -1,7 +1,7 @@
 """Projecting, undistorting and drawing, against OpenCV where it is installed.
 
-Run: python -m tests.benchmarks.bench_cameras. Figures are CPU milliseconds of this process, the median of five runs;
-OpenCV is held to one thread so that both count alike.
+Run: python -m tests.benchmarks.bench_cameras. Figures are CPU milliseconds of this process, the
+median of five runs; OpenCV is held to one thread so that both count alike.
 """
 
 import importlib
@@ -38,7 +38,9 @@ def milliseconds(task: Callable[[], object], repeats: int = 5) -> float:
 
 
 def main() -> None:
-    """Print one row per task: ours, OpenCV, the ratio, its floor, and by how much the two differ."""
+    """Print one row per task: ours, OpenCV, the ratio, its floor, and by how much the two
+    differ.
+    """
     rng = np.random.default_rng(0)
     w = np.array([0.1, -0.2, 0.05])
     T_camera_world = motion(exp_so3(w), np.array([0.1, -0.2, 6.0]))
@@ -49,7 +51,7 @@ def main() -> None:
         "undistort": milliseconds(lambda: normalize(uv, K, LENS)),
     }
     print(
-        f"{'task (1M points, 5 coefficients)':36}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>7}{'floor':>7}{'differ by':>12}"
+        f"{'task (1M points, 5 coefficients)':36}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>7}{'floor':>7}{'differ by':>12}"  # noqa: E501
     )
     theirs, gaps = peers(p_world, w, T_camera_world[:3, 3], uv)
     for task, floor in FLOORS.items():
@@ -77,7 +79,9 @@ def main() -> None:
 
 
 def peers(p_world: np.ndarray, w: np.ndarray, t: np.ndarray, uv: np.ndarray) -> tuple[dict, dict]:
-    """Return OpenCV's times for the tasks and how far its answers are from ours; nothing where it is not installed."""
+    """Return OpenCV's times for the tasks and how far its answers are from ours; nothing where it
+    is not installed.
+    """
     try:
         cv2 = importlib.import_module("cv2")
     except ImportError:

@@ -1,12 +1,14 @@
 """A class at one live server: how long a student waits, and what the server spends.
 
-    python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads 2]
+    python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads
+    2]
 
-The server runs in processes of its own, the students, each a page and its scene, in this one. "words" is from the wish to
-the last byte of the step's words, "scene" to the last byte of its scene. CPU and memory are the server's (memory that its
-processes share is counted once). The machine is the same for both, so the students' own work is in all times; the load
-average says what else it did. "cost" is what one wish costs the server, one after the other: CPU time, which a busy machine
-hardly changes.
+The server runs in processes of its own, the students, each a page and its scene, in this one.
+"words" is from the wish to the last byte of the step's words, "scene" to the last byte of its
+scene. CPU and memory are the server's (memory that its processes share is counted once). The
+machine is the same for both, so the students' own work is in all times; the load average says what
+else it did. "cost" is what one wish costs the server, one after the other: CPU time, which a busy
+machine hardly changes.
 """
 
 import argparse
@@ -70,17 +72,21 @@ class Served:
         environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
         self._process = psutil.Popen(
             [sys.executable, "-c", SERVE, str(threads)],
-            cwd=ROOT, env=environment, text=True, stdout=subprocess.PIPE,
-        )  # fmt: skip
+            cwd=ROOT,
+            env=environment,
+            text=True,
+            stdout=subprocess.PIPE,
+        )
         self.address = self._process.stdout.readline().strip()
         self.threads, self.memory = self.held()
 
     def held(self) -> tuple[int, float]:
         """Return threads, and MB in memory."""
         all_of_it = self._all()
-        return sum(one.num_threads() for one in all_of_it), sum(
-            one.memory_full_info().pss for one in all_of_it
-        ) / 2**20
+        return (
+            sum(one.num_threads() for one in all_of_it),
+            sum(one.memory_full_info().pss for one in all_of_it) / 2**20,
+        )
 
     def spent(self) -> tuple[float, float]:
         """Return seconds of a clock, and seconds of CPU."""
@@ -125,7 +131,9 @@ async def stepping(page: FakePage, until: float, waits: Waits, every: float = 1.
 async def learning(
     page: FakePage, until: float, waits: tuple[Waits, Waits], rng: np.random.Generator
 ) -> None:
-    """Once a second move one knob near its default, or, two times of three, step on; wait for what comes of it."""
+    """Once a second move one knob near its default, or, two times of three, step on; wait for what
+    comes of it.
+    """
     await asyncio.sleep(rng.uniform())
     while time.perf_counter() < until:
         began = time.perf_counter()
@@ -168,7 +176,9 @@ async def one_lesson(server: Served, given: argparse.Namespace) -> dict[str, Wai
 
 
 async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
-    """All on mixed lessons, doing something once a second; beside them one who only steps, and new pages."""
+    """All on mixed lessons, doing something once a second; beside them one who only steps, and new
+    pages.
+    """
     found = {
         name: Waits()
         for name in ("mixed, knobs", "mixed, their steps", "mixed, steps", "mixed, new page")
@@ -192,7 +202,9 @@ async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
 
 
 async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
-    """One who steps, alone; then beside 30 browsers that say nothing and 30 that reload all the time."""
+    """One who steps, alone; then beside 30 browsers that say nothing and 30 that reload all the
+    time.
+    """
     found = {
         name: Waits()
         for name in ("alone, steps", "alone, new page", "silent, steps", "silent, new page")
@@ -201,8 +213,10 @@ async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     await walker.until(lambda page: page.run["finished"])
 
     def walking(which: str) -> list[Callable[[float], Awaitable[None]]]:
-        return [lambda end: stepping(walker, end, found[f"{which}, steps"], 0.25),
-                lambda end: coming(server, "?lesson=transforms", end, found[f"{which}, new page"])]  # fmt: skip
+        return [
+            lambda end: stepping(walker, end, found[f"{which}, steps"], 0.25),
+            lambda end: coming(server, "?lesson=transforms", end, found[f"{which}, new page"]),
+        ]
 
     await measured(server, given, walking("alone"))
     quiet = [await walker.socket(f"live?token={i:024x}") for i in range(30)]
@@ -292,7 +306,8 @@ async def costs(server: Served, given: argparse.Namespace) -> None:
         await (await arrived(server, "?lesson=transforms"))[0].close()
     page_of = 100 * (server.spent()[1] - began)
     print(
-        f"{'mean':<18} step {np.mean(steps_of):6.1f} ms, moved knob {np.mean(knobs_of):6.1f} ms; a visit {page_of:.1f} ms\n"
+        f"{'mean':<18} step {np.mean(steps_of):6.1f} ms, moved knob {np.mean(knobs_of):6.1f} ms; a"
+        f" visit {page_of:.1f} ms\n"
     )
 
 
@@ -306,7 +321,9 @@ SCENARIOS: dict[str, Any] = {
 
 
 def afterwards(server: Served, at_work: float) -> tuple[int, float]:
-    """Return threads and MB of the server when all have gone, and it has let go of what it held for them."""
+    """Return threads and MB of the server when all have gone, and it has let go of what it held for
+    them.
+    """
     held, until = server.held(), time.monotonic() + 3 * EMPTY
     while time.monotonic() < until and not (held[0] <= server.threads and held[1] < 0.9 * at_work):
         time.sleep(1.0)
@@ -343,18 +360,19 @@ def main() -> None:
         for who, waits in found.items():
             words, scene = np.array(waits.words or [np.nan]), np.array(waits.scene or [np.nan])
             print(
-                f"{who:<18} {len(waits.words):6d} {np.median(words):18.0f} {np.quantile(words, 0.95):6.0f}"
-                f" {words.max():6.0f} {np.quantile(scene, 0.95):11.0f}   {GOALS[who]}"
+                f"{who:<18} {len(waits.words):6d} {np.median(words):18.0f}"
+                f" {np.quantile(words, 0.95):6.0f} {words.max():6.0f}"
+                f" {np.quantile(scene, 0.95):11.0f}   {GOALS[who]}"
             )
         if not found:
             continue
         cores, ours, memory, seconds = given.spent
         each = 1000 * cores * seconds / max(1, sum(len(waits.words) for waits in found.values()))
         print(
-            f"  server: {cores:.2f} cores, {each:.1f} ms for each wish; students: {ours:.2f} cores; "
-            f"load before {before:.1f}, after {os.getloadavg()[0]:.1f}\n"
-            f"  memory: {server.memory:,.0f} MB at the start, {memory:,.0f} at work, {memory_after:,.0f} when all had gone; "
-            f"threads: {server.threads}, then {threads}\n",
+            f"  server: {cores:.2f} cores, {each:.1f} ms for each wish; students: {ours:.2f} cores;"
+            f" load before {before:.1f}, after {os.getloadavg()[0]:.1f}\n  memory:"
+            f" {server.memory:,.0f} MB at the start, {memory:,.0f} at work, {memory_after:,.0f}"
+            f" when all had gone; threads: {server.threads}, then {threads}\n",
             flush=True,
         )
 

@@ -1,10 +1,11 @@
-"""Spherical coordinates and distances on a globe beside trimesh, astropy and pyproj, where they are installed.
+"""Spherical coordinates and distances on a globe beside trimesh, astropy and pyproj, where they are
+installed.
 
     python -m tests.benchmarks.bench_coordinates
 
-The least time of some rounds, taking turns. trimesh takes the polar angle by arccos, which is 0 for a billionth of a radian;
-pyproj goes over an ellipsoid, here flattened by nothing, which is more work than a sphere needs: that ratio compares
-answers, not algorithms.
+The least time of some rounds, taking turns. trimesh takes the polar angle by arccos, which is 0 for
+a billionth of a radian; pyproj goes over an ellipsoid, here flattened by nothing, which is more
+work than a sphere needs: that ratio compares answers, not algorithms.
 """
 
 import argparse
@@ -41,7 +42,8 @@ def bench_spherical(rounds: int) -> None:
         near = np.array([[np.sin(1e-9), 0.0, np.cos(1e-9)]])
         theirs = trimesh.util.vector_to_spherical(near)[0, 1]
         print(
-            f"    polar angle of a billionth: ours {spherical_from_cartesian(near)[0, 1]:.3e}, trimesh {theirs:.3e}"
+            f"    polar angle of a billionth: ours {spherical_from_cartesian(near)[0, 1]:.3e},"
+            f" trimesh {theirs:.3e}"
         )
 
 
@@ -62,7 +64,8 @@ def bench_distances(rounds: int) -> None:
         earth = pyproj.Geod(ellps="WGS84").inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])[2]
         share = np.abs(great_circle_distance(a, b) / earth - 1)
         print(
-            f"    farthest off: {off:.1e} m; the ellipsoid is {share.mean():.2%} off on average, {share.max():.2%} at most"
+            f"    farthest off: {off:.1e} m; the ellipsoid is {share.mean():.2%} off on average,"
+            f" {share.max():.2%} at most"
         )
 
 

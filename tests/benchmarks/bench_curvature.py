@@ -1,8 +1,10 @@
-"""Curvature of a mesh, and the spectrum of its Laplacian, beside their peers: `python -m tests.benchmarks.bench_curvature`.
+"""Curvature of a mesh, and the spectrum of its Laplacian, beside their peers: `python -m
+tests.benchmarks.bench_curvature`.
 
-All contenders of a task see the same mesh in one run and on one thread, taking turns; figures are medians of CPU
-milliseconds. K and H are followed by their relative L2 error in per cent on a regular torus, where formulas converge,
-and on a jittered one, where only fits do. Floors are ratios to the best peer that a prototype reached.
+All contenders of a task see the same mesh in one run and on one thread, taking turns; figures are
+medians of CPU milliseconds. K and H are followed by their relative L2 error in per cent on a
+regular torus, where formulas converge, and on a jittered one, where only fits do. Floors are ratios
+to the best peer that a prototype reached.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
@@ -96,7 +98,9 @@ def both(
 def gaussian(
     surface: Surface, igl: ModuleType | None, pyvista: ModuleType | None
 ) -> dict[str, Contender]:
-    """Return who gives K alone; pyvista divides by a third of the faces around, not by mixed areas."""
+    """Return who gives K alone; pyvista divides by a third of the faces around, not by mixed
+    areas.
+    """
     p, faces = surface.p, surface.faces
     contenders: dict[str, Contender] = {"ours": lambda: (gaussian_curvature(p, faces), None)}
     if igl is not None:
@@ -114,7 +118,9 @@ def gaussian(
 
 
 def fits(surface: Surface, igl: ModuleType | None) -> dict[str, Contender]:
-    """Return who fits quadrics: igl over all vertices within five mean edges unless told otherwise."""
+    """Return who fits quadrics: igl over all vertices within five mean edges unless told
+    otherwise.
+    """
     p, faces = surface.p, surface.faces
 
     def ours() -> Estimate:
@@ -136,7 +142,9 @@ def fits(surface: Surface, igl: ModuleType | None) -> dict[str, Contender]:
 def spectra(
     surface: Surface, igl: ModuleType | None, lapy: ModuleType | None
 ) -> dict[str, Contender]:
-    """Return who finds the smallest eigenvalues of L u = lambda M u; what is returned is their sum, to compare."""
+    """Return who finds the smallest eigenvalues of L u = lambda M u; what is returned is their sum,
+    to compare.
+    """
     p, faces = surface.p, surface.faces
 
     def shifted(L: object, M: object) -> float:
@@ -183,12 +191,14 @@ def compare(
     print(f"  {'':24}{'ms':>9}{'ours / it':>11}{heads[0]:>20}{heads[1]:>12}")
     for name, answer in answers.items():
         print(
-            f"  {name:24}{medians[name]:9.1f}{ours / medians[name]:11.2f}{describe(answer, surface)}"
+            f"  {name:24}{medians[name]:9.1f}{ours / medians[name]:11.2f}{describe(answer, surface)}"  # noqa: E501
         )
 
 
 def describe(answer: object, surface: Surface | None) -> str:
-    """Write down how far K and H are from the truth, in per cent; H without its sign, which not all peers give."""
+    """Write down how far K and H are from the truth, in per cent; H without its sign, which not all
+    peers give.
+    """
     if surface is None or not isinstance(answer, tuple):
         return f"{answer:20.4f}"
     cells = []

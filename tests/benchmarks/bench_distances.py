@@ -1,11 +1,14 @@
-"""Shortest ways, fast marching, heat and Mahalanobis beside their peers: `python -m tests.benchmarks.bench_distances`.
+"""Shortest ways, fast marching, heat and Mahalanobis beside their peers: `python -m
+tests.benchmarks.bench_distances`.
 
-All contenders of a task see the same grid, mesh or points in one run and on one thread, taking turns; figures are medians
-of CPU milliseconds. The number behind is what must agree: a distance, or a sum of distances. Floors are ratios to the best
-peer that a prototype reached. scikit-fmm marches node by node with a heap in C++; ours accepts bands of nodes with numpy and
-calls the student's update for all nodes of a band at once, which a heap could not. It stays slower.
-Scipy's graph is given once and asked often; ours is made at every call, as the exercise's contract has it. Exact geodesics
-by igl are faster than our graph of points on edges, which serves as the truth of surfaces without a formula.
+All contenders of a task see the same grid, mesh or points in one run and on one thread, taking
+turns; figures are medians of CPU milliseconds. The number behind is what must agree: a distance, or
+a sum of distances. Floors are ratios to the best peer that a prototype reached. scikit-fmm marches
+node by node with a heap in C++; ours accepts bands of nodes with numpy and calls the student's
+update for all nodes of a band at once, which a heap could not. It stays slower. Scipy's graph is
+given once and asked often; ours is made at every call, as the exercise's contract has it. Exact
+geodesics by igl are faster than our graph of points on edges, which serves as the truth of surfaces
+without a formula.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
@@ -97,7 +100,9 @@ def ways(p: np.ndarray, networkx: ModuleType | None) -> dict[str, Contender]:
 
 
 def marches(x: np.ndarray, fmm: ModuleType | None) -> dict[str, Contender]:
-    """Return who marches from a disc of radius 0.1 about a corner; the distance of the far corner must be near."""
+    """Return who marches from a disc of radius 0.1 about a corner; the distance of the far corner
+    must be near.
+    """
     true, h = np.hypot(*np.meshgrid(x, x, indexing="ij")), float(x[1])
     start, free = np.where(true <= 0.1, true, np.inf), np.ones((SIDE, SIDE), bool)
 
@@ -144,7 +149,9 @@ def heats(
 
 
 def exact(igl: ModuleType | None) -> dict[str, Contender]:
-    """Return who comes near the exact geodesics of a mesh; the sum of the distances must be near."""
+    """Return who comes near the exact geodesics of a mesh; the sum of the distances must be
+    near.
+    """
     ball = surfaces.sphere(642)
 
     def ours() -> float:

@@ -1,13 +1,15 @@
-"""Two views: eight points, triangulation, the motion between two cameras, beside OpenCV and PoseLib where installed.
+"""Two views: eight points, triangulation, the motion between two cameras, beside OpenCV and PoseLib
+where installed.
 
     python -m tests.benchmarks.bench_epipolar
 
-The least CPU time of some rounds, taking turns, one thread each. 1,365 matches of two made cameras with half a pixel of
-noise, 1024 x 683 pixels. Where ours are behind: eight points keep the digits that normal equations lose (a QR of all rows
-before the SVD), and the linear triangulation is numpy's SVD of one 4 x 4 at a time, for the same digits: eigenvectors of its
-products would take two thirds of the time. Its midpoints are as near here and an order quicker. Rectification is a dozen
-products of small matrices, each with numpy's call.
-OpenCV and PoseLib look for outliers too, of which there are none: their motions are for more than ours.
+The least CPU time of some rounds, taking turns, one thread each. 1,365 matches of two made cameras
+with half a pixel of noise, 1024 x 683 pixels. Where ours are behind: eight points keep the digits
+that normal equations lose (a QR of all rows before the SVD), and the linear triangulation is
+numpy's SVD of one 4 x 4 at a time, for the same digits: eigenvectors of its products would take two
+thirds of the time. Its midpoints are as near here and an order quicker. Rectification is a dozen
+products of small matrices, each with numpy's call. OpenCV and PoseLib look for outliers too, of
+which there are none: their motions are for more than ours.
 """
 
 import argparse
@@ -76,8 +78,13 @@ def main() -> None:
     P, Q = camera_matrix(K, np.eye(4)), camera_matrix(L, T)
     xn, yn = normalize(x, K), normalize(y, L)
     print(f"{'task (ms), 1,365 matches':<44} {'ours':>8}   {'peers':<44} {'ratio':>6}   floor")
-    compared("eight points", rounds, lambda: fit_fundamental(x, y),
-             {"cv2": lambda: cv2.findFundamentalMat(x, y, cv2.FM_8POINT)} if cv2 else {}, "6")  # fmt: skip
+    compared(
+        "eight points",
+        rounds,
+        lambda: fit_fundamental(x, y),
+        {"cv2": lambda: cv2.findFundamentalMat(x, y, cv2.FM_8POINT)} if cv2 else {},
+        "6",
+    )
     triangulated = {"cv2": lambda: cv2.triangulatePoints(P, Q, x.T, y.T)} if cv2 else {}
     compared("triangulation, linear", rounds, lambda: triangulate(P, Q, x, y), triangulated, "3.2")
     compared("triangulation, midpoints", rounds, lambda: midpoints(T, xn, yn), triangulated, "0.25")
@@ -116,7 +123,8 @@ def main() -> None:
         found = made()
         direction = np.degrees(angle_between(found[:3, 3], T[:3, 3]))
         print(
-            f"    {name}: {degrees_between(found, T):.3f} degrees of rotation, {direction:.3f} of direction off"
+            f"    {name}: {degrees_between(found, T):.3f} degrees of rotation, {direction:.3f} of"
+            " direction off"
         )
     compared(
         "F refined over seven numbers",

@@ -1,12 +1,16 @@
-"""Features: descriptors, keypoints, corners and registration from any start, beside Open3D and OpenCV where installed.
+"""Features: descriptors, keypoints, corners and registration from any start, beside Open3D and
+OpenCV where installed.
 
     python -m tests.benchmarks.bench_features
 
-The least CPU time of some rounds, taking turns, one thread each. FPFH takes all neighbours within the radius on both sides:
-Open3D's usual limit of 100 is quicker for it, and gives other descriptors; shown too. Its ISS is another detector (it takes
-the spread about the neighbours' mean). OpenCV's corner response is of single precision, without our two Gaussians (most of
-our time), and compiled for vectors. The bunny scans are used where ../shared/data is beside the project.
+The least CPU time of some rounds, taking turns, one thread each. FPFH takes all neighbours within
+the radius on both sides: Open3D's usual limit of 100 is quicker for it, and gives other
+descriptors; shown too. Its ISS is another detector (it takes the spread about the neighbours'
+mean). OpenCV's corner response is of single precision, without our two Gaussians (most of our
+time), and compiled for vectors. The bunny scans are used where ../shared/data is beside the
+project.
 """
+
 # ruff: noqa: E402
 
 import argparse
@@ -66,9 +70,11 @@ def main() -> None:
     )
     left, _, _ = motorcycle_levels()
     compared(
-        f"corner response, {left.shape[1]} x {left.shape[0]} pixels", rounds, lambda: harris_response(left),
+        f"corner response, {left.shape[1]} x {left.shape[0]} pixels",
+        rounds,
+        lambda: harris_response(left),
         {"cv2": lambda: cv2.cornerHarris(left.astype(np.float32), 3, 3, 0.04)} if cv2 else {},
-    )  # fmt: skip
+    )
     if SCANS.exists():
         from_any_start()
     else:
@@ -139,10 +145,12 @@ def from_any_start() -> None:
             rows.append((before, last.now.error.rotation, took))
     before, after, took = np.array(rows).T
     print(
-        f"\nbunny scans from {STARTS} random starts, every step of the lesson, files read: {np.median(took):.2f} s each"
+        f"\nbunny scans from {STARTS} random starts, every step of the lesson, files read:"
+        f" {np.median(took):.2f} s each"
     )
     print(
-        f"    before ICP within 0.5 degrees: {np.sum(before < 0.5)}, at most {np.nanmax(before):.3f}"
+        f"    before ICP within 0.5 degrees: {np.sum(before < 0.5)}, at most"
+        f" {np.nanmax(before):.3f}"
     )
     print(
         f"    after ICP within 0.1 degrees: {np.sum(after < 0.1)}, at most {np.nanmax(after):.3f}"

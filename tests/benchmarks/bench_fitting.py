@@ -1,11 +1,13 @@
-"""Fits of circles, cylinders and lines beside scipy, circle-fit and OpenCV, where they are installed.
+"""Fits of circles, cylinders and lines beside scipy, circle-fit and OpenCV, where they are
+installed.
 
     python -m tests.benchmarks.bench_fitting
 
-The least time of some rounds, taking turns, of 20 fits each. Ours is the lesson's descent with every moment of it, as the
-lesson draws it. cv2.fitLine iterates with Huber's weights, which let outliers pull (compare the angles), in a compiled loop
-over points.
+The least time of some rounds, taking turns, of 20 fits each. Ours is the lesson's descent with
+every moment of it, as the lesson draws it. cv2.fitLine iterates with Huber's weights, which let
+outliers pull (compare the angles), in a compiled loop over points.
 """
+
 # ruff: noqa: E402
 
 import argparse
@@ -54,9 +56,12 @@ def compare(task: str, ours, peers: dict, floor: str = "") -> None:
 def bench_circle() -> None:
     p = arc_points(np.radians(90), N) + 0.02 * np.random.default_rng(0).normal(size=(N, 2))
     start = np.array([0.5, 0.4, 0.7])
-    scipys = lambda: (
-        scipy.optimize.least_squares(lambda c: CIRCLE.linearise(c, p)[0], start, method="lm").x
-    )  # noqa: E731
+
+    def scipys() -> np.ndarray:
+        return scipy.optimize.least_squares(
+            lambda c: CIRCLE.linearise(c, p)[0], start, method="lm"
+        ).x
+
     compare(
         "circle, 1,000 points, from afar", lambda: descent(CIRCLE, p, start), {"scipy lm": scipys}
     )

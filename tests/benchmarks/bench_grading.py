@@ -1,4 +1,5 @@
-"""How long a call across the pipe takes beyond the student's own work, and how long a class of 200 takes to grade.
+"""How long a call across the pipe takes beyond the student's own work, and how long a class of 200
+takes to grade.
 
 `python -m tests.benchmarks.bench_grading`
 """
@@ -30,7 +31,8 @@ def main() -> None:
                 student(p)
                 times.append(time.perf_counter() - began)
         print(
-            f"a call with 2,000 points there and back: median {1000 * np.median(times):.2f} ms (goal: below 2 ms)"
+            f"a call with 2,000 points there and back: median {1000 * np.median(times):.2f} ms"
+            " (goal: below 2 ms)"
         )
 
         finding.exercises = lambda: {"centroid": EXERCISE}

@@ -1,8 +1,10 @@
-"""Graphs of neighbours, Fiedler vectors and diffusion beside their peers: `python -m tests.benchmarks.bench_graphs`.
+"""Graphs of neighbours, Fiedler vectors and diffusion beside their peers: `python -m
+tests.benchmarks.bench_graphs`.
 
-All contenders of a task see the same points or graph in one run and on one thread, taking turns; figures are medians of CPU
-milliseconds. The number behind is what must agree: edges, an eigenvalue, the heat of one node. Floors are ratios to the best
-peer that a prototype reached. networkx' default way to a Fiedler vector (tracemin_pcg) takes seconds and is asked once.
+All contenders of a task see the same points or graph in one run and on one thread, taking turns;
+figures are medians of CPU milliseconds. The number behind is what must agree: edges, an eigenvalue,
+the heat of one node. Floors are ratios to the best peer that a prototype reached. networkx' default
+way to a Fiedler vector (tracemin_pcg) takes seconds and is asked once.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)

@@ -1,8 +1,10 @@
-"""Compares alignment, normals and ICP with open3d, small_gicp, scipy and trimesh, where they are installed.
+"""Compares alignment, normals and ICP with open3d, small_gicp, scipy and trimesh, where they are
+installed.
 
     python -m tests.benchmarks.bench_icp
 
-Times are the best of a few runs, ours and the peer's in turn, so that a ratio is of one run on one machine.
+Times are the best of a few runs, ours and the peer's in turn, so that a ratio is of one run on one
+machine.
 """
 
 import importlib
@@ -37,7 +39,9 @@ open3d, small_gicp, trimesh = optional("open3d"), optional("small_gicp"), option
 
 
 def best(*tasks: Callable[[], Any] | None, repeat: int = 5) -> list[float]:
-    """Return the shortest time of each task in milliseconds, the tasks taking turns; NaN for one that is not there."""
+    """Return the shortest time of each task in milliseconds, the tasks taking turns; NaN for one
+    that is not there.
+    """
     times = np.full((repeat, len(tasks)), np.nan)
     for row in times:
         for i, task in enumerate(tasks):
@@ -167,7 +171,9 @@ def bench_icp(n: int, floor: str, floor_whole: str) -> None:
 
 
 def with_open3d(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> Register:
-    """Return open3d's point-to-plane ICP on these clouds; its tree is built in every call, there is no way around it."""
+    """Return open3d's point-to-plane ICP on these clouds; its tree is built in every call, there is
+    no way around it.
+    """
     registration = open3d.pipelines.registration
     source, target = (
         open3d.geometry.PointCloud(open3d.utility.Vector3dVector(p)) for p in (p_source, p_target)
@@ -193,23 +199,33 @@ def with_small_gicp(p_target: np.ndarray, p_source: np.ndarray) -> Register:
 
     def register(gate: float, T: np.ndarray, stop: float, most: int) -> np.ndarray:
         found = small_gicp.align(
-            *clouds, tree, T, registration_type="PLANE_ICP", max_correspondence_distance=gate, num_threads=2,
-            max_iterations=most, rotation_epsilon=stop, translation_epsilon=stop,
-        )  # fmt: skip
+            *clouds,
+            tree,
+            T,
+            registration_type="PLANE_ICP",
+            max_correspondence_distance=gate,
+            num_threads=2,
+            max_iterations=most,
+            rotation_epsilon=stop,
+            translation_epsilon=stop,
+        )
         return found.T_target_source
 
     return register
 
 
 def profile(n: int) -> None:
-    """Print where an iteration's processor time goes (all threads), in the quickest of a few runs."""
+    """Print where an iteration's processor time goes (all threads), in the quickest of a few
+    runs.
+    """
     p_target, p_source, _ = scans(n)
     n_target = point_normals(p_target)
     runs = [profiled_run(p_target, p_source, n_target) for _ in range(8)]
     total, query, step, iterations = min(runs)
     trees = best(lambda: matcher(p_target, p_source))[0]
     print(
-        f"an iteration at {n:,} points, 80 % overlap: {total / iterations:.1f} ms of processor time ="
+        f"an iteration at {n:,} points, 80 % overlap: {total / iterations:.1f} ms of processor"
+        " time ="
     )
     for name, spent in (
         ("nearest-neighbour query", query),
@@ -223,7 +239,9 @@ def profile(n: int) -> None:
 def profiled_run(
     p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
 ) -> tuple[float, float, float, int]:
-    """Return milliseconds of processor time in all, in the query and in the linear step, and the number of iterations."""
+    """Return milliseconds of processor time in all, in the query and in the linear step, and the
+    number of iterations.
+    """
     spent = {"match": 0.0, "step": 0.0}
 
     def timed(name: str, function: Callable) -> Callable:
@@ -238,9 +256,14 @@ def profiled_run(
     match, iterations = timed("match", matcher(p_target, p_source)), 0
     start = time.process_time()
     for state in icp(
-        p_target, p_source, n_target=n_target, gate=Gate(medians=3.0), max_iterations=8,
-        match=match, step=timed("step", point_to_plane_step),
-    ):  # fmt: skip
+        p_target,
+        p_source,
+        n_target=n_target,
+        gate=Gate(medians=3.0),
+        max_iterations=8,
+        match=match,
+        step=timed("step", point_to_plane_step),
+    ):
         iterations = state.iteration
     return 1e3 * (time.process_time() - start), spent["match"], spent["step"], iterations
 

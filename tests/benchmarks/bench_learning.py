@@ -1,10 +1,13 @@
-"""Learning by hand-written gradients beside autograd and JAX: `python -m tests.benchmarks.bench_learning [--rounds 5]`.
+"""Learning by hand-written gradients beside autograd and JAX: `python -m
+tests.benchmarks.bench_learning [--rounds 5]`.
 
-One update of the network that puts out six numbers for a rotation (64 rotations, two hidden layers of 64, loss on the
-matrix) is the same sum for all: forward, backward and Adam. JAX compiles it; its first call is told apart. One thread,
-CPU time, the least of the rounds that take turns, with the largest difference of the gradients. Then every task of the
-lesson from its start to its end, every step held against the truth.
+One update of the network that puts out six numbers for a rotation (64 rotations, two hidden layers
+of 64, loss on the matrix) is the same sum for all: forward, backward and Adam. JAX compiles it; its
+first call is told apart. One thread, CPU time, the least of the rounds that take turns, with the
+largest difference of the gradients. Then every task of the lesson from its start to its end, every
+step held against the truth.
 """
+
 # ruff: noqa: E402
 
 import argparse
@@ -100,7 +103,8 @@ def updates(rounds: int) -> None:
     ways, least = contenders(), dict[str, float]()
     expected = by_hand(first, R)[1]
     print(
-        f"one update, milliseconds\n{'':16}{'least':>8}{'ratio':>8}{'first call':>12}   gradient off by"
+        f"one update, milliseconds\n{'':16}{'least':>8}{'ratio':>8}{'first call':>12}   gradient"
+        " off by"
     )
     started = {name: timed(lambda way=way: way(first, R)) for name, way in ways.items()}
     for _ in range(rounds):

@@ -1,11 +1,14 @@
-"""Areas, volumes, samples and inside tests of meshes beside what is installed of igl, open3d, trimesh and pyvista.
+"""Areas, volumes, samples and inside tests of meshes beside what is installed of igl, open3d,
+trimesh and pyvista.
 
-Run `python -m tests.benchmarks.bench_measures`. Least processor time of some runs, all threads; a ratio is ours over the
-best peer that measures the same. open3d's `get_volume` first tests the mesh for crossing itself and is timed on small meshes
-only; trimesh's `contains` casts rays one by one, and is timed on a tenth of the points.
+Run `python -m tests.benchmarks.bench_measures`. Least processor time of some runs, all threads; a
+ratio is ours over the best peer that measures the same. open3d's `get_volume` first tests the mesh
+for crossing itself and is timed on small meshes only; trimesh's `contains` casts rays one by one,
+and is timed on a tenth of the points.
 
-Areas and single inside tests stay behind igl (2.3-2.8 and 1.7 times its time when written): its compiled loop gathers and
-measures a face at once, numpy writes each sum to memory in between. Whole grids, which lessons ask for, are far ahead.
+Areas and single inside tests stay behind igl (2.3-2.8 and 1.7 times its time when written): its
+compiled loop gathers and measures a face at once, numpy writes each sum to memory in between. Whole
+grids, which lessons ask for, are far ahead.
 """
 
 import importlib
@@ -47,7 +50,9 @@ def least(task: Task, repeats: int) -> tuple[float, float]:
 def compare(
     name: str, ours: Task, peers: dict[str, Task], repeats: int = 7, *, exact: bool = True
 ) -> None:
-    """Print one block: ours, each peer, and the ratio to the fastest of them; values must agree where they are exact."""
+    """Print one block: ours, each peer, and the ratio to the fastest of them; values must agree
+    where they are exact.
+    """
     own, value = least(ours, repeats)
     print(f"{name:44s} {'ours':22s} {own:9.1f} ms   value {value:.6g}", flush=True)
     times = []

@@ -1,9 +1,11 @@
-"""Pose from points as the lesson finds it, beside its peers: `python -m tests.benchmarks.bench_pose [--rounds 5]`.
+"""Pose from points as the lesson finds it, beside its peers: `python -m tests.benchmarks.bench_pose
+[--rounds 5]`.
 
-The same points for all contenders of a task, one thread, CPU time, the least of the rounds that take turns. P3P, SQPnP,
-EPnP and IPPE are called as the lesson calls them in its 60 other pictures, for many problems side by side; one by one
-numpy's calls cost many times what they compute; that is shown too. RANSAC is the lesson's, step by step, to its end: it
-solves samples some dozens at once and judges them one by one.
+The same points for all contenders of a task, one thread, CPU time, the least of the rounds that
+take turns. P3P, SQPnP, EPnP and IPPE are called as the lesson calls them in its 60 other pictures,
+for many problems side by side; one by one numpy's calls cost many times what they compute; that is
+shown too. RANSAC is the lesson's, step by step, to its end: it solves samples some dozens at once
+and judges them one by one.
 """
 # ruff: noqa: E402
 
@@ -210,7 +212,9 @@ def compare(
     *,
     per: int,
 ) -> None:
-    """Run all contenders, taking turns, and print their times per problem, ours over theirs, and what came out."""
+    """Run all contenders, taking turns, and print their times per problem, ours over theirs, and
+    what came out.
+    """
     least, found = dict.fromkeys(ways, np.inf), {}
     for _ in range(rounds):
         for name, way in ways.items():

@@ -1,10 +1,13 @@
-"""RANSAC as the lesson runs it, beside its peers: `python -m tests.benchmarks.bench_ransac [--seeds 10]`.
+"""RANSAC as the lesson runs it, beside its peers: `python -m tests.benchmarks.bench_ransac [--seeds
+10]`.
 
-Ours is the lesson's step-by-step `ransac` with its defaults (uniform samples, 99 % confidence, 500 samples at most), run to
-its end. All contenders of a task see the same rows and the same inlier distance, in one run and on one thread: 5,000 points
-for a plane, the most that the lesson takes, and 600 matches. Times are medians of CPU time in ms; errors are the root mean
-square distance of the noiseless true points or matches to the estimate.
+Ours is the lesson's step-by-step `ransac` with its defaults (uniform samples, 99 % confidence, 500
+samples at most), run to its end. All contenders of a task see the same rows and the same inlier
+distance, in one run and on one thread: 5,000 points for a plane, the most that the lesson takes,
+and 600 matches. Times are medians of CPU time in ms; errors are the root mean square distance of
+the noiseless true points or matches to the estimate.
 """
+
 # ruff: noqa: E402
 
 import argparse
@@ -58,7 +61,9 @@ def main() -> None:
 def compare(
     task: str, scenes: list, model: Model, contenders: dict[str, Contender], note: str = ""
 ) -> None:
-    """Run all contenders on all scenes, taking turns, and print their figures and the ratios to the best peer."""
+    """Run all contenders on all scenes, taking turns, and print their figures and the ratios to the
+    best peer.
+    """
     times = {name: [] for name in contenders}
     errors = {name: [] for name in contenders}
     for scene in scenes:
@@ -77,7 +82,7 @@ def compare(
         median, p90, worst = np.quantile(errors[name], (0.5, 0.9, 1.0))
         ratio = "" if name == "ours" else f"{ours / np.median(times[name]):.2f}"
         print(
-            f"  {name:22}{np.median(times[name]):9.2f}{ratio:>11}{median:11.4f}{p90:9.4f}{worst:9.3f}"
+            f"  {name:22}{np.median(times[name]):9.2f}{ratio:>11}{median:11.4f}{p90:9.4f}{worst:9.3f}"  # noqa: E501
         )
 
 
@@ -109,13 +114,20 @@ def plane_contenders(distance: float) -> dict[str, Contender]:
 
         def by_skimage(p: np.ndarray) -> np.ndarray:
             model, _ = measure.ransac(
-                p, _PlaneModel, min_samples=3, residual_threshold=distance, max_trials=MOST_SAMPLES, rng=0,
+                p,
+                _PlaneModel,
+                min_samples=3,
+                residual_threshold=distance,
+                max_trials=MOST_SAMPLES,
+                rng=0,
                 stop_probability=0.99,
-            )  # fmt: skip
+            )
             return model.params
 
         class _PlaneModel:
-            """A plane as scikit-image's loop wants it: through three points, or by least squares."""
+            """A plane as scikit-image's loop wants it: through three points, or by least
+            squares.
+            """
 
             params: np.ndarray
 
@@ -154,9 +166,14 @@ def match_contenders(model: Model, distance: float) -> dict[str, Contender]:
 
         def by_skimage(p: np.ndarray) -> np.ndarray | None:
             found, _ = measure.ransac(
-                (p[:, :2], p[:, 2:]), kind, min_samples=4 if flat else 8, residual_threshold=distance,
-                max_trials=MOST_SAMPLES, rng=0, stop_probability=0.99,
-            )  # fmt: skip
+                (p[:, :2], p[:, 2:]),
+                kind,
+                min_samples=4 if flat else 8,
+                residual_threshold=distance,
+                max_trials=MOST_SAMPLES,
+                rng=0,
+                stop_probability=0.99,
+            )
             return found.params if found is not None else None
 
         contenders["skimage"] = by_skimage

@@ -2,8 +2,9 @@
 
     python -m tests.benchmarks.bench_recording
 
-Bare and recorded runs take turns, the best of three each, so that a ratio is of one run on one machine. The goals are of
-a rigid run of 50 steps over two clouds of 20,000 points: a ratio below 1.5, a file below 1 MB.
+Bare and recorded runs take turns, the best of three each, so that a ratio is of one run on one
+machine. The goals are of a rigid run of 50 steps over two clouds of 20,000 points: a ratio below
+1.5, a file below 1 MB.
 """
 
 import tempfile
@@ -34,7 +35,9 @@ class Task:
 
 
 def tasks() -> Iterator[Task]:
-    """Yield the run that the goals speak of, the same with its lines from point to point, and every default run."""
+    """Yield the run that the goals speak of, the same with its lines from point to point, and every
+    default run.
+    """
     icp = catalog()["icp"]
     params = replace(icp.params(), points=20_000)
 
@@ -76,7 +79,8 @@ def main() -> None:
             ratio = min(recorded) / min(bare)
             size = path.stat().st_size / 1e6
             print(
-                f"{task.name:<32} {min(bare):6.2f} s {min(recorded):7.2f} s {ratio:6.2f} {size:6.2f} MB {steps:6d}",
+                f"{task.name:<32} {min(bare):6.2f} s {min(recorded):7.2f} s {ratio:6.2f}"
+                f" {size:6.2f} MB {steps:6d}",
                 flush=True,
             )
 

@@ -1,10 +1,13 @@
-"""Networks, patches, distances and k-d trees beside their peers: `python -m tests.benchmarks.bench_representations`.
+"""Networks, patches, distances and k-d trees beside their peers: `python -m
+tests.benchmarks.bench_representations`.
 
-All contenders of a task see the same data in one run and on one thread, taking turns; figures are medians of CPU time in ms.
-The number behind is what must agree, or an error where methods differ. Our k-d tree is written to be read, step by step, and
-is timed for that alone: whoever only wants the nearest point takes scipy's. Distances to a mesh go through scipy's tree of
-middles of faces and then through numpy, face by face of the few that can be nearest: igl walks a compiled tree of boxes, and
-would be a dependency for one form of one lesson, whose default is a shape with a distance in closed form.
+All contenders of a task see the same data in one run and on one thread, taking turns; figures are
+medians of CPU time in ms. The number behind is what must agree, or an error where methods differ.
+Our k-d tree is written to be read, step by step, and is timed for that alone: whoever only wants
+the nearest point takes scipy's. Distances to a mesh go through scipy's tree of middles of faces and
+then through numpy, face by face of the few that can be nearest: igl walks a compiled tree of boxes,
+and would be a dependency for one form of one lesson, whose default is a shape with a distance in
+closed form.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
@@ -94,9 +97,14 @@ def networks() -> dict[str, Contender]:
 
         def theirs() -> float:
             regressor = learning.MLPRegressor(
-                hidden_layer_sizes=(32, 32), activation="tanh", batch_size=BATCH, learning_rate_init=5e-3,
-                max_iter=1500 * BATCH // len(x), random_state=1, n_iter_no_change=1000,
-            )  # fmt: skip
+                hidden_layer_sizes=(32, 32),
+                activation="tanh",
+                batch_size=BATCH,
+                learning_rate_init=5e-3,
+                max_iter=1500 * BATCH // len(x),
+                random_state=1,
+                n_iter_no_change=1000,
+            )
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # it did not converge, as was asked for
                 regressor.fit(x, y.astype(np.float32))

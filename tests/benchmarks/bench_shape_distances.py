@@ -1,13 +1,16 @@
-"""Chamfer, earth mover's and Sinkhorn beside what is installed of small_gicp, pykdtree, open3d, POT and scipy.
+"""Chamfer, earth mover's and Sinkhorn beside what is installed of small_gicp, pykdtree, open3d, POT
+and scipy.
 
-Run `python -m tests.benchmarks.bench_shape_distances [--large] [--only emd]`. A ratio below 1 means ours is faster;
-"floor" is the ratio to the best peer that a prototype reached. Chamfer and Sinkhorn: the least wall time of a
-few runs, and processor time over all threads, from which the ratio is made, since it bears other work on the machine
-better. Run with OPENBLAS_NUM_THREADS=1 on a busy machine: matrix products that wait for a second core count the waiting.
+Run `python -m tests.benchmarks.bench_shape_distances [--large] [--only emd]`. A ratio below 1 means
+ours is faster; "floor" is the ratio to the best peer that a prototype reached. Chamfer and
+Sinkhorn: the least wall time of a few runs, and processor time over all threads, from which the
+ratio is made, since it bears other work on the machine better. Run with OPENBLAS_NUM_THREADS=1 on a
+busy machine: matrix products that wait for a second core count the waiting.
 
-Earth mover's, the function that the lesson runs, at the lesson's largest size and beyond: a table of sizes x clouds. All
-take turns on the same fresh clouds, each ratio is ours over the faster of the others on the same clouds, by wall time and
-by the processor time of the busiest thread, and the table shows medians over the seeds. Values must agree to 1e-9.
+Earth mover's, the function that the lesson runs, at the lesson's largest size and beyond: a table
+of sizes x clouds. All take turns on the same fresh clouds, each ratio is ours over the faster of
+the others on the same clouds, by wall time and by the processor time of the busiest thread, and the
+table shows medians over the seeds. Values must agree to 1e-9.
 """
 
 import argparse
@@ -105,7 +108,8 @@ def emd_tasks(p_a: np.ndarray, p_b: np.ndarray) -> dict[str, Task]:
 def compare_emd(sizes: Sequence[int], seeds: int = 5) -> None:
     """Print the table of earth mover's."""
     print(
-        "EMD exact, medians: ours, scipy, POT in ms, then ours over the faster of the others on the same clouds"
+        "EMD exact, medians: ours, scipy, POT in ms, then ours over the faster of the others on the"
+        " same clouds"
     )
     print(
         f"{'points':>7s} {'clouds':7s} {'wall':>24s} {'busiest thread':>24s}   ratio: wall  thread"
@@ -129,7 +133,9 @@ def compare_emd(sizes: Sequence[int], seeds: int = 5) -> None:
 
 
 def timed(task: Task) -> tuple[float, float, float]:
-    """Return the wall time of one run and the processor time of its busiest thread in ms, and the value."""
+    """Return the wall time of one run and the processor time of its busiest thread in ms, and the
+    value.
+    """
     wall, threads = time.perf_counter(), thread_times()
     value = task()
     after = thread_times()
@@ -138,7 +144,9 @@ def timed(task: Task) -> tuple[float, float, float]:
 
 
 def thread_times() -> dict[str, int]:
-    """Return the processor time of each thread of this process in ns (of the others on Linux only)."""
+    """Return the processor time of each thread of this process in ns (of the others on Linux
+    only).
+    """
     others = Path("/proc/self/task").glob("*/schedstat")
     times = {schedstat.parent.name: int(schedstat.read_text().split()[0]) for schedstat in others}
     return times | {str(threading.get_native_id()): time.thread_time_ns()}
@@ -171,13 +179,15 @@ def compare(name: str, ours: Task, peers: dict[str, Task], floor: str, repeats: 
     """Print one block: ours, each peer, and the ratios."""
     wall, own, value = least_times(ours, repeats)
     print(
-        f"{name:34s} {'ours':17s} wall {wall:8.1f} cpu {own:8.1f} ms   value {value:.9f}   floor {floor}"
+        f"{name:34s} {'ours':17s} wall {wall:8.1f} cpu {own:8.1f} ms   value {value:.9f}   floor"
+        f" {floor}"
     )
     for peer_name, task in peers.items():
         wall, theirs, its = least_times(task, repeats)
         off = "" if abs(its - value) <= 1e-6 * abs(value) else f"   VALUE OFF BY {its - value:+.2e}"
         print(
-            f"{'':34s} {peer_name:17s} wall {wall:8.1f} cpu {theirs:8.1f} ms   ratio {own / theirs:.2f}{off}",
+            f"{'':34s} {peer_name:17s} wall {wall:8.1f} cpu {theirs:8.1f} ms   ratio"
+            f" {own / theirs:.2f}{off}",
             flush=True,
         )
 

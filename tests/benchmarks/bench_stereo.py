@@ -1,9 +1,11 @@
-"""Stereo matching as the lesson runs it, beside OpenCV: `python -m tests.benchmarks.bench_stereo [--rounds 5]`.
+"""Stereo matching as the lesson runs it, beside OpenCV: `python -m tests.benchmarks.bench_stereo
+[--rounds 5]`.
 
-Ours is the lesson's step-by-step `match`, every step computed, on the pairs and at the sizes of its presets and of own
-pairs. Every contender runs on the same pictures, taking turns, on one thread. Times are the CPU time of the process in ms,
-the least over the rounds. Errors are shares of the pixels that both cameras see (known from the truth) whose disparity
-is over 1 or 2 px off, a contender's rejected pixels counted as `none` and left out of both.
+Ours is the lesson's step-by-step `match`, every step computed, on the pairs and at the sizes of its
+presets and of own pairs. Every contender runs on the same pictures, taking turns, on one thread.
+Times are the CPU time of the process in ms, the least over the rounds. Errors are shares of the
+pixels that both cameras see (known from the truth) whose disparity is over 1 or 2 px off, a
+contender's rejected pixels counted as `none` and left out of both.
 """
 
 import argparse
@@ -48,7 +50,9 @@ def main() -> None:
 
 
 def tasks() -> dict[str, Task]:
-    """Return the default run's balls, the motorcycle of its preset, and cones at half their size where they are there."""
+    """Return the default run's balls, the motorcycle of its preset, and cones at half their size
+    where they are there.
+    """
     balls = synthetic_pair(
         "spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), 4.0, np.random.default_rng(0)
     )
@@ -82,7 +86,9 @@ def cones() -> StereoPair:
 
 
 def ours(disparities: int, window: int, *, paths: bool) -> Matcher:
-    """Return the lesson's way, run to its last step: census with eight paths, or the lowest sum of differences."""
+    """Return the lesson's way, run to its last step: census with eight paths, or the lowest sum of
+    differences.
+    """
     penalties = functools.partial(usual_penalties, smoothness=1.0) if paths else None
     compare_by = census_cost_volume if paths else sad_cost_volume
 
@@ -158,7 +164,7 @@ def compare(name: str, task: Task, contenders: dict[str, Matcher], rounds: int) 
         bad = [100 * float((off[known] > limit).mean()) for limit in (1, 2)]
         ratio = least["ours"] / least[who]
         print(
-            f"  {who:18}{least[who]:8.1f}{ratio:14.2f}{bad[0]:9.2f}%{bad[1]:9.2f}%{100 * (~known).mean():7.2f}%"
+            f"  {who:18}{least[who]:8.1f}{ratio:14.2f}{bad[0]:9.2f}%{bad[1]:9.2f}%{100 * (~known).mean():7.2f}%"  # noqa: E501
         )
 
 

@@ -2,8 +2,8 @@
 
     python -m tests.benchmarks.bench_uploads [--lessons icp ransac] [--files rows.xyz.gz]
 
-Goals, on an idle machine: each is refused or shown within 3 s; a step of the other page takes below 200 ms; the server, with
-what it starts, grows by less than 500 MB.
+Goals, on an idle machine: each is refused or shown within 3 s; a step of the other page takes below
+200 ms; the server, with what it starts, grows by less than 500 MB.
 """
 
 import argparse
@@ -88,7 +88,8 @@ async def watched(server: Served, given: argparse.Namespace) -> None:
                 await look
                 worst = max(waits.words, default=float("nan"))
                 print(
-                    f"{name:16}{file:16}{took:9.2f}{worst:9.0f}{max(grown) - grown[0]:10.0f}  {field}: {str(told)[:90]}"
+                    f"{name:16}{file:16}{took:9.2f}{worst:9.0f}{max(grown) - grown[0]:10.0f} "
+                    f" {field}: {str(told)[:90]}"
                 )
             await page.close()
     await walker.close()

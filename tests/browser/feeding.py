@@ -1,4 +1,6 @@
-"""A page with the scripts that show scenes, and a model of viser's client that they feed; no server, no drawing."""
+"""A page with the scripts that show scenes, and a model of viser's client that they feed; no
+server, no drawing.
+"""
 
 import base64
 import json
@@ -18,7 +20,10 @@ BODY = (
     '<div id="scene" style="position:relative;width:800px;height:500px">'
     '<iframe style="width:100%;height:100%;border:0"></iframe><div id="labels"></div></div>'
 )
-START = "stage.frame = $('iframe'); for (const part of [labels, handles]) part.start(); const wire = new Wire(); connect();"
+START = (
+    "stage.frame = $('iframe'); for (const part of [labels, handles]) part.start(); const wire ="
+    " new Wire(); connect();"
+)
 
 
 class Fed:

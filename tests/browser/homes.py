@@ -1,4 +1,6 @@
-"""The three homes of a lesson's page, each opened in a real browser: live, on a site, and in a notebook's HTML."""
+"""The three homes of a lesson's page, each opened in a real browser: live, on a site, and in a
+notebook's HTML.
+"""
 
 import re
 from collections.abc import Callable, Iterator
@@ -90,14 +92,18 @@ class Home:
 
 
 def barriers(frame: Any, *rules: str) -> list[str]:
-    """Return what axe calls serious in a document: the rule, and the first place that breaks it; of some rules, if named."""
+    """Return what axe calls serious in a document: the rule, and the first place that breaks it; of
+    some rules, if named.
+    """
     frame.evaluate(Axe().axe_script)
     options = {"iframes": False, "preload": False, "resultTypes": ["violations"]}
     return frame.evaluate(BARRIERS, options | ({"runOnly": rules} if rules else {}))
 
 
 class Browser:
-    """One browser for all visits, so that what lessons share is loaded once; somebody who wants no motion sits before it."""
+    """One browser for all visits, so that what lessons share is loaded once; somebody who wants no
+    motion sits before it.
+    """
 
     def __init__(self, chromium: Any, server: Server):
         self._context = chromium.new_context(
@@ -107,7 +113,9 @@ class Browser:
 
     @contextmanager
     def opened(self, kind: str, lesson: Lesson, folder: Path) -> Iterator[Home]:
-        """Open a lesson in one of its homes, as if for the first time; its window closes at the end."""
+        """Open a lesson in one of its homes, as if for the first time; its window closes at the
+        end.
+        """
         lesson, address = HOMES[kind](lesson, self._server, folder)
         page, errors = self._context.new_page(), []
         page.add_init_script(SELDOM)
@@ -179,7 +187,9 @@ HOMES: dict[str, Callable[[Lesson, Server, Path], tuple[Lesson, str]]] = {
 
 
 def few(lesson: Lesson, folder: Path) -> Lesson:
-    """Return a lesson with the runs that a visit needs: one preset, one question, two values of a sweep."""
+    """Return a lesson with the runs that a visit needs: one preset, one question, two values of a
+    sweep.
+    """
     first = linked(lesson) or next((preset.name for preset in lesson.presets), None)
     kept = {"default", "this", "", first}
     page = folder / "page.md"
@@ -200,7 +210,9 @@ def few(lesson: Lesson, folder: Path) -> Lesson:
 
 
 def asked(lesson: Lesson) -> Question:
-    """Return the question that needs the fewest runs besides the default and the preset that is linked."""
+    """Return the question that needs the fewest runs besides the default and the preset that is
+    linked.
+    """
     there = [
         lesson.params(),
         *(preset.params for preset in lesson.presets if preset.name == linked(lesson)),

@@ -43,8 +43,14 @@ def draw(state: str) -> Scene:
 
 def lesson(page: str) -> Lesson:
     return Lesson(
-        name="broken", title="Broken", summary="It breaks in every place.", page=Path(page),
-        params=Params, run=run, draw=draw, order=1,
+        name="broken",
+        title="Broken",
+        summary="It breaks in every place.",
+        page=Path(page),
+        params=Params,
+        run=run,
+        draw=draw,
+        order=1,
         presets=tuple(
             Preset(where.replace(" ", "-"), f"Fails {where}", "", Params(where), -1)  # type: ignore[arg-type]
             for where in ("nowhere", "in run", "in draw", "in the sink")
@@ -52,7 +58,7 @@ def lesson(page: str) -> Lesson:
         questions=(
             Question("ratio", "How many?", lambda states: 1 / 0, lambda states: "", Params()),
         ),
-    )  # fmt: skip
+    )
 
 
 def test_the_page_says_where_a_lesson_fails_and_goes_on(chromium, monkeypatch, capsys):

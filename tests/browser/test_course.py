@@ -1,4 +1,6 @@
-"""The course in a real browser: cards, ticks, the way from lesson to lesson, and links that cannot be used."""
+"""The course in a real browser: cards, ticks, the way from lesson to lesson, and links that cannot
+be used.
+"""
 
 import re
 

@@ -1,4 +1,6 @@
-"""A lesson is edited while it is open in a real browser: same inputs and step, new code and text; or what is wrong."""
+"""A lesson is edited while it is open in a real browser: same inputs and step, new code and text;
+or what is wrong.
+"""
 
 import shutil
 from pathlib import Path

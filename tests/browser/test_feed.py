@@ -1,4 +1,6 @@
-"""What viser's client is told: whatever was shown before, it ends with what is wanted, and is told no more than it lacks."""
+"""What viser's client is told: whatever was shown before, it ends with what is wanted, and is told
+no more than it lacks.
+"""
 
 import itertools
 from collections.abc import Iterator
@@ -86,7 +88,8 @@ def test_a_client_has_of_a_scene_what_its_nodes_say(fed, k):
     reader = Reader()
     wanted = reader.nodes(reader.read(PageWire(Maker()).step({}, ALL[k], VIEW))["nodes"])
     found = fed(
-        "async (k) => { sceneView.step(scenes[k].nodes, 0); await settled(); return [seen(), client.wrong]; }",
+        "async (k) => { sceneView.step(scenes[k].nodes, 0); await settled(); return [seen(),"
+        " client.wrong]; }",
         k,
     )
     assert found[1] == []
@@ -267,10 +270,15 @@ def scenes_pose(scene: Scene) -> tuple[float, ...]:
 
 
 def test_a_turn_takes_the_shorter_way(fed):
-    """From 60 to -110 degrees, whose quaternions lie more than a quarter turn apart in four dimensions."""
+    """From 60 to -110 degrees, whose quaternions lie more than a quarter turn apart in four
+    dimensions.
+    """
     turns = [pose((0.0, 0.0, np.radians(degrees)), (0.0, 0.0, 0.0)) for degrees in (60, -110)]
     first, second = fed.add([{"cloud": replace(CLOUD, T_world_object=T)} for T in turns])
-    walk = "([i, j]) => { sceneView.step(scenes[i].nodes, 0); finish(); sceneView.step(scenes[j].nodes, 1); tick(125); }"
+    walk = (
+        "([i, j]) => { sceneView.step(scenes[i].nodes, 0); finish();"
+        " sceneView.step(scenes[j].nodes, 1); tick(125); }"
+    )
     fed(walk, [first, second])
     found = Rotation.from_quat(fed("() => client.seen()['/scene/cloud'].wxyz"), scalar_first=True)
     np.testing.assert_allclose(found.as_rotvec(degrees=True), (0, 0, -25), atol=1e-6)
@@ -295,7 +303,8 @@ def test_who_wants_no_motion_sees_none(fed):
 def test_who_goes_on_before_a_glide_ends_starts_from_where_it_is(fed):
     at = "() => [...client.seen()['/scene/cloud'].position]"
     fed(
-        "([i, j]) => { sceneView.step(scenes[i].nodes, 0); finish(); sceneView.step(scenes[j].nodes, 1); }",
+        "([i, j]) => { sceneView.step(scenes[i].nodes, 0); finish();"
+        " sceneView.step(scenes[j].nodes, 1); }",
         [len(ALL), len(ALL) + 1],
     )
     fed("() => tick(125)")

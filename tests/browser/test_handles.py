@@ -39,13 +39,16 @@ def fed(chromium) -> Iterator[Fed]:
 
 @pytest.fixture(autouse=True)
 def begun(fed) -> None:
-    fed("""(params) => {
+    fed(
+        """(params) => {
       Object.assign(handles, { on: true, held: null });
       Object.assign(source, { changed: [], clicked: [] });
       sceneView.nodes = scenes[0].nodes;
       feed.shown.clear(); feed.wanted = new Map(); page.run.params = params;
       connect(); sceneView.again();
-    }""", PARAMS)  # fmt: skip
+    }""",
+        PARAMS,
+    )
 
 
 def handle(fed: Fed, name: str) -> dict[str, Any]:
@@ -143,7 +146,10 @@ def test_a_handle_that_comes_again_leaves_no_place_behind(fed):
 def test_a_click_tells_its_ray(fed):
     fed(HEAR, {"type": "ScenePointerMessage", "ray_origin": [1, 2, 3], "ray_direction": [0, 0, -1]})
     assert fed("() => source.clicked") == [[[1, 2, 3], [0, 0, -1]]]
-    heard = "() => client.said.filter(({ type }) => type === 'ScenePointerEnableMessage').at(-1).modifiers"
+    heard = (
+        "() => client.said.filter(({ type }) => type ==="
+        " 'ScenePointerEnableMessage').at(-1).modifiers"
+    )
     assert fed(heard) == [None], "this lesson has a knob that is set by a click"
 
 

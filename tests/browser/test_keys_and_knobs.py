@@ -1,4 +1,6 @@
-"""Keys that go to a run's own end and to every experiment, and a drawer of knobs in which no label is covered."""
+"""Keys that go to a run's own end and to every experiment, and a drawer of knobs in which no label
+is covered.
+"""
 
 import pytest
 

@@ -1,4 +1,6 @@
-"""Words stand where their places are seen, and the camera is put where a view wants it, in frames of any width."""
+"""Words stand where their places are seen, and the camera is put where a view wants it, in frames
+of any width.
+"""
 
 from collections.abc import Iterator
 from typing import Any
@@ -165,12 +167,18 @@ def test_a_word_glides_with_what_it_names(fed):
         assert left + width / 2 == pytest.approx(pixel(p, eye, R, FOV)[0], abs=0.51)
 
 
-CAMERA = "() => { const { SetCameraPositionMessage: eye, SetCameraFovMessage: fov } = client.camera; return [eye, fov]; }"
+CAMERA = (
+    "() => { const { SetCameraPositionMessage: eye, SetCameraFovMessage: fov } = client.camera;"
+    " return [eye, fov]; }"
+)
 
 
 @pytest.mark.parametrize("first", [2.0, 1.6, 1.4, 1.2, 0.6])
 def test_a_narrower_frame_shows_as_much_in_its_width_and_the_eye_stays(fed, first):
-    resize = "(aspect) => { $('#scene').style.width = `${Math.round(500 * aspect)}px`; feed.fit(); finish(); }"
+    resize = (
+        "(aspect) => { $('#scene').style.width = `${Math.round(500 * aspect)}px`; feed.fit();"
+        " finish(); }"
+    )
     fed(resize, first)
     show(fed, {"w": Label("w", np.zeros(3))})
     keeps = max(1.2, min(first, 1.6))

@@ -1,4 +1,6 @@
-"""How things look: mixed with the page's backdrop, seen through, as ghosts, standing out; in closed form."""
+"""How things look: mixed with the page's backdrop, seen through, as ghosts, standing out; in closed
+form.
+"""
 
 import io
 from collections.abc import Iterator
@@ -115,7 +117,8 @@ def test_only_what_is_faded_is_sent_again_where_the_light_changes(fed):
     faded, full = Points(np.eye(3), "source", opacity=0.5), Points(np.eye(3), "source")
     shown(fed, {"faded": faded, "full": full, "mesh": Mesh(np.eye(3), FACE, HEIGHT, opacity=0.5)})
     said = fed(
-        "() => { client.said = []; feed.theme(true); return client.said.map(({ type, name }) => [type, name]); }"
+        "() => { client.said = []; feed.theme(true); return client.said.map(({ type, name }) =>"
+        " [type, name]); }"
     )
     assert said == [["ThemeConfigurationMessage", None], ["SceneNodeUpdateMessage", "/scene/faded"]]
     assert fed("() => feed.client.said.at(-1).updates.points === undefined"), "its colours alone"
@@ -153,7 +156,7 @@ def test_a_faded_picture_comes_as_one_that_is_seen_through(fed, opacity, name):
     opaque = shown(fed, {"p": thing})[name]
     node = shown(fed, {"p": replace(thing, opacity=opacity)})[name]
     assert node["_format"] == "png"
-    (image, before) = (Image.open(io.BytesIO(bytes(one["_data"]))) for one in (node, opaque))
+    image, before = (Image.open(io.BytesIO(bytes(one["_data"]))) for one in (node, opaque))
     assert (image.mode, image.size) == ("RGBA", SMALL.shape[1::-1])
     rgba = np.asarray(image).astype(int)
     np.testing.assert_allclose(rgba[:, :, 3], 255 * opacity, atol=1)
@@ -247,9 +250,14 @@ def test_what_is_at_its_place_has_no_ghost_however_it_is_coloured(fed):
 @pytest.mark.parametrize("dark", [False, True])
 def test_what_is_elsewhere_has_a_fine_and_pale_ghost_where_it_was(fed, dark):
     found = ghosts(fed, MOVED_ALL, EVERY, dark)
-    assert found.keys() == {"points", "lines", "mesh", "height", "axes", "camera"}, (
-        "no words, no pictures"
-    )
+    assert found.keys() == {
+        "points",
+        "lines",
+        "mesh",
+        "height",
+        "axes",
+        "camera",
+    }, "no words, no pictures"
     assert all(
         (node["wxyz"], node["position"]) == ([1, 0, 0, 0], [0, 0, 0]) for node in found.values()
     )

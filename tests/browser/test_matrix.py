@@ -1,7 +1,8 @@
-"""Every lesson in every home it has does everything: one visit each, and what it says is what the Timeline says.
+"""Every lesson in every home it has does everything: one visit each, and what it says is what the
+Timeline says.
 
-By keyboard alone, but for handles and points of the scene; without motion on the way from step to step; in a light window of
-a laptop at first, then in a dark one of a phone.
+By keyboard alone, but for handles and points of the scene; without motion on the way from step to
+step; in a light window of a laptop at first, then in a dark one of a phone.
 """
 
 import contextlib
@@ -209,7 +210,9 @@ def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
 
 
 def moved(home: Home, name: str, act: Callable[[int], None]) -> None:
-    """Do something in the scene until a param has changed by it: what is drawn comes a little later than what is said."""
+    """Do something in the scene until a param has changed by it: what is drawn comes a little later
+    than what is said.
+    """
     before = home.ask("name => String(page.run.params[name])", name)
     for turn in range(60):
         act(turn)
@@ -224,7 +227,9 @@ def moved(home: Home, name: str, act: Callable[[int], None]) -> None:
 
 
 def drag(home: Home, field: Field, turn: int) -> None:
-    """Draw at the end of a handle's longest arrow; where it is missed, the camera turns, and it is elsewhere."""
+    """Draw at the end of a handle's longest arrow; where it is missed, the camera turns, and it is
+    elsewhere.
+    """
     assert isinstance(field.knob.by, Gizmo)
     place = np.array(home.ask("name => page.run.params[name]", field.name)[:3])
     start = on_screen(home, place)
@@ -246,7 +251,9 @@ def click(home: Home, path: str, turn: int) -> None:
 
 
 def another_point(home: Home, path: str, turn: int) -> np.ndarray:
-    """Return where, on the screen, a part of what is at a path is that a click may mean: one off its middle."""
+    """Return where, on the screen, a part of what is at a path is that a click may mean: one off
+    its middle.
+    """
     session = student(home).session
     look = None if session is None else session.look()
     assert look is not None
@@ -261,7 +268,9 @@ def another_point(home: Home, path: str, turn: int) -> np.ndarray:
 
 
 def on_screen(home: Home, p_world: np.ndarray) -> np.ndarray:
-    """Return where points of the scene (..., 3) are in the window, by the camera of viser's client."""
+    """Return where points of the scene (..., 3) are in the window, by the camera of viser's
+    client.
+    """
     camera, box = home.ask("labels.camera"), home.find("#scene").bounding_box()
     w, x, y, z = camera["wxyz"]
     xyz = (p_world - np.array(camera["position"])) @ Rotation.from_quat(

@@ -31,7 +31,9 @@ CELLS = [
 
 @pytest.fixture(scope="module")
 def notebook(tmp_path_factory):
-    """A notebook with one cell, in a folder of its own, with settings and runtime files there too."""
+    """A notebook with one cell, in a folder of its own, with settings and runtime files there
+    too.
+    """
     pytest.importorskip("jupyterlab", reason="pip install -e '.[test]' has JupyterLab")
     folder = tmp_path_factory.mktemp("notebook")
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
@@ -105,9 +107,18 @@ def test_a_saved_notebook_plays_as_html(chromium, notebook):
 
 
 def test_a_cell_plays_in_jupyterlab(chromium, notebook):
-    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--port=0", "--IdentityProvider.token=", "--allow-root",
-               "--ServerApp.disable_check_xsrf=True", "--LabApp.news_url=", "--LabApp.check_for_updates_class="
-               "jupyterlab.NeverCheckForUpdate"]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        "--no-browser",
+        "--port=0",
+        "--IdentityProvider.token=",
+        "--allow-root",
+        "--ServerApp.disable_check_xsrf=True",
+        "--LabApp.news_url=",
+        "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+    ]
     from playwright.sync_api import TimeoutError as TookTooLong
 
     log = notebook.with_name("lab.txt")

@@ -69,7 +69,8 @@ def test_a_chart_stands_beside_the_scene_once_it_has_a_point(visit):
     me.act("last")
     me.page.wait_for_function(f"{titles}.includes('series Conductance')")
     said = me.page.evaluate(
-        "[measured(1.14e12, ''), measured(-7.59e-4, '%'), measured(1e-9, 'deg'), measured(12.5, '%')]"
+        "[measured(1.14e12, ''), measured(-7.59e-4, '%'), measured(1e-9, 'deg'), measured(12.5,"
+        " '%')]"
     )
     assert said == ["1.14 × 10¹²", "−7.59 × 10⁻⁴ %", "1 × 10⁻⁹°", "12.5 %"]
 

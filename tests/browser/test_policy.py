@@ -1,4 +1,6 @@
-"""A page under the server's own policy: nothing that it does, or viser's client in it, is refused by the browser."""
+"""A page under the server's own policy: nothing that it does, or viser's client in it, is refused
+by the browser.
+"""
 
 import pytest
 

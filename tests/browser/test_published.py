@@ -35,7 +35,9 @@ SCENE_IS_THERE = (
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory):
-    """A site of two lessons: the small one with presets, questions and a sweep, and ICP with one run."""
+    """A site of two lessons: the small one with presets, questions and a sweep, and ICP with one
+    run.
+    """
     out = tmp_path_factory.mktemp("site")
     publish(out, [FAKE, replace(catalog()["icp"], presets=(), questions=(), sweeps=(), page=None)])
     return out
@@ -109,7 +111,9 @@ FRAMES = """() => new Promise((drawn) => {
 
 
 def seen(page) -> np.ndarray:
-    """Return what the scene looks like at rest, in boxes of 8 x 8 pixels: where frames are slow viser draws coarsely."""
+    """Return what the scene looks like at rest, in boxes of 8 x 8 pixels: where frames are slow
+    viser draws coarsely.
+    """
     before = None
     while True:
         page.evaluate(FRAMES)
@@ -349,7 +353,8 @@ def test_what_can_be_taken_along_is_there(opened, out):
         mine.get_by_role("link", name="Download recording").click()
     assert download.value.suggested_filename == "fake-half.rrd"
     page.evaluate(
-        "navigator.clipboard.writeText = (text) => { window.copied = text; return Promise.resolve(); }"
+        "navigator.clipboard.writeText = (text) => { window.copied = text; return"
+        " Promise.resolve(); }"
     )
     site = (out / "fake").as_uri()
     for words, text in {

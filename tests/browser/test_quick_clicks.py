@@ -1,4 +1,6 @@
-"""Presets that are clicked faster than they are shown, and then a question's own run: the last one wins, nothing fails."""
+"""Presets that are clicked faster than they are shown, and then a question's own run: the last one
+wins, nothing fails.
+"""
 
 from typing import Any
 

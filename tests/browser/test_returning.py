@@ -1,4 +1,6 @@
-"""A server that is gone comes back under open pages in a real browser: they go on at their place, and are calm meanwhile."""
+"""A server that is gone comes back under open pages in a real browser: they go on at their place,
+and are calm meanwhile.
+"""
 
 import numpy as np
 import pytest
@@ -22,7 +24,9 @@ SHORT = """{
     return sessionStorage.waits.split(" ").length > 8 ? 0 : later(act, 0, ...rest);
   };
 }"""
-"""Notes how long a page waits for its next try, in seconds, and does not wait so long; after the eighth it tries no more."""
+"""Notes how long a page waits for its next try, in seconds, and does not wait so long; after the
+eighth it tries no more.
+"""
 
 
 def test_a_page_goes_on_at_its_step_when_its_server_was_killed_and_is_there_again(chromium):

@@ -1,4 +1,6 @@
-"""What can be done with the run that is open, in a real browser: a recording, a link, the command, and playing it."""
+"""What can be done with the run that is open, in a real browser: a recording, a link, the command,
+and playing it.
+"""
 
 import pytest
 

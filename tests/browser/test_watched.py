@@ -1,4 +1,6 @@
-"""A student's file drives the lesson in a real browser: report, first difference, mended, broken."""
+"""A student's file drives the lesson in a real browser: report, first difference, mended,
+broken.
+"""
 
 import pytest
 

@@ -1,4 +1,6 @@
-"""What a page reads of scenes is what was sent: arrays by their types, equal ones once, whole runs step by step."""
+"""What a page reads of scenes is what was sent: arrays by their types, equal ones once, whole runs
+step by step.
+"""
 
 import base64
 from collections.abc import Iterator
@@ -97,9 +99,10 @@ def test_equal_kinds_are_one_object_and_equal_arrays_one_array(fed, timeline):
       return names.map((_, i) => [first[i].kind === second[i].kind, first[i] === second[i],
         Object.entries(first[i].kind.props).every(([key, value]) => value === second[i].kind.props[key])]);
     }}"""
-    assert fed(same, run) == [[True, False, True], [True, False, True]], (
-        "they moved, and are what they were"
-    )
+    assert fed(same, run) == [
+        [True, False, True],
+        [True, False, True],
+    ], "they moved, and are what they were"
 
 
 def test_who_is_told_to_forget_forgets(fed, timeline):

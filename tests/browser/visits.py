@@ -19,14 +19,17 @@ SELDOM = """if (parent !== self && (location.pathname.includes("/scene/") || par
     for (const draw of waiting.splice(0)) draw(last);
   }, 50);
 }"""
-"""Lets viser draw a few pictures a second or fewer: without a graphics card they are what a visit costs most."""
+"""Lets viser draw a few pictures a second or fewer: without a graphics card they are what a visit
+costs most.
+"""
 
 MOST = 200  # pictures
 ALIKE = 6  # pictures in a row that are the same: surfaces are decoded beside the frames
 
 
 def at_rest(page: Any) -> np.ndarray:
-    """Return what a scene looks like as soon as it stays as it is, by the means over tiles of ten pixels.
+    """Return what a scene looks like as soon as it stays as it is, by the means over tiles of ten
+    pixels.
 
     Thin lines of a grid are not drawn the same twice.
     """
@@ -54,7 +57,8 @@ def at_rest(page: Any) -> np.ndarray:
 
 
 class Visit:
-    """One browser window on the workbench; errors of its console, and addresses elsewhere that it asks for, are kept.
+    """One browser window on the workbench; errors of its console, and addresses elsewhere that it
+    asks for, are kept.
 
     Without `scene` an empty page stands in the place of viser's: for what is said, and not drawn.
     """

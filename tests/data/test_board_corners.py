@@ -1,4 +1,6 @@
-"""Corners found in pictures: of boards that are known, at every size, and of nothing else; and in real photographs."""
+"""Corners found in pictures: of boards that are known, at every size, and of nothing else; and in
+real photographs.
+"""
 
 from pathlib import Path
 
@@ -17,7 +19,9 @@ LEFT = [k for k in range(1, 15) if k != 10]
 
 
 def taken(T_camera_board: np.ndarray, scale: int = 1, noise: float = 3.0) -> np.ndarray:
-    """Return our board as a camera with our lens takes it: 2 x 2 rays a pixel, a little blurred, with noise."""
+    """Return our board as a camera with our lens takes it: 2 x 2 rays a pixel, a little blurred,
+    with noise.
+    """
     w, h = 2 * scale * np.array(boards.SIZE)
     item = MeshItem(*boards.board_mesh())
     K = resize_intrinsics(boards.K_TRUE, 2.0 * scale, 2.0 * scale)
@@ -91,8 +95,13 @@ def test_a_part_of_a_board_is_none():
 
 def test_nothing_is_found_where_nothing_is():
     rng = np.random.default_rng(0)
-    for picture in (np.zeros((480, 640)), rng.uniform(0, 255, (480, 640)), np.indices((300, 400)).sum(axis=0) % 256,
-                    np.zeros((5, 5)), np.zeros((2000, 3))):  # fmt: skip
+    for picture in (
+        np.zeros((480, 640)),
+        rng.uniform(0, 255, (480, 640)),
+        np.indices((300, 400)).sum(axis=0) % 256,
+        np.zeros((5, 5)),
+        np.zeros((2000, 3)),
+    ):
         assert board_corners(picture.astype(np.uint8), 4, 3) is None
 
 

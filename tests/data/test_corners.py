@@ -41,9 +41,12 @@ def test_arrays_under_several_names(tmp_path, names):
 
 def test_opencvs_shapes_a_second_camera_and_a_size(tmp_path):
     np.savez(
-        tmp_path / "c.npz", object_points=np.stack([P] * 3).astype(np.float32), image_points=views()[:, :, None],
-        image_points2=2 * views(), size=[800, 500],
-    )  # fmt: skip
+        tmp_path / "c.npz",
+        object_points=np.stack([P] * 3).astype(np.float32),
+        image_points=views()[:, :, None],
+        image_points2=2 * views(),
+        size=[800, 500],
+    )
     first, second = (read_corners(tmp_path / "c.npz", which) for which in ("first", "second"))
     np.testing.assert_array_equal(second.uv, 2 * first.uv)
     assert first.size == (800, 500)
@@ -65,13 +68,32 @@ def test_lines_of_text(tmp_path, header):
 @pytest.mark.parametrize(
     ("uv", "kept_views", "kept_points", "said"),
     [
-        (without_numbers(some=((0, 5), (2, 5), (1, 7))), (0, 1, 2), 10,
-         "3 of 36 corners left out, NaN or infinite, and with them 2 points of the board in all views."),
-        (without_numbers(1), (0, 2), 12, "12 of 36 corners left out, NaN or infinite, and with them view 1."),
-        (without_numbers(1, 4, some=((0, 5),), k=5), (0, 2, 3), 11,
-         "25 of 60 corners left out, NaN or infinite, and with them views 1, 4 and 1 point of the board in all views."),
+        (
+            without_numbers(some=((0, 5), (2, 5), (1, 7))),
+            (0, 1, 2),
+            10,
+            (
+                "3 of 36 corners left out, NaN or infinite, and with them 2 points of the board in"
+                " all views."
+            ),
+        ),
+        (
+            without_numbers(1),
+            (0, 2),
+            12,
+            "12 of 36 corners left out, NaN or infinite, and with them view 1.",
+        ),
+        (
+            without_numbers(1, 4, some=((0, 5),), k=5),
+            (0, 2, 3),
+            11,
+            (
+                "25 of 60 corners left out, NaN or infinite, and with them views 1, 4 and 1 point"
+                " of the board in all views."
+            ),
+        ),
     ],
-)  # fmt: skip
+)
 @pytest.mark.parametrize("ending", ["npz", "csv"])
 def test_corners_without_a_number_are_left_out_and_counted(
     tmp_path, uv, kept_views, kept_points, said, ending

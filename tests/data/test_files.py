@@ -1,4 +1,6 @@
-"""Files that people bring: every dialect that is read, and one clear line for every one that is not."""
+"""Files that people bring: every dialect that is read, and one clear line for every one that is
+not.
+"""
 
 import gzip
 from dataclasses import replace

@@ -1,4 +1,6 @@
-"""Own data in the picture: of any size and place they come to the same frame, and motions go along with their points."""
+"""Own data in the picture: of any size and place they come to the same frame, and motions go along
+with their points.
+"""
 
 import numpy as np
 import pytest

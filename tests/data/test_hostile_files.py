@@ -1,4 +1,6 @@
-"""Own files that somebody else made: each is read in bounds or refused in one line, and nothing in it is run or followed."""
+"""Own files that somebody else made: each is read in bounds or refused in one line, and nothing in
+it is run or followed.
+"""
 
 import gzip
 import inspect
@@ -48,9 +50,22 @@ def refused(read: Callable, path: Path, said: str) -> None:
 
 
 TEXTS = (
-    "", "\n\n", ",,\n", ";;\n,,\n", "# nothing\n", "x y z u v\n", "a,b\n;\n", "1\n", "1 2 3 4 5 6 7 8 9 10 11\n",
-    "nan nan nan nan nan\n" * 9, "1e999 2 3 4 5\n" * 9, ",,\n1 2\n,,\n", "view\n", "\x00\x00\x00\n", "1,2;3\t4 5\n" * 3,
-)  # fmt: skip
+    "",
+    "\n\n",
+    ",,\n",
+    ";;\n,,\n",
+    "# nothing\n",
+    "x y z u v\n",
+    "a,b\n;\n",
+    "1\n",
+    "1 2 3 4 5 6 7 8 9 10 11\n",
+    "nan nan nan nan nan\n" * 9,
+    "1e999 2 3 4 5\n" * 9,
+    ",,\n1 2\n,,\n",
+    "view\n",
+    "\x00\x00\x00\n",
+    "1,2;3\t4 5\n" * 3,
+)
 TEXT_READERS: dict[str, Callable] = {
     "cloud": read_cloud,
     "corners": read_corners,

@@ -1,4 +1,6 @@
-"""Labelled clouds: each lies on its surface but for stretch and noise, from the lowest point to the highest."""
+"""Labelled clouds: each lies on its surface but for stretch and noise, from the lowest point to the
+highest.
+"""
 
 import numpy as np
 import pytest

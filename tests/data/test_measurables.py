@@ -1,4 +1,6 @@
-"""Shapes of known size: their meshes come close, points inside them do too, and the lantern has Schwarz's area."""
+"""Shapes of known size: their meshes come close, points inside them do too, and the lantern has
+Schwarz's area.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,6 @@
-"""The rabbit: its points and its mesh lie on the level of one field, and the mesh is fit for what lessons do on it."""
+"""The rabbit: its points and its mesh lie on the level of one field, and the mesh is fit for what
+lessons do on it.
+"""
 
 import numpy as np
 import pytest

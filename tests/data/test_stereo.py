@@ -1,4 +1,6 @@
-"""Stereo pairs: made ones agree with their truth, and files that cannot be a pair are refused in one line."""
+"""Stereo pairs: made ones agree with their truth, and files that cannot be a pair are refused in
+one line.
+"""
 
 from typing import Any
 

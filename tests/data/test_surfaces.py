@@ -1,4 +1,6 @@
-"""Surfaces of known curvature: their vertices, normals and directions agree with finite differences of themselves."""
+"""Surfaces of known curvature: their vertices, normals and directions agree with finite differences
+of themselves.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,5 @@
-"""What honest functions use of Python, numpy and scipy. This file is handed in as it stands: `work` does one of them.
+"""What honest functions use of Python, numpy and scipy. This file is handed in as it stands: `work`
+does one of them.
 
 scipy is imported where it is used: loading a file is to take less than its limit on a busy machine.
 """
@@ -167,9 +168,18 @@ def files_of_its_own():
 
 
 WORK = (
-    linear_algebra, large_arrays, sparse_matrices, trees_and_hulls, minimising, threads, clocks_and_chance,
-    a_time_limit_of_its_own, reading_files, asking_about_itself, functions_for_c,
-)  # fmt: skip
+    linear_algebra,
+    large_arrays,
+    sparse_matrices,
+    trees_and_hulls,
+    minimising,
+    threads,
+    clocks_and_chance,
+    a_time_limit_of_its_own,
+    reading_files,
+    asking_about_itself,
+    functions_for_c,
+)
 NAMES = tuple(function.__name__ for function in WORK)
 
 

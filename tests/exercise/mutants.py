@@ -1,11 +1,13 @@
-"""Right functions made wrong by one change each, and graded: which of them lose points, and which earn all.
+"""Right functions made wrong by one change each, and graded: which of them lose points, and which
+earn all.
 
     python -m tests.exercise.mutants [EXERCISE ...] [--table] [--sample N] [--markdown]
 
-What earns full marks is either as right as before (its answers agree with those of all right functions wherever these agree
-with each other), or a check is missing. `operators` says what is changed. The functions are every `@alternative`, with
---table also every `right_...` of `solutions`. They run in this process, under a limit of time. --sample takes so many of
-each exercise, always the same ones; --markdown prints the table of docs/exercises.md.
+What earns full marks is either as right as before (its answers agree with those of all right
+functions wherever these agree with each other), or a check is missing. `operators` says what is
+changed. The functions are every `@alternative`, with --table also every `right_...` of `solutions`.
+They run in this process, under a limit of time. --sample takes so many of each exercise, always the
+same ones; --markdown prints the table of docs/exercises.md.
 """
 
 import ast
@@ -63,7 +65,9 @@ class Changed:
 
 
 def changed(exercise: Exercise, *, table: bool) -> Iterator[Changed]:
-    """Yield all mutants of an exercise's alternatives, with `table` of all right solutions; helpers are changed once."""
+    """Yield all mutants of an exercise's alternatives, with `table` of all right solutions; helpers
+    are changed once.
+    """
     found = [(sys.modules[one.__module__], one.__name__) for one in exercise.alternatives]
     if table:
         solutions = importlib.import_module(f"tests.exercise.solutions.{exercise.name}")
@@ -120,7 +124,7 @@ def _made(
     return space[name]
 
 
-# what the changed lines call ----------------------------------------------------------------------------------------------
+# what the changed lines call ----------------------------------------------------------------------
 
 
 def _floats(value: Any) -> bool:
@@ -159,7 +163,7 @@ def _spoilt(value: Any) -> Any:
 HELPERS = {one.__name__: one for one in (_ones, _ones_of, _reversed, _single, _spoilt)}
 
 
-# grading -------------------------------------------------------------------------------------------------------------------
+# grading ------------------------------------------------------------------------------------------
 
 
 def loses(function: Function, exercise: Exercise) -> bool:
@@ -177,7 +181,9 @@ def loses(function: Function, exercise: Exercise) -> bool:
 
 
 def limited(function: Function) -> Function:
-    """Return a function that raises TimeoutError where it takes longer than SECONDS of processor time."""
+    """Return a function that raises TimeoutError where it takes longer than SECONDS of processor
+    time.
+    """
 
     def late(*_: Any) -> None:
         raise TimeoutError(f"more than {SECONDS} s")
@@ -198,8 +204,9 @@ def limited(function: Function) -> Function:
 def differs(one: Changed) -> tuple[Any, ...] | None:
     """Return arguments on which a mutant's answer is not the right one; None where none are known.
 
-    They are those of the checks, and variants of them: smaller, larger, with noise, fewer rows, another order, negative. One
-    counts where all right functions agree on it, so that what the contract does not allow does not count.
+    They are those of the checks, and variants of them: smaller, larger, with noise, fewer rows,
+    another order, negative. One counts where all right functions agree on it, so that what the
+    contract does not allow does not count.
     """
     kind = np.float32 if one.mutant.operator == "float32" else None
     until = time.process_time() + SEARCHED
@@ -220,7 +227,9 @@ def _is_right(
     exercise: Exercise,
     kind: type[np.float32] | None = None,
 ) -> bool:
-    """Tell whether an answer is right as far as the digits of its kind go: no contract asks for double precision."""
+    """Tell whether an answer is right as far as the digits of its kind go: no contract asks for
+    double precision.
+    """
     got = _answer(function, args)
     if kind is not None and isinstance(got, (np.ndarray, float)):
         got = np.asarray(got, dtype=kind)
@@ -243,7 +252,9 @@ def _answer(function: Function, args: tuple[Any, ...]) -> Any:
 
 @functools.cache
 def agreed(exercise: Exercise) -> list[tuple[tuple[Any, ...], Any]]:
-    """Return the arguments of an exercise's checks, and variants of them, with the answer that our right functions share."""
+    """Return the arguments of an exercise's checks, and variants of them, with the answer that our
+    right functions share.
+    """
     asked = []
     for check in exercise.checks:
         candidate = Candidate(exercise.reference, exercise.reference)
@@ -289,7 +300,7 @@ def _variants(args: tuple[Any, ...], rng: np.random.Generator) -> Iterator[tuple
             )
 
 
-# the table -----------------------------------------------------------------------------------------------------------------
+# the table ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

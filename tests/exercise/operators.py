@@ -1,7 +1,9 @@
-"""Small changes that make a right function wrong: an operator looks at one place of its source and says what could be there.
+"""Small changes that make a right function wrong: an operator looks at one place of its source and
+says what could be there.
 
-A mutant is the source of a function with one change. The operators are the slips of students: a transpose, a sign, an axis,
-an order, one more or less, no normalisation, a minimum for a maximum, a case that is left out, an argument that is not used.
+A mutant is the source of a function with one change. The operators are the slips of students: a
+transpose, a sign, an axis, an order, one more or less, no normalisation, a minimum for a maximum, a
+case that is left out, an argument that is not used.
 """
 
 import ast
@@ -12,22 +14,65 @@ from typing import Any
 Changed = Iterator[tuple[str, ast.AST]]
 
 OTHER_NAMES = (
-    ("argmin", "argmax"), ("min", "max"), ("minimum", "maximum"), ("sin", "cos"), ("any", "all"), ("sum", "mean"),
-    ("mean", "median"), ("floor", "ceil"), ("hstack", "vstack"), ("searchsorted", "digitize"), ("zeros", "ones"),
-)  # fmt: skip
+    ("argmin", "argmax"),
+    ("min", "max"),
+    ("minimum", "maximum"),
+    ("sin", "cos"),
+    ("any", "all"),
+    ("sum", "mean"),
+    ("mean", "median"),
+    ("floor", "ceil"),
+    ("hstack", "vstack"),
+    ("searchsorted", "digitize"),
+    ("zeros", "ones"),
+)
 SWAPPED = (
     dict(OTHER_NAMES)
     | {new: old for old, new in reversed(OTHER_NAMES)}
     | {"sum": "mean", "mean": "median"}
 )
-DROPPED = {"sqrt", "abs", "square", "radians", "degrees", "exp", "log", "sort", "cumsum", "unique", "inv", "clip",
-           "maximum", "minimum", "where", "cross", "sign", "asarray", "copy", "max", "min", "round", "ceil"}  # fmt: skip
+DROPPED = {
+    "sqrt",
+    "abs",
+    "square",
+    "radians",
+    "degrees",
+    "exp",
+    "log",
+    "sort",
+    "cumsum",
+    "unique",
+    "inv",
+    "clip",
+    "maximum",
+    "minimum",
+    "where",
+    "cross",
+    "sign",
+    "asarray",
+    "copy",
+    "max",
+    "min",
+    "round",
+    "ceil",
+}
 OTHER_OPERATORS: dict[type, tuple[type, ...]] = {
-    ast.Add: (ast.Sub,), ast.Sub: (ast.Add,), ast.Mult: (ast.Div,), ast.Div: (ast.Mult,), ast.FloorDiv: (ast.Mult,),
-    ast.Lt: (ast.LtE, ast.Gt), ast.LtE: (ast.Lt, ast.GtE), ast.Gt: (ast.GtE, ast.Lt), ast.GtE: (ast.Gt, ast.LtE),
-    ast.Eq: (ast.NotEq,), ast.NotEq: (ast.Eq,), ast.And: (ast.Or,), ast.Or: (ast.And,), ast.BitAnd: (ast.BitOr,),
+    ast.Add: (ast.Sub,),
+    ast.Sub: (ast.Add,),
+    ast.Mult: (ast.Div,),
+    ast.Div: (ast.Mult,),
+    ast.FloorDiv: (ast.Mult,),
+    ast.Lt: (ast.LtE, ast.Gt),
+    ast.LtE: (ast.Lt, ast.GtE),
+    ast.Gt: (ast.GtE, ast.Lt),
+    ast.GtE: (ast.Gt, ast.LtE),
+    ast.Eq: (ast.NotEq,),
+    ast.NotEq: (ast.Eq,),
+    ast.And: (ast.Or,),
+    ast.Or: (ast.And,),
+    ast.BitAnd: (ast.BitOr,),
     ast.BitOr: (ast.BitAnd,),
-}  # fmt: skip
+}
 NEAR_ZERO, TOLERANCE = 0.1, 1e-3  # what a bound of 0 becomes; below this a number is a tolerance
 
 
@@ -177,7 +222,9 @@ def _numbers(value: float) -> Iterator[float]:
 
 
 def _calls(node: ast.Call) -> Changed:
-    """Yield other calls: of another function, with other arguments, on another axis, or the argument alone."""
+    """Yield other calls: of another function, with other arguments, on another axis, or the
+    argument alone.
+    """
     name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
     if name in SWAPPED:
         func = node.func

@@ -1,4 +1,6 @@
-"""Right answers that a library gives in one call, as they were handed in: `EXERCISE__kind`. Their exercises forbid that."""
+"""Right answers that a library gives in one call, as they were handed in: `EXERCISE__kind`. Their
+exercises forbid that.
+"""
 
 import cmath
 

@@ -1,9 +1,11 @@
-"""What students hand in, graded: prints per exercise how many right and wrong solutions get what they deserve.
+"""What students hand in, graded: prints per exercise how many right and wrong solutions get what
+they deserve.
 
     python -m tests.exercise.table [EXERCISE ...] [--said]
 
-`solutions/NAME.py` has functions `right_...` and `wrong_...` as students write them; those of a file share one process.
-Its NAMED says which of the wrong ones make a mistake that the exercise knows; no other may be named.
+`solutions/NAME.py` has functions `right_...` and `wrong_...` as students write them; those of a
+file share one process. Its NAMED says which of the wrong ones make a mistake that the exercise
+knows; no other may be named.
 """
 
 import ast
@@ -99,7 +101,9 @@ def graded(exercise: Exercise) -> Iterator[Graded]:
 
 
 def graded_strangers() -> Iterator[Graded]:
-    """Yield what became of each answer in `strangers.py`: right ones by people who did not see the checks."""
+    """Yield what became of each answer in `strangers.py`: right ones by people who did not see the
+    checks.
+    """
     path = FOLDER.with_name("strangers.py")
     source = path.read_text(encoding="utf-8")
     known = exercises()

@@ -1,4 +1,6 @@
-"""Every attack of the tables, against every wall of this machine: it gains nothing, harms nobody, leaves nothing."""
+"""Every attack of the tables, against every wall of this machine: it gains nothing, harms nobody,
+leaves nothing.
+"""
 
 import json
 import os
@@ -68,7 +70,9 @@ def submitted(body: str, head: str = "") -> Submission:
 
 
 class Teacher:
-    """A teacher's machine: a file that is nobody's business, a result, another process, and somebody who listens."""
+    """A teacher's machine: a file that is nobody's business, a result, another process, and
+    somebody who listens.
+    """
 
     def __init__(self, folder: Path):
         self.folder, self.secret, self.results = (
@@ -255,7 +259,7 @@ def test_an_honest_function_works_after_all_of_them(wall):
     assert report.wall is wall
 
 
-# the pipe -------------------------------------------------------------------------------------------------------------
+# the pipe -----------------------------------------------------------------------------------------
 
 FRAME = """
 import os, sys
@@ -271,15 +275,20 @@ def _writes(n):
     try: return fcntl.fcntl(n, fcntl.F_GETFL) & 3 == 1
     except OSError: return False
 def said(value): return json.dumps({'nonce': {'v': nonce}, 'changed': {'v': False}, 'value': value}).encode()
-"""
+"""  # noqa: E501
 FORGED = {
-    "bytes to every descriptor": "for n in range(3, 64):\n    try: os.write(n, b'x' * 64)\n    except OSError: pass",
+    "bytes to every descriptor": (
+        "for n in range(3, 64):\n    try: os.write(n, b'x' * 64)\n    except OSError: pass"
+    ),
     "every descriptor closed": "os.closerange(3, 64)",
     "its input read": (
-        "for n in range(3, 64):\n    try: os.set_blocking(n, False); os.read(n, 10**6)\n    except OSError: pass"
+        "for n in range(3, 64):\n    try: os.set_blocking(n, False); os.read(n, 10**6)\n    except"
+        " OSError: pass"
     ),
     "an answer of somebody else's call": "nonce = 'x'; reply(said({'f': '0x1p0'}))",
-    "an endless header": "os.write([n for n in range(3, 64) if _writes(n)][-1], struct.pack('<QQ', 2**62, 0))",
+    "an endless header": (
+        "os.write([n for n in range(3, 64) if _writes(n)][-1], struct.pack('<QQ', 2**62, 0))"
+    ),
     "a header of brackets": "reply(b'[' * 10**6)",
     "a header of numbers": "reply(said({'l': [{'v': 1}] * 20_000}))",
     "a number without end": "reply(said({'v': 10 ** 4000}))",
@@ -289,9 +298,13 @@ FORGED = {
     "a shape below nothing": "reply(said({'a': '<f8', 's': [-1]}), b'1' * 8)",
     "a shape beyond everything": "reply(said({'a': '<f8', 's': [0, 2**62, 2**62]}))",
     "more than it says": "reply(said({'a': '<f8', 's': [9]}), b'1' * 8)",
-    "an error of no kind": "reply(json.dumps({'nonce': {'v': nonce}, 'error': {'l': []}, 'line': {'v': True}}).encode())",
+    "an error of no kind": (
+        "reply(json.dumps({'nonce': {'v': nonce}, 'error': {'l': []}, 'line': {'v':"
+        " True}}).encode())"
+    ),
     "bytes one by one": (
-        "import time\nout = [n for n in range(3, 64) if _writes(n)][-1]\nwhile True: os.write(out, b'1'); time.sleep(.2)"
+        "import time\nout = [n for n in range(3, 64) if _writes(n)][-1]\nwhile True: os.write(out,"
+        " b'1'); time.sleep(.2)"
     ),
 }
 
@@ -307,7 +320,9 @@ def test_a_forged_answer_is_an_answer_or_none(wall, body):
 
 
 def test_who_forges_the_answer_to_this_call_has_answered_it(wall):
-    """A number that is written to the pipe is judged as the one that is returned: knowing the pipe is worth nothing."""
+    """A number that is written to the pipe is judged as the one that is returned: knowing the pipe
+    is worth nothing.
+    """
     body = FRAME + "reply(said({'f': '0x1p0'}))\nreturn p[0]"
     with SandboxedFunction(submitted(body), "centroid", seconds=1.5, wall=wall) as student:
         assert student(POINTS) == 1.0
@@ -321,7 +336,7 @@ def test_a_header_of_the_largest_size_costs_little():
     assert len(pack({"x": np.zeros(10**6)})) < 9 * 10**6
 
 
-# marks ----------------------------------------------------------------------------------------------------------------
+# marks --------------------------------------------------------------------------------------------
 
 FIVE_LINES = """
 import os, sys, importlib
@@ -346,9 +361,9 @@ def test_five_plain_lines_earn_nothing(wall):
 
 def test_patching_everything_changes_nothing_here(wall):
     body = (
-        "np.allclose = np.array_equal = lambda *a, **k: True\nnp.linalg.norm = np.abs = lambda *a, **k: 0.0\n"
-        "import builtins; builtins.abs = builtins.max = lambda *a, **k: 0\n"
-        "import json, struct; json.loads = json.dumps = None\nreturn np.ones(3)"
+        "np.allclose = np.array_equal = lambda *a, **k: True\nnp.linalg.norm = np.abs = lambda *a,"
+        " **k: 0.0\nimport builtins; builtins.abs = builtins.max = lambda *a, **k: 0\nimport json,"
+        " struct; json.loads = json.dumps = None\nreturn np.ones(3)"
     )
     report = grade_file(submitted(body), EXERCISE, wall=wall)
     assert not any(

@@ -1,4 +1,6 @@
-"""No number earns marks by being too large, too small or none: every exercise is given functions that answer one number."""
+"""No number earns marks by being too large, too small or none: every exercise is given functions
+that answer one number.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -34,7 +36,9 @@ def filled(value: Any, number: float) -> Any:
 
 
 def answering(exercise: Exercise, made: Callable[[tuple, Any], Any]) -> Callable[..., Any]:
-    """Return a function that refuses what ours refuses, and else answers what is made of its arguments and our answer."""
+    """Return a function that refuses what ours refuses, and else answers what is made of its
+    arguments and our answer.
+    """
 
     def answer(*args):
         return made(args, exercise.reference(*args))

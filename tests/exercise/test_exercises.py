@@ -1,4 +1,6 @@
-"""Holds every exercise of the catalogue to the same promises; a new one is covered without an edit here."""
+"""Holds every exercise of the catalogue to the same promises; a new one is covered without an edit
+here.
+"""
 
 import ast
 import re
@@ -87,11 +89,13 @@ def test_the_sample_solution_imports_nothing_but_numpy_and_the_standard_library(
     assert {str(name).partition(".")[0] for name in imported} <= {"numpy", *sys.stdlib_module_names}
 
 
-# alignment is judged in degrees and metres ----------------------------------------------------------------------------
+# alignment is judged in degrees and metres --------------------------------------------------------
 
 
 def ends_swapped(p_target, p_source):
-    """Half a turn off about the cloud's shortest axis: for a rod it fits nearly as well, by nearest neighbours."""
+    """Half a turn off about the cloud's shortest axis: for a rod it fits nearly as well, by nearest
+    neighbours.
+    """
     T = exercises()["align_rigid"].reference(p_target, p_source)
     R_target = np.linalg.svd(p_target - p_target.mean(0))[2].T
     R_half = R_target @ np.diag([-1.0, -1.0, 1.0]) @ R_target.T
@@ -137,7 +141,9 @@ def test_half_a_degree_off_is_half_right():
 
 
 def test_a_mistake_is_recognised_where_the_contract_leaves_the_answer_open():
-    """Transposed, but with another SVD: on a line of points the two are turned differently about it."""
+    """Transposed, but with another SVD: on a line of points the two are turned differently about
+    it.
+    """
     exercise = exercises()["align_rigid"]
     right = exercise.alternatives[1]
 

@@ -1,4 +1,6 @@
-"""What solves a task in one call may be forbidden: who uses it is told so in one line, and earns nothing there."""
+"""What solves a task in one call may be forbidden: who uses it is told so in one line, and earns
+nothing there.
+"""
 
 import ast
 from dataclasses import replace
@@ -47,7 +49,8 @@ USES = {
 ALLOWED = {
     "import numpy as np": "np.mean(p, axis=0)",
     "import scipy.sparse, scipy.linalg": "p.mean(0) + 0 * scipy.linalg.norm(p)",
-    "from scipy import stats, interpolate, optimize": "stats.trim_mean(p, 0.0)",  # which import scipy.spatial themselves
+    # which import scipy.spatial themselves
+    "from scipy import stats, interpolate, optimize": "stats.trim_mean(p, 0.0)",
     "spatial = 1": "p.mean(0) * spatial",
     "import scipy.spatial as s\ndef another_exercise(p): return s.KDTree(p)": "p.mean(0)",
     "from scipy.spatial import KDTree\nclass Unused:\n    tree = KDTree": "p.mean(0)",
@@ -99,13 +102,11 @@ def test_nothing_of_such_a_file_is_run_and_it_earns_nothing():
 def test_only_the_exercise_that_forbids_it_is_refused():
     """A file with two exercises; its tree is for the one that may have it."""
     text = (
-        "import numpy as np\nfrom scipy.spatial import cKDTree\n\n"
-        "def one_sided(p_a, p_b):\n"
-        "    if not len(p_a) or not len(p_b):\n        raise ValueError\n"
-        "    return float((cKDTree(p_b).query(p_a)[0] ** 2).mean())\n\n"
-        "def match(p_target, p_source):\n"
-        "    if not len(p_target):\n        raise ValueError\n"
-        "    return np.array([((p_target - p) ** 2).sum(1).argmin() for p in p_source], dtype=int)\n"
+        "import numpy as np\nfrom scipy.spatial import cKDTree\n\ndef one_sided(p_a, p_b):\n    if"
+        " not len(p_a) or not len(p_b):\n        raise ValueError\n    return"
+        " float((cKDTree(p_b).query(p_a)[0] ** 2).mean())\n\ndef match(p_target, p_source):\n    if"
+        " not len(p_target):\n        raise ValueError\n    return np.array([((p_target - p) **"
+        " 2).sum(1).argmin() for p in p_source], dtype=int)\n"
     )
     for name in ("match", "one_sided"):
         report = grade_file(read(text), exercises()[name])

@@ -110,7 +110,10 @@ def held_to_schemas(folder):
 
 
 def test_junit_that_jenkins_would_refuse_is_found():
-    text = '<testsuite name="a" tests="2" failures="0" errors="0"><testcase/><failure x="1"/>text</testsuite>'
+    text = (
+        '<testsuite name="a" tests="2" failures="0" errors="0"><testcase/><failure'
+        ' x="1"/>text</testsuite>'
+    )
     found = "; ".join(departures(ET.fromstring(text.replace("/>text", "/>"))))
     for said in ("testsuite holds", "testcase has []", "failure has ['x']", "tests of a is 2"):
         assert said in found

@@ -1,4 +1,6 @@
-"""What a class hands in, and how a teacher finds it again: files of many kinds, names that clash, people who are absent."""
+"""What a class hands in, and how a teacher finds it again: files of many kinds, names that clash,
+people who are absent.
+"""
 
 import csv
 import io
@@ -64,20 +66,32 @@ NOTEBOOK = {
 }
 RIGHTS = {
     "prints": "def centroid(p):\n    print('x' * 100_000, p)\n    return p.mean(axis=0)\n",
-    "prints for ever": "def centroid(p):\n    for i in range(3000): print(i, 'y' * 1000)\n    return p.mean(axis=0)\n",
+    "prints for ever": (
+        "def centroid(p):\n    for i in range(3000): print(i, 'y' * 1000)\n    return"
+        " p.mean(axis=0)\n"
+    ),
     "with a BOM": b"\xef\xbb\xbf" + RIGHT.encode(),
-    "in latin 1": "# -*- coding: latin-1 -*-\n# Schwerpunkt für\n".encode("latin-1")
-    + RIGHT.encode(),
+    "in latin 1": (
+        "# -*- coding: latin-1 -*-\n# Schwerpunkt für\n".encode("latin-1") + RIGHT.encode()
+    ),
     "for Windows": RIGHT.replace("\n", "\r\n"),
     "a lambda": "centroid = lambda p: p.mean(axis=0)\n",
-    "inside if": "import sys\nif sys.version_info > (3,):\n    def centroid(p):\n        return p.mean(axis=0)\n",
-    "inside try": "try:\n    def centroid(p):\n        return p.mean(axis=0)\nexcept ImportError: pass\n",
+    "inside if": (
+        "import sys\nif sys.version_info > (3,):\n    def centroid(p):\n        return"
+        " p.mean(axis=0)\n"
+    ),
+    "inside try": (
+        "try:\n    def centroid(p):\n        return p.mean(axis=0)\nexcept ImportError: pass\n"
+    ),
     "a main part": RIGHT + "if __name__ == '__main__':\n    raise SystemExit\n",
     "writes its notes": (
-        "def centroid(p):\n    try: open('notes', 'w').write('x')\n    except OSError: pass\n    return p.mean(0)\n"
+        "def centroid(p):\n    try: open('notes', 'w').write('x')\n    except OSError: pass\n   "
+        " return p.mean(0)\n"
     ),
     "a partial": "import functools, numpy as np\ncentroid = functools.partial(np.mean, axis=0)\n",
-    "a class of arrays": "import numpy as np\ndef centroid(p):\n    return np.matrix(p).mean(axis=0).A1\n",
+    "a class of arrays": (
+        "import numpy as np\ndef centroid(p):\n    return np.matrix(p).mean(axis=0).A1\n"
+    ),
 }
 
 
@@ -85,7 +99,9 @@ def test_right_ones_in_other_clothes_get_full_marks(tmp_path):
     files: dict[str, str | bytes] = {f"{name}.py": text for name, text in RIGHTS.items()}
     files |= {"notebook.ipynb": json.dumps(NOTEBOOK), "CAPITALS.PY": RIGHT}
     files |= {
-        "in a folder/my_centroid.py": "from helper import mean\ndef centroid(p):\n    return mean(p)\n"
+        "in a folder/my_centroid.py": (
+            "from helper import mean\ndef centroid(p):\n    return mean(p)\n"
+        )
     }
     files |= {
         "in a folder/helper.py": "import other\ndef mean(p):\n    return other.total(p) / len(p)\n"
@@ -125,8 +141,14 @@ def test_a_student_has_one_row_and_it_counts_out_of_all_that_was_handed_in(tmp_p
     results = graded(tmp_path, files)
     found = {row["student"]: row for row in rows(tmp_path)}
     assert found["ada"] | {"trouble": ""} == {
-        "student": "ada", "points": "5", "possible": "8", "centroid": "4", "middle": "1", "handed in": "", "trouble": ""
-    }  # fmt: skip
+        "student": "ada",
+        "points": "5",
+        "possible": "8",
+        "centroid": "4",
+        "middle": "1",
+        "handed in": "",
+        "trouble": "",
+    }
     assert found["eve"]["handed in"] == "fake 1 of 2"
     assert "- fake 1 of 2: 1 student\n" in (tmp_path / "out" / "summary.md").read_text()
     assert (found["bob"]["points"], found["bob"]["possible"], found["bob"]["middle"]) == (
@@ -168,9 +190,14 @@ def test_words_of_a_files_name_say_what_it_is_for(tmp_path):
     results = graded(tmp_path, files)
     found = {name: points(result) for name, result in results.items()}
     assert found == {
-        "ada": {"centroid": 4.0}, "bob": {"middle": 1.0}, "eve": {"centroid": 4.0}, "kim": {}, "lea": {},
-        "max": {"centroid": 4.0, "middle": 1.0}, "sue": {"centroid": 4.0, "middle": 1.0},
-    }  # fmt: skip
+        "ada": {"centroid": 4.0},
+        "bob": {"middle": 1.0},
+        "eve": {"centroid": 4.0},
+        "kim": {},
+        "lea": {},
+        "max": {"centroid": 4.0, "middle": 1.0},
+        "sue": {"centroid": 4.0, "middle": 1.0},
+    }
     assert results["kim"]["error"] == "my_middle.py: is for middle and defines no such function"
     assert results["lea"]["error"].endswith(
         "defines no such function; it defines Centroid, which is another name"

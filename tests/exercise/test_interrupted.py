@@ -1,4 +1,6 @@
-"""Whatever ends the grader, nothing of a submission goes on: no process, no folder, and the results so far are kept."""
+"""Whatever ends the grader, nothing of a submission goes on: no process, no folder, and the results
+so far are kept.
+"""
 
 import json
 import os

@@ -1,4 +1,6 @@
-"""What a student's process takes from itself, layer by layer: the filter of system calls line for line, Landlock alone."""
+"""What a student's process takes from itself, layer by layer: the filter of system calls line for
+line, Landlock alone.
+"""
 
 import importlib
 import json
@@ -28,13 +30,14 @@ def syscalls() -> Iterator[ModuleType]:
         sys.modules.pop("syscalls")
 
 
-# the filter, run as the kernel runs it -----------------------------------------------------------------------------
+# the filter, run as the kernel runs it ------------------------------------------------------------
 
 
 def answered(program: bytes, architecture: int, number: int, words: tuple[int, ...] = ()) -> int:
     """Return what a filter says of a call.
 
-    Source: Linux, Documentation/userspace-api/seccomp_filter.rst; struct seccomp_data, include/uapi/linux/seccomp.h.
+    Source: Linux, Documentation/userspace-api/seccomp_filter.rst; struct seccomp_data,
+    include/uapi/linux/seccomp.h.
     """
     asked = struct.pack(
         "<IIQ12I", number & 0xFFFFFFFF, architecture, 0, *words, *[0] * (12 - len(words))
@@ -79,20 +82,46 @@ def test_what_is_on_the_list_is_allowed_and_nothing_else(syscalls, machine, writ
 
 
 CASES = [  # a call, its arguments, whether it is allowed
-    ("fcntl", (3, 0), True), ("fcntl", (3, 1030), True), ("fcntl", (3, 4, 0x800), True), ("fcntl", (3, 4, 0x2800), False),
+    ("fcntl", (3, 0), True),
+    ("fcntl", (3, 1030), True),
+    ("fcntl", (3, 4, 0x800), True),
+    ("fcntl", (3, 4, 0x2800), False),
     *(("fcntl", (3, command), False) for command in (5, 6, 7, 8, 9, 10, 11, 15, 16, 36, 37, 38)),
     *(("fcntl", (3, command), False) for command in (1024, 1025, 1026, 1031, 1033, 1036, 1039)),
-    ("fcntl", (3, 1024 + 2**40), False), ("fcntl", (3, 3 + 2**40), True),  # the kernel looks at 32 bits too
-    ("ioctl", (0, 0x5401), True), ("ioctl", (0, 0x8901), False), ("ioctl", (0, 0x8902), False),
-    ("ioctl", (0, 0x5452), False), ("ioctl", (0, 0x5412), False), ("ioctl", (0, 0x40086602), False),
-    ("clone", (0x3D0F00,), True), ("clone", (0x7D0F00,), True), ("clone", (17,), False), ("clone", (0x1200011,), False),
-    ("clone", (0x3D0F00 | 0x10000000,), False), ("clone", (0x3D0F11,), False), ("clone", (0x3D0F00 & ~0x10000,), False),
-    ("futex", (8, 128), True), ("futex", (8, 129 | 256), True), ("futex", (8, 6), False), ("futex", (8, 6 | 128), False),
-    ("futex", (8, 13), False), ("futex", (8, 11), False), ("madvise", (0, 9, 4), True), ("madvise", (0, 9, 21), False),
-    ("madvise", (0, 9, 12), False), ("mbind", (0, 9, 1, 0, 0, 0), True), ("mbind", (0, 9, 1, 0, 0, 4), False),
-    ("membarrier", (8,), True), ("membarrier", (1,), False), ("prlimit64", (0, 7, 0, 4096), True),
-    ("prlimit64", (0, 7, 4096, 0), False), ("prlimit64", (0, 7, 2**32, 0), False), ("prlimit64", (9, 7, 0, 4096), False),
-]  # fmt: skip
+    # the kernel looks at 32 bits too
+    ("fcntl", (3, 1024 + 2**40), False),
+    ("fcntl", (3, 3 + 2**40), True),
+    ("ioctl", (0, 0x5401), True),
+    ("ioctl", (0, 0x8901), False),
+    ("ioctl", (0, 0x8902), False),
+    ("ioctl", (0, 0x5452), False),
+    ("ioctl", (0, 0x5412), False),
+    ("ioctl", (0, 0x40086602), False),
+    ("clone", (0x3D0F00,), True),
+    ("clone", (0x7D0F00,), True),
+    ("clone", (17,), False),
+    ("clone", (0x1200011,), False),
+    ("clone", (0x3D0F00 | 0x10000000,), False),
+    ("clone", (0x3D0F11,), False),
+    ("clone", (0x3D0F00 & ~0x10000,), False),
+    ("futex", (8, 128), True),
+    ("futex", (8, 129 | 256), True),
+    ("futex", (8, 6), False),
+    ("futex", (8, 6 | 128), False),
+    ("futex", (8, 13), False),
+    ("futex", (8, 11), False),
+    ("madvise", (0, 9, 4), True),
+    ("madvise", (0, 9, 21), False),
+    ("madvise", (0, 9, 12), False),
+    ("mbind", (0, 9, 1, 0, 0, 0), True),
+    ("mbind", (0, 9, 1, 0, 0, 4), False),
+    ("membarrier", (8,), True),
+    ("membarrier", (1,), False),
+    ("prlimit64", (0, 7, 0, 4096), True),
+    ("prlimit64", (0, 7, 4096, 0), False),
+    ("prlimit64", (0, 7, 2**32, 0), False),
+    ("prlimit64", (9, 7, 0, 4096), False),
+]
 
 
 @pytest.mark.parametrize("machine", MACHINES)
@@ -149,20 +178,28 @@ def test_the_numbers_are_the_kernel_s(syscalls, machine):
         assert known.get(name) == (None if numbers[column] is None else str(numbers[column])), name
 
 
-# in a process of its own -------------------------------------------------------------------------------------------
+# in a process of its own --------------------------------------------------------------------------
 
 
 @pytest.fixture
 def shut(tmp_path):
-    """Return what runs lines in a process that may shut itself in, and gives back what they print."""
+    """Return what runs lines in a process that may shut itself in, and gives back what they
+    print.
+    """
     try:
         named("landlock")
     except InputError as error:
         pytest.skip(f"not on this machine: {error}")
     settings = {
-        "megabytes": 2048, "cpu": 60, "user": None, "closed": [], "grader": None, "filter": True, "writes": False,
+        "megabytes": 2048,
+        "cpu": 60,
+        "user": None,
+        "closed": [],
+        "grader": None,
+        "filter": True,
+        "writes": False,
         "landlock": list(python.here().listed()),
-    }  # fmt: skip
+    }
     head = "import ctypes, json, os, sys; sys.path.insert(0, sys.argv[1]); import lockdown\n"
     head += "settings = json.loads(sys.argv[2])\n"
 

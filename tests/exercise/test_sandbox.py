@@ -1,4 +1,6 @@
-"""Attacks on the grader: each is tried, costs its own call only, and the next honest call still works."""
+"""Attacks on the grader: each is tried, costs its own call only, and the next honest call still
+works.
+"""
 
 import subprocess
 import sys
@@ -22,7 +24,10 @@ POINTS = np.arange(12.0).reshape(4, 3)
 
 def written(folder, body: str, head: str = "") -> SandboxedFunction:
     path = folder / "my_centroid.py"
-    code = f"import numpy as np\n{head}\ndef centroid(p):\n{textwrap.indent(textwrap.dedent(body), '    ')}\n"
+    code = (
+        f"import numpy as np\n{head}\ndef"
+        f" centroid(p):\n{textwrap.indent(textwrap.dedent(body), '    ')}\n"
+    )
     path.write_text(code, encoding="utf-8")
     return SandboxedFunction(path, "centroid", seconds=1.0)
 
@@ -119,7 +124,8 @@ def test_patching_numpy_in_the_child_changes_nothing_here(student):
 
 def test_writing_to_the_pipe_is_noticed_or_is_an_answer_like_any_other(student):
     forged = student(
-        "import os, sys\nfor fd in range(3, 64):\n    try: os.write(fd, b'x' * 64)\n    except OSError: pass\nreturn p[0]"
+        "import os, sys\nfor fd in range(3, 64):\n    try: os.write(fd, b'x' * 64)\n    except"
+        " OSError: pass\nreturn p[0]"
     )
     with pytest.raises(StudentError):
         forged(POINTS)
@@ -196,9 +202,11 @@ def test_a_run_that_goes_on_does_not_start_what_was_closed(student):
 
 
 CHEATS = {
-    "sly arrays": "class Sly(np.ndarray):\n    def __abs__(s): return np.zeros(3)\n"
-    "    def __sub__(s, o): return np.zeros(3)\n    def __eq__(s, o): return np.ones(3, bool)\n"
-    "    def __array_function__(s, *a): return 0.0\nreturn np.ones(3).view(Sly)",
+    "sly arrays": (
+        "class Sly(np.ndarray):\n    def __abs__(s): return np.zeros(3)\n"
+        "    def __sub__(s, o): return np.zeros(3)\n    def __eq__(s, o): return np.ones(3, bool)\n"
+        "    def __array_function__(s, *a): return 0.0\nreturn np.ones(3).view(Sly)"
+    ),
     "NaN": "return np.full(3, np.nan)",
     "infinity": "return np.full(3, np.inf)",
     "wrong shape": "return p",
@@ -256,7 +264,9 @@ def test_one_late_call_takes_no_time_from_the_next(tmp_path):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="Linux counts it")
 def test_threads_of_one_s_own_do_not_stretch_the_time():
-    """Threads that crowd one processor wait for each other; what the others ran is the function's own time."""
+    """Threads that crowd one processor wait for each other; what the others ran is the function's
+    own time.
+    """
     busy = """
 import os, threading, time
 import numpy as np
@@ -287,11 +297,14 @@ time.sleep(60)
 @pytest.mark.parametrize(
     ("answer", "expected"),
     [
-        ("np.array([3, 4])", (3.0, 4.0)), ("np.array([3.0, 0.5])", (3, 0.5)),
-        ("np.stack([p[0], p[1]])", (POINTS[0], POINTS[1])), ("np.longdouble(2.5)", 2.5),
-        ("p.astype(np.longdouble)", POINTS), ("(np.float32(3), 4)", (3.0, 4.0)),
+        ("np.array([3, 4])", (3.0, 4.0)),
+        ("np.array([3.0, 0.5])", (3, 0.5)),
+        ("np.stack([p[0], p[1]])", (POINTS[0], POINTS[1])),
+        ("np.longdouble(2.5)", 2.5),
+        ("p.astype(np.longdouble)", POINTS),
+        ("(np.float32(3), 4)", (3.0, 4.0)),
     ],
-)  # fmt: skip
+)
 def test_an_answer_in_other_clothes_is_an_answer(tmp_path, answer, expected):
     with written(tmp_path, f"return {answer}") as student:
         got = held_to_contract(student(POINTS), expected, "centroid")

@@ -1,4 +1,6 @@
-"""A teacher's own seed: other hidden inputs, the same marks for the same work, nothing for a table of answers."""
+"""A teacher's own seed: other hidden inputs, the same marks for the same work, nothing for a table
+of answers.
+"""
 
 import json
 from dataclasses import replace

@@ -1,4 +1,6 @@
-"""What students hand in gets what it deserves: right solutions in any style full marks, wrong ones less and a true word."""
+"""What students hand in gets what it deserves: right solutions in any style full marks, wrong ones
+less and a true word.
+"""
 
 import re
 

@@ -1,4 +1,6 @@
-"""A student's file drives a lesson: what is said of it while it is edited, and when its function is called."""
+"""A student's file drives a lesson: what is said of it while it is edited, and when its function is
+called.
+"""
 
 import dataclasses
 
@@ -127,12 +129,14 @@ def test_rounding_that_decides_between_equal_costs_is_no_first_difference(functi
     assert (first_difference(timeline.known()) is None) == (function in SUMS.alternatives)
 
 
-# the run that is opened calls the function -----------------------------------------------------------------------------
+# the run that is opened calls the function --------------------------------------------------------
 
 
 @pytest.fixture
 def opened(monkeypatch):
-    """Carries out `show`, and returns the lesson, the params and the step that the page begins at."""
+    """Carries out `show`, and returns the lesson, the params and the step that the page begins
+    at.
+    """
     seen = []
     monkeypatch.setattr(
         "workbench.viewer.serving.serve", lambda *place, **options: seen.append((place, options))

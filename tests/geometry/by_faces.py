@@ -1,4 +1,6 @@
-"""Angles, areas and borders of a mesh by school geometry, to hold the fast formulas and what is said of them to."""
+"""Angles, areas and borders of a mesh by school geometry, to hold the fast formulas and what is
+said of them to.
+"""
 
 import functools
 
@@ -9,7 +11,9 @@ import numpy as np
 def measured_face_by_face(
     p_bytes: bytes, faces_bytes: bytes
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
-    """Return angle sums, mixed areas, which vertices lie on the border, and V - E + F, face by face."""
+    """Return angle sums, mixed areas, which vertices lie on the border, and V - E + F, face by
+    face.
+    """
     p, faces = (
         np.frombuffer(p_bytes).reshape(-1, 3),
         np.frombuffer(faces_bytes, dtype=np.int64).reshape(-1, 3),
@@ -24,7 +28,8 @@ def measured_face_by_face(
         corner.append(np.arccos(np.clip(cosine, -1, 1)))
     obtuse = np.max(corner, axis=0) > np.pi / 2
     for k, (here, one, two) in enumerate(((a, b, c), (b, c, a), (c, a, b))):
-        # The cell ends at the bisectors of the two edges: their halves, times the cotangent of the angle across.
+        # The cell ends at the bisectors of the two edges: their halves, times the cotangent of the
+        # angle across.
         across = [
             np.sum((one - here) ** 2, axis=1) / np.tan(corner[(k + 2) % 3]),
             np.sum((two - here) ** 2, axis=1) / np.tan(corner[(k + 1) % 3]),

@@ -128,7 +128,8 @@ def test_far_from_the_origin_no_digits_are_lost(offset):
     p_target = p @ R.T + offset
     for align in ALIGN.values():
         T = align(p_target, p + offset)
-        # the points themselves carry 1e-10 at this offset; moments about the origin would be a degree off
+        # the points themselves carry 1e-10 at this offset; moments about the origin would be a
+        # degree off
         assert np.degrees(rotation_angle(nearest_rotation(T[:3, :3]) @ R.T)) < 1e-7
         assert rmse(T, p_target, p + offset) < 1e-6
 

@@ -1,4 +1,6 @@
-"""Zhang's constraints, poses and the linear lens, on exact pictures and beside the camera itself."""
+"""Zhang's constraints, poses and the linear lens, on exact pictures and beside the camera
+itself.
+"""
 
 import numpy as np
 import pytest

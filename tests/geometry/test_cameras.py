@@ -276,14 +276,18 @@ def test_agrees_with_opencv():
 
 
 def bow(rows: np.ndarray) -> float:
-    """The median over board rows of how far, in pixels, the middle corner is from the line through the outer ones."""
+    """The median over board rows of how far, in pixels, the middle corner is from the line through
+    the outer ones.
+    """
     way, middle = rows[..., -1, :] - rows[..., 0, :], rows[..., 4, :] - rows[..., 0, :]
     cross = way[..., 0] * middle[..., 1] - way[..., 1] * middle[..., 0]
     return float(np.median(np.abs(cross) / np.linalg.norm(way, axis=-1)))
 
 
 def test_a_real_calibration_projects_its_chessboards_onto_their_corners(shared_data):
-    """Thirteen photographs, 25 mm squares: the file's own K, lens and poses leave the error that it states."""
+    """Thirteen photographs, 25 mm squares: the file's own K, lens and poses leave the error that it
+    states.
+    """
     text = (shared_data / "calibration" / "left_intrinsics.yml").read_text()
 
     def matrix(name: str) -> np.ndarray:
@@ -302,7 +306,8 @@ def test_a_real_calibration_projects_its_chessboards_onto_their_corners(shared_d
         T_camera_board = motion(exp_so3(poses[view, :3]), poses[view, 3:])
         miss = project(p_board, T_camera_board, K_real, lens) - corners
         rms[view] = np.sqrt((miss**2).sum(axis=1).mean())
-    # The corners were found again, by another detector: one view of the thirteen differs more than a little.
+    # The corners were found again, by another detector: one view of the thirteen differs more than
+    # a little.
     assert np.sort(np.abs(rms / stated - 1))[:-1].max() < 0.05
     assert rms.max() < 1.3
     assert np.median(rms) < 0.21

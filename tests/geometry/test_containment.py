@@ -1,4 +1,6 @@
-"""Inside tests: rays and solid angles agree, edges and corners decide for one face, overlaps count twice."""
+"""Inside tests: rays and solid angles agree, edges and corners decide for one face, overlaps count
+twice.
+"""
 
 import numpy as np
 import pytest

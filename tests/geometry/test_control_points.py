@@ -64,7 +64,9 @@ def test_four_points_are_too_few_where_sqpnp_hardly_fails():
 
 
 def test_points_of_a_plane_have_three_control_points():
-    """OpenCV 5.0.0's EPnP, which takes four, is over 5 degrees off in 57 % of these pictures, its SQPnP in 1.5 %."""
+    """OpenCV 5.0.0's EPnP, which takes four, is over 5 degrees off in 57 % of these pictures, its
+    SQPnP in 1.5 %.
+    """
     Ts, p_world, xy = views(8, 200, flat=True)
     assert far(epnp(p_world, xy), Ts) < 0.04
 

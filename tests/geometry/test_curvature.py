@@ -1,4 +1,6 @@
-"""Angle defects and cotangents: exact cases, analytic surfaces, laws of scale and sign, Gauss-Bonnet, borders."""
+"""Angle defects and cotangents: exact cases, analytic surfaces, laws of scale and sign,
+Gauss-Bonnet, borders.
+"""
 
 import numpy as np
 import pytest
@@ -30,7 +32,8 @@ def test_polyhedra_by_hand():
 
 
 def test_inscribed_spheres_have_exactly_their_mean_curvature():
-    # Where no triangle is obtuse, sum w |e|^2 / 2 r = 2 A / r: the cotangent formula is exact in the direction of n.
+    # Where no triangle is obtuse, sum w |e|^2 / 2 r = 2 A / r: the cotangent formula is exact in
+    # the direction of n.
     ball = sphere(600, radius=2.0, jitter=0.1, rng=np.random.default_rng(0))
     outward = np.einsum(
         "vx,vx->v", curvature.mean_curvature_normals(ball.p, ball.faces), ball.normals

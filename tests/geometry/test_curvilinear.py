@@ -51,9 +51,16 @@ def test_axes_origin_and_signs_of_zeros():
     )
     np.testing.assert_allclose(
         spherical_from_cartesian(p),
-        [[0, 0, 0], [2, 0, 0], [2, np.pi, 0], [1, np.pi / 2, np.pi], [1, np.pi / 2, np.pi], [1, 0, 0],
-         [1, np.pi / 2, np.pi]],
-    )  # fmt: skip
+        [
+            [0, 0, 0],
+            [2, 0, 0],
+            [2, np.pi, 0],
+            [1, np.pi / 2, np.pi],
+            [1, np.pi / 2, np.pi],
+            [1, 0, 0],
+            [1, np.pi / 2, np.pi],
+        ],
+    )
     assert spherical_from_cartesian(np.empty((0, 3))).shape == (0, 3)
 
 

@@ -1,4 +1,6 @@
-"""Distances from cylinders: slopes by differences, five steps and no more, points that lie on one."""
+"""Distances from cylinders: slopes by differences, five steps and no more, points that lie on
+one.
+"""
 
 import numpy as np
 from hypothesis import given, settings
@@ -55,7 +57,9 @@ def test_many_at_once_are_each_alone():
 
 
 def test_seven_numbers_have_two_that_change_nothing():
-    """The redundant Jacobian's two zeros: a slide along the axis and the length of the direction."""
+    """The redundant Jacobian's two zeros: a slide along the axis and the length of the
+    direction.
+    """
     rng = np.random.default_rng(1)
     turn, z = rng.uniform(0, 2 * np.pi, 200), rng.uniform(-1, 1, 200)
     p = np.column_stack([np.cos(turn), np.sin(turn), z])

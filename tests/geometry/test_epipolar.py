@@ -140,7 +140,9 @@ def test_a_match_of_weight_zero_does_not_count():
 
 
 def test_eight_points_agree_with_skimage():
-    """Its normalisation differs a little, and so does the answer, but by far less than the noise."""
+    """Its normalisation differs a little, and so does the answer, but by far less than the
+    noise.
+    """
     from skimage.transform import FundamentalMatrixTransform
 
     _, uv_first, uv_second = views(5, 60, sigma=1.0)
@@ -182,10 +184,14 @@ def test_refinement_beats_eight_points_against_the_truth():
         scene = match_scene(np.random.default_rng(seed), count=200, outlier_ratio=0.0, sigma=1.0)
         linear = fit_fundamental(scene.p[:, :2], scene.p[:, 2:])
         refined = refine_fundamental(linear, scene.p[:, :2], scene.p[:, 2:])
-        errors.append([
-            np.sqrt(np.square(sampson_distances(F, scene.p_true[:, :2], scene.p_true[:, 2:])).mean())
-            for F in (linear, refined)
-        ])  # fmt: skip
+        errors.append(
+            [
+                np.sqrt(
+                    np.square(sampson_distances(F, scene.p_true[:, :2], scene.p_true[:, 2:])).mean()
+                )
+                for F in (linear, refined)
+            ]
+        )
     linear, refined = np.median(errors, axis=0)
     assert refined < 0.95 * linear
 

@@ -83,7 +83,7 @@ def test_other_numbers_of_neighbours_are_refused():
         geodesics.grid_edges(5, 6)
 
 
-# points on edges --------------------------------------------------------------------------------------------------------
+# points on edges ----------------------------------------------------------------------------------
 
 
 def test_points_on_edges_come_near_the_straight_way_over_a_flat_sheet():
@@ -117,7 +117,9 @@ def test_points_on_edges_are_joined_within_faces_only():
 
 
 def test_over_a_cube_the_way_is_that_of_its_net():
-    """From a corner to the opposite one of a unit cube it is sqrt(5), over the middle of an edge."""
+    """From a corner to the opposite one of a unit cube it is sqrt(5), over the middle of an
+    edge.
+    """
     p = np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)])
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     faces = np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
@@ -127,7 +129,7 @@ def test_over_a_cube_the_way_is_that_of_its_net():
     assert d[7] >= np.sqrt(5) - 1e-12
 
 
-# walls ------------------------------------------------------------------------------------------------------------------
+# walls --------------------------------------------------------------------------------------------
 
 
 def test_the_way_round_a_wall():
@@ -143,10 +145,17 @@ def test_the_way_round_a_wall():
 
 def test_segments_that_cross_the_wall():
     tip = np.array([0.0, 0.3])
-    segments = np.array([
-        [[-0.1, 0.0], [0.1, 0.0]], [[-0.1, 0.29], [0.1, 0.29]], [[-0.1, 0.31], [0.1, 0.31]], [[-0.1, 0.2], [0.0, 0.3]],
-        [[-0.1, 0.0], [-0.2, 0.0]], [[0.0, 0.3], [0.0, 0.4]], [[0.0, 0.1], [0.0, 0.2]],
-    ])  # fmt: skip
+    segments = np.array(
+        [
+            [[-0.1, 0.0], [0.1, 0.0]],
+            [[-0.1, 0.29], [0.1, 0.29]],
+            [[-0.1, 0.31], [0.1, 0.31]],
+            [[-0.1, 0.2], [0.0, 0.3]],
+            [[-0.1, 0.0], [-0.2, 0.0]],
+            [[0.0, 0.3], [0.0, 0.4]],
+            [[0.0, 0.1], [0.0, 0.2]],
+        ]
+    )
     assert geodesics.crosses_wall(segments, tip).tolist() == [
         True,
         True,

@@ -1,4 +1,6 @@
-"""Graphs as matrices: closed-form spectra, laws of Laplacians and cuts, neighbours beside scipy and brute force."""
+"""Graphs as matrices: closed-form spectra, laws of Laplacians and cuts, neighbours beside scipy and
+brute force.
+"""
 
 import numpy as np
 import pytest
@@ -33,7 +35,7 @@ def some_graph(seed, count=30, chance=0.15):
     return graphs.graph_of(np.column_stack([a, b]), count, rng.uniform(0.5, 3.0, len(a)))
 
 
-# neighbours -----------------------------------------------------------------------------------------------------------
+# neighbours ---------------------------------------------------------------------------------------
 
 
 @settings(deadline=None, max_examples=25)
@@ -108,7 +110,7 @@ def test_hops():
     assert np.isinf(graphs.hops(graphs.graph_of(np.array([[0, 1]]), 3))[0, 2])
 
 
-# spectra in closed form -------------------------------------------------------------------------------------------------
+# spectra in closed form ---------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -187,7 +189,7 @@ def test_a_closed_mesh_of_genus_0_has_its_mean_degree():
     assert graphs.degrees(meshes.adjacency(ball.faces, 642)).mean() == pytest.approx(6 - 12 / 642)
 
 
-# layers ---------------------------------------------------------------------------------------------------------------
+# layers -------------------------------------------------------------------------------------------
 
 
 @settings(deadline=None, max_examples=25)
@@ -213,7 +215,7 @@ def test_a_layer_of_the_karate_club():
     assert (graphs.gcn_layer(np.zeros((3, 3)), np.eye(3), np.eye(3)) == np.eye(3)).all()
 
 
-# cuts -----------------------------------------------------------------------------------------------------------------
+# cuts ---------------------------------------------------------------------------------------------
 
 
 @settings(deadline=None, max_examples=25)
@@ -250,7 +252,7 @@ def test_a_side_without_edges_has_no_conductance():
     assert np.isnan(graphs.conductance(adjacency, np.zeros(3, bool)))
 
 
-# embedding --------------------------------------------------------------------------------------------------------------
+# embedding ----------------------------------------------------------------------------------------
 
 
 @settings(deadline=None, max_examples=25)

@@ -72,7 +72,9 @@ def test_many_fitted_side_by_side_are_one_by_one():
 
 
 def test_it_agrees_with_skimage():
-    """Its normalisation differs a little, and so does the answer, but by far less than the noise."""
+    """Its normalisation differs a little, and so does the answer, but by far less than the
+    noise.
+    """
     from skimage.transform import ProjectiveTransform
 
     _, uv_a, uv_b = scene(5, 40, sigma=2.0)

@@ -1,4 +1,6 @@
-"""Edges flipped within a surface: the triangulation of scipy in the plane, the same surface, and no negative weight."""
+"""Edges flipped within a surface: the triangulation of scipy in the plane, the same surface, and no
+negative weight.
+"""
 
 import numpy as np
 import pytest
@@ -18,7 +20,9 @@ from workbench.geometry.polylines import at_height
 
 
 def sheared(side: int, shear: float) -> tuple[np.ndarray, np.ndarray]:
-    """A grid of triangles that becomes obtuse as it is sheared, moved a little so that no four points are on a circle."""
+    """A grid of triangles that becomes obtuse as it is sheared, moved a little so that no four
+    points are on a circle.
+    """
     x = np.arange(float(side))
     flat = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
     flat += np.random.default_rng(0).uniform(-0.1, 0.1, flat.shape)

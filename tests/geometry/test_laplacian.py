@@ -1,4 +1,6 @@
-"""The cotangent Laplacian and mixed areas: exact on linear functions and spheres, known spectra, independent sums."""
+"""The cotangent Laplacian and mixed areas: exact on linear functions and spheres, known spectra,
+independent sums.
+"""
 
 import numpy as np
 import pytest
@@ -94,7 +96,8 @@ def test_mixed_area_of_one_triangle():
 
 
 def test_mixed_areas_are_voronoi_areas():
-    # Inside a flat mesh without obtuse corners they are the cells that scipy's Voronoi diagram finds.
+    # Inside a flat mesh without obtuse corners they are the cells that scipy's Voronoi diagram
+    # finds.
     flat = plane(81, jitter=0.05, rng=np.random.default_rng(0))
     p = flat.p[:, :2]
     faces = scipy.spatial.Delaunay(p).simplices.astype(np.int64)

@@ -1,4 +1,6 @@
-"""Level sets: marching cubes outwards, exact on planes, second order on curved surfaces, places made by a function."""
+"""Level sets: marching cubes outwards, exact on planes, second order on curved surfaces, places
+made by a function.
+"""
 
 import numpy as np
 import pytest

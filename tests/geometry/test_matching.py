@@ -91,7 +91,9 @@ def test_patches_do_not_see_brightness_or_contrast():
 
 
 OPEN3D = [175, 198, 282, 309, 310, 318, 339, 366, 416, 682]
-"""compute_iss_keypoints of Open3D 0.20: an oracle to distrust, its spread is about the neighbours' mean."""
+"""compute_iss_keypoints of Open3D 0.20: an oracle to distrust, its spread is about the neighbours'
+mean.
+"""
 
 
 def test_iss_keypoints_are_those_of_loops_about_the_point_and_not_open3ds():
@@ -147,7 +149,9 @@ def test_outlines_are_assigned_as_scipy_does():
 
 
 def test_a_distance_that_is_the_ratio_times_the_second_is_not_less():
-    """In integers nothing is left to rounding: 1 is not less than half of 2, wherever the descriptors lie."""
+    """In integers nothing is left to rounding: 1 is not less than half of 2, wherever the
+    descriptors lie.
+    """
     for offset in (0.0, 100.0, -7.0):
         b = np.array([[1.0, 0], [0, 2], [9, 0]]) + offset
         a = np.full((1, 2), offset)

@@ -1,4 +1,6 @@
-"""Triangle meshes: measures against trimesh and laws; borders, rings and chi; what is refused, and with which words."""
+"""Triangle meshes: measures against trimesh and laws; borders, rings and chi; what is refused, and
+with which words.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,6 @@
-"""Distances in a space: axioms by hypothesis, scipy beside them, Mahalanobis and its robust covariance."""
+"""Distances in a space: axioms by hypothesis, scipy beside them, Mahalanobis and its robust
+covariance.
+"""
 
 import numpy as np
 import pytest
@@ -56,9 +58,14 @@ def test_squares_break_it_where_the_angle_at_b_is_obtuse():
 
 @pytest.mark.parametrize(
     ("metric", "theirs"),
-    [("euclid", "euclidean"), ("manhattan", "cityblock"), ("chebyshev", "chebyshev"), ("squared", "sqeuclidean"),
-     ("cosine", "cosine")],
-)  # fmt: skip
+    [
+        ("euclid", "euclidean"),
+        ("manhattan", "cityblock"),
+        ("chebyshev", "chebyshev"),
+        ("squared", "sqeuclidean"),
+        ("cosine", "cosine"),
+    ],
+)
 def test_scipy_agrees(metric, theirs):
     a, b, _ = some(1, 20, 4)
     found = metrics.distance_of(metric)(a[:, None], b[None])
@@ -78,7 +85,7 @@ def test_without_a_covariance_mahalanobis_is_euclid():
     )
 
 
-# Mahalanobis ------------------------------------------------------------------------------------------------------------
+# Mahalanobis --------------------------------------------------------------------------------------
 
 
 @settings(deadline=None, max_examples=20)

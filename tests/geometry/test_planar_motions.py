@@ -40,7 +40,9 @@ def test_to_first_order_the_two_project_alike():
 
 @pytest.mark.parametrize("sign", [1.0, -1.0], ids=["z away", "z towards the camera"])
 def test_exactly_frontal_both_are_one_and_right(sign):
-    """OpenCV 5.0.0's IPPE says success here for z towards the camera, with a pose that misses by 113 px."""
+    """OpenCV 5.0.0's IPPE says success here for z towards the camera, with a pose that misses by
+    113 px.
+    """
     T = motion(np.diag([1.0, sign, sign]), np.array([0.0, 0.0, 1.0]))
     two = planar_motions(SQUARE, seen(T, SQUARE))
     np.testing.assert_allclose(two, np.stack([T, T]), atol=1e-6)
@@ -85,7 +87,9 @@ def test_what_is_no_plane_is_refused():
 
 
 def test_the_stereo_rig_has_one_motion_in_all_views(shared_data):
-    """Left and right camera of 13 views of a board, their K and lens as cv2.calibrateCamera finds them (k3 = 0)."""
+    """Left and right camera of 13 views of a board, their K and lens as cv2.calibrateCamera finds
+    them (k3 = 0).
+    """
     corners = np.load(shared_data / "calibration" / "corners_9x6.npz")
     board = corners["object_points"].astype(float)
     lenses = {

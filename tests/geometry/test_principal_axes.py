@@ -1,4 +1,6 @@
-"""Principal axes: against eigh, laws of moving and mirroring, closed-form variances, and clouds that leave axes open."""
+"""Principal axes: against eigh, laws of moving and mirroring, closed-form variances, and clouds
+that leave axes open.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,6 @@
-"""Quadric fits: exact on quadrics, convergent on irregular meshes, steady under noise, nan where nothing fits."""
+"""Quadric fits: exact on quadrics, convergent on irregular meshes, steady under noise, nan where
+nothing fits.
+"""
 
 import numpy as np
 import pytest
@@ -44,7 +46,8 @@ def test_borders_get_an_answer_too(name):
 @settings(max_examples=15, deadline=None)
 @given(st.integers(0, 10_000))
 def test_curvature_of_a_quadric_at_its_summit_is_exact(seed):
-    # Over the summit's own tangent plane the surface is a quadric, which the fit reproduces; any pose, any bend.
+    # Over the summit's own tangent plane the surface is a quadric, which the fit reproduces; any
+    # pose, any bend.
     rng = np.random.default_rng(seed)
     flat = plane(121, jitter=0.2, rng=rng)
     a, b, c = rng.uniform(-0.4, 0.4, 3)
@@ -67,7 +70,8 @@ def test_curvature_of_a_quadric_at_its_summit_is_exact(seed):
 
 
 def test_a_slope_in_the_frame_is_accounted_for():
-    # Over the horizontal the saddle is a quadric everywhere, steep or not: with upright frames every vertex is exact.
+    # Over the horizontal the saddle is a quadric everywhere, steep or not: with upright frames
+    # every vertex is exact.
     surface = SURFACES["saddle"](200, bend=2.0, jitter=0.2, rng=np.random.default_rng(5))
     upright = np.broadcast_to([0.0, 0.0, 1.0], surface.p.shape)
     turned = surface.p @ exp_so3(np.array([0, 0, 0.4])).T

@@ -1,4 +1,6 @@
-"""The picture: against rays cast at every pixel, with and without a lens, and cut at the near plane."""
+"""The picture: against rays cast at every pixel, with and without a lens, and cut at the near
+plane.
+"""
 
 import numpy as np
 import pytest
@@ -42,7 +44,8 @@ def all_pixels(width: int = WIDTH, height: int = HEIGHT) -> np.ndarray:
 def cast(
     p: np.ndarray, faces: np.ndarray, T_camera_world: np.ndarray, lens: Distortion, near: float
 ):
-    """On every pixel's ray the depth of the nearest triangle, how safely it is hit or missed, and which (-1: none).
+    """On every pixel's ray the depth of the nearest triangle, how safely it is hit or missed, and
+    which (-1: none).
 
     Source: Möller and Trumbore 1997.
     """
@@ -86,7 +89,7 @@ def test_depth_is_what_a_ray_through_each_pixel_meets(seed, lens):
         sure = margin > 1e-4  # a pixel whose centre is not on an edge
         assert sure.mean() > 0.9
         np.testing.assert_allclose(image.depth[sure], depth[sure], rtol=1e-9)
-    else:  # edges are polygons within a fraction of a pixel of the curve: away from them the same triangle is met
+    else:  # edges are polygons within a fraction of a pixel of the curve: away from them the same triangle is met  # noqa: E501
         inside = scipy.ndimage.minimum_filter(which, 3) == scipy.ndimage.maximum_filter(which, 3)
         nearest, furthest = (
             f(depth, 3, mode="nearest")
@@ -100,7 +103,9 @@ def test_depth_is_what_a_ray_through_each_pixel_meets(seed, lens):
 
 @pytest.mark.parametrize("lens", [NONE, BARREL, Distortion(0.2, 0.05)])
 def test_a_floor_under_the_camera_fills_every_pixel_below_the_horizon(lens):
-    """Two triangles, 200 m wide, cross the near plane; every ray that meets the floor must find it at its depth."""
+    """Two triangles, 200 m wide, cross the near plane; every ray that meets the floor must find it
+    at its depth.
+    """
     T_camera_world = look_at(np.array([0.0, 0.0, 1.5]), np.array([0.0, 10.0, 0.5]))
     p = np.array([[-100.0, -100, 0], [100, -100, 0], [100, 100, 0], [-100, 100, 0]])
     item = MeshItem(p, np.array([[0, 1, 2], [0, 2, 3]]), np.concatenate([RED, BLUE]))

@@ -1,4 +1,6 @@
-"""Mending keeps the surface: the same triangles at the same places, now a mesh that can be measured."""
+"""Mending keeps the surface: the same triangles at the same places, now a mesh that can be
+measured.
+"""
 
 import numpy as np
 import pytest

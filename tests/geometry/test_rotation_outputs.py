@@ -1,4 +1,6 @@
-"""Numbers for rotations: gradients by differences, scipy's rotations, what is continuous, and how turns are spread."""
+"""Numbers for rotations: gradients by differences, scipy's rotations, what is continuous, and how
+turns are spread.
+"""
 
 import numpy as np
 import pytest
@@ -119,7 +121,9 @@ def test_vectors_that_span_no_plane_give_what_is_not_finite():
 
 
 def test_only_vectors_of_unit_length_columns_and_entries_are_continuous():
-    """Two rotations a hundredth of a degree apart, to either side of half a turn: their numbers are near, or far."""
+    """Two rotations a hundredth of a degree apart, to either side of half a turn: their numbers are
+    near, or far.
+    """
     near = np.radians(179.995)
     flat = np.stack(
         [np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]) for a in (near, -near)]

@@ -29,7 +29,8 @@ settings.load_profile("few")
 
 angle = st.floats(-np.pi, np.pi)
 triples = st.tuples(angle, angle, angle).map(np.array)
-# Rotations near the identity and near half a turn are where formulas break: they are drawn on purpose.
+# Rotations near the identity and near half a turn are where formulas break: they are drawn on
+# purpose.
 sizes = st.one_of(
     st.floats(0, 1e-6), st.floats(1e-6, np.pi), st.floats(0, 1e-6).map(lambda e: np.pi - e)
 )

@@ -1,4 +1,6 @@
-"""Points and lines by chance: even on surfaces and in cubes, scipy's Sobol, binomial errors, Crofton."""
+"""Points and lines by chance: even on surfaces and in cubes, scipy's Sobol, binomial errors,
+Crofton.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,6 @@
-"""SIFT's keypoints: what a turn and a stretch do to them, a blob of known size, and pictures without any."""
+"""SIFT's keypoints: what a turn and a stretch do to them, a blob of known size, and pictures
+without any.
+"""
 
 import numpy as np
 import pytest
@@ -41,7 +43,9 @@ def test_brightness_and_contrast_do_not_count(still):
 
 @pytest.mark.parametrize("size", [3.0, 4.0, 6.0])
 def test_a_blob_is_found_where_it_is_as_large_as_it_is(size):
-    """Its size is the finer of two Gaussians that differ by a third of an octave; the blob lies between them."""
+    """Its size is the finer of two Gaussians that differ by a third of an octave; the blob lies
+    between them.
+    """
     v, u = np.mgrid[:81, :101]
     found = sift(200 * np.exp(-((u - 60.3) ** 2 + (v - 33.2) ** 2) / (2 * size**2)))
     np.testing.assert_allclose(found.uv, np.broadcast_to([60.3, 33.2], found.uv.shape), atol=0.1)
@@ -50,7 +54,9 @@ def test_a_blob_is_found_where_it_is_as_large_as_it_is(size):
 
 
 def test_directions_are_those_of_the_grey_levels():
-    """A blob on a ramp has the ramp's direction, from u towards v: on the average of many within a fifth of a bin."""
+    """A blob on a ramp has the ramp's direction, from u towards v: on the average of many within a
+    fifth of a bin.
+    """
     v, u = np.mgrid[-40:41, -40:41].astype(float)
     offs = []
     for angle in np.radians(np.arange(0, 360, 7)):

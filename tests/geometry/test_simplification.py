@@ -1,4 +1,6 @@
-"""Coarser and finer meshes: what stays the same when edges are halved, and how many vertices clusters leave."""
+"""Coarser and finer meshes: what stays the same when edges are halved, and how many vertices
+clusters leave.
+"""
 
 import numpy as np
 import pytest

@@ -15,7 +15,9 @@ from workbench.geometry.cameras.three_points import (
 from workbench.geometry.motions import apply, exp_se3, inverse
 
 OTHERS_COUNT = (0, 106, 3563, 11, 320)
-"""How many of `triples(4000)` have no, one, ..., four solutions, by poselib 2.0.5 and by OpenCV 5.0.0's solveP3P alike."""
+"""How many of `triples(4000)` have no, one, ..., four solutions, by poselib 2.0.5 and by OpenCV
+5.0.0's solveP3P alike.
+"""
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,6 @@
-"""What rays see: gradients by differences, laws of light, and media of which the answer is known."""
+"""What rays see: gradients by differences, laws of light, and media of which the answer is
+known.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,6 @@
-"""Voxels: occupancy by columns and by points agree, counts and surfaces measure the same, areas do not converge."""
+"""Voxels: occupancy by columns and by points agree, counts and surfaces measure the same, areas do
+not converge.
+"""
 
 import numpy as np
 import pytest

@@ -23,7 +23,9 @@ def triples(count: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray, np.ndarr
 def view(
     seed: int, n: int, *, sigma: float = 0.0, flat: bool = False
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """A T_camera_world, n points, 4 to 8 m before it or on a sheet, and where they are seen, with noise."""
+    """A T_camera_world, n points, 4 to 8 m before it or on a sheet, and where they are seen, with
+    noise.
+    """
     rng = np.random.default_rng(seed)
     T = motion(
         exp_so3(rng.normal(size=3) * 2),

@@ -1,4 +1,6 @@
-"""Which sentences would tell the answers of the questions in the alignment lesson, as patterns; case does not matter."""
+"""Which sentences would tell the answers of the questions in the alignment lesson, as patterns;
+case does not matter.
+"""
 
 GIVEAWAYS = {
     "predict-rotations": (r"\b(8|eight) rotations", r"after (8|eight)\b", r"Rotation 8"),

@@ -23,9 +23,13 @@ def test_a_folder_has_starters_samples_and_what_they_are_worth(tmp_path, capsys)
     ]
     assert main(words) == 0
     assert {path.relative_to(out).as_posix() for path in out.rglob("*.*")} == {
-        "README.md", "assignment.json", "student/TASK.md", "student/my_match.py", "teacher/full/my_match.py",
+        "README.md",
+        "assignment.json",
+        "student/TASK.md",
+        "student/my_match.py",
+        "teacher/full/my_match.py",
         "teacher/none/my_match.py",
-    }  # fmt: skip
+    }
     assert "4 points" in (out / "README.md").read_text()
     assert "Due 2027-03-31 23:59" in (out / "student" / "TASK.md").read_text()
     assert main(["check", str(out / "teacher" / "full" / "my_match.py"), "--hidden"]) == 0
@@ -33,7 +37,9 @@ def test_a_folder_has_starters_samples_and_what_they_are_worth(tmp_path, capsys)
 
 
 def test_a_class_is_counted_by_the_weights_of_its_assignment(tmp_path, capsys):
-    """Points are out of all that is handed out; what is not asked for counts nothing, and is said."""
+    """Points are out of all that is handed out; what is not asked for counts nothing, and is
+    said.
+    """
     out, came = tmp_path / "out", tmp_path / "came"
     assert (
         main(
@@ -66,8 +72,11 @@ def test_a_class_is_counted_by_the_weights_of_its_assignment(tmp_path, capsys):
     }
     worth = 40 + exercises()["invert_rigid"].points
     assert {name: (float(row["points"]), float(row["possible"])) for name, row in rows.items()} == {
-        "all": (worth, worth), "half": (40, worth), "other": (40, worth), "empty": (0, worth)
-    }  # fmt: skip
+        "all": (worth, worth),
+        "half": (40, worth),
+        "other": (40, worth),
+        "empty": (0, worth),
+    }
     assert list(rows["all"])[3:] == ["match", "invert_rigid", "trouble"]
     assert rows["half"]["invert_rigid"] == ""
     assert rows["other"]["trouble"] == "chamfer is not asked for"

@@ -1,4 +1,6 @@
-"""What is handed out, run as the services run it: below a folder laid out as theirs, and held to their documented files."""
+"""What is handed out, run as the services run it: below a folder laid out as theirs, and held to
+their documented files.
+"""
 
 import base64
 import io
@@ -34,7 +36,9 @@ HANGS = "def invert_rigid(T):\n    while True: pass\n"
 
 @pytest.fixture(scope="module")
 def bare(tmp_path_factory) -> str:
-    """Return a Python that has what a service installs, numpy and scipy, and Pillow, and nothing else."""
+    """Return a Python that has what a service installs, numpy and scipy, and Pillow, and nothing
+    else.
+    """
     folder = tmp_path_factory.mktemp("bare")
     for package in (numpy, scipy, PIL):
         place = Path(package.__path__[0])
@@ -43,13 +47,14 @@ def bare(tmp_path_factory) -> str:
                 (folder / name).symlink_to(place.parent / name)
     script = folder / "python"
     script.write_text(
-        f'#!/bin/sh\nPYTHONPATH="$PYTHONPATH:{folder}" exec {os.path.realpath(sys.executable)} -S "$@"\n'
+        f'#!/bin/sh\nPYTHONPATH="$PYTHONPATH:{folder}" exec {os.path.realpath(sys.executable)} -S'
+        ' "$@"\n'
     )
     script.chmod(0o755)
     return str(script)
 
 
-# gradescope -----------------------------------------------------------------------------------------------------------
+# gradescope ---------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +68,9 @@ def gradescope(tmp_path_factory):
 
 
 def scored(gradescope: Path, python: str, root: Path, submitted: dict[str, str] | Path) -> dict:
-    """Return what a submission's results.json says; it is there, and is what Gradescope documents."""
+    """Return what a submission's results.json says; it is there, and is what Gradescope
+    documents.
+    """
     if not isinstance(submitted, Path):
         folder = root / "handed in"
         folder.mkdir()
@@ -160,9 +167,12 @@ def test_gradescope_has_results_where_the_grader_is_ended(gradescope, bare, tmp_
     (tmp_path / "in" / "a.py").write_text(HANGS)
     root = lay_out_gradescope(tmp_path / "autograder", gradescope, tmp_path / "in")
     running = subprocess.Popen(
-        [root / "run_autograder", root], env=os.environ | {"GRADER_PYTHON": bare}, start_new_session=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
+        [root / "run_autograder", root],
+        env=os.environ | {"GRADER_PYTHON": bare},
+        start_new_session=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
     results, end = root / "results" / "results.json", time.monotonic() + 120
     while not (results.exists() and "ran out of time" in results.read_text()):
         assert time.monotonic() < end
@@ -208,7 +218,7 @@ def invert_rigid(T):
         except Exception: pass
     print("GOT", got)
     return T
-"""
+"""  # noqa: E501
 
 
 @pytest.mark.skipif(
@@ -235,8 +245,11 @@ def test_the_image_is_set_up_with_a_python_that_is_new_enough(gradescope, tmp_pa
         (commands / name).chmod(0o755)
     told = subprocess.run(
         ["bash", root / "source" / "setup.sh", root / "source", tmp_path / "place"],
-        env=os.environ | {"PATH": f"{commands}:{os.environ['PATH']}"}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        env=os.environ | {"PATH": f"{commands}:{os.environ['PATH']}"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert told.returncode == 0, told.stderr
     log = (tmp_path / "log").read_text()
     assert f"--python {sys.version_info.major}.{sys.version_info.minor} {tmp_path}/place" in log
@@ -244,7 +257,7 @@ def test_the_image_is_set_up_with_a_python_that_is_new_enough(gradescope, tmp_pa
     assert "Submissions are shut in by: " in told.stdout
 
 
-# prairielearn ---------------------------------------------------------------------------------------------------------
+# prairielearn -------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -261,7 +274,9 @@ def prairielearn(tmp_path_factory):
 def submitted(
     prairielearn: Path, python: str, folder: Path, text: str, exercise: str = "invert_rigid"
 ) -> dict:
-    """Return what a submission's results.json says; it is there, and is what PrairieLearn documents."""
+    """Return what a submission's results.json says; it is there, and is what PrairieLearn
+    documents.
+    """
     (folder / "mine.py").write_text(text)
     root = lay_out_prairielearn(folder / "grade", prairielearn, exercise, folder / "mine.py")
     found = run(root / "serverFilesCourse" / "geometry-workbench" / "run.sh", root, python)
@@ -330,7 +345,7 @@ def test_prairielearn_takes_no_attempt_for_what_cannot_be_graded(prairielearn, b
     assert "line 1" in found["format_errors"][0]
 
 
-# the command ----------------------------------------------------------------------------------------------------------
+# the command --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -363,7 +378,7 @@ def test_what_cannot_be_handed_out_is_one_line(tmp_path, monkeypatch, capsys, wo
     assert sorted(path.name for path in tmp_path.iterdir()) == ["full"]
 
 
-# what grading needs ---------------------------------------------------------------------------------------------------
+# what grading needs -------------------------------------------------------------------------------
 
 BLOCKED = """
 import runpy, sys
@@ -379,7 +394,7 @@ class Here:
 sys.meta_path[:] = map(Here, sys.meta_path)
 sys.argv[:] = sys.argv[1:]
 runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
-"""
+"""  # noqa: E501
 
 
 def test_what_grading_needs_is_written_down_once():

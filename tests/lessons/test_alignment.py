@@ -1,4 +1,6 @@
-"""The alignment lesson: every preset's claim in its own run, questions, pictures, and students' functions in it."""
+"""The alignment lesson: every preset's claim in its own run, questions, pictures, and students'
+functions in it.
+"""
 
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,4 +1,6 @@
-"""Own clouds in the alignment lesson: alone, in pairs, with a pose, real ones, and those that cannot be used."""
+"""Own clouds in the alignment lesson: alone, in pairs, with a pose, real ones, and those that
+cannot be used.
+"""
 
 from dataclasses import replace
 from pathlib import Path

@@ -47,17 +47,23 @@ def ending(params: Params, kind: str) -> tuple[State, Ending]:
     return found, found.ending
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("name", "f", "sd", "rms", "worst"),
     [
-        ("home", 535.6, 1.57, 0.276, 4.1), ("few", 533.2, 3.6, 0.244, 8.5), ("pinhole", 554.5, 7.9, 1.28, 164),
-        ("middle", 537.3, 5.7, 0.274, 82_400), ("bad", 531.9, 2.9, 0.413, 14.6), ("dropped", 534.1, 2.04, 0.265, 6.3),
-        ("cauchy", 534.0, 1.6, 0.466, 3.9), ("stretched", 539.0, 1.71, 0.304, 11.6), ("bent", 526.2, 1.72, 0.313, 17.0),
+        ("home", 535.6, 1.57, 0.276, 4.1),
+        ("few", 533.2, 3.6, 0.244, 8.5),
+        ("pinhole", 554.5, 7.9, 1.28, 164),
+        ("middle", 537.3, 5.7, 0.274, 82_400),
+        ("bad", 531.9, 2.9, 0.413, 14.6),
+        ("dropped", 534.1, 2.04, 0.265, 6.3),
+        ("cauchy", 534.0, 1.6, 0.466, 3.9),
+        ("stretched", 539.0, 1.71, 0.304, 11.6),
+        ("bent", 526.2, 1.72, 0.313, 17.0),
     ],
-)  # fmt: skip
+)
 def test_the_presets_end_where_they_should(name, f, sd, rms, worst):
     last = end(preset(name))
     assert f_of(last) == pytest.approx(f, abs=0.1)
@@ -91,7 +97,9 @@ def test_the_closed_form_knows_no_lens():
 
 
 def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
-    """What Levenberg-Marquardt was cut off at, f = 613 px after 30 iterations, is no answer of the method."""
+    """What Levenberg-Marquardt was cut off at, f = 613 px after 30 iterations, is no answer of the
+    method.
+    """
     cv2 = pytest.importorskip("cv2", reason="opencv-python-headless is not installed")
     last = end(presets.FLAT)
     found = last.now.adjustment
@@ -209,7 +217,7 @@ def test_four_things_are_called_the_error():
     assert tutorial == pytest.approx(point / np.sqrt(54), abs=0.002)
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -230,7 +238,7 @@ def test_two_views_determine_k_and_not_well():
     assert f_of(two[2]) == pytest.approx(519, abs=1)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def captions(**slots) -> list[Caption]:
@@ -270,7 +278,7 @@ def test_corners_at_depth_0_are_refused():
         list(run(Params(), pose_from_homography=lambda K, H: np.zeros((4, 4))))
 
 
-# knobs and pictures ---------------------------------------------------------------------------------------------------
+# knobs and pictures -------------------------------------------------------------------------------
 
 
 def test_leaving_out():

@@ -1,4 +1,6 @@
-"""Own corners in the calibration lesson: two real cameras, a picture, units, and what is refused."""
+"""Own corners in the calibration lesson: two real cameras, a picture, units, and what is
+refused.
+"""
 
 import shutil
 from pathlib import Path
@@ -61,7 +63,9 @@ def test_the_left_camera(corners, shared_data):
 
 
 def test_pictures_lie_below_the_corners_of_their_views(corners, tmp_path):
-    """A corner of the board is a saddle: its four neighbours along the diagonals are two dark and two bright."""
+    """A corner of the board is a saddle: its four neighbours along the diagonals are two dark and
+    two bright.
+    """
     folder = corners.parent
     shutil.make_archive(str(tmp_path / "all"), "zip", folder)
     for images in (folder, tmp_path / "all.zip"):
@@ -77,14 +81,18 @@ def test_pictures_lie_below_the_corners_of_their_views(corners, tmp_path):
             assert picture.size == (640, 480)
             level = ndimage.gaussian_filter(picture.rgb()[..., 0].astype(float), 1.0)
             u, v = state.subject.uv[state.shown].T
-            ring = [ndimage.map_coordinates(level, [v + 4 * np.sin(a), u + 4 * np.cos(a)])
-                    for a in np.arange(32) * np.pi / 16]  # fmt: skip
+            ring = [
+                ndimage.map_coordinates(level, [v + 4 * np.sin(a), u + 4 * np.cos(a)])
+                for a in np.arange(32) * np.pi / 16
+            ]
             signs = np.sign(ring - np.mean(ring, axis=0))
             assert ((signs != np.roll(signs, 1, axis=0)).sum(axis=0) == 4).mean() > 0.9
 
 
 def test_corners_without_a_number_leave_the_same_camera(corners, tmp_path):
-    """View 3 is lost whole and three corners elsewhere: f is within its own ±, views keep their numbers and pictures."""
+    """View 3 is lost whole and three corners elsewhere: f is within its own ±, views keep their
+    numbers and pictures.
+    """
     with np.load(corners) as arrays:
         given = {name: arrays[name] for name in arrays.files}
     whole = end(Params(corners=corners))

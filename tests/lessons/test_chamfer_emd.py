@@ -1,4 +1,6 @@
-"""The lesson on Chamfer and earth mover's: every claim of its page, presets and questions in numbers, slots, own clouds."""
+"""The lesson on Chamfer and earth mover's: every claim of its page, presets and questions in
+numbers, slots, own clouds.
+"""
 
 import itertools
 
@@ -308,8 +310,18 @@ class TestPicture:
         table = scene(Params(), 8)["numbers"]
         assert isinstance(table, Table)
         names = " ".join(row[0] for row in table.rows)
-        for word in ("mean of squares", "sum of squares", "sum of distances", "only source", "only target", "exact",
-                     "Sinkhorn, blur 0.05 m", "Hausdorff", "F-score", "index"):  # fmt: skip
+        for word in (
+            "mean of squares",
+            "sum of squares",
+            "sum of distances",
+            "only source",
+            "only target",
+            "exact",
+            "Sinkhorn, blur 0.05 m",
+            "Hausdorff",
+            "F-score",
+            "index",
+        ):
             assert word in names
         assert len(scene(Params(), 8)["yardsticks"].rows) == 5
 
@@ -320,8 +332,8 @@ class TestPicture:
             f"{squared(before.left.numbers.chamfer)} → {squared(now.left.numbers.chamfer)}" in text
         )
         assert (
-            f"{metres(before.right.numbers.earth_movers)} → {metres(now.right.numbers.earth_movers)}"
-            in text
+            f"{metres(before.right.numbers.earth_movers)} →"
+            f" {metres(now.right.numbers.earth_movers)}" in text
         )
         assert timeline(Params())[-1].caption.tone == "wrong"
         assert (
@@ -331,7 +343,9 @@ class TestPicture:
         assert timeline(Params(start="larger", amount=0.05))[-1].caption.tone == "good"
 
     def test_an_end_state_that_covers_its_target_looks_covered(self):
-        """Every target point's disc has a source dot in it, drawn smaller and nearer to the viewer: a dot in a ring."""
+        """Every target point's disc has a source dot in it, drawn smaller and nearer to the viewer:
+        a dot in a ring.
+        """
         last = states(Params())[-1].right
         shown = scene(Params(), -1)
         target, source = shown["right/target"], shown["right/source"]

@@ -38,7 +38,7 @@ def tone(name: str) -> str:
     return caption_of(lesson.draw(of(name)[-1])).tone
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_past_the_axis_one_coordinate_turns_half_round_within_two_steps():
@@ -55,7 +55,9 @@ def test_past_the_axis_one_coordinate_turns_half_round_within_two_steps():
 
 
 def test_a_mount_locks_at_the_zenith_as_the_page_says():
-    """Of direction by pan and tilt: sizes 1 and cos(tilt), so that panning is lost at the zenith and nothing else."""
+    """Of direction by pan and tilt: sizes 1 and cos(tilt), so that panning is lost at the zenith
+    and nothing else.
+    """
 
     def direction(pan: float, tilt: float) -> np.ndarray:
         return np.array([np.cos(tilt) * np.cos(pan), np.cos(tilt) * np.sin(pan), np.sin(tilt)])
@@ -64,10 +66,12 @@ def test_a_mount_locks_at_the_zenith_as_the_page_says():
     page = lesson.page.read_text(encoding="utf-8")
     for tilt, said in ((45, "0.71 at 45°"), (89, "0.017 at 89°"), (90, "0 at 90°")):
         at, d = np.radians(tilt), 1e-5
-        J = np.column_stack([
-            (direction(0.3 + d, at) - direction(0.3 - d, at)) / (2 * d),
-            (direction(0.3, at + d) - direction(0.3, at - d)) / (2 * d),
-        ])  # fmt: skip
+        J = np.column_stack(
+            [
+                (direction(0.3 + d, at) - direction(0.3 - d, at)) / (2 * d),
+                (direction(0.3, at + d) - direction(0.3, at - d)) / (2 * d),
+            ]
+        )
         sizes = np.linalg.svd(J, compute_uv=False)
         np.testing.assert_allclose(sizes, [1.0, np.cos(at)], atol=1e-6)
         assert float(said.split()[0]) == pytest.approx(sizes[1], abs=0.005)
@@ -220,7 +224,7 @@ def test_every_stage_ends_at_its_last_step():
         assert of(preset.name)[-1].last
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -245,7 +249,7 @@ def test_answers_are_read_off_the_run():
     assert asked["predict-poles"].answer(of("even")) == pytest.approx(13.4, abs=2)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def by_arctan(p: np.ndarray) -> np.ndarray:
@@ -293,7 +297,7 @@ def test_ways_are_as_long_as_they_are_measured():
     )
 
 
-# pictures -------------------------------------------------------------------------------------------------------------
+# pictures -----------------------------------------------------------------------------------------
 
 
 def test_what_leaves_the_picture_is_an_arrow():

@@ -1,4 +1,6 @@
-"""Own places and own objects in the coordinates lesson, real scans, and files that must be refused."""
+"""Own places and own objects in the coordinates lesson, real scans, and files that must be
+refused.
+"""
 
 from pathlib import Path
 from typing import Any

@@ -29,12 +29,16 @@ def test_stages_come_in_the_order_of_the_page():
     assert [stage for stage in stages if stage != "unfolding"] == STAGES
     assert stages[2:DEFECT] == ["unfolding"] * len(UNFOLDING)
     assert [stages[step] for step in (DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL)] == [
-        "defect", "gaussian", "mean", "principal", "total"
-    ]  # fmt: skip
+        "defect",
+        "gaussian",
+        "mean",
+        "principal",
+        "total",
+    ]
     assert stages[lesson.first_step] == "gaussian"
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_cylinder_has_no_gaussian_curvature_and_h_one():
@@ -135,8 +139,11 @@ def test_noise_is_amplified_and_more_so_on_finer_meshes():
 def test_irregular_meshes_do_not_help_formulas_but_fits():
     state = at(preset("irregular"), "finer")
     study = study_in(state)
-    np.testing.assert_allclose((np.linalg.norm(state.subject.p[:, :2], axis=1) - 1) ** 2 + state.subject.p[:, 2] ** 2,
-                               0.16, rtol=1e-9)  # fmt: skip
+    np.testing.assert_allclose(
+        (np.linalg.norm(state.subject.p[:, :2], axis=1) - 1) ** 2 + state.subject.p[:, 2] ** 2,
+        0.16,
+        rtol=1e-9,
+    )
     assert (study.K > 0.08).all()
     assert (study.K < 0.11).all()
     assert (study.H > 0.07).all()
@@ -154,7 +161,7 @@ def test_dents_do_not_change_the_sum(name, sum_over_pi):
     assert caption_of(scene(preset(name), "total")).tone == "good"
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -179,7 +186,7 @@ def test_answers_are_read_off_the_run():
     assert asked["which-finer"].answer(timeline(Params()).states()) == 0
 
 
-# the page -------------------------------------------------------------------------------------------------------------
+# the page -----------------------------------------------------------------------------------------
 
 
 def test_numbers_of_the_page():
@@ -203,7 +210,7 @@ def test_the_fit_stays_level_with_its_vertex():
     assert state.errors["K"] > 0.08
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def states_with(params=None, **slots):

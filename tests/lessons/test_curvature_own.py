@@ -1,4 +1,6 @@
-"""Own meshes in the curvature lesson: how they are mended, stood up and said to be, and which are refused."""
+"""Own meshes in the curvature lesson: how they are mended, stood up and said to be, and which are
+refused.
+"""
 
 import dataclasses
 from pathlib import Path

@@ -1,4 +1,6 @@
-"""The disparity lesson: what its page, presets and questions claim, in numbers; own pairs; slots that drive the run."""
+"""The disparity lesson: what its page, presets and questions claim, in numbers; own pairs; slots
+that drive the run.
+"""
 
 from dataclasses import replace
 
@@ -305,12 +307,25 @@ class TestPicture:
     def test_what_a_step_shows(self):
         scene = timeline(HOME)[10].scene
         for path, kind in {
-            "cloud": Points, "candidates": Points, "chosen": Points, "truth": Points, "ray": Segments, "swept": Segments,
-            "left/picture": Picture, "right/picture": Picture, "map/disparity": Picture, "map/slice": Picture,
+            "cloud": Points,
+            "candidates": Points,
+            "chosen": Points,
+            "truth": Points,
+            "ray": Segments,
+            "swept": Segments,
+            "left/picture": Picture,
+            "right/picture": Picture,
+            "map/disparity": Picture,
+            "map/slice": Picture,
             "windows": Picture,
-            "costs": Curve, "costs/truth": Curve, "wrong": Scalar, "unknown": Scalar, "lowest": Scalar, "energy": Scalar,
+            "costs": Curve,
+            "costs/truth": Curve,
+            "wrong": Scalar,
+            "unknown": Scalar,
+            "lowest": Scalar,
+            "energy": Scalar,
             "caption": Caption,
-        }.items():  # fmt: skip
+        }.items():
             assert isinstance(scene[path], kind), path
         assert "swept" not in timeline(HOME)[LAST].scene
         assert {"bars", "law", "error/predicted", "error/measured"} <= timeline(HOME)[

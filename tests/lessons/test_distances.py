@@ -1,4 +1,6 @@
-"""Every claim of the distances lesson in numbers: presets, questions, page, slots and what is refused."""
+"""Every claim of the distances lesson in numbers: presets, questions, page, slots and what is
+refused.
+"""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -38,7 +40,7 @@ def goal(params) -> tuple[float, float]:
     return presets.to_goal(states(params))
 
 
-# the plane ------------------------------------------------------------------------------------------------------------
+# the plane ----------------------------------------------------------------------------------------
 
 
 def test_other_metrics_have_other_nearest_points():
@@ -69,7 +71,9 @@ def test_the_point_that_is_said_to_be_nearest_is(name, mine, straight):
 
 
 def test_dijkstra_needs_no_triangle_inequality_and_returns_a_metric():
-    """Weights (u + 0.1)^4 break it for many triples; what comes out is Floyd's and Warshall's, and a metric."""
+    """Weights (u + 0.1)^4 break it for many triples; what comes out is Floyd's and Warshall's, and
+    a metric.
+    """
     rng, n = np.random.default_rng(0), 60
     edges = np.stack(np.triu_indices(n, 1), axis=1)
     w = (rng.random(len(edges)) + 0.1) ** 4
@@ -133,16 +137,19 @@ def test_the_right_landmark_by_the_ellipse_of_the_measurement():
     )
 
 
-# grids ------------------------------------------------------------------------------------------------------------------
+# grids --------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("params", "worst", "mean", "way"),
     [
-        (Params(), 8.24, 4.1, 4.1), (preset("staircase"), 41.4, 31, 39), (Params(neighbours="16"), 2.75, 1.0, 0.5),
-        (preset("marching"), 10.0, 4.9, 6.1), (Params(neighbours="march", grid=81), 6.0, 2.9, 3.6),
+        (Params(), 8.24, 4.1, 4.1),
+        (preset("staircase"), 41.4, 31, 39),
+        (Params(neighbours="16"), 2.75, 1.0, 0.5),
+        (preset("marching"), 10.0, 4.9, 6.1),
+        (Params(neighbours="march", grid=81), 6.0, 2.9, 3.6),
     ],
-)  # fmt: skip
+)
 def test_errors_round_the_wall(params, worst, mean, way):
     found = now(Found, params)
     assert 100 * found.worst == pytest.approx(worst, abs=0.4)
@@ -204,7 +211,7 @@ def test_the_wall_is_not_walked_through():
             assert min(a[1], b[1]) >= subject.tip[1] - 1e-9
 
 
-# surfaces ---------------------------------------------------------------------------------------------------------------
+# surfaces -----------------------------------------------------------------------------------------
 
 
 def test_over_a_sphere():
@@ -327,14 +334,20 @@ def test_one_edge_ruins_the_ways_over_a_roll():
     )
 
 
-# questions --------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("name", "answer", "within"),
-    [("finer", 2, 0.1), ("two-sigma", 86.5, 1.5), ("twenty", 19 / np.sqrt(20), 0.05), ("squares", 24.2, 1.5),
-     ("longer", 2, 0.1), ("shortcut", 2.54, 0.01)],
-)  # fmt: skip
+    [
+        ("finer", 2, 0.1),
+        ("two-sigma", 86.5, 1.5),
+        ("twenty", 19 / np.sqrt(20), 0.05),
+        ("squares", 24.2, 1.5),
+        ("longer", 2, 0.1),
+        ("shortcut", 2.54, 0.01),
+    ],
+)
 def test_answers(name, answer, within):
     question = next(question for question in lesson.questions if question.name == name)
     assert question.answer(states(question.params)) == pytest.approx(answer, abs=within)
@@ -347,7 +360,7 @@ def test_answers_are_read_off_the_run():
     assert asked["squares"].answer(states(preset("half"))) == pytest.approx(15.6, abs=1.5)
 
 
-# slots, and what is refused -----------------------------------------------------------------------------------------------
+# slots, and what is refused -----------------------------------------------------------------------
 
 
 def with_slots(params, **slots):
@@ -396,9 +409,15 @@ def test_nodes_that_nobody_reaches_are_told():
         shortest_distances=lambda e, w, n, s: np.where(np.arange(n) == s, 0.0, np.inf),
     )
     assert isinstance(run[-1].now, Found)
-    caption = caption_of(Timeline(lesson, Params(grid=11), {
-        "shortest_distances": lambda e, w, n, s: np.where(np.arange(n) == s, 0.0, np.inf)
-    }).complete()[-1].scene)  # fmt: skip
+    caption = caption_of(
+        Timeline(
+            lesson,
+            Params(grid=11),
+            {"shortest_distances": lambda e, w, n, s: np.where(np.arange(n) == s, 0.0, np.inf)},
+        )
+        .complete()[-1]
+        .scene
+    )
     assert "1 of" in caption.text
 
 

@@ -1,4 +1,6 @@
-"""Own meshes and clouds in the distances lesson: how they are read, said to be, and which are refused."""
+"""Own meshes and clouds in the distances lesson: how they are read, said to be, and which are
+refused.
+"""
 
 import dataclasses
 
@@ -88,7 +90,7 @@ def test_pieces_that_no_way_joins(tmp_path):
     assert np.isfinite(heat.mean)
 
 
-# real data ------------------------------------------------------------------------------------------------------------
+# real data ----------------------------------------------------------------------------------------
 
 
 def test_heat_on_a_scanned_bunny(shared_data):

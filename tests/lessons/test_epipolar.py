@@ -46,7 +46,7 @@ def clean(state: Any) -> float:
     return sampson(state.now.F, state.views.clean[:60])
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_home_finds_the_motion():
@@ -60,8 +60,14 @@ def test_home_finds_the_motion():
     kinds = [state.now.stage for state in of("home")]
     assert kinds[:8] == 6 * ["ray"] + ["plane", "pencil"]
     assert [kinds[k] for k in (8, 9, 10, 11, 12, 16, 17)] == [
-        "equations", "rank three", "rank two", "essential", "pose", "points", "refined",
-    ]  # fmt: skip  # where the page's links go
+        "equations",
+        "rank three",
+        "rank two",
+        "essential",
+        "pose",
+        "points",
+        "refined",
+    ]  # where the page's links go
 
 
 def test_refining_the_pose_helps_more_than_refining_f():
@@ -248,8 +254,10 @@ def test_a_wrong_focal_length_hides_in_the_motion():
         )
         np.testing.assert_array_equal(wrong[10].now.F, fine[10].now.F)
         off.append(((errors(wrong[-1]) or (0, 0))[0], (errors(fine[-1]) or (0, 0))[0]))
-        for values in ([state.to_lines(state.views.matches) for state in (wrong[-1], fine[-1])],
-                       [np.sqrt(np.square(state.disparities[:, 1]).mean()) for state in (wrong[-1], fine[-1])]):  # fmt: skip
+        for values in (
+            [state.to_lines(state.views.matches) for state in (wrong[-1], fine[-1])],
+            [np.sqrt(np.square(state.disparities[:, 1]).mean()) for state in (wrong[-1], fine[-1])],
+        ):
             assert values[0] == pytest.approx(values[1], rel=0.1)
     wrong, fine = np.median(off, axis=0)
     assert wrong > 1 > 5 * fine
@@ -271,7 +279,7 @@ def test_every_run_ends_with_its_rectification():
         assert len(of(preset.name)) < 40
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -297,7 +305,7 @@ def test_answers_are_read_off_the_run():
     assert DEPTH == 8  # as the question says
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def last_tone(**slots: Any) -> str:
@@ -328,7 +336,7 @@ def test_wrong_functions_show():
     assert all(lesson.draw(state) for state in nothing)
 
 
-# pictures -------------------------------------------------------------------------------------------------------------
+# pictures -----------------------------------------------------------------------------------------
 
 
 def test_the_followed_pixel_is_where_one_clicks():

@@ -1,4 +1,6 @@
-"""Own matches in the epipolar lesson: the fountain's, matches without pictures or truth, and files that are refused."""
+"""Own matches in the epipolar lesson: the fountain's, matches without pictures or truth, and files
+that are refused.
+"""
 
 from typing import Any
 

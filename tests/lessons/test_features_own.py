@@ -1,4 +1,6 @@
-"""Own scans and pictures in the features lesson: real ones of known pose, any unit and start, and files that are refused."""
+"""Own scans and pictures in the features lesson: real ones of known pose, any unit and start, and
+files that are refused.
+"""
 
 from dataclasses import replace
 from typing import Any
@@ -60,8 +62,11 @@ def test_own_scans_that_cannot_be_used_are_refused(own, tmp_path):
         np.savez(tmp_path / f"{name}.npz", p=p)
     (tmp_path / "text.xyz").write_text("these are no points")
     for name, said in (
-        ("point.npz", "one place"), ("few.npz", "20 at least"), ("many.npz", "raise voxel"), ("text.xyz", r"text\.xyz")
-    ):  # fmt: skip
+        ("point.npz", "one place"),
+        ("few.npz", "20 at least"),
+        ("many.npz", "raise voxel"),
+        ("text.xyz", r"text\.xyz"),
+    ):
         with pytest.raises(InputError, match=said):
             final(
                 replace(
@@ -144,7 +149,9 @@ def test_a_car_finds_its_lidar_scans(shared_data):
 
 
 def kept_near_lines(F, uv, descriptors, ratio):
-    """How many matches each filter keeps of two pictures, and the share of them within 2 px of their true line."""
+    """How many matches each filter keeps of two pictures, and the share of them within 2 px of
+    their true line.
+    """
     near, found = nearest_both_ways(*descriptors), {}
     for how in ("nearest", "ratio", "mutual", "both"):
         first, second = filtered(near, how, ratio).T

@@ -37,7 +37,7 @@ def tone(name: str) -> str:
     return caption_of(lesson.draw(of(name)[-1])).tone
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_home_goes_down_and_says_what_it_is_worth():
@@ -93,7 +93,9 @@ def test_the_escape_is_a_straight_line_of_equal_cost():
 
 
 def test_undamped_it_jumps():
-    """From one start: the first step of Gauss-Newton raises the sum eightfold, and in five the circle is a line."""
+    """From one start: the first step of Gauss-Newton raises the sum eightfold, and in five the
+    circle is a line.
+    """
     kept = [now for now in moments("jumps") if now.phase in ("start", "accepted")]
     assert [now.cost for now in kept[:4]] == pytest.approx([147.8, 1198.6, 7.677, 6.385], rel=1e-3)
     assert kept[4].unknown[2] == pytest.approx(427e3, rel=2e-3)
@@ -236,7 +238,7 @@ def test_runs_are_short():
     assert all(len(of(preset.name)) < 60 for preset in lesson.presets)
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -265,7 +267,7 @@ def test_answers_are_read_off_the_run():
     ) == pytest.approx(0.82, abs=0.05)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def end_of(params: Params, **slots: Any) -> Any:
@@ -311,7 +313,7 @@ def test_wrong_weights_show_in_the_plane():
         list(run(lesson.preset("drift").params, huber_weights=lambda r, c: np.zeros(len(r))))
 
 
-# pictures -------------------------------------------------------------------------------------------------------------
+# pictures -----------------------------------------------------------------------------------------
 
 
 def test_feet_lie_on_the_shape_and_tangents_touch_it():

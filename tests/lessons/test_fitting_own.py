@@ -103,7 +103,9 @@ def test_own_photographs(tmp_path):
 
 
 def test_a_kinect_plane_has_errors_that_are_alike(shared_data):
-    """Halves of a plane differ by many times what independent errors allow; cells of 10 cm are off together."""
+    """Halves of a plane differ by many times what independent errors allow; cells of 10 cm are off
+    together.
+    """
     p = read_cloud(shared_data / "ransac" / "capture0001.pcd")
     rng = np.random.default_rng(0)
     some = p[rng.choice(len(p), 4000, replace=False)]

@@ -1,4 +1,6 @@
-"""Every claim of the graphs lesson in numbers: presets, questions, page, slots and what is refused."""
+"""Every claim of the graphs lesson in numbers: presets, questions, page, slots and what is
+refused.
+"""
 
 import dataclasses
 
@@ -42,7 +44,7 @@ def right(params, step=-1) -> int:
     return correct
 
 
-# graphs ---------------------------------------------------------------------------------------------------------------
+# graphs -------------------------------------------------------------------------------------------
 
 
 def test_neighbour_is_not_mutual():
@@ -75,7 +77,7 @@ def test_given_edges_join_components_one_by_one():
     assert (np.diff(counts) < 0).all()
 
 
-# cuts -----------------------------------------------------------------------------------------------------------------
+# cuts ---------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
@@ -103,7 +105,9 @@ def test_at_95_to_5_the_sweep_fails_too():
 
 
 def test_without_a_bridge_the_constant_is_taken_out_and_the_pieces_are_left():
-    """A solver's second column is no answer: its cosine with the constant changes with the numbering."""
+    """A solver's second column is no answer: its cosine with the constant changes with the
+    numbering.
+    """
     base = preset("split")
     cosines = []
     for numbering in range(5):
@@ -171,7 +175,7 @@ def test_the_rabbit_is_thin_at_its_neck():
     assert 40 <= cut(preset("neck")).cut <= 80
 
 
-# spectra ----------------------------------------------------------------------------------------------------------------
+# spectra ------------------------------------------------------------------------------------------
 
 
 def values_of(name, **changes):
@@ -222,7 +226,7 @@ def test_truth_stands_beside_the_eigenvalues_where_it_is_known():
     )
 
 
-# steps of L -------------------------------------------------------------------------------------------------------------
+# steps of L ---------------------------------------------------------------------------------------
 
 
 def test_heat_settles_up_to_two_and_explodes_beyond():
@@ -252,7 +256,7 @@ def test_smoothing_eats_volume_and_taubin_does_not():
     assert off[1] < start / 2 < start < off[0]
 
 
-# networks ---------------------------------------------------------------------------------------------------------------
+# networks -----------------------------------------------------------------------------------------
 
 
 def test_many_layers_make_all_nodes_alike():
@@ -303,7 +307,7 @@ def test_a_hexagon_and_two_triangles_have_one_readout():
     assert np.abs(sums[0]).max() > 0
 
 
-# questions --------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -326,7 +330,7 @@ def test_answers_are_read_off_the_run():
     assert asked["sixty-four"].answer(states(dataclasses.replace(preset("deep"), layers=32))) == 1
 
 
-# slots, and what is refused -----------------------------------------------------------------------------------------------
+# slots, and what is refused -----------------------------------------------------------------------
 
 
 def with_slots(params, **slots):

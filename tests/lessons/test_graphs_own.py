@@ -1,4 +1,6 @@
-"""Own graphs, meshes and clouds in the graphs lesson: how they are read, said to be, and which are refused."""
+"""Own graphs, meshes and clouds in the graphs lesson: how they are read, said to be, and which are
+refused.
+"""
 
 import dataclasses
 
@@ -99,7 +101,7 @@ def test_what_is_refused(tmp_path, friends):
             next(lesson.run(params))
 
 
-# real data ------------------------------------------------------------------------------------------------------------
+# real data ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("name", "genus"), [("bunny", 0), ("fertility", 4)])

@@ -1,4 +1,6 @@
-"""The ICP lesson: every claim of its page, presets and questions in numbers, and what moves in the picture."""
+"""The ICP lesson: every claim of its page, presets and questions in numbers, and what moves in the
+picture.
+"""
 
 from dataclasses import replace
 from typing import Any
@@ -161,7 +163,9 @@ class TestBasin:
         )
 
     def test_its_captions_say_that_it_is_another_experiment(self):
-        """The tries once passed for the run's own ends: they were thinned, turned the other way, and never shifted."""
+        """The tries once passed for the run's own ends: they were thinned, turned the other way,
+        and never shifted.
+        """
         for name, others in (
             ("home", ", turned the other way"),
             ("rings-chance", ", turned the other way, not shifted"),
@@ -285,7 +289,9 @@ class TestQuestions:
         assert answers["predict-vase"] == 1
 
     def test_what_is_known_to_be_wrong_is_not_right(self):
-        """A half of the first matches, or as many iterations as without planes, were once near enough."""
+        """A half of the first matches, or as many iterations as without planes, were once near
+        enough.
+        """
         asked = {q.name: q for q in lesson.questions}
         for name, wrong in (
             ("predict-matches", (9, 20, 50, 100)),

@@ -103,7 +103,9 @@ class TestOwnScans:
 
 
 class TestAwkwardScans:
-    """Own files as people have them: in other units, far from the origin, doubled, tiny, or not overlapping at all."""
+    """Own files as people have them: in other units, far from the origin, doubled, tiny, or not
+    overlapping at all.
+    """
 
     def files(
         self, folder: Path, p_target: np.ndarray, p_source: np.ndarray, **values: Any
@@ -298,7 +300,10 @@ class TestRings:
 
 def write(path: Path, p: np.ndarray) -> None:
     """Write a cloud of 32-bit floats in the format that the name says."""
-    head = f"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {len(p)}\nHEIGHT 1\nPOINTS {len(p)}\n"
+    head = (
+        f"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {len(p)}\nHEIGHT"
+        f" 1\nPOINTS {len(p)}\n"
+    )
     ply = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(p)}\n"
     match path.suffix:
         case ".npy":

@@ -34,7 +34,7 @@ def last_of(params: Params, **slots: Any) -> Any:
     return last
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_the_default_run_learns_every_angle():
@@ -193,7 +193,7 @@ def test_two_photographs_are_matched_better_than_many_and_show_less():
     assert (tone(two), tone(many)) == ("wrong", "good")
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -210,7 +210,7 @@ def test_answers(name, low, high):
     assert low <= question.answer(states(question.params)) <= high
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def test_a_mirrored_rotation_is_never_learned():

@@ -1,4 +1,6 @@
-"""Own meshes in the learning lesson: a real one, their unit and upward axis, and files that must be refused."""
+"""Own meshes in the learning lesson: a real one, their unit and upward axis, and files that must be
+refused.
+"""
 
 from pathlib import Path
 from typing import Any

@@ -47,7 +47,7 @@ def tone(name: str) -> str:
     return caption_of(lesson.draw(whole(of(name))[0])).tone
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_the_sum_falls_below_zero_and_comes_back():
@@ -110,8 +110,9 @@ def test_an_inscribed_sphere_is_too_small_with_the_square_of_the_edges():
     state, _ = whole(of("inscribed"))
     assert len(state.subject.p) == 642
     assert (state.area_error, state.volume_error) == (
-        pytest.approx(-0.0048, abs=1e-4), pytest.approx(-0.0086, abs=1e-4)
-    )  # fmt: skip
+        pytest.approx(-0.0048, abs=1e-4),
+        pytest.approx(-0.0086, abs=1e-4),
+    )
     study = of("inscribed")[-1].study
     assert study is not None
     for errors in study.errors.values():
@@ -250,7 +251,7 @@ def test_lines_tell_the_area():
     assert last.now.estimates.errors[-1] / last.subject.area == pytest.approx(0.023, abs=0.002)
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -278,7 +279,7 @@ def test_answers_are_read_off_the_run():
     assert asked["predict-hits"].answer(low) == 0
 
 
-# the page and the knobs -----------------------------------------------------------------------------------------------
+# the page and the knobs ---------------------------------------------------------------------------
 
 
 def test_three_middles_are_three_points():
@@ -308,7 +309,7 @@ def test_every_grid_begins_elsewhere_and_its_cells_are_halved_every_second_step(
     assert len(np.unique(starts[:, 0])) == len(starts)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def test_slots_drive_the_run():

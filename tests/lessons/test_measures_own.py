@@ -1,4 +1,6 @@
-"""Own meshes and voxels in the measures lesson: their units, what is said of open ones, and which files are refused."""
+"""Own meshes and voxels in the measures lesson: their units, what is said of open ones, and which
+files are refused.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -22,7 +24,9 @@ def last_of(params: Params) -> Any:
 
 @pytest.fixture(scope="module")
 def cow(tmp_path_factory) -> Path:
-    """A closed mesh in millimetres, far from its origin, as files have it: every face with corners of its own."""
+    """A closed mesh in millimetres, far from its origin, as files have it: every face with corners
+    of its own.
+    """
     path = tmp_path_factory.mktemp("own") / "cow.stl"
     ball = trimesh.creation.icosphere(3, 40.0)
     ball.apply_translation([500, 20, 900])
@@ -73,7 +77,7 @@ def test_faces_that_disagree_are_told(tmp_path):
     assert "disagree which side is outside" in caption_of(lesson.draw(first)).text
 
 
-# real meshes ----------------------------------------------------------------------------------------------------------
+# real meshes --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -115,7 +119,7 @@ def test_the_teapot_is_open(shared_data):
     assert "no volume is its own" in caption_of(lesson.draw(first)).text
 
 
-# voxels ---------------------------------------------------------------------------------------------------------------
+# voxels -------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")

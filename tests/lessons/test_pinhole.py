@@ -1,4 +1,6 @@
-"""Each promise of the pinhole lesson, in numbers: presets, questions, page, and the functions that drive it."""
+"""Each promise of the pinhole lesson, in numbers: presets, questions, page, and the functions that
+drive it.
+"""
 
 import dataclasses
 
@@ -81,7 +83,9 @@ def test_the_calculated_outlines_lie_on_the_photograph():
 
 @pytest.mark.parametrize("k", [DIVIDE, DISTORT])
 def test_outlines_and_dots_agree_at_every_stage(k):
-    """They were those of the whole calculation, 12 px from the dots, before the lens had bent anything."""
+    """They were those of the whole calculation, 12 px from the dots, before the lens had bent
+    anything.
+    """
     timeline = finished(lesson.name, Params())
     state, scene = timeline[k].state, timeline[k].scene
     picture, dots = scene["picture"], scene["plane"]
@@ -326,7 +330,9 @@ def test_a_forgotten_k_is_shifted_and_twice_too_large():
 
 
 def test_the_edited_photograph_is_the_one_its_k_describes():
-    """Corners of the outline, drawn by the edited K, lie where the halved photograph has its own edges."""
+    """Corners of the outline, drawn by the edited K, lie where the halved photograph has its own
+    edges.
+    """
     full, half = shot_of(Params()), shot_of(presets.CROP_RIGHT)
     np.testing.assert_allclose((half.uv + 0.5) * 2 - 0.5 + [60, 40], full.uv)
     blocks = full.picture[40:, 60:].reshape(100, 2, 130, 2, 3).mean(axis=(1, 3))

@@ -42,7 +42,7 @@ def errors_of(state: Any) -> list[float]:
     return [rms(pixels_off(T, state.subject)) for T in state.now.candidates]
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_the_default_run_ends_near_the_truth():
@@ -222,7 +222,7 @@ def test_ransac_needs_few_hundred_samples_at_70_percent():
     assert round(1 / 0.3**3) == 37  # what the line says
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 def answer(name: str) -> float:
@@ -251,7 +251,7 @@ def test_two_is_the_commonest_count():
     np.testing.assert_allclose(counts / TRIPLES, [0, 0.03, 0.89, 0.003, 0.08], atol=0.02)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def last_but(params: Params, **slots: Any) -> Any:
@@ -287,7 +287,7 @@ def test_a_wrong_step_is_seen():
     assert caption_of(lesson.draw(wild)).tone != "good" or is_near(wild.T, wild.subject)
 
 
-# the picture ----------------------------------------------------------------------------------------------------------
+# the picture --------------------------------------------------------------------------------------
 
 
 def test_residuals_are_drawn_from_where_points_were_seen():

@@ -1,4 +1,6 @@
-"""Own points and pixels in the pose lesson, real ones among them, and files that must be refused."""
+"""Own points and pixels in the pose lesson, real ones among them, and files that must be
+refused.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -56,7 +58,9 @@ def test_a_real_board_by_ippe(tmp_path, shared_data):
 
 
 def test_the_focal_length_of_own_pixels_is_the_persons_and_decides(tmp_path):
-    """A camera of 600 px: with its own focal length it is where it was, with the guess of 800 px it is too far away."""
+    """A camera of 600 px: with its own focal length it is where it was, with the guess of 800 px it
+    is too far away.
+    """
     T, p_world, xy = view(3, 20)
     path = written(tmp_path, p_world, 600 * xy + [319.5, 239.5])
     for focal, off in ((600.0, 1e-6), (800.0, None)):

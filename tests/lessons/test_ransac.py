@@ -24,7 +24,7 @@ def page() -> str:
     return " ".join(lesson.text().split())
 
 
-# the page ----------------------------------------------------------------------------------------------------------
+# the page -----------------------------------------------------------------------------------------
 
 
 def test_the_numbers_of_the_page():
@@ -36,7 +36,9 @@ def test_the_numbers_of_the_page():
 
 @pytest.mark.parametrize("model", list(MODELS))
 def test_how_many_inliers_the_distances_of_the_page_keep(model):
-    """95 % within 1.96 σ; of a homography, whose distances hold the noise of both images, within 3.46 σ."""
+    """95 % within 1.96 σ; of a homography, whose distances hold the noise of both images, within
+    3.46 σ.
+    """
     shares = {1.96: [], 2.45: [], 3.46: []}
     for scene in range(20):
         subject = subject_of(Params(model=model, points=1000, outliers=0.0, scene_seed=scene))
@@ -71,9 +73,11 @@ def test_a_caption_about_a_sample_cannot_be_read_as_about_the_inliers():
     assert said[0].startswith("Sample 1: three points, drawn by chance. Of its three points ")
     assert said[1].endswith("Now all 600 points vote: yes from those within 30 mm of it.")
     assert re.fullmatch(
-        r"Sample 1: \d+ of 600 points lie within 30 mm of its plane\. Of its three points \w+ (is an outlier|are outliers)"
-        r" in truth\.", said[2],
-    )  # fmt: skip
+        r"Sample 1: \d+ of 600 points lie within 30 mm of its plane\. Of its three points \w+ (is"
+        r" an outlier|are outliers)"
+        r" in truth\.",
+        said[2],
+    )
     assert not [text for text in said if "every other" in text or "of them" in text]
 
 
@@ -105,7 +109,7 @@ def test_the_default_run_does_what_the_page_says():
     assert is_right(last)
 
 
-# the presets -------------------------------------------------------------------------------------------------------
+# the presets --------------------------------------------------------------------------------------
 
 
 def test_thirty_and_seventy_percent():
@@ -226,7 +230,9 @@ def test_prosac_asks_for_the_share_among_the_most_trusted(params):
 
 
 def test_a_vote_is_never_called_inlier():
-    """Which the captions say of the truth alone: points of the green line were "outliers" to a bad line."""
+    """Which the captions say of the truth alone: points of the green line were "outliers" to a bad
+    line.
+    """
     for name in ("line", "near-sample", "epipolar"):
         params = lesson.preset(name).params
         for state in states_of(params):
@@ -292,7 +298,7 @@ def test_every_preset_opens_where_its_line_points():
         assert states[preset.step or 0].now.phase == phase
 
 
-# the questions -----------------------------------------------------------------------------------------------------
+# the questions ------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

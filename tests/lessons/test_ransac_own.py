@@ -1,4 +1,6 @@
-"""Own clouds and matches in the RANSAC lesson: how they are read, what does not fit, and what is said of it."""
+"""Own clouds and matches in the RANSAC lesson: how they are read, what does not fit, and what is
+said of it.
+"""
 
 from dataclasses import replace
 from pathlib import Path
@@ -63,8 +65,8 @@ def test_an_own_cloud_in_another_unit_is_noticed_and_converted(tmp_path):
     assert not [caption for caption in right if "Mind" in caption.text]
     for caption in (wrong[0], wrong[-1]):
         assert (
-            "so few of them can be expected within 30 mm of any plane. Is the cloud in m (cloud_unit)?"
-            in caption.text
+            "so few of them can be expected within 30 mm of any plane. Is the cloud in m"
+            " (cloud_unit)?" in caption.text
         )
     converted = captions_of(replace(as_metres, cloud_unit="mm"))
     assert [caption.text for caption in converted] == [caption.text for caption in right]
@@ -131,10 +133,13 @@ def test_own_matches_with_their_truth(tmp_path):
 def test_the_real_photographs_and_the_real_room(shared_data):
     folder = shared_data / "ransac"
     pair = Params(
-        model="fundamental matrix", matches=folder / "fountain-P11" / "gt_and_matches.npz", inlier_pixels=1.0,
-        first_image=folder / "fountain-P11" / "0004_third.jpg", second_image=folder / "fountain-P11" / "0005_third.jpg",
+        model="fundamental matrix",
+        matches=folder / "fountain-P11" / "gt_and_matches.npz",
+        inlier_pixels=1.0,
+        first_image=folder / "fountain-P11" / "0004_third.jpg",
+        second_image=folder / "fountain-P11" / "0005_third.jpg",
         steps="improvements",
-    )  # fmt: skip
+    )
     last = end(states_of(pair))
     assert best(last).inliers[members(last.subject)].mean() >= 0.95
     room = Params(

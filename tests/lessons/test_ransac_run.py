@@ -1,4 +1,6 @@
-"""The pieces of a RANSAC run: the functions in its slots, every model and score, and what is drawn."""
+"""The pieces of a RANSAC run: the functions in its slots, every model and score, and what is
+drawn.
+"""
 
 import numpy as np
 import pytest
@@ -159,7 +161,7 @@ def test_the_picture_has_its_parts(model):
         assert len(points.p) == 100
         if (
             state.now.phase == "inliers"
-        ):  # by votes: what is true of a point is another thing, and vermillion is for what is wrong
+        ):  # by votes: what is true of a point is another thing, and vermillion is for what is wrong  # noqa: E501
             assert isinstance(points.color, Classes)
             assert dict(zip(points.color.names, points.color.roles, strict=True)) == {
                 "vote for": "target",

@@ -43,7 +43,7 @@ def slope(state: State, first: int = 0) -> float:
     return float(np.polyfit(np.log(state.sizes[first:]), np.log(state.errors[first:]), 1)[0])
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_the_volume_of_bits_converges_and_area_and_normals_do_not():
@@ -191,12 +191,19 @@ def test_without_waves_it_stays_behind_and_the_clamp_can_kill_it():
     assert len(dead[-1].surface.faces) == 0
     assert caption_of(lesson.draw(dead[-1])).tone == "wrong"
     assert dead[-1].now.values.min() > 0.1  # beyond the clamp everywhere
-    alive = [len(last_before_others(replace(lesson.preset("clamp").params, seed=seed, iterations=100)).surface.faces) > 0  # type: ignore[union-attr]
-             for seed in range(8)]  # fmt: skip
+    alive = [
+        len(
+            last_before_others(
+                replace(lesson.preset("clamp").params, seed=seed, iterations=100)
+            ).surface.faces
+        )
+        > 0  # type: ignore[union-attr]
+        for seed in range(8)
+    ]
     assert 2 <= sum(alive) <= 6
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -224,7 +231,7 @@ def test_answers_are_read_off_the_run():
     assert asked["predict-middle"].answer(moved) == 0
 
 
-# slots and drawing ----------------------------------------------------------------------------------------------------
+# slots and drawing --------------------------------------------------------------------------------
 
 
 def test_slots_drive_the_run():

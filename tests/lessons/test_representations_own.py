@@ -120,7 +120,7 @@ def test_points_are_no_solid(tmp_path):
         )
 
 
-# real meshes ----------------------------------------------------------------------------------------------------------
+# real meshes --------------------------------------------------------------------------------------
 
 
 def test_a_bunny_comes_back_from_its_distances(shared_data):
@@ -138,7 +138,9 @@ def test_what_is_open_among_scans_has_no_sign(shared_data):
 
 
 def test_a_dragon_of_many_parts_has_an_inside_all_the_same(shared_data, tmp_path):
-    """It is not watertight, as edges have four faces, but every edge runs as often there as back: rays can count."""
+    """It is not watertight, as edges have four faces, but every edge runs as often there as back:
+    rays can count.
+    """
     path = tmp_path / "dragon.ply"
     path.write_bytes(gzip.decompress((shared_data / "shapes/dragon_vrip_res4.ply.gz").read_bytes()))
     subject = subject_of(Params(mesh=path), box_sdf)

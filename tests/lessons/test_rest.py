@@ -1,7 +1,9 @@
-"""A number that lessons say of a run comes from a run at rest, or the sentence says after how many steps it was read.
+"""A number that lessons say of a run comes from a run at rest, or the sentence says after how many
+steps it was read.
 
-Lines of presets, explanations of questions and the page's sentences that open a preset are held to it, in every lesson whose
-run ends with a `Stop`, and in those that train for a number of steps and never come to rest.
+Lines of presets, explanations of questions and the page's sentences that open a preset are held to
+it, in every lesson whose run ends with a `Stop`, and in those that train for a number of steps and
+never come to rest.
 """
 
 import dataclasses
@@ -36,7 +38,8 @@ FAILURES = {
 COUNTED = "steps?|updates?|iterations?|samples?|sweeps?|rounds?|layers?|times"
 SAYS_WHEN = re.compile(
     rf"\b(after|in|for|of)( its| the| some)? [\d,]+ (more )?({COUNTED})\b"
-    rf"|\b[\d,]+ (more )?({COUNTED})\b|\bafter [\d,]+\b|\bstopped\b|\bstill (moves|moving|falls|falling)\b|\bat the start\b",
+    rf"|\b[\d,]+ (more )?({COUNTED})\b|\bafter [\d,]+\b|\bstopped\b|\bstill"
+    r" (moves|moving|falls|falling)\b|\bat the start\b",
     re.IGNORECASE,
 )
 SAYS_REST = re.compile(r"\b(at rest|comes? to rest|settled?)\b", re.IGNORECASE)
@@ -88,14 +91,20 @@ def may_stop(name: str) -> bool:
     """Whether a lesson runs an algorithm that says why it stopped, or takes a number of steps."""
     importlib.import_module(f"lessons.{name}.lesson")
     own = [module for path, module in sys.modules.items() if path.startswith(f"lessons.{name}.")]
-    used = {getattr(value, "__module__", None) or value for module in own for value in vars(module).values()
-            if isinstance(value, Callable | type | type(sys))}  # fmt: skip
+    used = {
+        getattr(value, "__module__", None) or value
+        for module in own
+        for value in vars(module).values()
+        if isinstance(value, Callable | type | type(sys))
+    }
     names = {one if isinstance(one, str) else one.__name__ for one in used}
     return name in STEPPED or bool(names & stopping_modules().keys())
 
 
 def unsaid(text: str, ends: set[str], given: str = r"(?!)") -> bool:
-    """Whether a text has a number of a run that a limit ended, and neither says so nor when it was read."""
+    """Whether a text has a number of a run that a limit ended, and neither says so nor when it was
+    read.
+    """
     run = re.sub(r"\]\(run:[^)]*\)|\$[^$]*\$|`[^`]*`", "]", re.sub(given, "", text))
     said = SAYS_WHEN.search(run) or (SAYS_REST.search(run) and ends & RESTS)
     return bool(ends & LIMITS and re.search(r"\d", run) and not said)

@@ -1,4 +1,6 @@
-"""Every claim of the transforms lesson in numbers: presets, questions, page, slots, and what is drawn."""
+"""Every claim of the transforms lesson in numbers: presets, questions, page, slots, and what is
+drawn.
+"""
 
 import dataclasses
 import itertools
@@ -33,7 +35,7 @@ from workbench.geometry.motions.rotations import (
 )
 from workbench.scene import Segments, Table, caption_of, is_rigid
 
-# building -------------------------------------------------------------------------------------------------------------
+# building -----------------------------------------------------------------------------------------
 
 
 def test_one_factor_per_step_and_the_newest_on_the_left():
@@ -218,7 +220,7 @@ def test_every_comparison_draws_what_it_says(compare):
         assert sum(path.startswith("ghost") for path in step.scene) == 2 * len(step.state.ghosts)
 
 
-# moving ---------------------------------------------------------------------------------------------------------------
+# moving -------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("method", get_args(Method))
@@ -358,8 +360,10 @@ def test_known_wrong_answers_are_answered_and_not_right():
         for name, question in asked.items()
     }
     for name, given in (
-        ("which-order", (0.0, 1.5, 3.0)), ("mean-heading", (0.0, 20.0, 170.0)), ("mean-matrix", (8.7, 50.0, 100.0))
-    ):  # fmt: skip
+        ("which-order", (0.0, 1.5, 3.0)),
+        ("mean-heading", (0.0, 20.0, 170.0)),
+        ("mean-matrix", (8.7, 50.0, 100.0)),
+    ):
         for number in given:
             assert asked[name].reply(number), (name, number)
             assert abs(number - right[name]) > asked[name].tolerance
@@ -376,7 +380,7 @@ def test_all_ways_survive_half_a_turn():
         assert moved(params)[-1].way.turned[-1] == pytest.approx(180, abs=1e-6)
 
 
-# the questions, the slots, the files ----------------------------------------------------------------------------------
+# the questions, the slots, the files --------------------------------------------------------------
 
 
 def test_right_answers():

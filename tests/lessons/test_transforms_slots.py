@@ -98,7 +98,7 @@ def test_a_bad_mesh_is_one_clear_line(tmp_path):
         list(lesson.run(Params(mesh=big)))
 
 
-# the picture ----------------------------------------------------------------------------------------------------------
+# the picture --------------------------------------------------------------------------------------
 
 
 def test_the_table_shows_the_matrix():

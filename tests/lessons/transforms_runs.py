@@ -39,7 +39,9 @@ def opened_at(params: Params, step: int):
 
 
 def exp_axis(start: Moved, end: Moved) -> tuple[np.ndarray, np.ndarray]:
-    """A point and the direction of the line about which a motion turns, by solving for what the turn leaves alone."""
+    """A point and the direction of the line about which a motion turns, by solving for what the
+    turn leaves alone.
+    """
     T = end.T_world_body @ np.linalg.inv(start.T_world_body)
     n = axis_angle_from_rotation(T[:3, :3])[0]
     along = n * (n @ T[:3, 3])

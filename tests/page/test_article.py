@@ -1,4 +1,6 @@
-"""Links of an article run what they name, terms name things of the scene, and nothing of it can be forged."""
+"""Links of an article run what they name, terms name things of the scene, and nothing of it can be
+forged.
+"""
 
 from dataclasses import replace
 

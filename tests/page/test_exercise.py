@@ -1,4 +1,6 @@
-"""Exercises on a lesson's page: all of them in every lesson, and the words of the terminal about a student's file."""
+"""Exercises on a lesson's page: all of them in every lesson, and the words of the terminal about a
+student's file.
+"""
 
 import html
 import json

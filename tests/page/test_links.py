@@ -1,4 +1,6 @@
-"""Every link of every lesson's article leads to a step that exists, and every term to a thing that some run draws."""
+"""Every link of every lesson's article leads to a step that exists, and every term to a thing that
+some run draws.
+"""
 
 import re
 

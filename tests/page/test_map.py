@@ -1,4 +1,6 @@
-"""The map of the course: who builds on whom, in columns, and never a lesson that waits for itself."""
+"""The map of the course: who builds on whom, in columns, and never a lesson that waits for
+itself.
+"""
 
 import re
 

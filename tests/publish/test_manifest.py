@@ -1,4 +1,6 @@
-"""A site holds what we wrote and what others put there: only our own files are ever replaced or removed."""
+"""A site holds what we wrote and what others put there: only our own files are ever replaced or
+removed.
+"""
 
 import hashlib
 import json
@@ -106,10 +108,16 @@ def test_nothing_outside_of_a_site_is_removed_whatever_its_manifest_says(out, sh
         "{",
         "[" * 100_000,
         '{"format": 2, "files": [1], "runs": 3, "lessons": {"fake": 7}, "writing": "x"}',
-        '{"format": 2, "files": {"index.html": {}}, "lessons": {"fake": {"title": [], "summary": 1, "order": "x"}}}',
+        (
+            '{"format": 2, "files": {"index.html": {}}, "lessons": {"fake": {"title": [],'
+            ' "summary": 1, "order": "x"}}}'
+        ),
         '{"format": 2, "lessons": {"b": {"title": "<script>", "summary": "x", "order": 1e999}}}',
         "x" * 5_000_000,
-        '{"format": 3, "made_by": "", "lessons": {}, "runs": {"fake/default": 1}, "files": {"index.html": ["1"]}}',
+        (
+            '{"format": 3, "made_by": "", "lessons": {}, "runs": {"fake/default": 1}, "files":'
+            ' {"index.html": ["1"]}}'
+        ),
         '{"format": 3, "made_by": "", "lessons": {}, "runs": [["a", "b"]], "files": {}}',
         '{"format": ' + "9" * 5000 + "}",
     ],

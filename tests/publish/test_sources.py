@@ -29,12 +29,14 @@ def draw(state):
 
 lesson = Lesson(name="{name}", title="T", summary="S", page=Path(__file__).with_name("page.md"), params=Params, run=run,
                 draw=draw, order=1)
-"""
+"""  # noqa: E501
 
 
 @pytest.fixture
 def course(tmp_path, monkeypatch):
-    """A package of two lessons, each with a module that only it uses, and one that both use through another."""
+    """A package of two lessons, each with a module that only it uses, and one that both use through
+    another.
+    """
     root = tmp_path / "tiny_course"
     for name, uses in (("a", "for_a"), ("b", "for_b")):
         folder = root / name

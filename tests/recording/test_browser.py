@@ -1,6 +1,7 @@
 """Recordings in Rerun's web viewer, in a real browser: looked at.
 
-The viewer spends ten seconds on its shaders without a graphics card, however small the picture: one page serves all tests.
+The viewer spends ten seconds on its shaders without a graphics card, however small the picture: one
+page serves all tests.
 """
 
 import io
@@ -71,7 +72,9 @@ def window(chromium, fake_file, tmp_path_factory) -> Iterator[Window]:
 
 
 def near(picture: np.ndarray, role: Role, tolerance: int = 40) -> int:
-    """Return how many pixels are about a role's colour (shading and thin lines change it a little)."""
+    """Return how many pixels are about a role's colour (shading and thin lines change it a
+    little).
+    """
     return int((np.abs(picture - np.array(PALETTE[role])).max(-1) < tolerance).sum())
 
 

@@ -104,11 +104,16 @@ def test_runs_of_two_lessons_are_refused(files, tmp_path):
         "{}",
         "[" * 9000,
         '{"view": {"x": 1}, "legend_height": 0, "canvases": {}}',
-        '{"view": {}, "legend_height": 0, "canvases": {"/charts/a": {"title": 1, "width": "x", "height": 0, "first": 0}}}',
+        (
+            '{"view": {}, "legend_height": 0, "canvases": {"/charts/a": {"title": 1, "width": "x",'
+            ' "height": 0, "first": 0}}}'
+        ),
         '{"view": {"x": 1}, "tables": null, "legend_height": 0, "charts": {}, "pictures": {}}',
         '{"view": {}, "tables": "a", "legend_height": 0, "charts": {}, "pictures": {}}',
-        '{"view": {}, "tables": null, "legend_height": 0, "pictures": {},'
-        ' "charts": {"a": {"title": 1, "width": "x", "height": 0, "first": -5}}}',
+        (
+            '{"view": {}, "tables": null, "legend_height": 0, "pictures": {},'
+            ' "charts": {"a": {"title": 1, "width": "x", "height": 0, "first": -5}}}'
+        ),
     ],
 )
 def test_a_layout_that_is_none_is_damage(files, tmp_path, monkeypatch, odd):

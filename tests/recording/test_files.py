@@ -1,4 +1,6 @@
-"""Files that are damaged or foreign, and places that cannot be written to: one line, and nothing lost."""
+"""Files that are damaged or foreign, and places that cannot be written to: one line, and nothing
+lost.
+"""
 
 import errno
 import os

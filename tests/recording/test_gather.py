@@ -1,4 +1,6 @@
-"""A cloud whose points come and go is said once for the whole run, and shows at every step what it showed before."""
+"""A cloud whose points come and go is said once for the whole run, and shows at every step what it
+showed before.
+"""
 
 from dataclasses import replace
 
@@ -19,7 +21,9 @@ P, COLORS = RNG.normal(size=(200, 3)), RNG.integers(0, 256, (200, 3), dtype=np.u
 
 
 def scenes(steps: int = 8):
-    """A cloud of which other points are there at each step, in another order; coloured by a field at the end."""
+    """A cloud of which other points are there at each step, in another order; coloured by a field
+    at the end.
+    """
     found = []
     for k in range(steps):
         some = RNG.permutation(200)[: 100 + k]

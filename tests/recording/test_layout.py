@@ -36,7 +36,9 @@ def picture(ahead, up) -> tuple[np.ndarray, np.ndarray]:
 
 
 def viewer_up(ahead, eye_up) -> np.ndarray:
-    """Return the up that Rerun's viewer takes (`EyeController::up` of its eye.rs): its own, looking along it."""
+    """Return the up that Rerun's viewer takes (`EyeController::up` of its eye.rs): its own, looking
+    along it.
+    """
     right = (
         np.array([1.0, 0.0, 0.0]) if abs(ahead[2]) > 0.9999 else np.cross(ahead, [0.0, 0.0, 1.0])
     )

@@ -136,7 +136,9 @@ def test_reopening_gives_the_lesson_and_its_params(lesson: Lesson, tmp_path):
 
 
 def content(path: Path) -> dict[tuple[str, tuple[str, ...]], bytes]:
-    """Return a fingerprint of everything in a recording but ids and times, by entity and kind of row."""
+    """Return a fingerprint of everything in a recording but ids and times, by entity and kind of
+    row.
+    """
     tables: dict[tuple[str, tuple[str, ...]], list[pa.Table]] = {}
     for chunk in read_chunks(path):
         table = pa.table(chunk.to_record_batch()).replace_schema_metadata()

@@ -1,4 +1,6 @@
-"""`record` and `open_recording` as Python calls them: what is asked for is what is recorded, or one line says why not."""
+"""`record` and `open_recording` as Python calls them: what is asked for is what is recorded, or one
+line says why not.
+"""
 
 import os
 from dataclasses import replace

@@ -1,4 +1,6 @@
-"""Re-opening a recording that somebody else made: names in it are looked up, never run; its files are not read unasked."""
+"""Re-opening a recording that somebody else made: names in it are looked up, never run; its files
+are not read unasked.
+"""
 
 from dataclasses import replace
 from pathlib import Path
@@ -13,8 +15,14 @@ from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog, find
 from workbench.recording.read import FORMAT, reopening
 
-EVIL = "from pathlib import Path\nPath(__file__).with_name('was-run').touch()\nfrom tests.fake import lesson\n"
-MINE = "from dataclasses import replace\nfrom tests.fake import lesson\nlesson = replace(lesson, name='mine')\n"
+EVIL = (
+    "from pathlib import Path\nPath(__file__).with_name('was-run').touch()\nfrom tests.fake import"
+    " lesson\n"
+)
+MINE = (
+    "from dataclasses import replace\nfrom tests.fake import lesson\nlesson = replace(lesson,"
+    " name='mine')\n"
+)
 
 
 def recorded(folder: Path, name: str, **params) -> Path:

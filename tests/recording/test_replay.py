@@ -98,8 +98,15 @@ def test_it_answers_to_this_machine_s_names_alone(replay, name):
         f"[::1]:{replay.port}",
     ):
         assert answered(replay.port, name, host) == (404 if name == "/nothing" else 200), host
-    for host in ("evil.example", f"evil.example:{replay.port}", f"127.0.0.1.evil.example:{replay.port}", "", None,
-                 f"192.168.1.7:{replay.port}", f"127.0.0.1:{replay.port}@evil.example"):  # fmt: skip
+    for host in (
+        "evil.example",
+        f"evil.example:{replay.port}",
+        f"127.0.0.1.evil.example:{replay.port}",
+        "",
+        None,
+        f"192.168.1.7:{replay.port}",
+        f"127.0.0.1:{replay.port}@evil.example",
+    ):
         assert answered(replay.port, name, host) == (400 if host is None else 403), host
 
 
@@ -152,7 +159,9 @@ def test_statistics_are_off_unless_asked_for(monkeypatch):
 
 @pytest.fixture
 def stand_in(tmp_path, monkeypatch) -> Path:
-    """A program in the place of Rerun's window that writes down how it was called, and ends with code CODE."""
+    """A program in the place of Rerun's window that writes down how it was called, and ends with
+    code CODE.
+    """
     program = tmp_path / "viewer"
     program.write_text(
         f"#!{sys.executable}\nimport json, os, sys\n"

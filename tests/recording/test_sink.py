@@ -1,4 +1,6 @@
-"""The Rerun sink makes the stream equal to a scene: whatever was shown before leaves no trace, and little is sent."""
+"""The Rerun sink makes the stream equal to a scene: whatever was shown before leaves no trace, and
+little is sent.
+"""
 
 from dataclasses import replace
 from pathlib import Path

@@ -37,7 +37,9 @@ def test_the_application_id_has_the_characters_that_every_viewer_takes():
 
 
 def test_runs_share_an_application_where_they_share_a_layout_and_nowhere_else(tmp_path):
-    """A viewer keeps one layout for each application: the second recording would be shown in that of the first."""
+    """A viewer keeps one layout for each application: the second recording would be shown in that
+    of the first.
+    """
 
     def application(name: str, **params) -> str:
         path = tmp_path / f"{name}.rrd"
@@ -69,9 +71,9 @@ def test_progress_is_told_step_by_step():
 def test_equal_runs_have_equal_content_under_one_id_and_others_another(tmp_path):
     """Across processes too: there, whatever hangs on the time or on a random seed differs."""
     code = (
-        "import sys; from pathlib import Path; from tests import fake; from workbench.run.timeline import Timeline;"
-        "from workbench.recording import record_bytes; run = Timeline(fake.lesson, fake.Params(steps=3)).complete();"
-        "Path(sys.argv[1]).write_bytes(record_bytes(run))"
+        "import sys; from pathlib import Path; from tests import fake; from workbench.run.timeline"
+        " import Timeline;from workbench.recording import record_bytes; run = Timeline(fake.lesson,"
+        " fake.Params(steps=3)).complete();Path(sys.argv[1]).write_bytes(record_bytes(run))"
     )
     here, there, other = tmp_path / "here.rrd", tmp_path / "there.rrd", tmp_path / "other.rrd"
     subprocess.run([sys.executable, "-c", code, str(there)], cwd=ROOT, check=True)

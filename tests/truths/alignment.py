@@ -1,4 +1,6 @@
-"""What is true of a run of the alignment lesson, with scipy from the scans and the truth that they carry."""
+"""What is true of a run of the alignment lesson, with scipy from the scans and the truth that they
+carry.
+"""
 
 import numpy as np
 from scipy.spatial import KDTree

@@ -1,4 +1,6 @@
-"""What is true of a calibration, apart from the lesson's core: a camera written out, its inverse, differences for slopes."""
+"""What is true of a calibration, apart from the lesson's core: a camera written out, its inverse,
+differences for slopes.
+"""
 
 import functools
 
@@ -32,7 +34,9 @@ def seen(K: np.ndarray, lens: tuple[float, ...], Ts: np.ndarray, p: np.ndarray) 
 
 @functools.cache
 def rays() -> tuple[np.ndarray, np.ndarray]:
-    """Pixels of a grid over the picture, and the true rays they look along, by fixed-point iteration."""
+    """Pixels of a grid over the picture, and the true rays they look along, by fixed-point
+    iteration.
+    """
     u, v = np.meshgrid(np.linspace(0, 639, 33), np.linspace(0, 479, 25))
     uv = np.stack([u.ravel(), v.ravel()], axis=1)
     goal = (uv - K[:2, 2]) / 536.0
@@ -60,7 +64,9 @@ def rms_of(state: State) -> np.ndarray:
 
 
 def deviation_of_f(state: State) -> float:
-    """The predicted deviation of fx, from a dense Jacobian by differences over all unknowns, weighted as the loss asks."""
+    """The predicted deviation of fx, from a dense Jacobian by differences over all unknowns,
+    weighted as the loss asks.
+    """
     now, subject = state.now.adjustment, state.subject
     assert isinstance(now, Adjustment)
     p, uv = subject.p_board, subject.uv
@@ -68,7 +74,9 @@ def deviation_of_f(state: State) -> float:
     shared = np.array([now.K[0, 0], now.K[1, 1], now.K[0, 2], now.K[1, 2], *now.lens])
 
     def residuals(x: np.ndarray) -> np.ndarray:
-        """Residuals where the free shared unknowns, and then all poses alike, have moved by x; one row per view."""
+        """Residuals where the free shared unknowns, and then all poses alike, have moved by x; one
+        row per view.
+        """
         s = shared.copy()
         s[free] += x[: len(free)]
         a, b, c = x[len(free) : len(free) + 3]

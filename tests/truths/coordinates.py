@@ -1,4 +1,6 @@
-"""What is true of a run of the coordinates lesson, by vectors and closed forms, from the states alone."""
+"""What is true of a run of the coordinates lesson, by vectors and closed forms, from the states
+alone.
+"""
 
 from typing import Any
 
@@ -45,7 +47,9 @@ def in_caps(p: np.ndarray) -> float:
 
 
 def put_back(now: Walked) -> float:
-    """How far points are from where their spherical, cylindrical or Cartesian coordinates put them, whichever is least."""
+    """How far points are from where their spherical, cylindrical or Cartesian coordinates put them,
+    whichever is least.
+    """
     a, b, c = now.c.T
     formulas = (
         (a * np.sin(b) * np.cos(c), a * np.sin(b) * np.sin(c), a * np.cos(b)),
@@ -56,7 +60,9 @@ def put_back(now: Walked) -> float:
 
 
 def fastest(miss: float, height: float = 10.0, speed: float = 10.0) -> tuple[float, float]:
-    """The largest rates of pan axis and line of sight, degrees per second, for a miss in degrees."""
+    """The largest rates of pan axis and line of sight, degrees per second, for a miss in
+    degrees.
+    """
     beside = height * np.tan(np.radians(miss))
     return float(np.degrees(speed / beside)), float(np.degrees(speed / np.hypot(height, beside)))
 

@@ -1,4 +1,6 @@
-"""What is true of a measured mesh: by brute force over the triangles, and against the analytic surface."""
+"""What is true of a measured mesh: by brute force over the triangles, and against the analytic
+surface.
+"""
 
 import functools
 

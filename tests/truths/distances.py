@@ -1,4 +1,6 @@
-"""What is true of a distance, apart from the lesson's core: closed forms, visibility past a wall, an unrolled spiral."""
+"""What is true of a distance, apart from the lesson's core: closed forms, visibility past a wall,
+an unrolled spiral.
+"""
 
 from typing import Any
 
@@ -11,7 +13,9 @@ NEAR = 0.14
 
 
 def true_distances(state: State) -> np.ndarray:
-    """The true distance of every node from the source; of surfaces without formula what the run was held against."""
+    """The true distance of every node from the source; of surfaces without formula what the run was
+    held against.
+    """
     s = state.subject
     assert s is not None
     p, q = s.p, s.p[s.source]
@@ -42,7 +46,9 @@ def true_distances(state: State) -> np.ndarray:
 
 
 def unrolled(p: np.ndarray, source: int) -> np.ndarray:
-    """Distances on the sheet of a roll r = t / (4.5 pi), by adding up the spiral's length in small steps."""
+    """Distances on the sheet of a roll r = t / (4.5 pi), by adding up the spiral's length in small
+    steps.
+    """
     t = np.linspace(0, 4.6 * np.pi, 200_001)
     x, y = t * np.cos(t), t * np.sin(t)
     length = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))]) / (4.5 * np.pi)
@@ -61,7 +67,9 @@ def errors(state: State) -> np.ndarray:
 
 
 def by_heat(p: np.ndarray, faces: np.ndarray, sources: np.ndarray, time: float) -> np.ndarray:
-    """Distances (vertices, sources) by heat over a closed mesh, from the paper's formulas with sums over single corners."""
+    """Distances (vertices, sources) by heat over a closed mesh, from the paper's formulas with sums
+    over single corners.
+    """
     n, normals = len(p), np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
     areas = np.linalg.norm(normals, axis=1) / 2
     rows, columns, values = [], [], []

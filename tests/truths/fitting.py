@@ -1,4 +1,6 @@
-"""What is true of a run of the fitting lesson, by scipy and by differences, from the states alone."""
+"""What is true of a run of the fitting lesson, by scipy and by differences, from the states
+alone.
+"""
 
 import functools
 from typing import Any
@@ -23,7 +25,9 @@ def distances(name: str, unknown: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 def least(state: Any) -> float:
-    """The least sum of squares that scipy finds, from the truth and from the end of the lesson's own fit."""
+    """The least sum of squares that scipy finds, from the truth and from the end of the lesson's
+    own fit.
+    """
     subject = state.subject
     starts = tuple(tuple(start) for start in (subject.truth, subject.best) if start is not None)
     return _least(subject.kind.name, subject.p.tobytes(), subject.p.shape[1], starts)
@@ -56,7 +60,9 @@ def plane_error(plane: np.ndarray) -> float:
 
 
 def radius_deviation(state: Any, unknown: np.ndarray) -> float:
-    """The standard deviation of R by the covariance, from a Jacobian by differences in all numbers, redundant ones too."""
+    """The standard deviation of R by the covariance, from a Jacobian by differences in all numbers,
+    redundant ones too.
+    """
     name, p, h = state.subject.kind.name, state.subject.p, 1e-6
     J = np.column_stack(
         [

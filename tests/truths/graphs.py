@@ -1,4 +1,6 @@
-"""What is true of a graph and of what a step made of it, by dense matrices and walking, apart from the lesson's core."""
+"""What is true of a graph and of what a step made of it, by dense matrices and walking, apart from
+the lesson's core.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -11,7 +13,9 @@ from workbench.algorithms.learning.graph_network import Layer, Trained
 
 
 def kept(work: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """Keep what was made of the last matrix: the steps of a run share it, and often the runs of other seeds."""
+    """Keep what was made of the last matrix: the steps of a run share it, and often the runs of
+    other seeds.
+    """
     last: list[Any] = [None, None]
 
     def found(adjacency: Any) -> Any:

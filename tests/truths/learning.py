@@ -1,4 +1,6 @@
-"""What is true of a run of the learning lesson: by scipy's rotations, whole distance matrices, trimesh and plain sums."""
+"""What is true of a run of the learning lesson: by scipy's rotations, whole distance matrices,
+trimesh and plain sums.
+"""
 
 import functools
 from typing import Any
@@ -43,7 +45,9 @@ def folded(state: Any) -> float:
 
 
 def to_given(state: Any) -> float:
-    """Chamfer distance of points on the mesh to the given ones, m²: of other points on it than the lesson takes."""
+    """Chamfer distance of points on the mesh to the given ones, m²: of other points on it than the
+    lesson takes.
+    """
     mesh = trimesh.Trimesh(state.now.p, state.about.faces, process=False)
     q = trimesh.sample.sample_surface(mesh, 3000, seed=5)[0]
     D = scipy.spatial.distance.cdist(q, state.about.given)
@@ -51,7 +55,9 @@ def to_given(state: Any) -> float:
 
 
 def farthest(state: Any) -> float:
-    """How far the true surface is from the mesh where it is farthest, m: from the vertices of a rabbit, by trimesh."""
+    """How far the true surface is from the mesh where it is farthest, m: from the vertices of a
+    rabbit, by trimesh.
+    """
     mesh = trimesh.Trimesh(state.now.p, state.about.faces, process=False)
     q = trimesh.sample.sample_surface(mesh, 100_000, seed=5)[0]
     return float(np.max(scipy.spatial.KDTree(q).query(state.about.p_true)[0]))

@@ -1,4 +1,6 @@
-"""The lesson's camera written out in plain numpy, and how far a stage of the calculation is from it."""
+"""The lesson's camera written out in plain numpy, and how far a stage of the calculation is from
+it.
+"""
 
 import functools
 from typing import Any
@@ -46,7 +48,9 @@ def ideal(params: Any, p: np.ndarray, dolly: float | None = None) -> np.ndarray:
 
 
 def fold(params: Any) -> float:
-    """The radius at which the radial polynomial turns round, by looking for it; infinity without tangential terms found."""
+    """The radius at which the radial polynomial turns round, by looking for it; infinity without
+    tangential terms found.
+    """
     r = np.linspace(0, 5, 50001)
     slope = 1 + 3 * params.k1 * r**2 + 5 * params.k2 * r**4
     return float(r[np.argmax(slope <= 0)]) if (slope <= 0).any() else np.inf

@@ -1,4 +1,6 @@
-"""What is true of a run of the pose lesson, by scipy's rotations and plain sums, from its states alone."""
+"""What is true of a run of the pose lesson, by scipy's rotations and plain sums, from its states
+alone.
+"""
 
 from typing import Any
 

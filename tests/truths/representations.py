@@ -1,4 +1,6 @@
-"""What is true of a run of the representations lesson: distances by nearest points, sizes by trimesh."""
+"""What is true of a run of the representations lesson: distances by nearest points, sizes by
+trimesh.
+"""
 
 from functools import lru_cache
 

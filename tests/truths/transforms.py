@@ -1,4 +1,6 @@
-"""What is true of a map and of a move, from the factors and the poses alone, with scipy's rotations."""
+"""What is true of a map and of a move, from the factors and the poses alone, with scipy's
+rotations.
+"""
 
 import functools
 import itertools
@@ -146,7 +148,9 @@ def moved_by(run: Run, k: int) -> np.ndarray:
 
 
 def outer_axes_apart(params: Any) -> float:
-    """The angle, degrees, between the axes of the first and third angle, by a small change of each."""
+    """The angle, degrees, between the axes of the first and third angle, by a small change of
+    each.
+    """
     R, tiny = rotation_of(params, params.angles), 1e-4
     axes = []
     for k in (0, 2):
@@ -208,7 +212,9 @@ def met(run: Run) -> bool:
 
 
 def squares(run: Run) -> float:
-    """The sum of squared distances between the first second reading and the body, vertex by vertex."""
+    """The sum of squared distances between the first second reading and the body, vertex by
+    vertex.
+    """
     p, k = run.states[0].body.solid.p, complete_at(run)
     return float(((mapped(run.states[k].ghosts[0].T, p) - mapped(product(run, k), p)) ** 2).sum())
 

@@ -1,13 +1,15 @@
-"""Holds what lessons say of a run to the truth: per lesson, which sentences judge, and when each is true.
+"""Holds what lessons say of a run to the truth: per lesson, which sentences judge, and when each is
+true.
 
 A lesson's module in this folder has
 
 - `caption(state)`: the caption of a state, where that is cheaper than drawing it whole (optional);
-- `until_the_end(params)`: a lesson's run up to its algorithm's end, where it goes on with costly tries (optional): what
-  seeds other than a preset's own are held to in a quick audit;
-- `right(run, k)`: whether the state is truly right (True), truly wrong (False), or neither is claimed (None): what the
-  caption's tone says must agree;
-- `CAPTIONS`, `LINES`, `WHYS`: the claims that captions, preset lines (with titles) and questions' explanations make.
+- `until_the_end(params)`: a lesson's run up to its algorithm's end, where it goes on with costly
+  tries (optional): what seeds other than a preset's own are held to in a quick audit;
+- `right(run, k)`: whether the state is truly right (True), truly wrong (False), or neither is
+  claimed (None): what the caption's tone says must agree;
+- `CAPTIONS`, `LINES`, `WHYS`: the claims that captions, preset lines (with titles) and questions'
+  explanations make.
 
 Every claim is decided from the states alone, never by the function that wrote the sentence.
 """
@@ -22,7 +24,8 @@ JUDGING = re.compile(
     r"|perfectly|fails?|failed|settled|finds?|found)\b",
     re.IGNORECASE,
 )
-"""A sentence with one of these words judges; no text may hold one outside the claims of its lesson."""
+"""A sentence with one of these words judges; no text may hold one outside the claims of its lesson.
+"""
 
 
 @dataclass(frozen=True)
@@ -39,8 +42,9 @@ class Claim:
 
     Attributes:
         words: A regular expression that finds it in the text.
-        holds: Tells from the run, the step it is said at (of a line or an explanation: the last), and the match, whether
-            it is true. None: the words judge nothing (a term such as "right camera").
+        holds: Tells from the run, the step it is said at (of a line or an explanation: the last),
+            and the match, whether it is true. None: the words judge nothing (a term such as "right
+            camera").
     """
 
     words: str
@@ -48,7 +52,9 @@ class Claim:
 
 
 def untrue(text: str, claims: Sequence[Claim], run: Run, k: int) -> list[str]:
-    """Return what a text says that does not hold, and what judges without a claim that could be checked."""
+    """Return what a text says that does not hold, and what judges without a claim that could be
+    checked.
+    """
     found, rest = [], text
     for claim in claims:
         for match in re.finditer(claim.words, text):

@@ -1,10 +1,11 @@
-"""Holds what lessons say to the truth: `python -m tests.verdicts [--whole] [LESSON ...]`; prints what does not hold.
+"""Holds what lessons say to the truth: `python -m tests.verdicts [--whole] [LESSON ...]`; prints
+what does not hold.
 
-A sentence that changes must not lose its judge unseen, so that a claim about a preset's line or an explanation which
-finds its words no more is printed too.
+A sentence that changes must not lose its judge unseen, so that a claim about a preset's line or an
+explanation which finds its words no more is printed too.
 
-The whole audit takes every step of every preset and question at 20 seeds. The quick one takes two, and of other seeds
-than a preset's own only the steps up to the algorithm's end.
+The whole audit takes every step of every preset and question at 20 seeds. The quick one takes two,
+and of other seeds than a preset's own only the steps up to the algorithm's end.
 """
 
 import dataclasses
@@ -45,7 +46,10 @@ def audit(lesson: Lesson, *, whole: bool) -> Iterator[str]:
     for params, texts in experiments(lesson, judge):
         for one in seeded(params, WHOLE if whole else QUICK):
             states = lesson.run(one) if whole or one == params else short(one)
-            where = f"{lesson.name}, {texts[0][0] if texts else 'default'}, seed {getattr(one, 'seed', '-')}"
+            where = (
+                f"{lesson.name}, {texts[0][0] if texts else 'default'}, seed"
+                f" {getattr(one, 'seed', '-')}"
+            )
             run = Run(one, tuple(states))
             wrong = list(judged(lesson, judge, run, texts))
             if one == params:
@@ -56,7 +60,9 @@ def audit(lesson: Lesson, *, whole: bool) -> Iterator[str]:
 
 
 def experiments(lesson: Lesson, judge: Any) -> Iterator[tuple[Any, list[Text]]]:
-    """Return the params of the default, every preset and every question, equal ones once, with what is said of them."""
+    """Return the params of the default, every preset and every question, equal ones once, with what
+    is said of them.
+    """
     texts: dict[Any, list[Text]] = {lesson.params(): []}
     for preset in lesson.presets:
         line = f"{preset.title}. {preset.line}"
@@ -82,7 +88,9 @@ def seeded(params: Any, seeds: Sequence[int]) -> Iterator[Any]:
 
 
 def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Iterator[str]:
-    """Return what is not true of one run: in its captions, in their tone, and in what is said of it."""
+    """Return what is not true of one run: in its captions, in their tone, and in what is said of
+    it.
+    """
     caption: Callable[[Any], Caption] = getattr(
         judge, "caption", lambda state: caption_of(lesson.draw(state))
     )
@@ -99,7 +107,9 @@ def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Itera
 
 
 def wordless(run: Run, texts: Sequence[Text]) -> list[str]:
-    """Return the claims about a line or an explanation whose words it does not have at its own params."""
+    """Return the claims about a line or an explanation whose words it does not have at its own
+    params.
+    """
     return [
         f"{name}: a claim is left without its words: {claim.words!r}"
         for name, text, claims in texts

@@ -1,4 +1,6 @@
-"""When the sentences of the alignment lesson are true, decided with scipy from the scans and the truth they carry."""
+"""When the sentences of the alignment lesson are true, decided with scipy from the scans and the
+truth they carry.
+"""
 
 import itertools
 import re
@@ -49,7 +51,9 @@ def right(run: Run, k: int) -> bool | None:
 
 
 def laid(run: Run, k: int, m: re.Match[str]) -> bool:
-    """Said of the frame laid on the frame: how near, how far from the truth, and what that makes it."""
+    """Said of the frame laid on the frame: how near, how far from the truth, and what that makes
+    it.
+    """
     state, said = run.states[k], m.groupdict()
     at_home = "home" in m[0]
     return (
@@ -74,12 +78,14 @@ def scaled(run: Run, k: int, m: re.Match[str]) -> bool:
 
 CAPTIONS = (
     Claim(
-        rf"the second scan is (?P<off>{ANGLE[1:-2]})° from the truth; its points lie (?P<near>{LENGTH}) \(RMS\) from the"
+        rf"the second scan is (?P<off>{ANGLE[1:-2]})° from the truth; its points lie"
+        rf" (?P<near>{LENGTH}) \(RMS\) from the"
         r" nearest of the first\. It has come home\.",
         laid,
     ),
     Claim(
-        rf"its points lie (?P<near>{LENGTH}) \(RMS\) from the nearest of the first, and it is wrong,"
+        rf"its points lie (?P<near>{LENGTH}) \(RMS\) from the nearest of the first, and it is"
+        r" wrong,"
         rf" (?P<off>{ANGLE[1:-2]})° from the truth",
         laid,
     ),

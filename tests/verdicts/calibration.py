@@ -1,4 +1,6 @@
-"""What the calibration lesson says of its runs, decided from a camera written out anew and from differences."""
+"""What the calibration lesson says of its runs, decided from a camera written out anew and from
+differences.
+"""
 
 import functools
 import re
@@ -20,7 +22,9 @@ F, SIGMAS = 536.0, np.sqrt(2)
 
 
 def right(run: Run, k: int) -> bool | None:
-    """At the end f is right to 1 % and all rays to 10 px; poses are none where they are behind or not rigid."""
+    """At the end f is right to 1 % and all rays to 10 px; poses are none where they are behind or
+    not rigid.
+    """
     state: State = run.states[k]
     K = state.now.K
     if state.ending is None or state.ending.kind != "known" or state.subject.K is None or K is None:
@@ -49,7 +53,7 @@ def _f(run: Run) -> float:
     return float(K[0, 0])
 
 
-# captions -----------------------------------------------------------------------------------------------------------------
+# captions -----------------------------------------------------------------------------------------
 
 
 def _focal(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -144,7 +148,8 @@ CAPTIONS = [
     Claim(rf"rms (?:goes|falls) from (?P<before>{NUMBER}) px to (?P<after>{NUMBER}) px", _falls),
     Claim(rf"Iteration \d+: rms (?P<rms>{NUMBER}) px", _rms),
     Claim(
-        rf"View (?P<view>\d+) fits worst: (?P<rms>{NUMBER}) px \(rms\), the others (?P<others>{NUMBER}) px in the median\."
+        rf"View (?P<view>\d+) fits worst: (?P<rms>{NUMBER}) px \(rms\), the others"
+        rf" (?P<others>{NUMBER}) px in the median\."
         rf" Its residuals carry (?P<share>{NUMBER}) %",
         _least,
     ),
@@ -169,7 +174,7 @@ CAPTIONS = [
     Claim(r"It is wrong\.", lambda run, k, m: right(run, k) is False),
 ]
 
-# preset lines and explanations --------------------------------------------------------------------------------------------
+# preset lines and explanations --------------------------------------------------------------------
 
 
 def _noise_left(run: Run) -> float:
@@ -245,7 +250,8 @@ def _deviations(run: Run, m: re.Match[str]) -> bool:
 LINES = {
     "flat": [
         Claim(
-            rf"comes to rest (?P<off>{NUMBER}) px short .* is (?P<sd>{NUMBER}) px, .* it is (?P<home>{NUMBER}) px",
+            rf"comes to rest (?P<off>{NUMBER}) px short .* is (?P<sd>{NUMBER}) px, .* it is"
+            rf" (?P<home>{NUMBER}) px",
             _own(
                 FLAT,
                 lambda run, k, m: (
@@ -256,7 +262,8 @@ LINES = {
     ],
     "few": [
         Claim(
-            rf"fit well and leave f uncertain: its ± at the end is (?P<sd>{NUMBER}) px, .* is (?P<home>{NUMBER}) px",
+            rf"fit well and leave f uncertain: its ± at the end is (?P<sd>{NUMBER}) px, .* is"
+            rf" (?P<home>{NUMBER}) px",
             _own(FEW, lambda run, k, m: _noise_left(run) < 1.1 and _deviations(run, m)),
         )
     ],
@@ -307,7 +314,8 @@ WHYS = {
     "bent-error": [
         NOT_JUDGED,
         Claim(
-            rf"f is off by (?P<off>{NUMBER}) px, (?P<times>{NUMBER}) times its ± of (?P<sd>{NUMBER}) px",
+            rf"f is off by (?P<off>{NUMBER}) px, (?P<times>{NUMBER}) times its ± of"
+            rf" (?P<sd>{NUMBER}) px",
             _ratio,
         ),
     ],

@@ -1,4 +1,6 @@
-"""Decides what the lesson on Chamfer and earth mover's says: by whole distance matrices and scipy's plain assignment."""
+"""Decides what the lesson on Chamfer and earth mover's says: by whole distance matrices and scipy's
+plain assignment.
+"""
 
 import functools
 import re
@@ -23,7 +25,9 @@ def near(said: str, value: float) -> bool:
 
 @functools.lru_cache(maxsize=512)
 def _measured(p_bytes: bytes, target_bytes: bytes) -> tuple[float, float, float, np.ndarray]:
-    """Return both sides of Chamfer, the earth mover's distance, and how far each share of mass goes under it."""
+    """Return both sides of Chamfer, the earth mover's distance, and how far each share of mass goes
+    under it.
+    """
     p, target = (np.frombuffer(b).reshape(-1, 3) for b in (p_bytes, target_bytes))
     D = scipy.spatial.distance.cdist(p, target)
     copies = np.lcm(*D.shape)
@@ -118,11 +122,15 @@ def ended(run: Run, k: int, side: str) -> Stop | None:
 
 
 def settled(run: Run, k: int, side: str) -> bool:
-    """Whether no short step of all points along their pulls lowers the distance; the pulls by differences of the matrix."""
+    """Whether no short step of all points along their pulls lowers the distance; the pulls by
+    differences of the matrix.
+    """
     p, target = moving(run, k, side), run.states[0].clouds.p_target
     value = lowered(run, k) if side == "left" else emd(run, k)
     if side == "right":
-        return True  # a kink: subgradients, tried by `flow` itself; that the value no longer falls is claimed by its steps
+        # a kink: subgradients, tried by `flow` itself; that the value no longer falls is claimed by
+        # its steps
+        return True
     D = scipy.spatial.distance.cdist(p, target)
     pull = np.zeros_like(p)
     if run.params.lowers != "target to source":
@@ -173,11 +181,13 @@ def _why(side: str):
         value = lowered(run, k) if side == "left" else emd(run, k)
         return {
             "arrived": stop is Stop.ARRIVED and value < 1e-9,
-            "settled where no step lowers it": stop is Stop.SETTLED
-            and value > 1e-9
-            and settled(run, k, side),
-            "used up its steps": stop is Stop.MAX_STEPS
-            and getattr(run.states[k], side).flow.step == run.params.steps,
+            "settled where no step lowers it": (
+                stop is Stop.SETTLED and value > 1e-9 and settled(run, k, side)
+            ),
+            "used up its steps": (
+                stop is Stop.MAX_STEPS
+                and getattr(run.states[k], side).flow.step == run.params.steps
+            ),
         }[m[1]]
 
     return holds
@@ -185,42 +195,59 @@ def _why(side: str):
 
 WHY = r"(arrived|settled where no step lowers it|used up its steps)"
 
-# fmt: off
 CAPTIONS = [
     Claim(rf"Chamfer {FIGURE} m², earth mover's {FIGURE} m\.", _started),
-    Claim(rf"The ranking flips: to Chamfer this is closer than the target 5 % larger \({FIGURE} m², {FIGURE} m\)",
-          lambda run, k, m: _larger(run, k, m) and chamfer(moving(run, 0, "left"), run) < chamfer(larger(run), run)),
-    Claim(r"to earth mover's it is farther", lambda run, k, m: emd(run, 0) > measured(larger(run), run)[2]),
+    Claim(
+        rf"The ranking flips: to Chamfer this is closer than the target 5 % larger \({FIGURE} m²,"
+        rf" {FIGURE} m\)",
+        lambda run, k, m: (
+            _larger(run, k, m) and chamfer(moving(run, 0, "left"), run) < chamfer(larger(run), run)
+        ),
+    ),
+    Claim(
+        r"to earth mover's it is farther",
+        lambda run, k, m: emd(run, 0) > measured(larger(run), run)[2],
+    ),
     Claim(rf"Compare the target 5 % larger \({FIGURE} m², {FIGURE} m\)", _larger),
-    Claim(r"To Chamfer the two are equal: each point lies on one of the other cloud",
-          lambda run, k, m: chamfer(moving(run, 0, "left"), run) == 0 < emd(run, 0)),
-    Claim(rf"Only pairs by index see a change: {FIGURE} m²",
-          lambda run, k, m: near(m[1], index_mse(run)) and emd(run, 0) == 0 == chamfer(moving(run, 0, "left"), run)),
+    Claim(
+        r"To Chamfer the two are equal: each point lies on one of the other cloud",
+        lambda run, k, m: chamfer(moving(run, 0, "left"), run) == 0 < emd(run, 0),
+    ),
+    Claim(
+        rf"Only pairs by index see a change: {FIGURE} m²",
+        lambda run, k, m: (
+            near(m[1], index_mse(run)) and emd(run, 0) == 0 == chamfer(moving(run, 0, "left"), run)
+        ),
+    ),
     Claim(
         rf"Every source point lies on the target, so that side of Chamfer is 0"
         rf" and the left flow has nothing to do; the other side is {FIGURE} m²",
         lambda run, k, m: (
-            measured(moving(run, 0, "left"), run)[0] == 0 and near(m[1], measured(moving(run, 0, "left"), run)[1])
+            measured(moving(run, 0, "left"), run)[0] == 0
+            and near(m[1], measured(moving(run, 0, "left"), run)[1])
         ),
     ),
     Claim(rf"Left: [\w ,-]*? {FIGURE} m² → {FIGURE} m², {SHARE} of the mass astray", _left),
     Claim(
         rf"Left: ended at {FIGURE} m², {SHARE} of the mass astray",
         lambda run, k, m: (
-            near(m[1], lowered(run, k)) and says(m[2], 100 * astray(run, k, "left")) and ended(run, k, "left") is not None
+            near(m[1], lowered(run, k))
+            and says(m[2], 100 * astray(run, k, "left"))
+            and ended(run, k, "left") is not None
         ),
     ),
     Claim(rf"Right: earth mover's {FIGURE} m → {FIGURE} m, {SHARE} astray", _right),
     Claim(
         rf"Right: earth mover's ended at {FIGURE} m, {SHARE} astray",
         lambda run, k, m: (
-            near(m[1], emd(run, k)) and says(m[2], 100 * astray(run, k, "right")) and ended(run, k, "right") is not None
+            near(m[1], emd(run, k))
+            and says(m[2], 100 * astray(run, k, "right"))
+            and ended(run, k, "right") is not None
         ),
     ),
     Claim(rf"Left {WHY}", _why("left")),
     Claim(rf"right {WHY}", _why("right")),
 ]
-# fmt: on
 
 
 def start(run: Run) -> np.ndarray:
@@ -263,29 +290,40 @@ def _midway(run: Run, *_) -> bool:
     return (len(p), len(target)) == (40, 80) and float(at_both.mean()) >= 0.9
 
 
-# fmt: off
 LINES = {
     "larger": [
         Claim(
             r"Every point is 5 cm off",
             lambda run, k, m: bool(
-                np.allclose(np.linalg.norm(start(run) - run.states[0].clouds.p_target, axis=1), 0.05)
+                np.allclose(
+                    np.linalg.norm(start(run) - run.states[0].clouds.p_target, axis=1), 0.05
+                )
             ),
         ),
-        Claim(r"0\.0050 m² by Chamfer, 0\.05 m by EMD",
-              lambda run, k, m: abs(chamfer(start(run), run) - 0.005) < 1e-9 and abs(emd(run, 0) - 0.05) < 1e-9),
+        Claim(
+            r"0\.0050 m² by Chamfer, 0\.05 m by EMD",
+            lambda run, k, m: (
+                abs(chamfer(start(run), run) - 0.005) < 1e-9 and abs(emd(run, 0) - 0.05) < 1e-9
+            ),
+        ),
     ],
     "flip": [
         Claim(
             r"80 % of the points in one bunch",
             lambda run, k, m: (
-                float(np.mean(np.linalg.norm(start(run) - np.median(start(run), axis=0), axis=1) < 0.3)) >= 0.8
+                float(
+                    np.mean(
+                        np.linalg.norm(start(run) - np.median(start(run), axis=0), axis=1) < 0.3
+                    )
+                )
+                >= 0.8
             ),
         )
     ],
     "bump": [
         Claim(
-            r"A bump of 14\.7 cm on an eighth of the ring has the Chamfer distance of the ring 5 % larger, 0\.0050 m²",
+            r"A bump of 14\.7 cm on an eighth of the ring has the Chamfer distance of the ring 5 %"
+            r" larger, 0\.0050 m²",
             lambda run, k, m: (
                 abs(chamfer(start(run), run) - chamfer(larger(run), run)) < 5e-5
                 and abs(chamfer(start(run), run) - 0.005) < 5e-5
@@ -296,7 +334,12 @@ LINES = {
             lambda run, k, m: (
                 abs(emd(run, 0) - 0.0189) < 5e-5
                 and abs(emd(run, 0) - 0.019) < 5e-4
-                and abs(scipy.spatial.distance.directed_hausdorff(start(run), run.states[0].clouds.p_target)[0] - 0.147)
+                and abs(
+                    scipy.spatial.distance.directed_hausdorff(
+                        start(run), run.states[0].clouds.p_target
+                    )[0]
+                    - 0.147
+                )
                 < 1e-9
             ),
         ),
@@ -325,7 +368,8 @@ LINES = {
             r"all distances are 0 except the mean square of index pairs, 2\.3 m²",
             lambda run, k, m: (
                 chamfer(start(run), run) == 0 == emd(run, 0)
-                and abs(index_mse(run) - (2.3 if run.params.seed == 0 else 2.0)) < (0.05 if run.params.seed == 0 else 0.6)
+                and abs(index_mse(run) - (2.3 if run.params.seed == 0 else 2.0))
+                < (0.05 if run.params.seed == 0 else 0.6)
             ),
         )
     ],
@@ -333,7 +377,9 @@ LINES = {
         Claim(
             r"Chamfer and Hausdorff are 0, EMD is 0\.21 m",
             lambda run, k, m: (
-                chamfer(start(run), run) == 0 and abs(emd(run, 0) - 0.21) < 0.005 and len(start(run)) == 120
+                chamfer(start(run), run) == 0
+                and abs(emd(run, 0) - 0.21) < 0.005
+                and len(start(run)) == 120
             ),
         )
     ],
@@ -360,7 +406,6 @@ LINES = {
         )
     ],
 }
-# fmt: on
 
 
 def _spread(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -391,18 +436,19 @@ def _missing(run: Run, k: int, m: re.Match[str]) -> bool:
     )
 
 
-# fmt: off
 WHYS = {
     "predict-spread": [
         Claim(
-            rf"After 40 steps {SHARE} of its points stay on the nearer half \({SHARE} for earth mover's\)\. "
+            rf"After 40 steps {SHARE} of its points stay on the nearer half \({SHARE} for earth"
+            r" mover's\)\. "
             rf"A few points near the far side serve all target points there",
             _spread,
         )
     ],
     "predict-flip": [
         Claim(
-            rf"At the start, bunched: Chamfer {FIGURE} m², EMD {FIGURE} m; 5 % larger: {FIGURE} m² and {FIGURE} m",
+            rf"At the start, bunched: Chamfer {FIGURE} m², EMD {FIGURE} m; 5 % larger: {FIGURE} m²"
+            rf" and {FIGURE} m",
             lambda run, k, m: (
                 near(m[1], chamfer(start(run), run))
                 and near(m[2], emd(run, 0))
@@ -414,19 +460,30 @@ WHYS = {
         Claim(
             r"enough to have a neighbour nearby everywhere",
             lambda run, k, m: (
-                float(scipy.spatial.distance.cdist(start(run), run.states[0].clouds.p_target).min(axis=0).max()) < 0.15
+                float(
+                    scipy.spatial.distance.cdist(start(run), run.states[0].clouds.p_target)
+                    .min(axis=0)
+                    .max()
+                )
+                < 0.15
             ),
         ),
     ],
     "predict-missing": [
         Claim(rf"{SHARE} of {FIGURE} m²", _missing),
-        Claim(rf"Every source point lies on a target point, so that the other side is {FIGURE} m²",
-              lambda run, k, m: number(m[1]) == measured(start(run), run)[0] == 0),
-        Claim(r"stays where it is", lambda run, k, m: bool(np.array_equal(moving(run, -1, "left"), start(run)))),
+        Claim(
+            rf"Every source point lies on a target point, so that the other side is {FIGURE} m²",
+            lambda run, k, m: number(m[1]) == measured(start(run), run)[0] == 0,
+        ),
+        Claim(
+            r"stays where it is",
+            lambda run, k, m: bool(np.array_equal(moving(run, -1, "left"), start(run))),
+        ),
     ],
     "predict-outlier": [
         Claim(
-            rf"Hausdorff: {FIGURE} m, (\d+) times that of the ring 5 % larger; Chamfer ([\d.]+) times; EMD ([\d.]+) times",
+            rf"Hausdorff: {FIGURE} m, (\d+) times that of the ring 5 % larger; Chamfer ([\d.]+)"
+            r" times; EMD ([\d.]+) times",
             lambda run, k, m: (
                 number(m[1]) == 1.0
                 and int(m[2]) == 20
@@ -436,4 +493,3 @@ WHYS = {
         ),
     ],
 }
-# fmt: on

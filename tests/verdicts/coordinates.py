@@ -1,4 +1,6 @@
-"""When the sentences of the coordinates lesson are true, decided by vectors and closed forms from its states."""
+"""When the sentences of the coordinates lesson are true, decided by vectors and closed forms from
+its states.
+"""
 
 import re
 
@@ -69,17 +71,20 @@ CAPTIONS = (
     Claim(r"its coordinates put every place back where it was: right\.", walked),
     Claim(rf"One step of ({LENGTH}) changed φ by ({NUMBER})°", largest_turn),
     Claim(
-        rf"({NUMBER}) % of the points lie within 30° of a pole, in 13\.4 % of the area: (even, but for chance, and right"
+        rf"({NUMBER}) % of the points lie within 30° of a pole, in 13\.4 % of the area: (even, but"
+        r" for chance, and right"
         r"|drawn evenly in θ, they are not even on the sphere\. It is wrong)",
         shared,
     ),
     Claim(
-        rf"The mean of the latitudes and longitudes is ({NUMBER}) km from the middle of the places(: here it is right\."
+        rf"The mean of the latitudes and longitudes is ({NUMBER}) km from the middle of the"
+        r" places(: here it is right\."
         r"|\. It is wrong\.)",
         meant,
     ),
     Claim(
-        rf"The target was in the middle all the time: right\. For that the pan axis turned with ({NUMBER})°/s at its"
+        r"The target was in the middle all the time: right\. For that the pan axis turned with"
+        rf" ({NUMBER})°/s at its"
         rf" fastest, the line of sight with ({NUMBER})°/s",
         followed,
     ),

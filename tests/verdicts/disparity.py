@@ -1,4 +1,6 @@
-"""What the disparity lesson says of its runs, decided from the pictures' truth and the maps that a state carries."""
+"""What the disparity lesson says of its runs, decided from the pictures' truth and the maps that a
+state carries.
+"""
 
 import dataclasses
 import re
@@ -32,7 +34,9 @@ __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
 
 def right(run: Run, k: int) -> bool | None:
-    """The depths are right within 3 % in the median with few wrong pixels, wrong beyond 10 % or with many."""
+    """The depths are right within 3 % in the median with few wrong pixels, wrong beyond 10 % or
+    with many.
+    """
     state = run.states[k]
     if state.stage is not None:
         return None
@@ -156,12 +160,15 @@ CAPTIONS = (
     Claim(rf"(?P<n>{NUMBER}) px from whole ones on average", between_pixels),
     Claim(rf"mean error of the right ones (?P<was>{NUMBER}) → (?P<is>{NUMBER}) px", error_change),
     Claim(
-        rf"Z = f B / (?:d|\(d \+ (?P<doffs>{NUMBER})\)) with f = (?P<f>{NUMBER}) px, B = (?P<B>{NUMBER}) m: left pixel"
-        rf" \(\d+, \d+\), d = (?P<d>{NUMBER}) px, is (?P<z>{LENGTH}) away(?: \(truth: (?P<true>{LENGTH})\))?",
+        rf"Z = f B / (?:d|\(d \+ (?P<doffs>{NUMBER})\)) with f = (?P<f>{NUMBER}) px, B ="
+        rf" (?P<B>{NUMBER}) m: left pixel"
+        rf" \(\d+, \d+\), d = (?P<d>{NUMBER}) px, is (?P<z>{LENGTH}) away(?: \(truth:"
+        rf" (?P<true>{LENGTH})\))?",
         law,
     ),
     Claim(
-        rf"has d = 0, which means infinitely far, not missing \(truth: (?:infinitely far|(?P<true>{LENGTH}))\)",
+        r"has d = 0, which means infinitely far, not missing \(truth: (?:infinitely"
+        rf" far|(?P<true>{LENGTH}))\)",
         is_infinite,
     ),
     Claim(
@@ -176,24 +183,28 @@ CAPTIONS = (
     Claim(rf"Measured: (?P<list>{LENGTH}(?:, {LENGTH})*)", measured),
     Claim(rf"Half of all points are within (?P<z>{LENGTH}) of the truth", half_within),
     Claim(
-        r"more pixels find each other, (?P<b>\d+) % instead of (?P<a>\d+) %: is the left one the right one",
+        r"more pixels find each other, (?P<b>\d+) % instead of (?P<a>\d+) %: is the left one the"
+        r" right one",
         exchanged,
     ),
     Claim(
-        r"[Tt]he right picture chooses too|against right|to the right|down and right|up and right|what the right camera",
+        r"[Tt]he right picture chooses too|against right|to the right|down and right|up and"
+        r" right|what the right camera",
         None,
     ),
 )
 
 
-# preset lines -------------------------------------------------------------------------------------------------------
+# preset lines -------------------------------------------------------------------------------------
 
 BARE = (slice(30, 90), slice(46, 88))  # of the plain wall, well inside
 STRIPES = (slice(30, 90), slice(60, 110))
 
 
 def flat(run: Run, k: int, found: re.Match[str]) -> bool:
-    """The curve of the bare wall stays low at every shift, far below the median cost where there is texture."""
+    """The curve of the bare wall stays low at every shift, far below the median cost where there is
+    texture.
+    """
     state = of_stage(run, Stage.AGGREGATE)
     costs, textured = state.costs, state.setup
     left, right_ = (
@@ -372,7 +383,7 @@ LINES = {
 }
 
 
-# explanations -------------------------------------------------------------------------------------------------------
+# explanations -------------------------------------------------------------------------------------
 
 
 def came_nearer(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -445,7 +456,8 @@ WHYS = {
     ),
     "averages": (
         Claim(
-            rf"The mean of the depths is (?P<z>{NUMBER}) m, the mean disparity stands for (?P<d>{NUMBER}) m",
+            rf"The mean of the depths is (?P<z>{NUMBER}) m, the mean disparity stands for"
+            rf" (?P<d>{NUMBER}) m",
             means,
         ),
     ),
@@ -455,7 +467,8 @@ WHYS = {
     ),
     "window": (
         Claim(
-            r"(?P<wrong>\d+) % of the map is wrong, and (?P<near>\d+) % of that lies within 10 px, half a window, of an"
+            r"(?P<wrong>\d+) % of the map is wrong, and (?P<near>\d+) % of that lies within 10 px,"
+            r" half a window, of an"
             r" edge, where only (?P<all>\d+) % of all pixels are",
             beside_edges,
         ),

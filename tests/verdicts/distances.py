@@ -1,4 +1,6 @@
-"""What the distances lesson says of its runs, decided from closed forms and by trying, apart from its core."""
+"""What the distances lesson says of its runs, decided from closed forms and by trying, apart from
+its core.
+"""
 
 import functools
 import re
@@ -59,7 +61,7 @@ def _radii(run: Run, k: int) -> np.ndarray:
     return mahalanobis(first, first.mean(axis=0), np.cov(first.T))
 
 
-# captions ---------------------------------------------------------------------------------------------------------------
+# captions -----------------------------------------------------------------------------------------
 
 
 def _mean_and_worst(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -104,11 +106,15 @@ def _balls(run: Run, k: int, m: re.Match[str]) -> bool:
     w = (now.queries[:, None] - now.p[None]) * units
     x, y = now.queries * units, now.p * units
     by = {
-        "euclid": (v**2).sum(axis=2), "squared": (v**2).sum(axis=2), "manhattan": v.sum(axis=2),
-        "chebyshev": v.max(axis=2), "p": (v**a.p).sum(axis=2), "p-sum": (v**a.p).sum(axis=2),
+        "euclid": (v**2).sum(axis=2),
+        "squared": (v**2).sum(axis=2),
+        "manhattan": v.sum(axis=2),
+        "chebyshev": v.max(axis=2),
+        "p": (v**a.p).sum(axis=2),
+        "p-sum": (v**a.p).sum(axis=2),
         "cosine": -(x @ y.T) / np.linalg.norm(x, axis=1)[:, None] / np.linalg.norm(y, axis=1),
         "mahalanobis": np.einsum("qpi,ij,qpj->qp", w, C, w),
-    }[a.metric]  # fmt: skip
+    }[a.metric]
     straight = np.linalg.norm(now.queries[:, None] - now.p[None], axis=2)
     return says_percent(m["share"], float((by.argmin(axis=1) != straight.argmin(axis=1)).mean()))
 
@@ -197,7 +203,9 @@ def _weakest(run: Run, k: int, m: re.Match[str]) -> bool:
 
 @functools.lru_cache(maxsize=2)
 def _as_a_metric(state: State) -> tuple[float, float, float]:
-    """Of some vertices how far there and back differ, at most and in the median, and the share of shorter detours."""
+    """Of some vertices how far there and back differ, at most and in the median, and the share of
+    shorter detours.
+    """
     s = state.subject
     assert s is not None
     some = np.unique(np.linspace(0, len(s.p) - 1, 24).astype(int))
@@ -216,7 +224,8 @@ def _as_a_metric(state: State) -> tuple[float, float, float]:
 
 
 def _heat_as_a_metric(run: Run, k: int, m: re.Match[str]) -> bool:
-    if run.params.delaunay:  # by_heat knows the mesh as it stands only: on the same sphere a regular one is held against it
+    # by_heat knows the mesh as it stands only: on the same sphere a regular one is held against it
+    if run.params.delaunay:
         return number(m["back"].split()[0]) < 10 and number(m["median"].split()[0]) < 1
     back, median, shorter = _as_a_metric(run.states[k])
     near_ones = (m["back"], back, 0.15), (m["shorter"], shorter, 0.15), (m["median"], median, 0.25)
@@ -251,7 +260,8 @@ def _negative(run: Run, k: int, m: re.Match[str]) -> bool:
 
 CAPTIONS = [
     Claim(
-        rf"(?P<mean>{PERCENT}) off on average(?: \(median (?P<median>{PERCENT})\))?, at worst (?P<worst>{PERCENT}) too"
+        rf"(?P<mean>{PERCENT}) off on average(?: \(median (?P<median>{PERCENT})\))?, at worst"
+        rf" (?P<worst>{PERCENT}) too"
         " (?P<sense>long|short)",
         _mean_and_worst,
     ),
@@ -263,12 +273,14 @@ CAPTIONS = [
     Claim(r"Of \d+ other queries (?P<share>[\d.]+ %) have another nearest", _balls),
     Claim(rf"(?P<share>{PERCENT}) break the triangle inequality\. (?:Here|Also|No)", _share_broken),
     Claim(
-        rf"There and back differ by (?P<median>{PERCENT}) in the median and (?P<back>{PERCENT}) at most;"
+        rf"There and back differ by (?P<median>{PERCENT}) in the median and (?P<back>{PERCENT}) at"
+        r" most;"
         rf" (?P<shorter>{PERCENT}) of the triples break",
         _heat_as_a_metric,
     ),
     Claim(
-        rf"8 neighbours are (?P<said>nearer to the truth|farther off) on this grid: at worst (?P<eight>{PERCENT}) too long",
+        r"8 neighbours are (?P<said>nearer to the truth|farther off) on this grid: at worst"
+        rf" (?P<eight>{PERCENT}) too long",
         _eight_beside,
     ),
     Claim(r"(?P<n>[\d,]+) edges have a negative weight", _negative),
@@ -288,7 +300,7 @@ CAPTIONS = [
     Claim(r"from (?P<one>[\d.]+) % in one down to (?P<ten>[\d.]+) % in ten", _shares),
 ]
 
-# preset lines and explanations --------------------------------------------------------------------------------------------
+# preset lines and explanations --------------------------------------------------------------------
 
 
 def _ends(run: Run) -> Found:
@@ -353,7 +365,9 @@ def _refined(run: Run) -> np.ndarray:
 
 
 def _on_regular(run: Run) -> float:
-    """The worst error of Dijkstra by scipy on the sphere before its vertices were moved, beside great circles."""
+    """The worst error of Dijkstra by scipy on the sphere before its vertices were moved, beside
+    great circles.
+    """
     ball = sphere(run.params.points)
     edges = np.unique(np.sort(ball.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
     lengths = np.linalg.norm(ball.p[edges[:, 0]] - ball.p[edges[:, 1]], axis=1)
@@ -435,7 +449,8 @@ LINES = {
     ],
     "no-metric": [
         Claim(
-            r"by (?P<median>1\.4 %) in the median and (?P<back>17 %) at most, and (?P<shorter>1\.5 %)",
+            r"by (?P<median>1\.4 %) in the median and (?P<back>17 %) at most, and"
+            r" (?P<shorter>1\.5 %)",
             lambda run, k, m: _heat_as_a_metric(run, -1, m),
         )
     ],

@@ -1,4 +1,6 @@
-"""When the sentences of the epipolar lesson are true, decided ray by ray and by scipy from its states."""
+"""When the sentences of the epipolar lesson are true, decided ray by ray and by scipy from its
+states.
+"""
 
 import re
 
@@ -23,7 +25,9 @@ def off(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def near_angle(text: str, degrees: float) -> bool:
-    """Whether an angle to three digits says what was found; arc cosines are good to a few millionths of a degree."""
+    """Whether an angle to three digits says what was found; arc cosines are good to a few
+    millionths of a degree.
+    """
     return near(text, degrees) or abs(number(text) - degrees) < 2e-5
 
 
@@ -58,7 +62,9 @@ def before_both(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def parallax(run: Run, k: int, m: re.Match[str]) -> bool:
-    """Each match's true point beside the point a million times as far along its ray, both seen by the second camera."""
+    """Each match's true point beside the point a million times as far along its ray, both seen by
+    the second camera.
+    """
     views = run.states[k].views
     R, t = views.T_second_first[:3, :3], views.T_second_first[:3, 3]
     moves = []
@@ -70,7 +76,8 @@ def parallax(run: Run, k: int, m: re.Match[str]) -> bool:
 
 CAPTIONS = (
     Claim(
-        rf"The motion is ({NUMBER}|less than 0\.001)° in rotation and ({NUMBER})° in direction from the true one"
+        rf"The motion is ({NUMBER}|less than 0\.001)° in rotation and ({NUMBER})° in direction from"
+        r" the true one"
         r"(: right\.|\. It is wrong\.)",
         judged,
     ),

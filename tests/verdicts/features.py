@@ -1,4 +1,6 @@
-"""When the sentences of the features lesson are true, decided by scipy from motions, descriptors and the truth."""
+"""When the sentences of the features lesson are true, decided by scipy from motions, descriptors
+and the truth.
+"""
 
 import re
 
@@ -91,18 +93,27 @@ def _few(run: Run, k: int, m: re.Match[str]) -> bool:
 CAPTIONS = (
     Claim(rf"(?P<share>{PERCENT}) of them are right", _share),
     Claim(rf"(?P<share>{PERCENT}) lie within 3 px of the truth", _share),
-    Claim(r"(?P<n>[\d,]+) target points? (is|are) more alike than the true one",
-          lambda run, k, m: number(m["n"]) == nearer(run.states[k].now)),
+    Claim(
+        r"(?P<n>[\d,]+) target points? (is|are) more alike than the true one",
+        lambda run, k, m: number(m["n"]) == nearer(run.states[k].now),
+    ),
     Claim(r"best motion so far: (?P<n>[\d,]+) of (?P<of>[\d,]+) matches agree", _best),
     Claim(r"to all that agree: (?P<n>[\d,]+) of [\d,]+ matches agree", _agree),
-    Claim(rf"It is (?P<turn>(less than )?[\d.]+)° and (?P<off>{LENGTH}) \(RMS\) from the truth", _away),
+    Claim(
+        rf"It is (?P<turn>(less than )?[\d.]+)° and (?P<off>{LENGTH}) \(RMS\) from the truth", _away
+    ),
     Claim(r"It has come home", lambda run, k, m: home(run.states[k].now)),
     Claim(r"It looks settled, and it is wrong", lambda run, k, m: not home(run.states[k].now)),
-    Claim(r"(?P<n>\d+|No) matches agree on a motion, and any three agree on some: nothing is found", _few),
+    Claim(
+        r"(?P<n>\d+|No) matches agree on a motion, and any three agree on some: nothing is found",
+        _few,
+    ),
     Claim(r"Most of what is kept is wrong|Most are wrong", _most_wrong),
     Claim(r"The true partners cost (?P<cost>[\d.]+) on average", _partners),
-    Claim(r"its true partner|takes the right one|the right one turned|\d+ left and \d+ right", None),
-)  # fmt: skip
+    Claim(
+        r"its true partner|takes the right one|the right one turned|\d+ left and \d+ right", None
+    ),
+)
 
 LINES = {
     "random": (

@@ -1,4 +1,6 @@
-"""When the sentences of the fitting lesson are true, decided by scipy, differences and counting from its states."""
+"""When the sentences of the fitting lesson are true, decided by scipy, differences and counting
+from its states.
+"""
 
 import re
 
@@ -49,7 +51,9 @@ def least_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def no_circle(run: Run, k: int, m: re.Match[str]) -> bool:
-    """What escaped costs what a straight line costs, and more than the best circle, if there is one."""
+    """What escaped costs what a straight line costs, and more than the best circle, if there is
+    one.
+    """
     state = run.states[k]
     unknown, line = state.now.now.unknown, straight(state.subject.p)
     found = cost(state, unknown)
@@ -140,25 +144,31 @@ def biased(run: Run, k: int, m: re.Match[str]) -> bool:
 
 CAPTIONS = (
     Claim(
-        rf"({SQUARE}), R = {LENGTH}: the least there is, right\.(?: R is ({LENGTH}) off the truth\.)?",
+        rf"({SQUARE}), R = {LENGTH}: the least there is, right\.(?: R is ({LENGTH}) off the"
+        r" truth\.)?",
         least_of_all,
     ),
     Claim(
-        rf"({SQUARE}), R = {LENGTH}: the best straight line has ({SQUARE}) as well, and that is what this circle is\."
-        rf"(?: A circle of ({SQUARE}) exists\. It looks settled, and it is wrong\.| Nothing round fits better\.)",
+        rf"({SQUARE}), R = {LENGTH}: the best straight line has ({SQUARE}) as well, and that is"
+        r" what this circle is\."
+        rf"(?: A circle of ({SQUARE}) exists\. It looks settled, and it is wrong\.| Nothing round"
+        r" fits better\.)",
         no_circle,
     ),
     Claim(
-        rf"({SQUARE}), R = {LENGTH}; the least is ({SQUARE})\. It (?:looks settled, and it )?is wrong\.",
+        rf"({SQUARE}), R = {LENGTH}; the least is ({SQUARE})\. It (?:looks settled, and it )?is"
+        r" wrong\.",
         another_end,
     ),
     Claim(
-        rf"with R = (?:{POWER} k?m|{LENGTH}|no number): (?:the linear problem has no one solution|the numbers are not finite"
+        rf"with R = (?:{POWER} k?m|{LENGTH}|no number): (?:the linear problem has no one"
+        r" solution|the numbers are not finite"
         r" any more)\. It is wrong\.",
         no_end,
     ),
     Claim(
-        rf"the middle 90 % of radii reach from ({LENGTH}) to ({LENGTH})\. The covariance said ({LENGTH}) to ({LENGTH})"
+        rf"the middle 90 % of radii reach from ({LENGTH}) to ({LENGTH})\. The covariance said"
+        rf" ({LENGTH}) to ({LENGTH})"
         rf"(?:: about right|(?:: about as wide|, too (narrow|wide) by a factor of ({NUMBER}))"
         r"(, and no circle has a radius below 0)?\. It is wrong)\.",
         repeated,
@@ -166,14 +176,17 @@ CAPTIONS = (
     Claim(rf"({NUMBER} %) of the starts are within 1 cm of the best circle", came_home),
     Claim(r"as a share of the true radius|takes [xy] as exact", None),
     Claim(
-        rf"RMS error to the truth ({LENGTH})(?:, of least squares ({LENGTH})\.)?( It (?:looks settled, and it )?is wrong)?",
+        rf"RMS error to the truth ({LENGTH})(?:, of least squares ({LENGTH})\.)?( It (?:looks"
+        r" settled, and it )?is wrong)?",
         trusted,
     ),
 )
 
 
 def leaps(run: Run, k: int, m: re.Match[str]) -> bool:
-    """Of the preset's own seed: the sums of squares of the start and of the first circle, and R after four."""
+    """Of the preset's own seed: the sums of squares of the start and of the first circle, and R
+    after four.
+    """
     if run.params.seed != LEAP.seed:
         return True
     kept = [
@@ -280,7 +293,8 @@ WHYS = {
     "predict-kasa": (Claim(rf"^({NUMBER}); Taubin's is ({NUMBER})\.", kept_share),),
     "predict-end": (
         Claim(
-            rf"^After (\d+) iterations R = ({LENGTH})\. The sum of squares fell to ({SQUARE}), that of the best straight"
+            rf"^After (\d+) iterations R = ({LENGTH})\. The sum of squares fell to ({SQUARE}), that"
+            r" of the best straight"
             rf" line: ({SQUARE})\.",
             escaped,
         ),

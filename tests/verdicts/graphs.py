@@ -1,4 +1,6 @@
-"""What the graphs lesson says of its runs, decided from edges and nodes with dense matrices, apart from its core."""
+"""What the graphs lesson says of its runs, decided from edges and nodes with dense matrices, apart
+from its core.
+"""
 
 import functools
 import re
@@ -49,7 +51,7 @@ def exact_error(run: Run, k: int) -> float:
     return float(np.abs(state.now.u - exact).max())
 
 
-# captions ---------------------------------------------------------------------------------------------------------------
+# captions -----------------------------------------------------------------------------------------
 
 
 def _true_sides(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -176,7 +178,8 @@ def middle(run: Run) -> float:
 
 CAPTIONS = [
     Claim(
-        r"(?P<n>[\d,]+) of (?P<all>[\d,]+) nodes are on their true side(?: \(not (?P<nodes>[\d, ]+)\))?",
+        r"(?P<n>[\d,]+) of (?P<all>[\d,]+) nodes are on their true side(?: \(not (?P<nodes>[\d,"
+        r" ]+)\))?",
         _true_sides,
     ),
     Claim(
@@ -207,7 +210,8 @@ CAPTIONS = [
     Claim(rf"(?P<off>{NUMBER}) mean edges \(RMS\)", _smooth),
     Claim(r"(?P<share>[\d.,]+ %) of the volume", _volume),
     Claim(
-        r"reached (?:(?P<every>all)|(?P<heard>[\d,]+) of) [\d,]+ nodes(?:; (?P<right>[\d,]+) are right)?",
+        r"reached (?:(?P<every>all)|(?P<heard>[\d,]+) of) [\d,]+ nodes(?:; (?P<right>[\d,]+) are"
+        r" right)?",
         _reached,
     ),
     Claim(r"(?P<share>(?:less than )?[\d.]+ %) of the features still tell nodes apart", _apart),
@@ -227,7 +231,7 @@ CAPTIONS = [
     ),
 ]
 
-# preset lines -----------------------------------------------------------------------------------------------------------
+# preset lines -------------------------------------------------------------------------------------
 
 
 def _of_twelve(run: Run) -> np.ndarray:
@@ -241,7 +245,9 @@ def _uneven(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _bridge(run: Run, k: int, m: re.Match[str]) -> bool:
-    """By sign a fifth of the edges of the big half or more; the best cut few, between the halves."""
+    """By sign a fifth of the edges of the big half or more; the best cut few, between the
+    halves.
+    """
     sign = run.states[2].now
     assert isinstance(sign, Cut)
     return sign.cut > 2 * last_cut(run).cut and middle(run) < 0.9 and correct(run.states[-1]) >= 412
@@ -274,7 +280,10 @@ def _sign_truer(run: Run, k: int, m: re.Match[str]) -> bool:
 LINES = {
     "one-way": [
         Claim(r"1,500 points", lambda run, k, m: len(run.states[0].subject.p) == 1500),
-        Claim(r"(?P<share>39 %) of the namings are not returned", of_preset(lambda run, k, m: _one_way(run, 0, m))),
+        Claim(
+            r"(?P<share>39 %) of the namings are not returned",
+            of_preset(lambda run, k, m: _one_way(run, 0, m)),
+        ),
     ],
     "matrix": [
         Claim(
@@ -289,7 +298,9 @@ LINES = {
     ],
     "split": [
         Claim(r"0 is an eigenvalue twice", lambda run, k, m: len(parts(A(run.states[0]))) == 2),
-        Claim(r"it is 100 against 100 nodes", lambda run, k, m: run.states[2].now.side.sum() == 100),
+        Claim(
+            r"it is 100 against 100 nodes", lambda run, k, m: run.states[2].now.side.sum() == 100
+        ),
     ],
     "square": [
         Claim(
@@ -301,21 +312,29 @@ LINES = {
         Claim(
             r"Where a sphere has λ = 12 seven times, this graph has 11 to 12\.6: two groups",
             lambda run, k, m: bool(
-                np.allclose(_of_twelve(run)[:3], 11.0, atol=0.05) and np.allclose(_of_twelve(run)[3:], 12.6, atol=0.05)
+                np.allclose(_of_twelve(run)[:3], 11.0, atol=0.05)
+                and np.allclose(_of_twelve(run)[3:], 12.6, atol=0.05)
             ),
         ),
     ],
     "cotangent": [
         Claim(
             r"all seven are 11\.85 to 11\.92",
-            lambda run, k, m: bool(np.allclose([_of_twelve(run).min(), _of_twelve(run).max()], [11.85, 11.92], atol=0.005)),
+            lambda run, k, m: bool(
+                np.allclose(
+                    [_of_twelve(run).min(), _of_twelve(run).max()], [11.85, 11.92], atol=0.005
+                )
+            ),
         ),
     ],
     "uneven": [Claim(r"the three slowest should all be 2, and are 1\.7, 1\.8 and 2\.5", _uneven)],
     "twins": [
         Claim(
-            r"both A have eigenvalues −2, 0, 0, 0, 2\. Those of L differ: 0, 1, 1, 1, 5 and 0, 0, 2, 2, 4",
-            lambda run, k, m: _spectra_of_pair(run, [(-2, 0, 0, 0, 2)] * 2, [(0, 1, 1, 1, 5), (0, 0, 2, 2, 4)]),
+            r"both A have eigenvalues −2, 0, 0, 0, 2\. Those of L differ: 0, 1, 1, 1, 5 and 0, 0,"
+            r" 2, 2, 4",
+            lambda run, k, m: _spectra_of_pair(
+                run, [(-2, 0, 0, 0, 2)] * 2, [(0, 1, 1, 1, 5), (0, 0, 2, 2, 4)]
+            ),
         ),
     ],
     "warm": [
@@ -327,7 +346,10 @@ LINES = {
     "shrink": [
         Claim(
             r"noise goes in a few rounds",
-            lambda run, k, m: off(run.states[5], run.states[5].now.p) < 0.6 * off(run.states[0], run.states[0].now.p),
+            lambda run, k, m: (
+                off(run.states[5], run.states[5].now.p)
+                < 0.6 * off(run.states[0], run.states[0].now.p)
+            ),
         ),
     ],
     "taubin": [
@@ -340,16 +362,23 @@ LINES = {
         Claim(
             r"Everybody has heard after two",
             lambda run, k, m: all(
-                (np.abs(s.now.features).sum(axis=1) > 0).all() for s in run.states if s.now.layer == 2
+                (np.abs(s.now.features).sum(axis=1) > 0).all()
+                for s in run.states
+                if s.now.layer == 2
             ),
         ),
     ],
-    "trained": [Claim(r"in the end 33 of 34 are right", of_preset(lambda run, k, m: correct(run.states[-1]) == 33))],
+    "trained": [
+        Claim(
+            r"in the end 33 of 34 are right",
+            of_preset(lambda run, k, m: correct(run.states[-1]) == 33),
+        )
+    ],
     "deeper": [Claim(r"watch what is right", None)],
     "same": [
         Claim(r"every message is the same too", lambda run, k, m: _same(run, k)),
     ],
-}  # fmt: skip
+}
 
 WHYS = {
     "mutual": [

@@ -1,4 +1,6 @@
-"""When the sentences of the ICP lesson are true, decided with scipy from the motions and the truth they carry."""
+"""When the sentences of the ICP lesson are true, decided with scipy from the motions and the truth
+they carry.
+"""
 
 import re
 from collections.abc import Callable, Iterator
@@ -101,7 +103,9 @@ def fit_ends(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def another_experiment(run: Run, k: int, m: re.Match[str]) -> bool:
-    """The try has so many points, and starts on the other side of the truth, without the run's shift."""
+    """The try has so many points, and starts on the other side of the truth, without the run's
+    shift.
+    """
     scans = run.states[k].scans
     assert scans.T_truth is not None
     start = (scans.T_start @ np.linalg.inv(scans.T_truth))[:3, :3]
@@ -116,7 +120,8 @@ def another_experiment(run: Run, k: int, m: re.Match[str]) -> bool:
 ANGLE = rf"(less than 0\.001|{NUMBER})°"
 CAPTIONS = (
     Claim(
-        r"Another start, with (\d+) of the source's points(?:, turned the other way)?(?:, not shifted)?: ",
+        r"Another start, with (\d+) of the source's points(?:, turned the other way)?(?:, not"
+        r" shifted)?: ",
         another_experiment,
     ),
     Claim(

@@ -1,4 +1,6 @@
-"""When the sentences of the pose lesson are true, decided by scipy's rotations and plain sums from its states."""
+"""When the sentences of the pose lesson are true, decided by scipy's rotations and plain sums from
+its states.
+"""
 
 import re
 from collections.abc import Iterator
@@ -126,7 +128,9 @@ def of_stop(run: Run) -> int:
 
 
 def left_to_chance(run: Run, k: int, m: re.Match[str]) -> bool:
-    """In a good part of the pictures, but not in most, the other pose fits better; by less than the noise adds up to."""
+    """In a good part of the pictures, but not in most, the other pose fits better; by less than the
+    noise adds up to.
+    """
     found = others(run)
     assert found.swapped is not None
     return 0.15 < found.swapped / found.pictures < 0.7
@@ -154,7 +158,8 @@ LINES = {
 WHYS = {
     "predict-few": (
         Claim(
-            rf"^In ({NUMBER}) % by this implementation, by OpenCV's in about twice as many, and SQPnP's in ({NUMBER}) %",
+            rf"^In ({NUMBER}) % by this implementation, by OpenCV's in about twice as many, and"
+            rf" SQPnP's in ({NUMBER}) %",
             lambda run, k, m: turned_far(run, len(run.states) - 1, m),
         ),
     ),

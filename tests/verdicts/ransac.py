@@ -1,4 +1,6 @@
-"""What the RANSAC lesson says of its runs, decided from the rows and the truth that a state carries."""
+"""What the RANSAC lesson says of its runs, decided from the rows and the truth that a state
+carries.
+"""
 
 import dataclasses
 import re
@@ -59,7 +61,9 @@ def distance(name: str) -> str:
 
 
 def same(said: str, value: float) -> bool:
-    """Whether a distance as it is written is this one, to the digits that are written: of thousands of pixels two."""
+    """Whether a distance as it is written is this one, to the digits that are written: of thousands
+    of pixels two.
+    """
     return (
         near(said.removesuffix(" px"), value, 3 if value < 1e3 else 2)
         if said.endswith("px")
@@ -184,7 +188,8 @@ CAPTIONS = (
     ),
     Claim(r"The best so far has (?P<n>[\d,]+) votes?( \([^)]*\))?: it stays", stays),
     Claim(
-        r"New best after (?P<after>[\d,]+) samples?: (?P<n>[\d,]+) votes?( \([^)]*\))?, (?P<share>\d+) % of all",
+        r"New best after (?P<after>[\d,]+) samples?: (?P<n>[\d,]+) votes?( \([^)]*\))?,"
+        r" (?P<share>\d+) % of all",
         is_new_best,
     ),
     Claim(r"Of the (?P<n>[\d,]+) most trusted (?P<share>\d+) % vote for it", trusted),
@@ -193,18 +198,21 @@ CAPTIONS = (
         lambda run, k, _: most_trusted(run.states[k]) == (0, 0.0),
     ),
     Claim(
-        r"If that is the share of inliers, (the )?(?P<n>[\d,]+) samples? (allowed )?give (?P<no>no )?(?P<p>[\d.]+) %"
+        r"If that is the share of inliers, (the )?(?P<n>[\d,]+) samples? (allowed )?give (?P<no>no"
+        r" )?(?P<p>[\d.]+) %"
         r" confidence that one of them is free of outliers",
         draws_needed,
     ),
     Claim(
-        r"least squares on the (?P<n>[\d,]+) that voted for it, then all vote anew: (?P<old>[\d,]+) → (?P<new>[\d,]+) votes;"
+        r"least squares on the (?P<n>[\d,]+) that voted for it, then all vote anew: (?P<old>[\d,]+)"
+        r" → (?P<new>[\d,]+) votes;"
         rf" RMS error to the truth {distance('was')} → {distance('is')}",
         refit,
     ),
     Claim(rf"RMS error to the truth {distance('n')}(?! →)\b", error_is),
     Claim(
-        r"Stop after (?P<n>[\d,]+) samples?: (?P<why>enough samples for the confidence asked for|the maximum number of"
+        r"Stop after (?P<n>[\d,]+) samples?: (?P<why>enough samples for the confidence asked"
+        r" for|the maximum number of"
         r" samples is reached)",
         stopped,
     ),
@@ -225,7 +233,7 @@ CAPTIONS = (
 )
 
 
-# preset lines -------------------------------------------------------------------------------------------------------
+# preset lines -------------------------------------------------------------------------------------
 
 
 def at(seed: int, holds: Callable[[Run], bool]) -> Callable[[Run, int, re.Match[str]], bool]:
@@ -239,7 +247,9 @@ def both_kept(run: Run) -> bool:
 
 
 def twice_as_many(run: Run, k: int, found: re.Match[str]) -> bool:
-    """Of the points on either plane: the wall is upright in the table's own directions, 1 m from its middle."""
+    """Of the points on either plane: the wall is upright in the table's own directions, 1 m from
+    its middle.
+    """
     state = run.states[-1]
     wall = (
         state.now.best.inliers & ~state.subject.is_inlier
@@ -339,7 +349,8 @@ LINES = {
             lambda run, k, _: run.params.inlier_distance == 0.15,
         ),
         Claim(
-            "the sample that it keeps is 5 mm from the truth; the one that a count keeps is 49 mm off",
+            "the sample that it keeps is 5 mm from the truth; the one that a count keeps is 49"
+            " mm off",
             at(0, both_kept),
         ),
     ),
@@ -349,8 +360,8 @@ LINES = {
     ),
     "collinear": (
         Claim(
-            "You picked three points of a taut wire: a whole pencil of planes goes through them. The sample is lost, and"
-            " still counts as drawn",
+            "You picked three points of a taut wire: a whole pencil of planes goes through them."
+            " The sample is lost, and still counts as drawn",
             on_a_wire,
         ),
     ),
@@ -383,7 +394,7 @@ LINES = {
 }
 
 
-# explanations -------------------------------------------------------------------------------------------------------
+# explanations -------------------------------------------------------------------------------------
 
 
 def of_one_sample(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -429,7 +440,8 @@ def three_errors(run: Run, k: int, found: re.Match[str]) -> bool:
 WHYS = {
     "predict-needed": (
         Claim(
-            r"clean with probability (?P<w>[\d.]+)³ = (?P<cube>[\d.]+), and (?P<spoilt>[\d.]+) to the power (?P<n>\d+) falls"
+            r"clean with probability (?P<w>[\d.]+)³ = (?P<cube>[\d.]+), and (?P<spoilt>[\d.]+) to"
+            r" the power (?P<n>\d+) falls"
             r" below 0\.01",
             of_one_sample,
         ),
@@ -461,8 +473,7 @@ WHYS = {
     ),
     "predict-huber": (
         Claim(
-            rf"RANSAC {distance('r')}, Huber {distance('h')}, least squares {distance('s')}"
-            " off",
+            rf"RANSAC {distance('r')}, Huber {distance('h')}, least squares {distance('s')}" " off",
             three_errors,
         ),
         Claim("here nearly all of them pull upwards", pull_upwards),

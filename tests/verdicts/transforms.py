@@ -48,7 +48,9 @@ def caption(state: Any) -> Caption:
 
 
 def right(run: Run, k: int) -> bool | None:
-    """A build is right where what it shows as done is so; a move at its end, rigid and by the shortest turn."""
+    """A build is right where what it shows as done is so; a move at its end, rigid and by the
+    shortest turn.
+    """
     state = run.states[k]
     if isinstance(state, Moved):
         if np.abs(volumes(run, k)[-1] - 1) > SMALL:
@@ -67,7 +69,7 @@ def right(run: Run, k: int) -> bool | None:
     return True
 
 
-# The sentences --------------------------------------------------------------------------------------------------------
+# The sentences ------------------------------------------------------------------------------------
 
 
 def _start(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -182,7 +184,9 @@ def _volume(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _best_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
-    """By squares: no rotation of a grid of them about the middle brings the mirrored house nearer than Kabsch's."""
+    """By squares: no rotation of a grid of them about the middle brings the mirrored house nearer
+    than Kabsch's.
+    """
     p, q = (
         run.states[0].body.solid.p,
         mapped(product(run, complete_at(run)), run.states[0].body.solid.p),
@@ -194,10 +198,16 @@ def _best_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _stays(run: Run, k: int, m: re.Match[str]) -> bool:
-    """The last body does not lie on the first, by the factors that are named, and has so much of its volume."""
+    """The last body does not lie on the first, by the factors that are named, and has so much of
+    its volume.
+    """
     p, params = run.states[0].body.solid.p, run.params
-    named = {"scale": params.scale != (1, 1, 1), "shear": params.shear != 0, "division by w": params.perspective != 0,
-             "reflection": params.mirror != "none"}  # fmt: skip
+    named = {
+        "scale": params.scale != (1, 1, 1),
+        "shear": params.shear != 0,
+        "division by w": params.perspective != 0,
+        "reflection": params.mirror != "none",
+    }
     grown = abs(volume(run, k) / volume(run, 0))
     size = abs(grown - 1) < SMALL if m[2] is None else says(m[2], grown)
     apart_by = farthest(product(run, k), np.eye(4), p)
@@ -210,34 +220,55 @@ def _stays(run: Run, k: int, m: re.Match[str]) -> bool:
 
 CAPTIONS = (
     Claim("Beside it: best rigid motion", _best_of_all),
-    Claim(rf"The \S+ before anything is done: ({NUMBER}) vertices, volume ({NUMBER}) m³; T is the identity", _start),
-    Claim(rf"edges change by up to ({NUMBER}) %, volumes × ({NUMBER})", _scaled),
-    Claim(rf"angles change by up to ({NUMBER})°, yet det is ({NUMBER}): the volume stays", _sheared),
     Claim(
-        rf"straight edges stay straight, but edges that were parallel are now up to ({NUMBER})° apart. The last row of T is"
+        rf"The \S+ before anything is done: ({NUMBER}) vertices, volume ({NUMBER}) m³; T is the"
+        r" identity",
+        _start,
+    ),
+    Claim(rf"edges change by up to ({NUMBER}) %, volumes × ({NUMBER})", _scaled),
+    Claim(
+        rf"angles change by up to ({NUMBER})°, yet det is ({NUMBER}): the volume stays", _sheared
+    ),
+    Claim(
+        rf"straight edges stay straight, but edges that were parallel are now up to ({NUMBER})°"
+        r" apart. The last row of T is"
         " no longer 0 0 0 1",
         _divided,
     ),
     Claim(
-        rf"det is ({NUMBER}). Every length and angle is kept, but a left hand would now be a right one; no rotation does"
+        rf"det is ({NUMBER}). Every length and angle is kept, but a left hand would now be a right"
+        r" one; no rotation does"
         " that",
         _mirrored,
     ),
     Claim(rf"every point \(w = 1\) moved ({LENGTH}), every direction \(w = 0\) 0 m", _translated),
     Claim(rf"vertex (\d+) moved ({LENGTH}), and every length, angle and volume survived", _turned),
-    Claim("that is not at all: nothing moved", lambda run, k, m: bool(moved_by(run, k).max() < SMALL)),
-    Claim(r"Gimbal lock: angles 1 and 3 turn about one axis; \((.*?)\)° is the same rotation", _locked),
-    Claim(rf"(?<=, )farthest vertex ({LENGTH})(?: to ({LENGTH}))? off", lambda run, k, m: _beside(run, k, m) and len(
-        readings(run)) == sum(distance >= SMALL for distance in readings(run))),
+    Claim(
+        "that is not at all: nothing moved", lambda run, k, m: bool(moved_by(run, k).max() < SMALL)
+    ),
+    Claim(
+        r"Gimbal lock: angles 1 and 3 turn about one axis; \((.*?)\)° is the same rotation", _locked
+    ),
+    Claim(
+        rf"(?<=, )farthest vertex ({LENGTH})(?: to ({LENGTH}))? off",
+        lambda run, k, m: (
+            _beside(run, k, m)
+            and len(readings(run)) == sum(distance >= SMALL for distance in readings(run))
+        ),
+    ),
     Claim(rf"(?<=: )farthest vertex ({LENGTH})(?: to ({LENGTH}))? off", _beside),
     Claim(rf"({NUMBER}) of ({NUMBER}) the same", _count),
     Claim(rf"(?:all ({NUMBER}) )?the same motion", _all_same),
     Claim(rf"The front taken with w = 1 points ({NUMBER})° away from it", _front),
     Claim(
         rf"all ({NUMBER}) vertices are where they were before the motion",
-        lambda run, k, m: left_after_undo(run) < SMALL and number(m[1]) == len(run.states[0].body.solid.p),
+        lambda run, k, m: (
+            left_after_undo(run) < SMALL and number(m[1]) == len(run.states[0].body.solid.p)
+        ),
     ),
-    Claim(rf"The (.*?) came before it and stays?(?:, and with it the volume × ({NUMBER}))?\.", _stays),
+    Claim(
+        rf"The (.*?) came before it and stays?(?:, and with it the volume × ({NUMBER}))?\.", _stays
+    ),
     Claim(
         rf"leaves its farthest vertex ({LENGTH}) off",
         lambda run, k, m: says_length(m[1], farthest(*wrong_undo(run), run.states[0].body.solid.p)),
@@ -246,17 +277,23 @@ CAPTIONS = (
         rf"[Tt]he shortest turn(?: to the end)? is ({NUMBER})°",
         lambda run, k, m: says(m[1], turn_between(*poses(run.params))),
     ),
-    Claim(rf"t = ({NUMBER}) by .*: turned ({NUMBER})° so far, pose by pose, ({NUMBER})° of it in this step", _gone),
+    Claim(
+        rf"t = ({NUMBER}) by .*: turned ({NUMBER})° so far, pose by pose, ({NUMBER})° of it in this"
+        r" step",
+        _gone,
+    ),
     Claim(rf"the volume is ({NUMBER}) % of the start's, so this is no rotation", _volume),
     Claim(
-        rf"((?:{NUMBER}° from|on) the shortest turn)(?:, its origin ({LENGTH}) from where lerp has it)?", _off
+        rf"((?:{NUMBER}° from|on) the shortest turn)(?:, its origin ({LENGTH}) from where lerp has"
+        r" it)?",
+        _off,
     ),
     Claim(
         rf"on the way the volume fell to ({NUMBER}) %",
         lambda run, k, m: says(m[1], 100 * float(volumes(run, k).min()), 3),
     ),
     Claim("The end is met", lambda run, k, m: met(run)),
-)  # fmt: skip
+)
 
 
 def _order(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -359,62 +396,119 @@ def _steady(run: Run, k: int, m: re.Match[str]) -> bool:
 LINES = {
     "order": (Claim("a rotation turns about the world's origin, so it swings along", _order),),
     "gimbal": (
-        Claim("The pose is reached all the same, even by a whole family of triples", lambda run, k, m: (
-            max(readings(run)) < SMALL and len(readings(run)) > 2)),
+        Claim(
+            "The pose is reached all the same, even by a whole family of triples",
+            lambda run, k, m: max(readings(run)) < SMALL and len(readings(run)) > 2,
+        ),
     ),
     "conventions": (
-        Claim(r"\(40, 30, 70\)° are four different rotations", lambda run, k, m: run.params.angles == (40, 30, 70) and min(
-            turn_between(rigid(rotation_of(None, run.params.angles, a), np.zeros(3)),
-                         rigid(rotation_of(None, run.params.angles, b), np.zeros(3)))
-            for a, b in itertools.combinations(("xyz", "XYZ", "ZYX", "ZXZ"), 2)) > 5),
+        Claim(
+            r"\(40, 30, 70\)° are four different rotations",
+            lambda run, k, m: (
+                run.params.angles == (40, 30, 70)
+                and min(
+                    turn_between(
+                        rigid(rotation_of(None, run.params.angles, a), np.zeros(3)),
+                        rigid(rotation_of(None, run.params.angles, b), np.zeros(3)),
+                    )
+                    for a, b in itertools.combinations(("xyz", "XYZ", "ZYX", "ZXZ"), 2)
+                )
+                > 5
+            ),
+        ),
     ),
     "fixed-own": (
-        Claim("xyz about fixed axes is ZYX about carried axes with the numbers in reverse", lambda run, k, m: (
-            readings(run)[0] < SMALL)),
+        Claim(
+            "xyz about fixed axes is ZYX about carried axes with the numbers in reverse",
+            lambda run, k, m: readings(run)[0] < SMALL,
+        ),
         Claim("XYZ with the same numbers is not", lambda run, k, m: readings(run)[1] > 0.1),
     ),
     "mirror": (
-        Claim("Every length and angle survives, yet det is −1", lambda run, k, m: bool(
-            close(np.linalg.det(product(run, 1)), -1) and close(lengths(run, 1), lengths(run, 0)))),
-        Claim("the best of all rigid motions, by the sum of squared distances: it does not fit", lambda run, k, m: (
-            _best_of_all(run, k, m) and squares(run) > 0.1)),
+        Claim(
+            "Every length and angle survives, yet det is −1",
+            lambda run, k, m: bool(
+                close(np.linalg.det(product(run, 1)), -1)
+                and close(lengths(run, 1), lengths(run, 0))
+            ),
+        ),
+        Claim(
+            "the best of all rigid motions, by the sum of squared distances: it does not fit",
+            lambda run, k, m: _best_of_all(run, k, m) and squares(run) > 0.1,
+        ),
     ),
     "shear": (Claim("Each horizontal layer slides as it is, the higher the farther", _layers),),
     "perspective": (Claim("keeps straight lines straight.*run to one point", _one_point),),
-    "transpose": (Claim("80° from where it belongs", lambda run, k, m: close(
-        turn_between(motion_of(run.params), run.states[complete_at(run)].ghosts[0].T), 80)),),
+    "transpose": (
+        Claim(
+            "80° from where it belongs",
+            lambda run, k, m: close(
+                turn_between(motion_of(run.params), run.states[complete_at(run)].ghosts[0].T), 80
+            ),
+        ),
+    ),
     "inverse": (
         Claim(r"\(Rᵀ, −Rᵀt\) returns to the start", lambda run, k, m: left_after_undo(run) < SMALL),
         Claim(
-            rf"this quarter turn \(Rᵀ, −t\) misses it by ({NUMBER}) m, farther than t is long \(({NUMBER}) m\)",
+            rf"this quarter turn \(Rᵀ, −t\) misses it by ({NUMBER}) m, farther than t is long"
+            rf" \(({NUMBER}) m\)",
             _misses_by_more,
         ),
     ),
     "hidden-scale": (Claim("the house ends 1.3² = 1.69 times as long, wide and high", _grown),),
     "xyzw": (Claim("a turn of 40° about z has become one of 140° about x", _misread),),
-    "direction": (Claim("no longer points to the front", lambda run, k, m: (
-        float(np.linalg.norm(np.cross(*fronts(run, complete_at(run))))) > 0.1)),),
+    "direction": (
+        Claim(
+            "no longer points to the front",
+            lambda run, k, m: float(np.linalg.norm(np.cross(*fronts(run, complete_at(run))))) > 0.1,
+        ),
+    ),
     "minus-q": (
-        Claim("still arrives, but turns 300° where 60° would do", lambda run, k, m: met(run) and close(
-            turned(run, k).sum(), 300) and close(turn_between(*poses(run.params)), 60)),
-        Claim("the wrong one", lambda run, k, m: turned(run, k).sum() > turn_between(*poses(run.params)) + 1),
+        Claim(
+            "still arrives, but turns 300° where 60° would do",
+            lambda run, k, m: (
+                met(run)
+                and close(turned(run, k).sum(), 300)
+                and close(turn_between(*poses(run.params)), 60)
+            ),
+        ),
+        Claim(
+            "the wrong one",
+            lambda run, k, m: turned(run, k).sum() > turn_between(*poses(run.params)) + 1,
+        ),
     ),
     "one-axis": (Claim("the body turns about it at constant speed", _steady),),
     "wobble": (Claim("the body leaves the shortest turn and changes its pace", _pace),),
-    "average": (Claim("Two headings, 20° apart", lambda run, k, m: bool(
-        close(turn_between(*poses(run.params)), 20) and turned(run, k).sum() > 180)),),
-    "entries": (Claim("Each entry of the matrix runs evenly to that of a rotation 170° away", _squeezed),),
-    "screw": (
-        Claim("The origin follows a helix, not a straight line|the origin follows a helix, not a straight line", _helix),
+    "average": (
+        Claim(
+            "Two headings, 20° apart",
+            lambda run, k, m: bool(
+                close(turn_between(*poses(run.params)), 20) and turned(run, k).sum() > 180
+            ),
+        ),
     ),
-}  # fmt: skip
+    "entries": (
+        Claim("Each entry of the matrix runs evenly to that of a rotation 170° away", _squeezed),
+    ),
+    "screw": (
+        Claim(
+            "The origin follows a helix, not a straight line|the origin follows a helix, not a"
+            " straight line",
+            _helix,
+        ),
+    ),
+}
 
 
 def _two_directions(run: Run, k: int, m: re.Match[str]) -> bool:
     """As many as small changes of the angles reach, by finite differences."""
     R, tiny = rotation_of(run.params, run.params.angles), 1e-5
-    J = [Rotation.from_matrix(rotation_of(run.params, tuple(np.array(run.params.angles) + tiny * e)) @ R.T).as_rotvec()
-         for e in np.eye(3)]  # fmt: skip
+    J = [
+        Rotation.from_matrix(
+            rotation_of(run.params, tuple(np.array(run.params.angles) + tiny * e)) @ R.T
+        ).as_rotvec()
+        for e in np.eye(3)
+    ]
     return number(m[1]) == np.sum(np.linalg.svd(J)[1] > 1e-3 * np.radians(tiny))
 
 
@@ -427,16 +521,44 @@ def _jump(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 WHYS = {
-    "which-order": (Claim(rf"({NUMBER}) m: turned last, .* are √2 · 1.5 m apart", lambda run, k, m: says(
-        m[1], readings(run)[0]) and close(readings(run)[0], 1.5 * np.sqrt(2))),),
+    "which-order": (
+        Claim(
+            rf"({NUMBER}) m: turned last, .* are √2 · 1.5 m apart",
+            lambda run, k, m: (
+                says(m[1], readings(run)[0]) and close(readings(run)[0], 1.5 * np.sqrt(2))
+            ),
+        ),
+    ),
     "lost-direction": (
         Claim(rf"({NUMBER}): angles 1 and 3 turn about the same line", _two_directions),
         Claim(r"needs a jump from \((.*?)\)° to \((.*?)\)°", _jump),
     ),
-    "sheared-volume": (Claim(rf"It is ({NUMBER}) % of what it was.*det = ({NUMBER})", lambda run, k, m: says(
-        m[1], 100 * volume(run, 1) / volume(run, 0)) and says(m[2], float(np.linalg.det(product(run, 1))))),),
-    "mean-heading": (Claim(rf"({NUMBER})°: the number runs through 0°. The two headings are only ({NUMBER})° apart", lambda
-        run, k, m: says(m[1], float(turned(run, k).sum())) and says(m[2], turn_between(*poses(run.params)))),),
-    "mean-matrix": (Claim(rf"({NUMBER}) %: across the axis every length shrinks to cos 85° = 0.087", lambda run, k, m: says(
-        m[1], 100 * np.cos(np.radians(85)) ** 2) and says(m[1], 100 * float(volumes(run, 15)[-1]))),),
-}  # fmt: skip
+    "sheared-volume": (
+        Claim(
+            rf"It is ({NUMBER}) % of what it was.*det = ({NUMBER})",
+            lambda run, k, m: (
+                says(m[1], 100 * volume(run, 1) / volume(run, 0))
+                and says(m[2], float(np.linalg.det(product(run, 1))))
+            ),
+        ),
+    ),
+    "mean-heading": (
+        Claim(
+            rf"({NUMBER})°: the number runs through 0°. The two headings are only ({NUMBER})°"
+            r" apart",
+            lambda run, k, m: (
+                says(m[1], float(turned(run, k).sum()))
+                and says(m[2], turn_between(*poses(run.params)))
+            ),
+        ),
+    ),
+    "mean-matrix": (
+        Claim(
+            rf"({NUMBER}) %: across the axis every length shrinks to cos 85° = 0.087",
+            lambda run, k, m: (
+                says(m[1], 100 * np.cos(np.radians(85)) ** 2)
+                and says(m[1], 100 * float(volumes(run, 15)[-1]))
+            ),
+        ),
+    ),
+}

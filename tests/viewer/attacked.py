@@ -1,4 +1,6 @@
-"""A server that is attacked while somebody works there: the others go on, and nothing is left of anybody."""
+"""A server that is attacked while somebody works there: the others go on, and nothing is left of
+anybody.
+"""
 
 import asyncio
 import contextlib

@@ -1,4 +1,6 @@
-"""A page's requests on the live server, without a browser: what comes from another thread wakes a page that is at rest."""
+"""A page's requests on the live server, without a browser: what comes from another thread wakes a
+page that is at rest.
+"""
 
 import asyncio
 import json

@@ -1,4 +1,6 @@
-"""A person's own files on a page, over HTTP: bounded, under names of ours, gone with the page; no path from outside."""
+"""A person's own files on a page, over HTTP: bounded, under names of ours, gone with the page; no
+path from outside.
+"""
 
 import contextlib
 import json
@@ -22,10 +24,20 @@ from workbench.viewer import own_files
 from workbench.viewer.server import Server
 
 HOSTILE = (
-    "../../../etc/passwd", "..", ".", "", "/etc/passwd", "a/b.npy", "..\\..\\x.npy", "x.npy\0.txt", "x." + "a" * 300,
+    "../../../etc/passwd",
+    "..",
+    ".",
+    "",
+    "/etc/passwd",
+    "a/b.npy",
+    "..\\..\\x.npy",
+    "x.npy\0.txt",
+    "x." + "a" * 300,
     "~/.ssh/id",
-    "con.npy ", "‮ypn.exe", "x.n/../../y",
-)  # fmt: skip
+    "con.npy ",
+    "‮ypn.exe",
+    "x.n/../../y",
+)
 
 
 @pytest.fixture
@@ -220,9 +232,17 @@ def test_files_of_the_command_line_stay_whatever_the_address_says(server, tmp_pa
 def test_no_verb_takes_a_path(server, verb, path):
     with opened(server) as page:
         page.say(
-            verb=verb, values={"scan": path}, scan=path, field="scan", run=path, k=path, question=path,
-            query=f"?lesson=fake&scan={path}", lesson="fake", given=path,
-        )  # fmt: skip
+            verb=verb,
+            values={"scan": path},
+            scan=path,
+            field="scan",
+            run=path,
+            k=path,
+            question=path,
+            query=f"?lesson=fake&scan={path}",
+            lesson="fake",
+            given=path,
+        )
         page.say(verb="seek", k=1)
         page.until(lambda told: told["tell"] == "step" and told["k"] == 1)
         student = server.students[page.token]

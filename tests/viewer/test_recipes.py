@@ -1,4 +1,6 @@
-"""The recipes of docs/serving, as they stand there: nginx before one server and before several, and the container's."""
+"""The recipes of docs/serving, as they stand there: nginx before one server and before several, and
+the container's.
+"""
 
 import asyncio
 import contextlib
@@ -47,8 +49,8 @@ def nginx(folder: Path, http: str, location: str) -> Iterator[int]:
         for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
     )
     (folder / "nginx.conf").write_text(
-        f"daemon off; pid {folder}/pid; error_log stderr; events {{}}\n"
-        f"http {{ access_log off; {places}\n{http}\nserver {{ listen 127.0.0.1:{port};\n{location}\n}} }}\n"
+        f"daemon off; pid {folder}/pid; error_log stderr; events {{}}\nhttp {{ access_log off;"
+        f" {places}\n{http}\nserver {{ listen 127.0.0.1:{port};\n{location}\n}} }}\n"
     )
     assert NGINX is not None
     process = subprocess.Popen(
@@ -150,9 +152,16 @@ def jupyter(tmp_path_factory) -> Iterator[str]:
     folder = tmp_path_factory.mktemp("jupyter")
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
-    words = ["--no-browser", "--allow-root", "--ServerApp.ip=127.0.0.1", f"--ServerApp.port={port}",
-             "--ServerApp.port_retries=0", f"--ServerApp.root_dir={folder}", "--IdentityProvider.token=",
-             "--ServerApp.jpserver_extensions={'jupyter_server_proxy': True}"]  # fmt: skip
+    words = [
+        "--no-browser",
+        "--allow-root",
+        "--ServerApp.ip=127.0.0.1",
+        f"--ServerApp.port={port}",
+        "--ServerApp.port_retries=0",
+        f"--ServerApp.root_dir={folder}",
+        "--IdentityProvider.token=",
+        "--ServerApp.jpserver_extensions={'jupyter_server_proxy': True}",
+    ]
     homes = {
         name: str(folder)
         for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_DATA_DIR", "IPYTHONDIR")

@@ -1,4 +1,6 @@
-"""Browsers that answer nothing, take nothing or send garbage: others go on, and when they have gone nothing is left."""
+"""Browsers that answer nothing, take nothing or send garbage: others go on, and when they have gone
+nothing is left.
+"""
 
 import asyncio
 import contextlib
@@ -147,8 +149,21 @@ def test_a_scene_that_is_not_taken_is_not_buffered_without_bound(server):
     meanwhile(server, attack)
 
 
-GARBAGE = ("", "{", "[]", "null", "7", '"open"', '{"verb": 1}', '{"verb": "__init__"}', '{"verb": ["seek"]}', "[" * 19_000,
-           '{"verb": "click"}', '{"verb": "seek"}' + " " * 30_000, "\x00")  # fmt: skip
+GARBAGE = (
+    "",
+    "{",
+    "[]",
+    "null",
+    "7",
+    '"open"',
+    '{"verb": 1}',
+    '{"verb": "__init__"}',
+    '{"verb": ["seek"]}',
+    "[" * 19_000,
+    '{"verb": "click"}',
+    '{"verb": "seek"}' + " " * 30_000,
+    "\x00",
+)
 ODD = (
     None,
     True,
@@ -347,7 +362,9 @@ def test_when_nobody_is_there_for_a_while_nothing_is_held(monkeypatch):
 
 
 def test_no_wish_link_or_knob_opens_a_file(server):
-    """Thirteen fields by nine paths, through every verb and link, while an audit hook notes what is opened."""
+    """Thirteen fields by nine paths, through every verb and link, while an audit hook notes what is
+    opened.
+    """
     names = [
         "scan",
         "query",
@@ -368,8 +385,17 @@ def test_no_wish_link_or_knob_opens_a_file(server):
         {field.name for lesson in lessons for field in fields_of(lesson.params) if field.sensitive}
         - {"scan"}
     )
-    paths = ["/etc/passwd", "../../../etc/passwd", "file:///etc/passwd", "/proc/self/environ", "~/.ssh/id_rsa", "/dev/zero",
-             "..%2f..%2fetc%2fpasswd", "/etc/passwd\x00.npy", "http://127.0.0.1:1/x.npy"]  # fmt: skip
+    paths = [
+        "/etc/passwd",
+        "../../../etc/passwd",
+        "file:///etc/passwd",
+        "/proc/self/environ",
+        "~/.ssh/id_rsa",
+        "/dev/zero",
+        "..%2f..%2fetc%2fpasswd",
+        "/etc/passwd\x00.npy",
+        "http://127.0.0.1:1/x.npy",
+    ]
     marks = ("passwd", "environ", "id_rsa", "/dev/zero", "127.0.0.1:1")
     opened: list[str] = []
     watching = True
@@ -416,7 +442,7 @@ def test_no_wish_link_or_knob_opens_a_file(server):
         ):
             asked = path.replace("\x00", "%00")
             writer.write(
-                f"GET /{asked.lstrip('/')} HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode()
+                f"GET /{asked.lstrip('/')} HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode()  # noqa: E501
             )
             assert (await reader.readuntil(b"\r\n")).split()[1] in (b"404", b"200", b"307")
             head = await reader.readuntil(b"\r\n\r\n")

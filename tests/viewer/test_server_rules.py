@@ -97,8 +97,16 @@ def test_on_loopback_only_names_of_this_machine_are_answered(local):
 def test_a_page_of_another_origin_opens_no_websocket(local, path):
     own = f"http://127.0.0.1:{local.port}"
     assert enters(local, path, Origin=own)
-    for origin in ("http://evil.example", "null", "http://127.0.0.1:1", f"{own}.evil.example", "http://localhost", "",
-                   f"https://evil.example:{local.port}", f"file://127.0.0.1:{local.port}"):  # fmt: skip
+    for origin in (
+        "http://evil.example",
+        "null",
+        "http://127.0.0.1:1",
+        f"{own}.evil.example",
+        "http://localhost",
+        "",
+        f"https://evil.example:{local.port}",
+        f"file://127.0.0.1:{local.port}",
+    ):
         assert not enters(local, path, Origin=origin), origin
 
 

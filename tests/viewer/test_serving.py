@@ -43,12 +43,17 @@ def test_the_course_is_served_at_the_address_that_is_printed_until_interrupted()
         port = address.rpartition(":")[2]
         done = subprocess.run(
             [sys.executable, "-m", "workbench", "show", "icp", "--no-browser", "--port", port],
-            cwd=ROOT, capture_output=True, text=True, check=False,
-        )  # fmt: skip
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         assert done.returncode == 2
         assert done.stdout == ""
-        assert done.stderr == (
-            f"workbench: port {port} is in use: stop the other program, or choose another with --port (0 picks a free one)\n"
+        assert (
+            done.stderr
+            == f"workbench: port {port} is in use: stop the other program, or choose another with"
+            " --port (0 picks a free one)\n"
         )
         process.send_signal(signal.SIGINT)
         out, said = process.communicate(timeout=300)

@@ -1,4 +1,6 @@
-"""viser's client: one file, the same plain and compressed, with the page in the place of its worker."""
+"""viser's client: one file, the same plain and compressed, with the page in the place of its
+worker.
+"""
 
 import gzip
 from pathlib import Path

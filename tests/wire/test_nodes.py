@@ -1,4 +1,6 @@
-"""Of equal content equal keys, of what only moves a pose alone, and the colours and places that a scene states."""
+"""Of equal content equal keys, of what only moves a pose alone, and the colours and places that a
+scene states.
+"""
 
 import gc
 import io
@@ -290,5 +292,8 @@ def test_who_asks_at_the_same_time_gets_the_same():
     assert len(found) == 8 * len(scenes)
     assert all(nodes == alone[at] for at, nodes in found)
     again = [maker.nodes(scene, View()) for scene in scenes]
-    assert all(maker.nodes(s, View())[name][0] is kind for s, nodes in zip(scenes, again, strict=True)
-               for name, (kind, _) in nodes.items())  # fmt: skip
+    assert all(
+        maker.nodes(s, View())[name][0] is kind
+        for s, nodes in zip(scenes, again, strict=True)
+        for name, (kind, _) in nodes.items()
+    )

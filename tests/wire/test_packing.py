@@ -1,4 +1,6 @@
-"""What a page is sent: every kind and array once, a stage where it is another one, a whole run as its steps one by one."""
+"""What a page is sent: every kind and array once, a stage where it is another one, a whole run as
+its steps one by one.
+"""
 
 import base64
 import json

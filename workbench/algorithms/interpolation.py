@@ -1,10 +1,12 @@
-"""Five ways from one pose to another. All start and end alike; what lies between is what tells them apart.
+"""Five ways from one pose to another. All start and end alike; what lies between is what tells them
+apart.
 
-Every one yields `State`s at the given times, 0 at the start and 1 at the end. The place goes straight at constant speed,
-except along the screw.
+Every one yields `State`s at the given times, 0 at the start and 1 at the end. The place goes
+straight at constant speed, except along the screw.
 
-References: Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985 (slerp); Murray, Li and Sastry, A
-Mathematical Introduction to Robotic Manipulation, 1994, chapter 2 (Rodrigues' formula and screws).
+References: Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985 (slerp); Murray, Li
+and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, chapter 2 (Rodrigues' formula
+and screws).
 """
 
 from collections.abc import Callable, Iterator
@@ -43,7 +45,8 @@ class State:
 def slerp_and_lerp(
     T_world_start: Pose, T_world_end: Pose, times: Times, rotation_from_axis_angle: Rodrigues
 ) -> Iterator[State]:
-    """Yield poses on the shortest turn about one axis at constant speed (slerp), the place on a straight line.
+    """Yield poses on the shortest turn about one axis at constant speed (slerp), the place on a
+    straight line.
 
     Args:
         T_world_start: The pose at time 0, metres.
@@ -62,9 +65,11 @@ def slerp_and_lerp(
 
 @traced
 def slerp_to_minus_q(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
-    """Yield poses on the great circle to the farther of the two quaternions that both are the end's rotation.
+    """Yield poses on the great circle to the farther of the two quaternions that both are the end's
+    rotation.
 
-    It shows what an implementation of slerp does that does not choose the sign: the body turns the long way round.
+    It shows what an implementation of slerp does that does not choose the sign: the body turns the
+    long way round.
 
     Args:
         T_world_start: The pose at time 0, metres.
@@ -91,7 +96,8 @@ def lerp_of_euler_angles(
     times: Times,
     euler_to_matrix: FromEuler,
 ) -> Iterator[State]:
-    """Yield poses with each Euler angle interpolated linearly; axis and speed of the resulting turn are not constant.
+    """Yield poses with each Euler angle interpolated linearly; axis and speed of the resulting turn
+    are not constant.
 
     Args:
         angles_start: Radians at time 0, one for each letter of the order.
@@ -111,7 +117,8 @@ def lerp_of_euler_angles(
 
 @traced
 def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
-    """Yield matrices with each of the sixteen entries interpolated linearly; between the ends they are no rigid motions.
+    """Yield matrices with each of the sixteen entries interpolated linearly; between the ends they
+    are no rigid motions.
 
     Args:
         T_world_start: The pose at time 0, metres.
@@ -130,7 +137,8 @@ def along_a_screw(
     times: Times,
     invert_rigid: Callable[[np.ndarray], np.ndarray],
 ) -> Iterator[State]:
-    """Yield poses on the screw from start to end: the geodesic exp(t log) of SE(3), at constant speed.
+    """Yield poses on the screw from start to end: the geodesic exp(t log) of SE(3), at constant
+    speed.
 
     Args:
         T_world_start: The pose at time 0, metres.

@@ -1,7 +1,9 @@
-"""From matches to the motion between two cameras, step by step; and before that, one pixel's ray seen by the other camera.
+"""From matches to the motion between two cameras, step by step; and before that, one pixel's ray
+seen by the other camera.
 
-Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.1 (the line), 11.2 (eight points), 9.6 (four motions),
-chapter 12 (triangulation), 11.4.3 (refinement); Fusiello, Trucco and Verri 2000 (rectification).
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.1 (the line), 11.2 (eight
+points), 9.6 (four motions), chapter 12 (triangulation), 11.4.3 (refinement); Fusiello, Trucco and
+Verri 2000 (rectification).
 """
 
 from collections.abc import Callable, Iterator
@@ -35,7 +37,8 @@ EightPoint = Callable[[np.ndarray, np.ndarray], np.ndarray]
 Poses = Callable[[np.ndarray], np.ndarray]
 """essential_to_poses(E) -> the four motions T_second_first (4, 4, 4), translations of length 1."""
 Triangulate = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
-"""triangulate(P_first, P_second, uv_first, uv_second) -> points (n, 3) in the first camera's frame."""
+"""triangulate(P_first, P_second, uv_first, uv_second) -> points (n, 3) in the first camera's frame.
+"""
 Route = Literal["eight-point", "refined F", "refined pose"]
 Stage = Literal[
     "equations",
@@ -59,7 +62,8 @@ class Followed:
     """The ray of one pixel, as far as it was followed.
 
     Attributes:
-        stage: "ray" while points are taken on it; then the plane through both centres, then the pencil of all lines.
+        stage: "ray" while points are taken on it; then the plane through both centres, then the
+            pencil of all lines.
         depths: Of the points so far, metres; infinity is the last.
         p_first: The points, in the first camera's frame, metres; the one at infinity very far away.
         uv_second: Their pixels in the second picture, NaN where it cannot see them.
@@ -82,8 +86,10 @@ class Related:
         E_values: The singular values of the essential matrix before they were made equal.
         tested: Motions T_second_first that were tried, with |t| = 1.
         in_front: How many points each of them puts in front of both cameras.
-        T_second_first: The motion so far: the one under test, then the one that was chosen, then the refined one.
-        p_first: The points by that motion, in the first camera's frame, lengths in units of the baseline.
+        T_second_first: The motion so far: the one under test, then the one that was chosen, then
+            the refined one.
+        p_first: The points by that motion, in the first camera's frame, lengths in units of the
+            baseline.
         rounds: Rounds of refinement done.
         rectification: In the end, where there is one.
     """
@@ -108,7 +114,8 @@ def follow_ray(
     K_first: Float[np.ndarray, "3 3"],
     K_second: Float[np.ndarray, "3 3"],
 ) -> Iterator[Followed]:
-    """Yield ever more points of a pixel's ray with their pixels in the second picture, then the plane, then the pencil.
+    """Yield ever more points of a pixel's ray with their pixels in the second picture, then the
+    plane, then the pencil.
 
     Args:
         uv_first: A pixel of the first picture.
@@ -137,7 +144,8 @@ class Linear:
     Attributes:
         singular_values: Of the equations, nine.
         F: Their answer in pixels, of rank three where the matches have noise.
-        F_rank_two: The same with its smallest singular value dropped, in the coordinates of the equations.
+        F_rank_two: The same with its smallest singular value dropped, in the coordinates of the
+            equations.
     """
 
     singular_values: np.ndarray
@@ -151,7 +159,8 @@ def solve_linear(
     T_first: Float[np.ndarray, "3 3"],
     T_second: Float[np.ndarray, "3 3"],
 ) -> Linear:
-    """Return the answer that minimises the algebraic error in given coordinates: the identity's are raw pixels.
+    """Return the answer that minimises the algebraic error in given coordinates: the identity's are
+    raw pixels.
 
     Args:
         uv_first: Pixels of the first image.
@@ -187,7 +196,8 @@ def relate(
     route: Route,
     keep_upright: bool = True,
 ) -> Iterator[Related]:
-    """Yield the way from matches to a motion: F, its rank, E, four motions, points, a refined motion, a rectified pair.
+    """Yield the way from matches to a motion: F, its rank, E, four motions, points, a refined
+    motion, a rectified pair.
 
     Args:
         uv_first: Pixels of the first image, eight or more.

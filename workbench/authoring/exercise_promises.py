@@ -24,7 +24,8 @@ LEAST_CHECKS, LEAST_MISTAKES, LEAST_ALTERNATIVES, LEAST_EXAMPLES = 4, 3, 1, 2
 TASK = (40, 600)
 SENTENCE = (30, 300)
 SAYS_BOTH = re.compile(
-    r"\bright is\b|the contract asks for|asked for were|changed an array|\braised \w+|not written|took more"
+    r"\bright is\b|the contract asks for|asked for were|changed an array|\braised \w+|not"
+    r" written|took more"
 )
 """What the message of a check that failed has: what came and what is right, or what went wrong."""
 WIDEST = 125
@@ -46,7 +47,9 @@ def who(exercise: Exercise) -> str:
 
 @promise
 def it_is_complete(subject: Subject, exercise: Exercise) -> Found:
-    """It has a task, a contract with examples, public checks before hidden ones, mistakes, and another right solution."""
+    """It has a task, a contract with examples, public checks before hidden ones, mistakes, and
+    another right solution.
+    """
     counts = {
         "checks": (len(exercise.checks), LEAST_CHECKS),
         "mistakes": (len(exercise.mistakes), LEAST_MISTAKES),
@@ -71,7 +74,10 @@ def it_is_complete(subject: Subject, exercise: Exercise) -> Found:
         else f"{who(exercise)}public checks stand before hidden ones"
     )
     length = len(exercise.task)
-    wrong = f"{who(exercise)}the task (the file's docstring) has {length} characters; wanted are {TASK[0]} to {TASK[1]}"
+    wrong = (
+        f"{who(exercise)}the task (the file's docstring) has {length} characters; wanted are"
+        f" {TASK[0]} to {TASK[1]}"
+    )
     yield None if TASK[0] <= length <= TASK[1] else wrong
     yield (
         None
@@ -86,7 +92,10 @@ def the_function_drives_the_lesson(subject: Subject, exercise: Exercise) -> Foun
     subject.tell(f"exercise {exercise.name} in the lesson's runs")
     driven = any(_drives(subject.lesson, exercise, params) for params in _variants(subject.lesson))
     slot = exercise.contract.slot
-    where = f"{who(exercise)}no run of lesson {subject.lesson.name} calls its keyword {slot!r} in the first steps"
+    where = (
+        f"{who(exercise)}no run of lesson {subject.lesson.name} calls its keyword {slot!r} in the"
+        " first steps"
+    )
     yield None if driven else f"{where}: not the default, no preset, at no choice"
 
 
@@ -97,7 +106,10 @@ def the_run_that_is_opened_calls_the_function(subject: Subject, exercise: Exerci
     lesson, preset = subject.lesson, exercise.contract.preset
     params = lesson.params() if preset is None else lesson.preset(preset).params
     run = "the default run" if preset is None else f"preset {preset!r}"
-    never = f"{who(exercise)}{run}, where a student's function is watched first, does not call it in {LONGEST} steps"
+    never = (
+        f"{who(exercise)}{run}, where a student's function is watched first, does not call it in"
+        f" {LONGEST} steps"
+    )
     yield (
         None
         if _drives(lesson, exercise, params, LONGEST)
@@ -129,7 +141,9 @@ def other_right_solutions_get_full_marks(subject: Subject, exercise: Exercise) -
 
 @promise
 def the_first_alternative_stands_alone(subject: Subject, exercise: Exercise) -> Found:
-    """The sample of handouts, a copy of the first alternative beside `import numpy as np`, gets full marks."""
+    """The sample of handouts, a copy of the first alternative beside `import numpy as np`, gets
+    full marks.
+    """
     if not exercise.alternatives:
         return
     subject.tell(f"the sample solution of exercise {exercise.name}")
@@ -148,7 +162,9 @@ def the_first_alternative_stands_alone(subject: Subject, exercise: Exercise) -> 
 
 @promise
 def every_mistake_is_named(subject: Subject, exercise: Exercise) -> Found:
-    """Every known mistake loses points, is recognised, and is told in a sentence; names are not used twice."""
+    """Every known mistake loses points, is recognised, and is told in a sentence; names are not
+    used twice.
+    """
     names = [item.name for item in exercise.mistakes]
     yield None if len(set(names)) == len(names) else f"{who(exercise)}two mistakes have one name"
     for item in exercise.mistakes:
@@ -162,7 +178,10 @@ def every_mistake_is_named(subject: Subject, exercise: Exercise) -> Found:
                 if report.mistake is None
                 else f"is taken for {report.mistake.name!r}"
             )
-            yield f"{where} {taken}: no check tells it from a right answer and from every other mistake"
+            yield (
+                f"{where} {taken}: no check tells it from a right answer and from every other"
+                " mistake"
+            )
         else:
             yield None
         good = SENTENCE[0] <= len(item.sentence) <= SENTENCE[1]
@@ -198,7 +217,10 @@ def the_examples_are_true(subject: Subject, exercise: Exercise) -> Found:
                     np.allclose(one, wanted, atol=5e-4, rtol=5e-4, equal_nan=True)
                     for one, wanted in parts
                 )
-                said = f"is {' '.join(str(value).split())} by {function.__name__}, and the example says {result}"
+                said = (
+                    f"is {' '.join(str(value).split())} by {function.__name__}, and the example"
+                    f" says {result}"
+                )
             except Exception as error:
                 true, said = False, f"raises {type(error).__name__}: {error}"
             yield None if true else f"{who(exercise)}{call} {said}"
@@ -263,7 +285,10 @@ def who_changes_the_input_is_told_so(subject: Subject, exercise: Exercise) -> Fo
     yield (
         None
         if some
-        else f"{who(exercise)}a function that changes its input gets {report.points:g} of {report.possible:g}"
+        else (
+            f"{who(exercise)}a function that changes its input gets {report.points:g} of"
+            f" {report.possible:g}"
+        )
     )
 
 

@@ -1,4 +1,5 @@
-"""Writes the folder that a new lesson begins with: a whole lesson that runs, holds its promises, and is there to be changed.
+"""Writes the folder that a new lesson begins with: a whole lesson that runs, holds its promises,
+and is there to be changed.
 
 It is copied from the files of `template/`, a lesson like any other but for its name.
 """
@@ -25,7 +26,8 @@ def new_lesson(name: str, into: Path = Path()) -> list[Path]:
         into: Where the folder is made.
 
     Raises:
-        InputError: If the name is none, or taken, something has the folder's name, or it cannot be written.
+        InputError: If the name is none, or taken, something has the folder's name, or it cannot be
+            written.
     """
     if not (
         name.isidentifier()

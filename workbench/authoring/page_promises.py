@@ -1,4 +1,6 @@
-"""What the page of every lesson promises: its parts, its formulas, and that every reference in it leads somewhere."""
+"""What the page of every lesson promises: its parts, its formulas, and that every reference in it
+leads somewhere.
+"""
 
 import re
 from collections.abc import Iterator
@@ -20,10 +22,14 @@ LEFTOVER = 60
 
 @promise
 def the_page_has_its_parts(subject: Subject) -> Found:
-    """There is a page, long enough and no longer, with the parts that people look for, and its pictures are there."""
+    """There is a page, long enough and no longer, with the parts that people look for, and its
+    pictures are there.
+    """
     lesson = subject.lesson
     if lesson.page is None:
-        yield f"{subject.who}: it has no page; page=Path(__file__).with_name('page.md') gives it one"
+        yield (
+            f"{subject.who}: it has no page; page=Path(__file__).with_name('page.md') gives it one"
+        )
         return
     text, where = lesson.text(), f"{subject.who}: {lesson.page}"
     yield length_of(f"{where}: the page", len(text.split()), WORDS, "words")
@@ -38,7 +44,9 @@ def the_page_has_its_parts(subject: Subject) -> Found:
 
 @promise
 def nothing_is_asked_for_that_a_published_page_cannot(subject: Subject) -> Found:
-    """Where nothing can be computed, no text asks for a click, a drag, a file or a knob that no sweep publishes."""
+    """Where nothing can be computed, no text asks for a click, a drag, a file or a knob that no
+    sweep publishes.
+    """
     for what, text in elsewhere(subject.lesson).items():
         asked = next(live_words(text, subject.lesson), None)
         yield None if asked is None else f"{subject.who}, {what} says {asked[1]!r}; {ONLY_LIVE}"
@@ -71,12 +79,17 @@ def every_formula_is_read(subject: Subject) -> Found:
             yield None
             continue
         line = next((i for i, row in enumerate(text.splitlines(), 1) if unknown[0] in row), 1)
-        yield f"{subject.who}: {place(str(lesson.page), line)}: {unknown[0]} is a TeX command that is not known here"
+        yield (
+            f"{subject.who}: {place(str(lesson.page), line)}: {unknown[0]} is a TeX command that is"
+            " not known here"
+        )
 
 
 @promise
 def every_reference_of_the_page_leads_somewhere(subject: Subject) -> Found:
-    """A link names a run that there is and a step that it has; a term names a thing that some run shows."""
+    """A link names a run that there is and a step that it has; a term names a thing that some run
+    shows.
+    """
     lesson = subject.lesson
     if lesson.page is None:
         return
@@ -138,7 +151,10 @@ def nothing_is_left_of_the_scaffold(subject: Subject) -> Found:
         return
     scaffold = frozenset(_long_lines((TEMPLATE / "page.md").read_text(encoding="utf-8")))
     for number, line in enumerate(subject.lesson.text().splitlines(), 1):
-        left = f"{subject.who}: {place(str(subject.lesson.page), number)}: this line is the scaffold's, not of your lesson"
+        left = (
+            f"{subject.who}: {place(str(subject.lesson.page), number)}: this line is the"
+            " scaffold's, not of your lesson"
+        )
         yield left if line.strip() in scaffold else None
 
 

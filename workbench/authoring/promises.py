@@ -1,7 +1,9 @@
-"""What every lesson promises, each as a function that looks and tells: what holds, and in sentences what does not.
+"""What every lesson promises, each as a function that looks and tells: what holds, and in sentences
+what does not.
 
-A promise yields None for everything that it found to hold, and one line for everything that does not; the line names the
-lesson's file, line, preset, question, knob or scene path. `workbench validate` and the tests of the course run the same.
+A promise yields None for everything that it found to hold, and one line for everything that does
+not; the line names the lesson's file, line, preset, question, knob or scene path. `workbench
+validate` and the tests of the course run the same.
 """
 
 import inspect
@@ -43,7 +45,8 @@ class Subject:
 
     Args:
         lesson: The lesson.
-        whole: Returns a finished run at these params; by default it is made here, kept, and cut after `seconds`.
+        whole: Returns a finished run at these params; by default it is made here, kept, and cut
+            after `seconds`.
         seconds: How long one run may take.
         tell: Told what is run now, again at every step.
     """
@@ -61,7 +64,9 @@ class Subject:
         self._kept: dict[Any, Timeline] = {}
 
     def whole(self, params: Any, doing: str) -> Timeline:
-        """Return the run at these params, computed to its end or until it has taken too long, which `stopped` says."""
+        """Return the run at these params, computed to its end or until it has taken too long, which
+        `stopped` says.
+        """
         if self._whole is not None:
             return self._whole(params)
         if params not in self._kept:
@@ -98,11 +103,16 @@ def promise(function: Callable[[Subject], Found]) -> Callable[[Subject], Found]:
 
 @promise
 def the_default_run_ends_well(subject: Subject) -> Found:
-    """The default run comes to its end by itself, in two steps or more, and opens at one of them."""
+    """The default run comes to its end by itself, in two steps or more, and opens at one of
+    them.
+    """
     lesson, run = subject.lesson, subject.default()
     yield run.stopped
     if run.stopped is None:
-        few = f"{subject.who}: {at(lesson.run)}the default run has {len(run)} step; a lesson shows two or more"
+        few = (
+            f"{subject.who}: {at(lesson.run)}the default run has {len(run)} step; a lesson shows"
+            " two or more"
+        )
         yield few if len(run) < 2 else None
         yield opens(run, subject.who, lesson.first_step)
 
@@ -153,7 +163,10 @@ def every_step_shows_something_in_space(subject: Subject) -> Found:
             kind = kinds.setdefault(path, type(primitive))
             if kind is not type(primitive):
                 now, before = type(primitive).__name__, kind.__name__
-                yield f"{where}step {k}: {path!r} is of the kind {now} now, and was of the kind {before}"
+                yield (
+                    f"{where}step {k}: {path!r} is of the kind {now} now, and was of the kind"
+                    f" {before}"
+                )
 
 
 @promise
@@ -164,7 +177,10 @@ def a_run_is_reproducible(subject: Subject) -> Found:
     where = f"{subject.who}: {at(subject.lesson.run)}"
     hint = "take all chance from np.random.default_rng(params.seed)"
     if len(run) != len(again):
-        yield f"{where}the default run has {len(run)} steps, and {len(again)} when it is run again; {hint}"
+        yield (
+            f"{where}the default run has {len(run)} steps, and {len(again)} when it is run again;"
+            f" {hint}"
+        )
         return
     for k, (one, two) in enumerate(zip(run.known(), again.known(), strict=True)):
         path = _differs(one.scene, two.scene)
@@ -179,7 +195,10 @@ def the_code_of_every_step_can_be_shown(subject: Subject) -> Found:
     """Every step knows the line at which the algorithm stands."""
     for k, step in enumerate(subject.default().known()):
         if step.moment is None:
-            yield f"{subject.who}: {at(subject.lesson.run)}step {k} has no line to show; run is a generator function"
+            yield (
+                f"{subject.who}: {at(subject.lesson.run)}step {k} has no line to show; run is a"
+                " generator function"
+            )
             return
         lines, first = step.moment.source
         inside = first <= step.moment.line < first + len(lines)
@@ -192,7 +211,8 @@ def the_code_of_every_step_can_be_shown(subject: Subject) -> Found:
 
 @promise
 def every_knob_goes_to_its_ends(subject: Subject) -> Found:
-    """With each knob at each end of its range, or at each of its choices, the run begins, or says why not in one line.
+    """With each knob at each end of its range, or at each of its choices, the run begins, or says
+    why not in one line.
 
     Where the default run does not meet what a knob needs, the run would be the same again.
     """
@@ -215,14 +235,19 @@ def every_knob_goes_to_its_ends(subject: Subject) -> Found:
 
 @promise
 def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
-    """Where a knob says what it needs to have an effect, it has none while another knob is set otherwise."""
+    """Where a knob says what it needs to have an effect, it has none while another knob is set
+    otherwise.
+    """
     fields = {field.name: field for field in fields_of(subject.lesson.params)}
     idle: dict[Any, list[Field]] = {}  # knobs without effect at some params
     for field in fields.values():
         for name, wanted in field.knob.needs.items():
             of_file = name in fields and fields[name].kind == "path" and wanted == (None,)
             if not of_file and (name not in fields or fields[name].kind not in ("choice", "bool")):
-                yield f"{subject.who}: {field.name} needs {name!r}, which is no choice or switch of this lesson"
+                yield (
+                    f"{subject.who}: {field.name} needs {name!r}, which is no choice or switch of"
+                    " this lesson"
+                )
                 continue
             met = {other: values[0] for other, values in field.knob.needs.items()}
             for other in [value for value in ends(fields[name]) if value not in wanted]:
@@ -238,7 +263,9 @@ def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
 
 
 def _all_turned(subject: Subject, fields: list[Field], base: Any, plain: Timeline) -> bool:
-    """Whether knobs that are turned together, to each of their ends once, change a run; own files have no ends."""
+    """Whether knobs that are turned together, to each of their ends once, change a run; own files
+    have no ends.
+    """
     values = {field.name: ends(field) for field in fields if field.kind != "path"}
     for k in range(max(map(len, values.values()), default=0)):
         all_at = {name: several[k % len(several)] for name, several in values.items()}
@@ -261,7 +288,9 @@ def _has_no_effect(subject: Subject, field: Field, base: Any, plain: Timeline) -
 
 
 def _effect(plain: Timeline, turned: Timeline) -> str | None:
-    """Return what differs between two runs: the path of the first thing, or that they end otherwise."""
+    """Return what differs between two runs: the path of the first thing, or that they end
+    otherwise.
+    """
     pairs = zip(plain.known(), turned.known(), strict=False)
     found = next((path for one, two in pairs if (path := _differs(one.scene, two.scene))), None)
     same_end = plain.stopped == turned.stopped and len(plain) == len(turned)
@@ -270,7 +299,9 @@ def _effect(plain: Timeline, turned: Timeline) -> str | None:
 
 @promise
 def params_survive_the_way_through_text(subject: Subject) -> Found:
-    """Params are the same after they were written to a link or recording, and no field has a name that commands use."""
+    """Params are the same after they were written to a link or recording, and no field has a name
+    that commands use.
+    """
     kind = subject.lesson.params
     for params in (kind(), *(preset.params for preset in subject.lesson.presets)):
         again = from_json(kind, to_json(params))
@@ -278,7 +309,10 @@ def params_survive_the_way_through_text(subject: Subject) -> Found:
         yield (
             None
             if kept
-            else f"{subject.who}: {kind.__name__} written as text and read again is {again}, not {params}"
+            else (
+                f"{subject.who}: {kind.__name__} written as text and read again is {again}, not"
+                f" {params}"
+            )
         )
     for field in fields_of(kind):
         taken = field.name in RESERVED
@@ -291,9 +325,14 @@ def params_survive_the_way_through_text(subject: Subject) -> Found:
 
 @promise
 def every_preset_runs_and_promises_something(subject: Subject) -> Found:
-    """There are presets; each runs to its end, opens at one of its steps, and says in a line what to look for."""
+    """There are presets; each runs to its end, opens at one of its steps, and says in a line what
+    to look for.
+    """
     presets = subject.lesson.presets
-    few = f"{subject.who}: it has {len(presets)} presets; {LEAST_PRESETS} or more show what there is to see"
+    few = (
+        f"{subject.who}: it has {len(presets)} presets; {LEAST_PRESETS} or more show what there is"
+        " to see"
+    )
     yield few if len(presets) < LEAST_PRESETS else None
     for preset in presets:
         yield from _preset(subject, preset)
@@ -312,7 +351,9 @@ def _preset(subject: Subject, preset: Preset) -> Found:
 
 @promise
 def every_question_is_answered_by_its_run(subject: Subject) -> Found:
-    """There are questions; the run of each gives a finite answer and a reason, and opens at one of its steps."""
+    """There are questions; the run of each gives a finite answer and a reason, and opens at one of
+    its steps.
+    """
     yield (
         None
         if subject.lesson.questions
@@ -378,7 +419,9 @@ def _known_wrong(who: str, question: Question, found: Answer) -> Found:
 
 @promise
 def run_takes_only_keywords_beside_params(subject: Subject) -> Found:
-    """`run` takes `params`, and by keyword functions that have defaults; the lesson's name can be a folder."""
+    """`run` takes `params`, and by keyword functions that have defaults; the lesson's name can be a
+    folder.
+    """
     lesson = subject.lesson
     first, *slots = inspect.signature(lesson.run).parameters.values()
     where = f"{subject.who}: {at(lesson.run)}run"

@@ -1,4 +1,6 @@
-"""Follows the files of a lesson while they are edited: every save is a new lesson, or says why it is none."""
+"""Follows the files of a lesson while they are edited: every save is a new lesson, or says why it
+is none.
+"""
 
 import os
 from collections.abc import Iterator
@@ -18,7 +20,8 @@ class Edited:
     """A lesson that was given by its path.
 
     Args:
-        path: Its file or folder. Of a folder all code, text and pictures are followed, of a file it and its page.
+        path: Its file or folder. Of a folder all code, text and pictures are followed, of a file it
+            and its page.
         lesson: The lesson as it is now.
 
     Attributes:
@@ -32,7 +35,8 @@ class Edited:
         self._stamp = self._stamp_now()
 
     def changed(self) -> bool:
-        """Load the lesson again if something was saved since, and tell whether; its code runs, which may take a while.
+        """Load the lesson again if something was saved since, and tell whether; its code runs,
+        which may take a while.
 
         A lesson whose default run has no first step counts as broken: the one before is kept.
         """
@@ -65,7 +69,9 @@ class Edited:
         return dict(self._files())
 
     def _files(self) -> Iterator[tuple[str, tuple[int, int]]]:
-        """Yield each file with what tells that it was saved; one that an editor is replacing right now is left out."""
+        """Yield each file with what tells that it was saved; one that an editor is replacing right
+        now is left out.
+        """
         pages = [] if self.lesson.page is None else [str(self.lesson.page)]
         for file in [*pages, *(_in_folder(self.path) if self.path.is_dir() else [str(self.path)])]:
             try:
@@ -88,7 +94,8 @@ def _in_folder(folder: Path) -> Iterator[str]:
 def carried(params: Any, lesson: Lesson) -> Any:
     """Return the params of one version of a lesson as those of another.
 
-    What is a field of both keeps its value, moved into its new range; what cannot be kept has its default.
+    What is a field of both keeps its value, moved into its new range; what cannot be kept has its
+    default.
     """
     before = {field.name: getattr(params, field.name) for field in knobs.fields_of(type(params))}
     kept = {}

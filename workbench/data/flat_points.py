@@ -1,4 +1,6 @@
-"""Points that people bring in the plane: two columns of a text file; and of something round, in the plane or in space."""
+"""Points that people bring in the plane: two columns of a text file; and of something round, in the
+plane or in space.
+"""
 
 import functools
 from pathlib import Path
@@ -24,7 +26,8 @@ _TEXT = (".xyz", ".txt", ".csv", ".tsv", ".dat")
 
 
 def read_flat_or_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n d"]:
-    """Return places in the plane (n, 2) from a text file of two columns, and else a cloud (n, 3), as `read_cloud` does.
+    """Return places in the plane (n, 2) from a text file of two columns, and else a cloud (n, 3),
+    as `read_cloud` does.
 
     Columns are separated by commas, semicolons, tabs or spaces; a header is passed over.
 
@@ -41,7 +44,8 @@ def read_flat_or_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n d"]:
 def read_round(
     path: Path, shape: Literal["circle", "sphere", "cylinder", "plane"], most: int
 ) -> tuple[Float[np.ndarray, "n d"], float]:
-    """Return the points of a shape about the origin, where the circle or sphere that fits them has about the radius 1 m.
+    """Return the points of a shape about the origin, where the circle or sphere that fits them has
+    about the radius 1 m.
 
     Args:
         path: The file, as `read_flat_or_cloud` takes it.
@@ -49,12 +53,12 @@ def read_round(
         most: How many points are used; evenly chosen of more.
 
     Returns:
-        The points, and how many units of the file 1 m of them is. Of a cylinder or a plane, and of an arc so short that its
-        circle is far larger, the box is about the origin, 2 m long.
+        The points, and how many units of the file 1 m of them is. Of a cylinder or a plane, and of
+        an arc so short that its circle is far larger, the box is about the origin, 2 m long.
 
     Raises:
-        InputError: If the file is not understood, has other columns, or all points lie at one place; and where something
-            round is wanted, if they lie on a line or a plane.
+        InputError: If the file is not understood, has other columns, or all points lie at one
+            place; and where something round is wanted, if they lie on a line or a plane.
     """
     p = read_flat_or_cloud(path, fewest=6)
     p, wanted = p[evenly(len(p), most)], 2 if shape == "circle" else 3

@@ -1,7 +1,7 @@
 """Brings a person's own data into the picture, whatever their unit, size, place and upward axis.
 
-A frame says how: p_world = scale R_world_file (p_file - centre) + offset. Its box may leave out far points, so that a few of
-them do not shrink the rest.
+A frame says how: p_world = scale R_world_file (p_file - centre) + offset. Its box may leave out far
+points, so that a few of them do not shrink the rest.
 """
 
 from dataclasses import dataclass, field, replace
@@ -50,7 +50,8 @@ class Frame:
         return self.scale * (p_file - self.centre) @ self.R_world_file.T + self.offset
 
     def shown_motion(self, T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
-        """Return a motion or an affine map of the file's points as one of the points that are shown.
+        """Return a motion or an affine map of the file's points as one of the points that are
+        shown.
 
         It holds that `apply(shown_motion(T), shown(p))` is `shown(apply(T, p))`.
         """
@@ -60,12 +61,16 @@ class Frame:
         return motion(A_world, moved + self.offset - A_world @ self.offset)
 
     def shown_camera(self, T_camera_file: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
-        """Return where a camera that sees points of the file stands in the picture, and how it is turned."""
+        """Return where a camera that sees points of the file stands in the picture, and how it is
+        turned.
+        """
         T_file_camera = inverse(T_camera_file)
         return motion(self.R_world_file @ T_file_camera[:3, :3], self.shown(T_file_camera[:3, 3]))
 
     def standing(self, p_file: Float[np.ndarray, "n 3"], floor: float = 0.0) -> "Frame":
-        """Return the frame raised or lowered until the lowest of these points stands at the height `floor`."""
+        """Return the frame raised or lowered until the lowest of these points stands at the height
+        `floor`.
+        """
         rise = floor - self.shown(p_file)[:, 2].min()
         return replace(self, offset=self.offset + np.array([0.0, 0.0, rise]))
 
@@ -73,7 +78,8 @@ class Frame:
 def frame(
     p_file: Float[np.ndarray, "n 3"], width: float, *, up: Up = "z", far: float = 0.0
 ) -> Frame:
-    """Return the frame in which the box of the points is `width` metres long, upright and about the origin.
+    """Return the frame in which the box of the points is `width` metres long, upright and about the
+    origin.
 
     Args:
         p_file: Points, in any unit.
@@ -90,7 +96,9 @@ def frame(
 
 
 def box(p: Float[np.ndarray, "n d"], far: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lowest and the highest corner of the points' box, `far` per cent at either end of each axis left out."""
+    """Return the lowest and the highest corner of the points' box, `far` per cent at either end of
+    each axis left out.
+    """
     low, high = np.percentile(p, [far, 100.0 - far], axis=0)
     return low, high
 
@@ -107,7 +115,8 @@ def upward(p: Float[np.ndarray, "n 3"], path: Path, up: Upward) -> Up:
 
 
 def own_points(p: Float[np.ndarray, "n 3"], path: Path, up: Upward, width: float) -> np.ndarray:
-    """Return the points of a person's file as the picture has them: upright, about the origin, `width` metres long.
+    """Return the points of a person's file as the picture has them: upright, about the origin,
+    `width` metres long.
 
     Raises:
         InputError: If all of them lie at one place; names the file.
@@ -120,8 +129,9 @@ def own_points(p: Float[np.ndarray, "n 3"], path: Path, up: Upward, width: float
 def likely_up(p: Float[np.ndarray, "n 3"], kind: str) -> Up:
     """Return the axis of a mesh file that is likely to point up.
 
-    It is the one on which the mesh stands, its lowest point being near 0 or above while the other axis has the mesh on both
-    sides; where neither or both are so, z in stl files (machines and printers), and y in all others (graphics).
+    It is the one on which the mesh stands, its lowest point being near 0 or above while the other
+    axis has the mesh on both sides; where neither or both are so, z in stl files (machines and
+    printers), and y in all others (graphics).
 
     Args:
         p: The vertices.
@@ -136,7 +146,8 @@ def likely_up(p: Float[np.ndarray, "n 3"], kind: str) -> Up:
 def broad_side_to(
     p: Float[np.ndarray, "n 3"], eye: Float[np.ndarray, "3"], up: Up
 ) -> Float[np.ndarray, "3 3"]:
-    """Return R_world_file: the axis `up` becomes +Z, and the broad side of the points turns to an eye.
+    """Return R_world_file: the axis `up` becomes +Z, and the broad side of the points turns to an
+    eye.
 
     Of the two broad sides it is the one that needs the smaller turn about the vertical.
 
@@ -155,13 +166,17 @@ def broad_side_to(
 
 
 def round_below(length: float) -> float:
-    """Return the largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) that is no longer than a positive length."""
+    """Return the largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) that is no longer than a positive
+    length.
+    """
     power = 10.0 ** np.floor(np.log10(length))
     return float(power * max(digit for digit in (1, 2, 5) if digit * power <= length * (1 + 1e-9)))
 
 
 def ground_grid(cell: float, height: float, reach: float = 1.5) -> Float[np.ndarray, "n 2 3"]:
-    """Return the segments of a level grid about the origin: squares `cell` metres wide, at least `reach` to a side."""
+    """Return the segments of a level grid about the origin: squares `cell` metres wide, at least
+    `reach` to a side.
+    """
     n = int(np.ceil(reach / cell))
     at, end = cell * np.arange(-n, n + 1), n * cell
     lines = np.array([[[x, -end, height], [x, end, height]] for x in at])

@@ -1,4 +1,6 @@
-"""A person's own mesh as a surface on which something can be measured: read, mended where its shape stays, or refused."""
+"""A person's own mesh as a surface on which something can be measured: read, mended where its shape
+stays, or refused.
+"""
 
 from pathlib import Path
 
@@ -31,7 +33,8 @@ def read_surface(
     p, faces = read_mesh(path)
     if len(faces) > 2 * most:
         raise InputError(
-            f"{path.name}: {len(faces):,} faces; at most {2 * most:,} are measured, simplify it first"
+            f"{path.name}: {len(faces):,} faces; at most {2 * most:,} are measured, simplify it"
+            " first"
         )
     p, welded_faces = welded(p, faces)
     once = without_repeats(welded_faces)
@@ -39,7 +42,8 @@ def read_surface(
     placed, faces = split_where_sheets_touch(p, agreeing)
     if len(placed) > most:
         raise InputError(
-            f"{path.name}: {len(placed):,} vertices; at most {most:,} are measured, simplify it first"
+            f"{path.name}: {len(placed):,} vertices; at most {most:,} are measured, simplify it"
+            " first"
         )
     try:
         check_mesh(placed, faces)
@@ -52,7 +56,10 @@ def read_surface(
         (turned, f"{counted(turned, 'face')} turned round to agree with the others"),
         (
             split,
-            f"{counted(split, 'vertex', 'vertices')} added where sheets only touch, one for each sheet",
+            (
+                f"{counted(split, 'vertex', 'vertices')} added where sheets only touch, one for"
+                " each sheet"
+            ),
         ),
     )
     return placed, faces, tuple(words for count, words in done if count)

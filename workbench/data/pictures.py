@@ -1,4 +1,6 @@
-"""A person's pictures of views, in a folder or a zip: found by name, and decoded one by one when they are shown."""
+"""A person's pictures of views, in a folder or a zip: found by name, and decoded one by one when
+they are shown.
+"""
 
 import functools
 import io
@@ -23,7 +25,9 @@ if TYPE_CHECKING:
 MOST_PICTURES = 500
 ENDINGS = (".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff", ".bmp")
 TURNED = 0x0112, (5, 6, 7, 8)
-"""Where a camera writes how it was held, and what stands there where width and height change places."""
+"""Where a camera writes how it was held, and what stands there where width and height change
+places.
+"""
 
 
 @dataclass(frozen=True)
@@ -85,19 +89,24 @@ def names_in(path: Path) -> tuple[str, ...]:
     In a folder only what lies there itself is taken, no link that leads out of it.
 
     Raises:
-        InputError: If there is no such file, no picture in it, or too many, or two of the same name.
+        InputError: If there is no such file, no picture in it, or too many, or two of the same
+            name.
     """
     if path.is_dir():
         home = path.resolve()
-        found = [one.name for one in path.iterdir() if _is_picture(one.name) and one.is_file()
-                 and one.resolve().parent == home]  # fmt: skip
+        found = [
+            one.name
+            for one in path.iterdir()
+            if _is_picture(one.name) and one.is_file() and one.resolve().parent == home
+        ]
     else:
         stamp(path)
         with _opened_zip(path) as packed:
             found = [one.filename for one in packed.infolist() if _is_picture(one.filename)]
     if not 0 < len(found) <= MOST_PICTURES:
         raise InputError(
-            f"{path.name or path}: {len(found) or 'no'} pictures in it; up to {MOST_PICTURES} jpg or png are taken"
+            f"{path.name or path}: {len(found) or 'no'} pictures in it; up to {MOST_PICTURES} jpg"
+            " or png are taken"
         )
     stems = [_stem(name) for name in found]
     twice = next(
@@ -112,7 +121,8 @@ def names_in(path: Path) -> tuple[str, ...]:
 
 @apart
 def pictures_of(path: Path, names: tuple[str | None, ...]) -> Pictures:
-    """Return pictures by their names, of every view one or None, once all are seen to be pictures of one size.
+    """Return pictures by their names, of every view one or None, once all are seen to be pictures
+    of one size.
 
     Raises:
         InputError: If one cannot be read, or has another size than the first.
@@ -122,22 +132,25 @@ def pictures_of(path: Path, names: tuple[str | None, ...]) -> Pictures:
     for name, size in sizes.items():
         if size != sizes[first]:
             raise InputError(
-                f"{path.name or path}: {name} has {size[0]} x {size[1]} pixels, {first} {sizes[first][0]} x"
-                f" {sizes[first][1]}: pictures of one camera have one size"
+                f"{path.name or path}: {name} has {size[0]} x {size[1]} pixels, {first}"
+                f" {sizes[first][0]} x {sizes[first][1]}: pictures of one camera have one size"
             )
     return Pictures(path, names, sizes[first])
 
 
 def matched(path: Path, views: Sequence[str], count: int) -> tuple[str | None, ...]:
-    """Return of every view the name of its picture: the one of the view's name, or else all in the order of their names.
+    """Return of every view the name of its picture: the one of the view's name, or else all in the
+    order of their names.
 
     Args:
         path: A folder or a zip.
-        views: What the pictures of the views are called, with or without ending; empty where nobody said.
+        views: What the pictures of the views are called, with or without ending; empty where nobody
+            said.
         count: How many views there are.
 
     Raises:
-        InputError: If no name fits and there are not as many pictures as views, or as `names_in` does.
+        InputError: If no name fits and there are not as many pictures as views, or as `names_in`
+            does.
     """
     found = names_in(path)
     by_stem = {_stem(name): name for name in found}
@@ -179,7 +192,9 @@ def _opened_zip(path: Path) -> zipfile.ZipFile:
 
 
 def _source(path: Path, name: str) -> Path | io.BytesIO:
-    """Return where a picture is read from: a file, or the bytes of a zip's member, never more than it said or may have."""
+    """Return where a picture is read from: a file, or the bytes of a zip's member, never more than
+    it said or may have.
+    """
     if not holds_many(path):
         stamp(path)
         return path
@@ -208,7 +223,9 @@ def _size(path: Path, name: str) -> tuple[int, int]:
 
 
 def _is_of_a_camera(image: "Image.Image") -> bool:
-    """Tell whether a camera may have written how it was held; of a PNG that is only known once all is decoded."""
+    """Tell whether a camera may have written how it was held; of a PNG that is only known once all
+    is decoded.
+    """
     return image.format != "PNG"
 
 

@@ -45,12 +45,15 @@ def between_cities(route: str) -> Places:
 
 @apart
 def read_places(path: Path) -> Places:
-    """Return the places of a text file: per line latitude, longitude and maybe a name, between commas, semicolons or tabs.
+    """Return the places of a text file: per line latitude, longitude and maybe a name, between
+    commas, semicolons or tabs.
 
-    Lines that begin with #, empty ones, and a first line of words are left out. Longitudes may run to 360.
+    Lines that begin with #, empty ones, and a first line of words are left out. Longitudes may run
+    to 360.
 
     Raises:
-        InputError: If the file is missing, of another kind, not understood, or has fewer than two places.
+        InputError: If the file is missing, of another kind, not understood, or has fewer than two
+            places.
     """
     rows = text_rows(path, "places", KINDS)
     names, degrees = list[str](), list[tuple[float, float]]()
@@ -67,7 +70,8 @@ def read_places(path: Path) -> Places:
         names.append(" ".join(cells[2:])[:40] or f"place {len(degrees)}")
     if not 2 <= len(degrees) <= MOST_PLACES:
         raise InputError(
-            f"{path.name}: {len(degrees):,} places; 2 to {MOST_PLACES:,} are wanted, one on each line"
+            f"{path.name}: {len(degrees):,} places; 2 to {MOST_PLACES:,} are wanted, one on each"
+            " line"
         )
     return Places(tuple(names), np.array(degrees))
 
@@ -87,7 +91,8 @@ def _place(cells: list[str], name: str, line: int) -> tuple[float, float]:
     latitude, longitude = float(cells[0]), float(cells[1])
     if not abs(latitude) <= 90:
         raise InputError(
-            f"{name}, line {line}: latitude {cells[0][:12]} is beyond a pole; the latitude comes first"
+            f"{name}, line {line}: latitude {cells[0][:12]} is beyond a pole; the latitude comes"
+            " first"
         )
     if not -180 <= longitude <= 360:
         raise InputError(

@@ -1,4 +1,5 @@
-"""Fewer rows: one per voxel, so that dense and sparse parts of a scan count alike; some by chance; or evenly spaced ones.
+"""Fewer rows: one per voxel, so that dense and sparse parts of a scan count alike; some by chance;
+or evenly spaced ones.
 
 And how far apart the points of a cloud are.
 """
@@ -38,7 +39,8 @@ def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "
 def some_points(
     p: Float[np.ndarray, "n d"], most: int, rng: np.random.Generator
 ) -> Float[np.ndarray, "m d"]:
-    """Return so many points drawn by chance, in the order they had; all of them where there are no more.
+    """Return so many points drawn by chance, in the order they had; all of them where there are no
+    more.
 
     Nothing is drawn from `rng` where all are returned.
     """
@@ -46,17 +48,22 @@ def some_points(
 
 
 def every(count: int, most: int) -> slice:
-    """Return the slice that takes every so many rows, the first included, so that at most `most` of `count` are taken."""
+    """Return the slice that takes every so many rows, the first included, so that at most `most` of
+    `count` are taken.
+    """
     return slice(None, None, max(1, -(-count // most)))
 
 
 def evenly(count: int, most: int) -> np.ndarray:
-    """Return the indices of at most `most` of `count` rows, evenly spaced, the first and the last included."""
+    """Return the indices of at most `most` of `count` rows, evenly spaced, the first and the last
+    included.
+    """
     return np.unique(np.linspace(0, count - 1, min(most, count)).round().astype(int))
 
 
 def spacing(p: Float[np.ndarray, "n 3"]) -> float:
-    """Return the median distance from a point to the nearest other place with a point, judged by a few hundred points.
+    """Return the median distance from a point to the nearest other place with a point, judged by a
+    few hundred points.
 
     It is 1e-9 where all points are at one place, so that it can divide.
     """
@@ -67,6 +74,8 @@ def spacing(p: Float[np.ndarray, "n 3"]) -> float:
 
 
 def growing(most: int, per_power: int = 8) -> tuple[int, ...]:
-    """Return ever larger counts for a run that draws more and more: 10, so many for each power of ten, and `most`."""
+    """Return ever larger counts for a run that draws more and more: 10, so many for each power of
+    ten, and `most`.
+    """
     counts = np.rint(10 ** np.arange(1, np.log10(most) - 1e-9, 1 / per_power)).astype(int)
     return (*counts.tolist(), most)

@@ -13,7 +13,9 @@ def framed(
     window: int,
     frame: tuple[int, int, int],
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """Return a copy of a picture with a frame of a colour around the window at `center` (u, v), as far as it is inside."""
+    """Return a copy of a picture with a frame of a colour around the window at `center` (u, v), as
+    far as it is inside.
+    """
     u, v = center
     half = max(window // 2, 1) + 1
     h, w = picture.shape[:2]
@@ -34,7 +36,8 @@ def side_by_side(
     *,
     frame: tuple[int, int, int],
 ) -> UInt8[np.ndarray, "k m 3"]:
-    """Return the windows around left (u, v) and right (u - d, v) side by side, both brightened alike, each framed.
+    """Return the windows around left (u, v) and right (u - d, v) side by side, both brightened
+    alike, each framed.
 
     What lies outside the pictures is grey.
 

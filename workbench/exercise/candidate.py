@@ -1,4 +1,6 @@
-"""A function under test: calls the student's function, holds its results to the contract, and remembers every call."""
+"""A function under test: calls the student's function, holds its results to the contract, and
+remembers every call.
+"""
 
 import builtins
 import functools
@@ -14,8 +16,10 @@ from workbench.exercise.sandbox import StudentError
 MOST_SHOWN = 12
 """How many numbers a call may have that is shown to the student."""
 LARGEST = 1e60
-"""How large a number of an answer may be, where the right ones are no larger than 1: squares and products of three such
-numbers are finite still, so that no check takes an overflow for a small distance."""
+"""How large a number of an answer may be, where the right ones are no larger than 1: squares and
+products of three such numbers are finite still, so that no check takes an overflow for a small
+distance.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,12 +54,14 @@ class Call:
 
 
 class Candidate:
-    """A function whose results have the shape, kind and finiteness of the reference's, else a StudentError says why not.
+    """A function whose results have the shape, kind and finiteness of the reference's, else a
+    StudentError says why not.
 
     Args:
         function: The student's function in its process, or one of ours (a mistake, an alternative).
         reference: Ours, called with the same arguments for the shape of the answer.
-        remember: Whether the calls are kept, to recognise mistakes by; a run that is only watched does not need them.
+        remember: Whether the calls are kept, to recognise mistakes by; a run that is only watched
+            does not need them.
     """
 
     def __init__(self, function: Function, reference: Function, *, remember: bool = True):
@@ -74,7 +80,8 @@ class Candidate:
         """Return the function's answer as plain float64, int64 or bool values.
 
         Raises:
-            StudentError: If it gave no answer, or one of another shape or kind than the contract says.
+            StudentError: If it gave no answer, or one of another shape or kind than the contract
+                says.
         """
         right = self._right(args)
         self.expected = right.value
@@ -106,7 +113,9 @@ class Candidate:
 
     @property
     def changed_inputs(self) -> bool:
-        """Whether the last call changed what it was given, in a student's process or, for one of ours, in this one."""
+        """Whether the last call changed what it was given, in a student's process or, for one of
+        ours, in this one.
+        """
         return self._changed or bool(getattr(self.function, "changed_inputs", False))
 
     def _keep(self, args: tuple[Any, ...], answer: Answer, right: Answer) -> None:
@@ -114,7 +123,9 @@ class Candidate:
             self.calls.append(Call(args, answer, right))
 
     def _right(self, args: tuple[Any, ...]) -> Answer:
-        """Ours; None and an error on input for which the contract asks for one: nothing to hold the answer to."""
+        """Ours; None and an error on input for which the contract asks for one: nothing to hold the
+        answer to.
+        """
         try:
             with np.errstate(all="ignore"):
                 return Answer(self._reference(*_copied(args)), "")
@@ -123,7 +134,9 @@ class Candidate:
 
 
 def raised(error: Exception) -> Answer:
-    """Return what a function said that raised this: the name of Python's own error that it is one of."""
+    """Return what a function said that raised this: the name of Python's own error that it is one
+    of.
+    """
     return Answer(None, _known(kind.__name__ for kind in type(error).__mro__))
 
 
@@ -137,7 +150,8 @@ def _copied(args: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def held_to_contract(value: Any, expected: Any, name: str) -> Any:
-    """Return a value as plain float64, int64 or bool, if it has the shape and kind of what is expected.
+    """Return a value as plain float64, int64 or bool, if it has the shape and kind of what is
+    expected.
 
     Raises:
         StudentError: Says what came and what the contract asks for.
@@ -158,7 +172,8 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
     wanted = np.asarray(expected)
     if value is None or isinstance(value, str):
         raise StudentError(
-            f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}. Is a return missing?",
+            f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}. Is a return"
+            " missing?",
             "result",
         )
     try:
@@ -189,7 +204,9 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
 
 
 def _as_values(value: Any, expected: Sequence[Any]) -> Any:
-    """Return an array that has a part for each value asked for as these parts, numbers that count as whole ones."""
+    """Return an array that has a part for each value asked for as these parts, numbers that count
+    as whole ones.
+    """
     if not isinstance(value, np.ndarray) or value.shape[:1] != (len(expected),):
         return value
     whole = [np.asarray(one).dtype.kind in "iu" for one in expected]
@@ -201,7 +218,9 @@ def _as_values(value: Any, expected: Sequence[Any]) -> Any:
 
 
 def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
-    """Raise StudentError where a number that should be finite is not, or is too large to be computed with."""
+    """Raise StudentError where a number that should be finite is not, or is too large to be
+    computed with.
+    """
     known = np.isfinite(wanted)
     finite = np.isfinite(got)
     most = LARGEST * np.abs(wanted[known]).max(initial=1.0)

@@ -1,4 +1,6 @@
-"""Judges one file: every exercise that it is handed in for, those that cannot be graded with one line each."""
+"""Judges one file: every exercise that it is handed in for, those that cannot be graded with one
+line each.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -20,7 +22,8 @@ def check_file(
 
     Args:
         file: The student's file.
-        lesson: The lesson whose exercises are looked for; all of the catalogue's where none is given.
+        lesson: The lesson whose exercises are looked for; all of the catalogue's where none is
+            given.
         hidden: Whether hidden checks are run too.
         wall: What shuts the student's process in.
     """

@@ -1,7 +1,9 @@
-"""Grades a folder of submissions in parallel, so that one of them costs nobody else anything, and sums a class up.
+"""Grades a folder of submissions in parallel, so that one of them costs nobody else anything, and
+sums a class up.
 
-Every finished student is written at once; a batch that was interrupted goes on where it stopped. What changed since is
-graded again: a student's files, the exercises, the grader, Python, or what shuts submissions in.
+Every finished student is written at once; a batch that was interrupted goes on where it stopped.
+What changed since is graded again: a student's files, the exercises, the grader, Python, or what
+shuts submissions in.
 """
 
 import contextlib
@@ -42,7 +44,8 @@ def grade_class(
     jobs: int = 2,
     progress: Progress | None = None,
 ) -> list[Result]:
-    """Grade all submissions of a folder and write results, class.csv, matrix.csv and summary.md into `out`.
+    """Grade all submissions of a folder and write results, class.csv, matrix.csv and summary.md
+    into `out`.
 
     Args:
         folder: Where the submissions are; they are read before the first of them runs.
@@ -116,7 +119,9 @@ def _lost(task: Task) -> Result:
 
 
 def stems(names: Mapping[str, Any]) -> dict[str, str]:
-    """Return the name of each student's file: none is another's, not even where capitals do not count."""
+    """Return the name of each student's file: none is another's, not even where capitals do not
+    count.
+    """
     plain = {name: re.sub(r"[^\w.-]", "_", name)[:80] for name in names}
     counted: dict[str, int] = {}
     for stem in plain.values():
@@ -125,7 +130,7 @@ def stems(names: Mapping[str, Any]) -> dict[str, str]:
     def told_apart(name: str) -> str:
         if plain[name] == name and counted[name.casefold()] == 1:
             return name
-        return f"{plain[name]}-{hashlib.sha256(name.encode('utf-8', 'surrogateescape')).hexdigest()[:8]}"
+        return f"{plain[name]}-{hashlib.sha256(name.encode('utf-8', 'surrogateescape')).hexdigest()[:8]}"  # noqa: E501
 
     return {name: told_apart(name) for name in names}
 
@@ -145,7 +150,7 @@ def _write(path: Path, text: str) -> None:
         raise InputError(f"{path}: {error.strerror or 'cannot be written'}") from None
 
 
-# the command ----------------------------------------------------------------------------------------------------------
+# the command --------------------------------------------------------------------------------------
 
 
 def grade_folder(
@@ -160,13 +165,16 @@ def grade_folder(
     tell: TextIO,
     result: TextIO,
 ) -> int:
-    """Grade a folder as the command does, with a progress bar on `tell` and the summary on `result`.
+    """Grade a folder as the command does, with a progress bar on `tell` and the summary on
+    `result`.
 
     Returns:
-        0 when every submission has full marks, 1 when not, 2 when none could be graded, 130 when it was interrupted.
+        0 when every submission has full marks, 1 when not, 2 when none could be graded, 130 when it
+        was interrupted.
 
     Raises:
-        InputError: If it cannot be done; also where nothing would shut submissions in and that was not asked for.
+        InputError: If it cannot be done; also where nothing would shut submissions in and that was
+            not asked for.
     """
     if jobs is not None and jobs < 1:
         raise InputError(f"--jobs {jobs}: at least 1")
@@ -178,8 +186,8 @@ def grade_folder(
         )
     if not wall.holds and asked.sandbox != "none":
         raise InputError(
-            f"nothing here shuts submissions in, so marks would not be safe: {wall.why}. Mend that, or say --sandbox none "
-            "where the machine is the wall (a container without network)"
+            f"nothing here shuts submissions in, so marks would not be safe: {wall.why}. Mend that,"
+            " or say --sandbox none where the machine is the wall (a container without network)"
         )
     asked = replace(asked, sandbox=wall.name)
     done = [0, 0]
@@ -205,7 +213,8 @@ def grade_folder(
             )
         except KeyboardInterrupt:
             tell.write(
-                f"\nInterrupted: {done[0]} of {done[1] or '?'} graded; the same command goes on from there.\n"
+                f"\nInterrupted: {done[0]} of {done[1] or '?'} graded; the same command goes on"
+                " from there.\n"
             )
             return 130
     result.write(summary(graded, worth) + f"\nResults: {out / 'class.csv'}, {out / 'matrix.csv'}\n")

@@ -1,4 +1,6 @@
-"""The first failing case as a recording that opens where the student's run leaves the reference's."""
+"""The first failing case as a recording that opens where the student's run leaves the
+reference's.
+"""
 
 import time
 from dataclasses import replace
@@ -20,7 +22,8 @@ AFTER = 12
 def record_failing(
     exercise: Exercise, path: Path, out: Path | None = None, lesson: Lesson | None = None
 ) -> Path | None:
-    """Write a recording of the student's run beside the reference's, from just before the first step that differs.
+    """Write a recording of the student's run beside the reference's, from just before the first
+    step that differs.
 
     Args:
         exercise: What the file is for.
@@ -29,7 +32,8 @@ def record_failing(
         lesson: The exercise's lesson, where the catalogue does not have it.
 
     Returns:
-        The recording's path; None where the lesson's runs show no difference soon, or none could be recorded.
+        The recording's path; None where the lesson's runs show no difference soon, or none could be
+        recorded.
     """
     try:
         from workbench.recording import record_bytes
@@ -55,7 +59,8 @@ def record_failing(
 def failing_run(
     exercise: Exercise, student: SandboxedFunction, lesson: Lesson | None = None
 ) -> tuple[Timeline, int] | None:
-    """Return a run of the lesson in which a student's function differs from ours, and the first step that does.
+    """Return a run of the lesson in which a student's function differs from ours, and the first
+    step that does.
 
     Args:
         exercise: What the function is for.

@@ -19,7 +19,8 @@ from workbench.lesson import Lesson, catalog, course
 def exercises() -> dict[str, Exercise]:
     """Return the exercises of all lessons by name, in course order.
 
-    A third party's exercise whose name is taken, or that cannot be loaded, is left out with a warning.
+    A third party's exercise whose name is taken, or that cannot be loaded, is left out with a
+    warning.
     """
     return {
         exercise.name: exercise
@@ -29,12 +30,15 @@ def exercises() -> dict[str, Exercise]:
 
 
 def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
-    """Return the exercises of a lesson: the files of the `exercises` folder beside it, in the order of its run's keywords.
+    """Return the exercises of a lesson: the files of the `exercises` folder beside it, in the order
+    of its run's keywords.
 
-    Of a third party's lesson, those that cannot be loaded or whose name is taken are left out with a warning.
+    Of a third party's lesson, those that cannot be loaded or whose name is taken are left out with
+    a warning.
 
     Raises:
-        InputError: If an exercise of the course, or of a lesson that is not in the catalogue, says too little.
+        InputError: If an exercise of the course, or of a lesson that is not in the catalogue, says
+            too little.
     """
     listed = catalog().get(lesson.name)
     return (
@@ -46,7 +50,8 @@ def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
 
 @functools.cache
 def usable() -> dict[str, tuple[Exercise, ...]]:
-    """Return the exercises of the catalogue's lessons by the lesson's name; the course's come first where names clash.
+    """Return the exercises of the catalogue's lessons by the lesson's name; the course's come first
+    where names clash.
 
     Raises:
         InputError: If two lessons of the course have an exercise of one name; tells both places.
@@ -57,7 +62,8 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
         for exercise in found[name]:
             if exercise.name in places:
                 raise InputError(
-                    f"exercise {exercise.name} is in {places[exercise.name]} and in {_place(lesson)}: rename one"
+                    f"exercise {exercise.name} is in {places[exercise.name]} and in"
+                    f" {_place(lesson)}: rename one"
                 )
             places[exercise.name] = _place(lesson)
     for lesson in catalog().values():
@@ -98,8 +104,8 @@ def _exercises_in(lesson: Lesson) -> tuple[Exercise, ...]:
     for exercise in found:
         if exercise.contract.slot not in slots[1:]:
             raise InputError(
-                f"exercise {exercise.name}: run of lesson {lesson.name} has no keyword {exercise.contract.slot!r}; it has: "
-                f"{', '.join(slots[1:]) or 'none'}"
+                f"exercise {exercise.name}: run of lesson {lesson.name} has no keyword"
+                f" {exercise.contract.slot!r}; it has: {', '.join(slots[1:]) or 'none'}"
             )
         if exercise.contract.preset is not None:
             try:
@@ -143,14 +149,17 @@ def known(lesson: Lesson | None) -> dict[str, Exercise]:
 def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
     """Return the exercises that a student's file is handed in for, without running it.
 
-    They are those that `said_for` finds; where it finds none, those whose functions the file defines.
+    They are those that `said_for` finds; where it finds none, those whose functions the file
+    defines.
 
     Args:
         given: The file, or what was read of it.
-        lesson: The lesson whose exercises are looked for; all of the catalogue's where none is given.
+        lesson: The lesson whose exercises are looked for; all of the catalogue's where none is
+            given.
 
     Raises:
-        InputError: If the file cannot be read, does not parse (with the line), or defines none of them.
+        InputError: If the file cannot be read, does not parse (with the line), or defines none of
+            them.
     """
     submission = given if isinstance(given, Submission) else read_submission(given)
     if submission.broken:
@@ -166,7 +175,8 @@ def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tupl
     missing = [exercise.name for exercise in found if exercise.name not in submission.defines]
     if missing:
         raise InputError(
-            f"{submission.file}: is for {', '.join(missing)} and defines {_nearly(submission, missing)}"
+            f"{submission.file}: is for {', '.join(missing)} and defines"
+            f" {_nearly(submission, missing)}"
         )
     return found
 
@@ -174,9 +184,10 @@ def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tupl
 def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
     """Return the exercises that a file says it is handed in for, whether or not it is Python.
 
-    A starter's first line says so, or else words of the file's name. What it says counts where the file defines such a
-    function. Where it does not, the first line still counts, and so does a name like `my_match.py`; other words may be no
-    exercise's ("final_project.py"), and count only where the file defines no exercise's function at all.
+    A starter's first line says so, or else words of the file's name. What it says counts where the
+    file defines such a function. Where it does not, the first line still counts, and so does a name
+    like `my_match.py`; other words may be no exercise's ("final_project.py"), and count only where
+    the file defines no exercise's function at all.
     """
     asked = known(lesson)
     lines, words = (
@@ -192,7 +203,9 @@ def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exer
 
 
 def _in_words(file: str, names: Iterable[str]) -> list[str]:
-    """Return those of some names whose words stand in a row in a file's name, in any case; of two there the longer."""
+    """Return those of some names whose words stand in a row in a file's name, in any case; of two
+    there the longer.
+    """
     words = _words(file)
     places: list[tuple[int, int, str]] = []
     for name in names:

@@ -21,8 +21,9 @@ class Outcome:
     Attributes:
         check: What was promised.
         verdict: How it was kept.
-        kind: Why there was no answer to judge: a `kind` of StudentError (`timeout`, `died`, `raised`, `result`), `forbidden`
-            where the file uses what the contract forbids, or nothing.
+        kind: Why there was no answer to judge: a `kind` of StudentError (`timeout`, `died`,
+            `raised`, `result`), `forbidden` where the file uses what the contract forbids, or
+            nothing.
     """
 
     check: Check
@@ -48,7 +49,8 @@ class Report:
         concerned: The names of the checks in which it makes that mistake.
         printed: The beginning of what the student's code printed.
         wall: What shut the student's code in; nothing where it was ours.
-        seed: The teacher's number that the hidden checks were drawn from, None where it was the usual one.
+        seed: The teacher's number that the hidden checks were drawn from, None where it was the
+            usual one.
     """
 
     exercise: Exercise
@@ -83,7 +85,9 @@ class Report:
 
     @property
     def said_once(self) -> str:
-        """The sentence that all of several checks say, such as that nothing is written yet; nothing where they differ."""
+        """The sentence that all of several checks say, such as that nothing is written yet; nothing
+        where they differ.
+        """
         said = {outcome.verdict.message for outcome in self.outcomes}
         return said.pop() if len(said) == 1 and self.outcomes[1:] else ""
 
@@ -170,7 +174,9 @@ def grade_function(
 def _refused(
     said: str, exercise: Exercise, hidden: bool, file: str, wall: Wall, seed: int | None
 ) -> Report:
-    """Return the report on a file that uses what is forbidden: nothing of it is run, and every check says why."""
+    """Return the report on a file that uses what is forbidden: nothing of it is run, and every
+    check says why.
+    """
     run = [check for check in exercise.checks if check.public or hidden]
     outcomes = tuple(Outcome(check, fail(said), "forbidden") for check in run)
     return Report(

@@ -1,6 +1,8 @@
-"""Verdicts that many exercises need: the worst of several, motions in degrees and metres, errors asked for, inputs kept.
+"""Verdicts that many exercises need: the worst of several, motions in degrees and metres, errors
+asked for, inputs kept.
 
-They know numpy only, so that what judges an answer is independent of the functions that made the right one.
+They know numpy only, so that what judges an answer is independent of the functions that made the
+right one.
 """
 
 from collections.abc import Iterable
@@ -29,7 +31,9 @@ def rotation_verdict(
     fair: float = 2.0,
     name: str = "R",
 ) -> Verdict:
-    """Judge a rotation by the angle to the right one, in degrees; what is no rotation earns nothing."""
+    """Judge a rotation by the angle to the right one, in degrees; what is no rotation earns
+    nothing.
+    """
     hint = beside(R, R_right, hint, name)
     off, det = float(np.abs(R.T @ R - np.eye(3)).max()), float(np.linalg.det(R))
     if off > SKEWED or det < 0:
@@ -37,7 +41,8 @@ def rotation_verdict(
             return fail(f"{name} mirrors: its determinant is {number(det, 3)}, right is 1. {hint}")
         told = f", its determinant is {against(det, 1.0, 3)}" if abs(det - 1.0) > SKEWED else ""
         return fail(
-            f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}{told}. {hint}"
+            f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}{told}."
+            f" {hint}"
         )
     return band(
         "Rotation error", degrees_between(R, R_right), "degrees", good=good, fair=fair, hint=hint
@@ -54,7 +59,8 @@ def motion_verdict(
     metres: tuple[float, float] = (1e-3, 2e-2),
     name: str = "T",
 ) -> Verdict:
-    """Judge a motion by its rotation error in degrees and by how far it takes points from where they belong.
+    """Judge a motion by its rotation error in degrees and by how far it takes points from where
+    they belong.
 
     Args:
         T: The answer.
@@ -93,7 +99,9 @@ def degrees_between(R: np.ndarray, other: np.ndarray) -> float:
 
 
 def refused(candidate: Function, *args: Any, what: str) -> Verdict:
-    """Judge a call on which the contract asks for a ValueError: all for one, half for an error of another name."""
+    """Judge a call on which the contract asks for a ValueError: all for one, half for an error of
+    another name.
+    """
     try:
         value = candidate(*args)
     except StudentError as error:
@@ -107,7 +115,8 @@ def refused(candidate: Function, *args: Any, what: str) -> Verdict:
 
 
 def left_alone(candidate: Function, verdict: Verdict) -> Verdict:
-    """Return the verdict on the last call's answer, or the failure to leave the arguments as they were.
+    """Return the verdict on the last call's answer, or the failure to leave the arguments as they
+    were.
 
     The check that returns this one fails too where any call of another check changed its arguments.
     """
@@ -130,22 +139,27 @@ def changed(args: tuple[Any, ...]) -> Verdict:
         what = (
             " with nan in it"
             if np.isnan(values).any()
-            else " with inf in it"
-            if np.isinf(values).any()
-            else " without entries"
-            if any(array.size == 0 for array in arrays)
-            else ""
+            else (
+                " with inf in it"
+                if np.isinf(values).any()
+                else " without entries"
+                if any(array.size == 0 for array in arrays)
+                else ""
+            )
         )
     return fail(
-        f"Your function changed an array{what} that it was given. Work on a copy: a /= b writes into a, a = a / b not."
+        f"Your function changed an array{what} that it was given. Work on a copy: a /= b writes"
+        " into a, a = a / b not."
     )
 
 
 def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
-    """Return the hint behind the two numbers, yours and the right one, where an answer is farthest off.
+    """Return the hint behind the two numbers, yours and the right one, where an answer is farthest
+    off.
 
     Args:
-        got: The answer: a number, a vector, a matrix, or points in rows, of which the whole row is told.
+        got: The answer: a number, a vector, a matrix, or points in rows, of which the whole row is
+            told.
         right: The right one, of the same shape.
         hint: What to look at.
         name: What the answer is called, such as R.

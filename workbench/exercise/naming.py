@@ -1,7 +1,8 @@
 """Names the mistake that a function makes, from what it answered to the checks' calls.
 
-A call speaks for or against a mistake where the right answer is known: where the contract asks for an error, or leaves
-open which of several answers is given (the alternatives differ), right functions differ too, and it tells little.
+A call speaks for or against a mistake where the right answer is known: where the contract asks for
+an error, or leaves open which of several answers is given (the alternatives differ), right
+functions differ too, and it tells little.
 """
 
 import functools
@@ -16,15 +17,20 @@ from workbench.exercise.candidate import Answer, Call, raised
 from workbench.exercise.model import Exercise, Function, Mistake
 
 ENOUGH = 3
-"""How much must tell a mistake from the right answer where a function makes it in some checks only: of an array each wrong
-entry counts, of single numbers each one that is not like another, a fraction twice."""
+"""How much must tell a mistake from the right answer where a function makes it in some checks only:
+of an array each wrong entry counts, of single numbers each one that is not like another, a fraction
+twice.
+"""
 RANGE = 1e-50, 1e50
-"""Sizes of numbers, 0 apart, that our functions are asked about: beyond, squares overflow and LAPACK may never end."""
+"""Sizes of numbers, 0 apart, that our functions are asked about: beyond, squares overflow and
+LAPACK may never end.
+"""
 KEPT_ANSWERS = 2048
 ROUNDING = 1e-6  # relative
 NEAR, FAR = 0.05, 5.0
-"""Where right answers differ, by this share of their size at most, a mistake's is told from them if it is from each of
-them at least a fifth as far as they are from each other."""
+"""Where right answers differ, by this share of their size at most, a mistake's is told from them if
+it is from each of them at least a fifth as far as they are from each other.
+"""
 SINGLE_ROUNDING = 1e-4  # the same for single precision, after some sums
 
 
@@ -33,7 +39,8 @@ class Evidence:
     """How some calls speak for a mistake.
 
     Attributes:
-        weight: How much in the answers differs from the right ones as the mistake's do, and is not given by chance.
+        weight: How much in the answers differs from the right ones as the mistake's do, and is not
+            given by chance.
         made: On how many calls for which the contract asks for an error the mistake was made.
         spared: On how many of those on which the mistake is one the right error was raised.
         other: On how many such calls something else went wrong.
@@ -53,11 +60,13 @@ class Evidence:
 def diagnose(
     calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise
 ) -> Mistake | None:
-    """Return the one mistake whose answers are those of the calls and are not the right ones; None if there is none.
+    """Return the one mistake whose answers are those of the calls and are not the right ones; None
+    if there is none.
 
-    It is looked for in all calls first, then in those of each failing check alone: who makes two mistakes makes one of
-    them in most of the checks that fail, or it is not what to mend first. A mistake that refused calls alone tell of, and
-    one whose sentence says that all else is right, is named only where all else is right.
+    It is looked for in all calls first, then in those of each failing check alone: who makes two
+    mistakes makes one of them in most of the checks that fail, or it is not what to mend first. A
+    mistake that refused calls alone tell of, and one whose sentence says that all else is right, is
+    named only where all else is right.
 
     Args:
         calls: By check, what the student's function was asked, and what it said.
@@ -97,7 +106,9 @@ def _in_some_checks(
 
 
 def _the_most(weights: dict[Mistake, int], least: int) -> Mistake | None:
-    """Return the mistake with the most weight, if it has at least this much; none where two have as much."""
+    """Return the mistake with the most weight, if it has at least this much; none where two have as
+    much.
+    """
     most = max(weights.values(), default=0)
     first = [mistake for mistake, weight in weights.items() if weight == most]
     return first[0] if most >= least and len(first) == 1 else None
@@ -132,7 +143,9 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
 
 
 def _is_apart(mistaken: Answer, right: Sequence[Answer]) -> bool:
-    """Tell whether right answers that differ are near to each other, and the mistake's is none of them."""
+    """Tell whether right answers that differ are near to each other, and the mistake's is none of
+    them.
+    """
     spread = max(_gap(one, right[0]) for one in right)
     return _size(right[0]) * NEAR > spread < FAR * min(_gap(one, mistaken) for one in right)
 
@@ -159,7 +172,9 @@ def _gap(a: Answer, b: Answer) -> float:
 
 
 def _wrong_entries(mistaken: Any, right: Any, numbers: set[float]) -> int:
-    """Return how many entries of an array are wrong; a single number is added to those that were given."""
+    """Return how many entries of an array are wrong; a single number is added to those that were
+    given.
+    """
     try:
         wrong, known = np.asarray(mistaken, dtype=float), np.asarray(right, dtype=float)
     except (TypeError, ValueError):
@@ -201,7 +216,7 @@ def values_alike(a: Any, b: Any) -> bool:
     )
 
 
-# what one of our functions says to a call, kept for the next student -----------------------------------------------------
+# what one of our functions says to a call, kept for the next student ------------------------------
 
 
 def _answer(function: Function, call: Call) -> Answer:
@@ -221,7 +236,9 @@ def _answered(function: Function, key: tuple[Any, ...]) -> Answer:
 
 
 def _is_beyond(arg: Any) -> bool:
-    """Tell whether an argument, which may come from a student's answer, has numbers that are too large or too small."""
+    """Tell whether an argument, which may come from a student's answer, has numbers that are too
+    large or too small.
+    """
     if not (isinstance(arg, float) or (isinstance(arg, np.ndarray) and arg.dtype.kind == "f")):
         return False
     size = np.abs(arg)[()]

@@ -1,4 +1,6 @@
-"""Has hand-ins read by a process with limits, so that none of them can stall the grader or take its memory."""
+"""Has hand-ins read by a process with limits, so that none of them can stall the grader or take its
+memory.
+"""
 
 import base64
 import contextlib
@@ -15,13 +17,17 @@ from workbench.errors import InputError
 
 READING = Path(__file__).with_name("child") / "reading.py"
 MOST_SECONDS = 30.0
-"""How long a reply is waited for where the machine is busy; the process itself may compute for three seconds a file."""
+"""How long a reply is waited for where the machine is busy; the process itself may compute for
+three seconds a file.
+"""
 MOST_LOST = 3
 """After how many files that could not be read in that time no more of a student's are tried."""
 
 
 class Reader:
-    """Reads files, one after the other, in one process that is started when it is needed, and anew after one that hangs."""
+    """Reads files, one after the other, in one process that is started when it is needed, and anew
+    after one that hangs.
+    """
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None

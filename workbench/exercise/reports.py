@@ -1,4 +1,6 @@
-"""What grading found, as text and as files: terminal, our JSON, Gradescope, JUnit, a Markdown summary."""
+"""What grading found, as text and as files: terminal, our JSON, Gradescope, JUnit, a Markdown
+summary.
+"""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -14,18 +16,24 @@ from workbench.machinery.version import __version__
 
 SCHEMA_VERSION = 2
 SCHEMA = Path(__file__).with_name("result.schema.json")
-UNSAFE = "Marks are not safe: nothing but limits stood between this code and the machine that graded it (--sandbox none)."
+UNSAFE = (
+    "Marks are not safe: nothing but limits stood between this code and the machine that graded it"
+    " (--sandbox none)."
+)
 PRINTED_LINES, PRINTED_SIGNS = 5, 160
 MARKS = {"pass": "✓", "partial": "◐", "fail": "✗"}
 
 
 def terminal(report: Report) -> str:
-    """Return a report for a person: per check its mark, points, promise and what was found, then what was run."""
+    """Return a report for a person: per check its mark, points, promise and what was found, then
+    what was run.
+    """
     lines = [f"{report.exercise.name} · {one_line(report.file)}"]
     for outcome in report.outcomes:
         points = f"{outcome.points:g}/{outcome.check.points:g}"
         lines.append(
-            f"  {MARKS[outcome.verdict.word]} {outcome.verdict.word:<7} {points:>5}  {outcome.check.promise}"
+            f"  {MARKS[outcome.verdict.word]} {outcome.verdict.word:<7} {points:>5} "
+            f" {outcome.check.promise}"
         )
         lines += [] if report.said_once else [f"{'':18}{outcome.verdict.message}"]
     lines += [f"  {report.said_once}"] if report.said_once else []
@@ -41,7 +49,9 @@ def terminal(report: Report) -> str:
 
 
 def counted(report: Report) -> str:
-    """Return the last line of a report: what passed, and what was not run here. Never a sentence that reads as done."""
+    """Return the last line of a report: what passed, and what was not run here. Never a sentence
+    that reads as done.
+    """
     parts = []
     for word, public in (("public", True), ("hidden", False)):
         run = [outcome for outcome in report.outcomes if outcome.check.public is public]
@@ -55,7 +65,9 @@ def counted(report: Report) -> str:
 
 
 def shown(printed: str) -> list[str]:
-    """Return the first lines of what was printed, with signs that a terminal would obey written out."""
+    """Return the first lines of what was printed, with signs that a terminal would obey written
+    out.
+    """
     lines = [one_line(line)[:PRINTED_SIGNS] for line in printed.split("\n") if line.strip()]
     return [*lines[:PRINTED_LINES], *(["..."] if len(lines) > PRINTED_LINES else [])]
 
@@ -65,7 +77,9 @@ def _is_unsafe(report: Report) -> bool:
 
 
 def ungraded(file: str, exercise: Exercise | None, error: str) -> dict[str, Any]:
-    """Return what could not be graded as plain data: it has no points out of all those there were."""
+    """Return what could not be graded as plain data: it has no points out of all those there
+    were.
+    """
     return {
         "file": one_line(file),
         "exercise": None if exercise is None else exercise.name,
@@ -87,17 +101,19 @@ def as_dict(report: Report) -> dict[str, Any]:
         "possible": report.possible,
         "checks": [_check(outcome) for outcome in report.outcomes],
         "not_run": [check.name for check in report.not_run],
-        "mistake": None
-        if report.mistake is None
-        else {
-            "name": report.mistake.name,
-            "sentence": report.mistake.sentence,
-            "checks": [
-                outcome.check.name
-                for outcome in report.outcomes
-                if outcome.check.name in report.concerned
-            ],
-        },
+        "mistake": (
+            None
+            if report.mistake is None
+            else {
+                "name": report.mistake.name,
+                "sentence": report.mistake.sentence,
+                "checks": [
+                    outcome.check.name
+                    for outcome in report.outcomes
+                    if outcome.check.name in report.concerned
+                ],
+            }
+        ),
         "printed": shown(report.printed),
         "sandbox": None if report.wall is None else report.wall.name,
         "seed": report.seed,
@@ -130,7 +146,8 @@ def gradescope(
     Args:
         reports: What was graded.
         failed: What could not be, as `ungraded` says it.
-        factors: What a point of an exercise is worth, by the exercise's name; 1 where nothing is said.
+        factors: What a point of an exercise is worth, by the exercise's name; 1 where nothing is
+            said.
         hidden: When hidden checks are shown: `after_published` or `after_due_date`.
         notes: What else is to be said.
 
@@ -203,7 +220,9 @@ def _named(report: Report, outcome: Outcome) -> list[str]:
 
 
 def junit(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> str:
-    """Return JUnit XML, as Jenkins reads it: a suite per function, a case per check; an error where none could be run."""
+    """Return JUnit XML, as Jenkins reads it: a suite per function, a case per check; an error where
+    none could be run.
+    """
     root = ElementTree.Element("testsuites")
     for report in reports:
         failures = sum(outcome.verdict.share < 1.0 for outcome in report.outcomes)

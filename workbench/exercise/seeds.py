@@ -1,6 +1,7 @@
 """Seeds of hidden checks: fixed ones, unless a teacher's own number says what they are drawn from.
 
-A table of right answers learnt from the fixed seeds answers nothing that is drawn from another number.
+A table of right answers learnt from the fixed seeds answers nothing that is drawn from another
+number.
 """
 
 import contextlib
@@ -26,7 +27,9 @@ class HiddenSeed:
     usual: int
 
     def __call__(self) -> int:
-        """Return the usual seed, or inside `drawn_from` the one that belongs to it and to the teacher's."""
+        """Return the usual seed, or inside `drawn_from` the one that belongs to it and to the
+        teacher's.
+        """
         seed = _teachers.get()
         return (
             self.usual
@@ -37,7 +40,9 @@ class HiddenSeed:
 
 @contextlib.contextmanager
 def drawn_from(seed: int | None) -> Iterator[None]:
-    """Let the hidden checks that run in this block be drawn from a teacher's number, 0 or more; None changes nothing."""
+    """Let the hidden checks that run in this block be drawn from a teacher's number, 0 or more;
+    None changes nothing.
+    """
     before = _teachers.set(seed)
     try:
         yield

@@ -1,4 +1,6 @@
-"""Writes what a student starts from, a file with the signature, the contract and two examples, and a sample solution."""
+"""Writes what a student starts from, a file with the signature, the contract and two examples, and
+a sample solution.
+"""
 
 import inspect
 import textwrap
@@ -61,7 +63,8 @@ def {exercise.name}({arguments}) -> {returned}:
 
 
 def sample(exercise: Exercise) -> str:
-    """Return the text of a file that earns full marks: a copy of the first alternative, which needs numpy alone.
+    """Return the text of a file that earns full marks: a copy of the first alternative, which needs
+    numpy alone.
 
     Raises:
         InputError: If the exercise has no alternative.
@@ -96,15 +99,18 @@ def allowed(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
         else ""
     )
     return (
-        f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside this file.{but} One call "
-        f"may take {seconds:g} s and {room}, all calls together {CALLS * seconds:g} s. It may print: the first "
-        f"{OUTPUT_BYTES >> 10} KB are kept. It reaches no network, no other program and no file that is not its own. The "
-        "first line above says what this file is handed in for: leave it there."
+        f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside"
+        f" this file.{but} One call may take {seconds:g} s and {room}, all calls together"
+        f" {CALLS * seconds:g} s. It may print: the first {OUTPUT_BYTES >> 10} KB are kept. It"
+        " reaches no network, no other program and no file that is not its own. The first line"
+        " above says what this file is handed in for: leave it there."
     )
 
 
 def commands(exercise: Exercise) -> tuple[str, str, str]:
-    """Return what a student types to get the starter file, to watch the function, and to have it judged."""
+    """Return what a student types to get the starter file, to watch the function, and to have it
+    judged.
+    """
     lesson = word_for(exercise.lesson, exercise.reference.__module__)
     given = "" if lesson == exercise.lesson and lesson in catalog() else f" --lesson {lesson}"
     file = f"my_{exercise.name}.py"
@@ -157,4 +163,8 @@ def _shapes(signature: inspect.Signature) -> Iterator[str]:
         dimensions = getattr(annotation, "dim_str", None)
         if dimensions is not None:
             kind = annotation.__name__.split("[")[0].lower()
-            yield f"{name}: ({', '.join(dimensions.split())}{',' if len(dimensions.split()) == 1 else ''}) {kind}"
+            yield (
+                f"{name}:"
+                f" ({', '.join(dimensions.split())}{',' if len(dimensions.split()) == 1 else ''})"
+                f" {kind}"
+            )

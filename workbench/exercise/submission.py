@@ -1,4 +1,6 @@
-"""What a student handed in, read once, before anything of it runs: text, and the modules beside it that it imports."""
+"""What a student handed in, read once, before anything of it runs: text, and the modules beside it
+that it imports.
+"""
 
 import os
 import stat

@@ -1,4 +1,6 @@
-"""What a class handed in: a folder is read once, before anything of it runs; who handed in nothing is found by a roster."""
+"""What a class handed in: a folder is read once, before anything of it runs; who handed in nothing
+is found by a roster.
+"""
 
 import csv
 import io
@@ -37,7 +39,8 @@ class HandIn:
 
 
 def handed_in(folder: Path, out: Path | None = None) -> dict[str, HandIn]:
-    """Return what each student handed in: `NAME.py`, `NAME.ipynb`, or a folder `NAME` with files at any depth.
+    """Return what each student handed in: `NAME.py`, `NAME.ipynb`, or a folder `NAME` with files at
+    any depth.
 
     Args:
         folder: Where the students' files are.
@@ -99,13 +102,16 @@ def _noted(handed: HandIn, said: str) -> HandIn:
 
 
 def _was_meant(path: Path) -> bool:
-    """Whether a file that is not read was handed in all the same: an archive, or Python under another name."""
+    """Whether a file that is not read was handed in all the same: an archive, or Python under
+    another name.
+    """
     name = path.name.lower()
     return name.endswith(ARCHIVES) or any(f"{suffix}." in name for suffix in SUFFIXES)
 
 
 def with_roster(found: dict[str, HandIn], roster: Path) -> dict[str, HandIn]:
-    """Return what was handed in by those of a roster, in its order, then by those who are not in it.
+    """Return what was handed in by those of a roster, in its order, then by those who are not in
+    it.
 
     Raises:
         InputError: If the roster cannot be read.
@@ -138,7 +144,8 @@ def _names(roster: Path) -> list[str]:
     ]
     if not any(names):
         raise InputError(
-            f"{roster}: names no student; its first row may say which column does: {', '.join(COLUMNS)}"
+            f"{roster}: names no student; its first row may say which column does:"
+            f" {', '.join(COLUMNS)}"
         )
     return list(dict.fromkeys(name for name in names if name))
 
@@ -152,7 +159,8 @@ def _read(student: str, root: Path, paths: list[Path]) -> HandIn:
         try:
             if len(files) >= MOST_FILES or left <= 0:
                 raise InputError(
-                    f"{name}: not read; a student may hand in {MOST_FILES} files, {MOST_TOGETHER >> 20} MB"
+                    f"{name}: not read; a student may hand in {MOST_FILES} files,"
+                    f" {MOST_TOGETHER >> 20} MB"
                 )
             files[name] = content(path, root)
             left -= len(files[name])

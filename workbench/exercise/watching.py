@@ -1,4 +1,6 @@
-"""Follows a student's file while it is edited: the lesson it drives, and what its public checks say."""
+"""Follows a student's file while it is edited: the lesson it drives, and what its public checks
+say.
+"""
 
 import os
 from pathlib import Path
@@ -26,7 +28,8 @@ class Watched:
 
     Attributes:
         lesson: The lesson as the file drives it now.
-        said: What the public checks found of the file last, or one line that says why they found nothing.
+        said: What the public checks found of the file last, or one line that says why they found
+            nothing.
 
     Raises:
         InputError: If the file cannot be used, or holds no function of this lesson.
@@ -47,7 +50,9 @@ class Watched:
         return self._student.source
 
     def first_preset(self, params: Any) -> Preset | None:
-        """Return the preset that calls the function, where the run that was asked for is the default one, which does not."""
+        """Return the preset that calls the function, where the run that was asked for is the
+        default one, which does not.
+        """
         name = self.exercise.contract.preset
         return (
             None if name is None or params != self.original.params() else self.original.preset(name)

@@ -1,4 +1,6 @@
-"""Cuts segments and triangles at the near plane, lines and planes at a window, and edges into short pieces."""
+"""Cuts segments and triangles at the near plane, lines and planes at a window, and edges into short
+pieces.
+"""
 
 import functools
 from collections.abc import Callable
@@ -58,7 +60,8 @@ def clip_to_rectangle(
         high: Its highest coordinates.
 
     Returns:
-        Start and stop in [0, 1]; start is not below stop for a segment that misses the rectangle or has NaN ends.
+        Start and stop in [0, 1]; start is not below stop for a segment that misses the rectangle or
+        has NaN ends.
 
     Reference: Liang and Barsky, A new concept and method for line clipping, 1984.
     """
@@ -94,7 +97,9 @@ def cut_to_rectangle(
         high: The corner with the largest.
 
     Examples:
-        >>> cut_to_rectangle(np.array([[[-3.0, 0.0], [1.0, 0.0]]]), np.full(2, -1.0), np.full(2, 2.0)).tolist()
+        >>> cut_to_rectangle(
+        ...     np.array([[[-3.0, 0.0], [1.0, 0.0]]]), np.full(2, -1.0), np.full(2, 2.0)
+        ... ).tolist()
         [[[-1.0, 0.0], [1.0, 0.0]]]
     """
     ends = ends[np.isfinite(ends).all(axis=(1, 2))]
@@ -166,12 +171,14 @@ def cut_finely(
     low: Float[np.ndarray, "2"],
     high: Float[np.ndarray, "2"],
 ) -> tuple[Float[np.ndarray, "m c 3"], Int[np.ndarray, " m"]]:
-    """Return segments or triangles with edges halved until all are short in a flat picture; those outside it are dropped.
+    """Return segments or triangles with edges halved until all are short in a flat picture; those
+    outside it are dropped.
 
     Args:
         p: Segments (c = 2) or triangles (c = 3), all ahead of the camera.
         flatten: Where points (n, 3) are in the flat picture, (n, 2).
-        longest: Length there that no edge of a piece exceeds (each edge is halved at most 12 times).
+        longest: Length there that no edge of a piece exceeds (each edge is halved at most 12
+            times).
         low: Lowest coordinates of the part of the flat picture that matters.
         high: Its highest coordinates.
 
@@ -200,14 +207,18 @@ def cut_finely(
 def over_corners(
     choose: np.ufunc, rows: Float[np.ndarray, "n c *more"]
 ) -> Float[np.ndarray, "n *more"]:
-    """Return the minimum or maximum over the corners of each row; numpy's reduction is slow over so few."""
+    """Return the minimum or maximum over the corners of each row; numpy's reduction is slow over so
+    few.
+    """
     return functools.reduce(choose, (rows[:, corner] for corner in range(rows.shape[1])))
 
 
 def _lone_corner_first(
     p: np.ndarray, ahead: np.ndarray, alone: np.ndarray
 ) -> tuple[np.ndarray, ...]:
-    """Turn triangles so that the corner alone on its side leads; return a, b, c and the crossings on ab and ac."""
+    """Turn triangles so that the corner alone on its side leads; return a, b, c and the crossings
+    on ab and ac.
+    """
     turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
     a, b, c = np.take_along_axis(p, turn[:, :, None], axis=1).transpose(1, 0, 2)
     at_a, at_b, at_c = np.take_along_axis(ahead, turn, axis=1).T
@@ -217,7 +228,9 @@ def _lone_corner_first(
 def _crossing(
     p_a: np.ndarray, p_b: np.ndarray, ahead_a: np.ndarray, ahead_b: np.ndarray
 ) -> np.ndarray:
-    """Return where segments a-b cross the plane at which `ahead` is zero; anything for those that do not."""
+    """Return where segments a-b cross the plane at which `ahead` is zero; anything for those that
+    do not.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         return p_a + (ahead_a / (ahead_a - ahead_b))[:, None] * (p_b - p_a)
 

@@ -5,7 +5,9 @@ from jaxtyping import Float
 
 
 def segments(p: Float[np.ndarray, "n d"], *, closed: bool = False) -> Float[np.ndarray, "m 2 d"]:
-    """Return the segments from each point to the next, and where the line is closed from the last to the first."""
+    """Return the segments from each point to the next, and where the line is closed from the last
+    to the first.
+    """
     if closed:
         return np.stack([p, np.roll(p, -1, axis=0)], axis=1)
     return np.stack([p[:-1], p[1:]], axis=1)
@@ -14,7 +16,8 @@ def segments(p: Float[np.ndarray, "n d"], *, closed: bool = False) -> Float[np.n
 def between(
     p: Float[np.ndarray, "*n d"], q: Float[np.ndarray, "*k d"]
 ) -> Float[np.ndarray, "m 2 d"]:
-    """Return the segments from each point (n, d) to its partner in the same row; a single point (d,) is partner of all.
+    """Return the segments from each point (n, d) to its partner in the same row; a single point
+    (d,) is partner of all.
 
     Examples:
         >>> between(np.array([0.0, 0.0]), np.array([1.0, 2.0])).tolist()
@@ -24,7 +27,8 @@ def between(
 
 
 def at_height(p: Float[np.ndarray, "*n d"], height: float = 0.0) -> Float[np.ndarray, "*n 3"]:
-    """Return points of the plane, or ends of segments, in space at a height; what is in space already stays as it is.
+    """Return points of the plane, or ends of segments, in space at a height; what is in space
+    already stays as it is.
 
     Examples:
         >>> at_height(np.array([[1.0, 2.0]]), 3.0).tolist()
@@ -38,13 +42,17 @@ def at_height(p: Float[np.ndarray, "*n d"], height: float = 0.0) -> Float[np.nda
 def rectangle(
     low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> Float[np.ndarray, "4 2"]:
-    """Return the corners of an upright rectangle in order, the lowest first and then the one farther along x."""
+    """Return the corners of an upright rectangle in order, the lowest first and then the one
+    farther along x.
+    """
     (x0, y0), (x1, y1) = low, high
     return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]], float)
 
 
 def circle(pieces: int = 64) -> Float[np.ndarray, "n 2"]:
-    """Return the points of the unit circle from +x counterclockwise, the first once more at the end."""
+    """Return the points of the unit circle from +x counterclockwise, the first once more at the
+    end.
+    """
     turn = np.linspace(0.0, 2.0 * np.pi, pieces + 1)
     return np.column_stack([np.cos(turn), np.sin(turn)])
 
@@ -102,6 +110,8 @@ def cylinder_rings(
 
 
 def fan(corners: int) -> np.ndarray:
-    """Return the triangles (n - 2, 3) of a convex polygon with so many corners, all from the first."""
+    """Return the triangles (n - 2, 3) of a convex polygon with so many corners, all from the
+    first.
+    """
     k = np.arange(1, corners - 1)
     return np.column_stack([np.zeros_like(k), k, k + 1])

@@ -16,7 +16,9 @@ from workbench.lesson import catalog
 MOST_POINTS = 1e6
 SERVICES = ("gradescope", "prairielearn", "folder")
 MEGABYTES = {"gradescope": 512}
-"""Address space of a student's process, where a service has less than we would give: its smallest machine has 768 MB."""
+"""Address space of a student's process, where a service has less than we would give: its smallest
+machine has 768 MB.
+"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +78,9 @@ class Assignment:
         return self.worth[exercise.name] / exercise.points
 
     def identity(self, what: str) -> str:
-        """Return a UUID that is the same whenever the same is handed out, so that uploading again replaces."""
+        """Return a UUID that is the same whenever the same is handed out, so that uploading again
+        replaces.
+        """
         return str(uuid.uuid5(uuid.NAMESPACE_URL, f"geometry-workbench/{what}"))
 
     def text(self) -> str:

@@ -1,4 +1,6 @@
-"""The grader as files: the headless part of the workbench, the lessons that are asked for, and what pip cannot be asked."""
+"""The grader as files: the headless part of the workbench, the lessons that are asked for, and what
+pip cannot be asked.
+"""
 
 import importlib.metadata
 import importlib.util
@@ -34,7 +36,8 @@ def packages(assignment: Assignment) -> dict[str, bytes]:
         folder = lessons / name
         if catalog()[name].params.__module__.split(".")[:2] != ["lessons", name]:
             raise InputError(
-                f"lesson {name} is not one of the course's own: hand its exercises out by `exercise`"
+                f"lesson {name} is not one of the course's own: hand its exercises out by"
+                " `exercise`"
             )
         files |= {f"lessons/{name}/{file}": data for file, data in _files(folder)}
     for package in CARRIED:
@@ -67,7 +70,9 @@ def _folder(package: str) -> Path:
 
 
 def _told_of(package: str) -> Iterator[tuple[str, bytes]]:
-    """Yield what an installation says of a package: its version, which it asks for itself, and its licence."""
+    """Yield what an installation says of a package: its version, which it asks for itself, and its
+    licence.
+    """
     for file in importlib.metadata.files(package) or ():
         if ".dist-info/" in str(file) and (
             file.name == "METADATA" or "LICENSE" in file.name.upper()

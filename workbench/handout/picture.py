@@ -14,7 +14,8 @@ SIZE = 640, 400
 
 
 def pictured(exercise: Exercise, handed: HandIn, file: str, wall: Wall) -> list[dict[str, str]]:
-    """Return a picture of the failing case as a label and a data URL; none where the lesson's run shows none.
+    """Return a picture of the failing case as a label and a data URL; none where the lesson's run
+    shows none.
 
     Args:
         exercise: What the file is for.

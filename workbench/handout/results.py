@@ -16,9 +16,11 @@ def prairielearn(
     images: Sequence[dict[str, str]] = (),
     notes: Sequence[str] = (),
 ) -> dict[str, Any]:
-    """Return the `results.json` of a question: its score is a share; what cannot be graded costs no attempt.
+    """Return the `results.json` of a question: its score is a share; what cannot be graded costs no
+    attempt.
 
-    Everything in it is shown at once, so hidden checks are one line with their points and no feedback.
+    Everything in it is shown at once, so hidden checks are one line with their points and no
+    feedback.
 
     Args:
         reports: What was graded, of one exercise.

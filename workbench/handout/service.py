@@ -1,4 +1,5 @@
-"""What runs at a course system when a student hands in: `python -m workbench.handout.service ROOT ASSIGNMENT`.
+"""What runs at a course system when a student hands in: `python -m workbench.handout.service ROOT
+ASSIGNMENT`.
 
 Results are written before anything runs and again after every exercise, so
 that they are there however this ends.
@@ -22,7 +23,10 @@ from workbench.handout.picture import pictured
 from workbench.handout.results import prairielearn
 from workbench.machinery.atomic import write_atomic
 
-NOT_YET = "was not graded: the grader ended before, or ran out of time. This is not about your code; tell your teacher."
+NOT_YET = (
+    "was not graded: the grader ended before, or ran out of time. This is not about your code; tell"
+    " your teacher."
+)
 Written = Callable[
     [Sequence[Report], Sequence[dict[str, Any]], Sequence[dict[str, str]]], dict[str, Any]
 ]
@@ -40,7 +44,9 @@ PLACES = {"gradescope": Places("submission"), "prairielearn": Places("student")}
 
 
 def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
-    """Grade what lies in a service's folder, write its results there, and return them; whatever breaks is part of them."""
+    """Grade what lies in a service's folder, write its results there, and return them; whatever
+    breaks is part of them.
+    """
     places = PLACES[assignment.service]
     reports: list[Report] = []
     failed: list[dict[str, Any]] = []
@@ -114,7 +120,9 @@ def _results(
 
 
 def main(words: Sequence[str]) -> int:
-    """Grade what lies in the folder of a service; `--wall` says what would shut it in, for the log of an installation."""
+    """Grade what lies in the folder of a service; `--wall` says what would shut it in, for the log
+    of an installation.
+    """
     if list(words) == ["--wall"]:
         wall = best(alone=True)
         sys.stdout.write(

@@ -1,4 +1,6 @@
-"""Writes a handout to the disk, and tries it: the sample that is right, and the empty one, as the service would run them."""
+"""Writes a handout to the disk, and tries it: the sample that is right, and the empty one, as the
+service would run them.
+"""
 
 import json
 import os
@@ -18,7 +20,9 @@ from workbench.machinery.atomic import write_atomic
 
 SECONDS = 560.0
 KINDS = {"full": sample, "none": starter}
-"""What each folder of the teacher's holds: a file that earns everything, and one that earns nothing."""
+"""What each folder of the teacher's holds: a file that earns everything, and one that earns
+nothing.
+"""
 
 
 def files(assignment: Assignment) -> dict[str, bytes]:
@@ -65,7 +69,8 @@ def write(assignment: Assignment, out: Path, *, force: bool = False) -> None:
 
 
 def tried(assignment: Assignment, out: Path) -> str:
-    """Run what was handed out on its own samples, in a folder laid out as the service lays it out; say what they score.
+    """Run what was handed out on its own samples, in a folder laid out as the service lays it out;
+    say what they score.
 
     Raises:
         InputError: If the right sample has not full marks there, or the empty one any.
@@ -77,7 +82,8 @@ def tried(assignment: Assignment, out: Path) -> str:
     shares = {kind: share_of(assignment, out, out / "teacher" / kind) for kind in KINDS}
     if shares != {"full": 1.0, "none": 0.0}:
         raise InputError(
-            f"{out}: on this machine the samples score {shares}, not 1 and 0: see what results say there"
+            f"{out}: on this machine the samples score {shares}, not 1 and 0: see what results say"
+            " there"
         )
     return "Tried here: the sample in teacher/full has full marks, the one in teacher/none has none"
 
@@ -100,7 +106,9 @@ def share_of(assignment: Assignment, out: Path, submission: Path) -> float:
 
 
 def lay_out_gradescope(root: Path, out: Path, submission: Path) -> Path:
-    """Lay an autograder and a submission out below a folder as Gradescope does below /autograder."""
+    """Lay an autograder and a submission out below a folder as Gradescope does below
+    /autograder.
+    """
     with zipfile.ZipFile(out / "autograder.zip") as archive:
         archive.extractall(root / "source")
     shutil.copy(root / "source" / "run_autograder", root / "run_autograder")
@@ -122,7 +130,9 @@ def lay_out_prairielearn(root: Path, out: Path, exercise: str, file: Path) -> Pa
 
 
 def run(script: Path, root: Path, python: str = sys.executable) -> dict:
-    """Run the script of a service in its folder with a Python, and return the results that it wrote there."""
+    """Run the script of a service in its folder with a Python, and return the results that it wrote
+    there.
+    """
     environment = os.environ | {"GRADER_PYTHON": python}
     subprocess.run(
         [script, root], env=environment, capture_output=True, timeout=SECONDS, check=False
@@ -154,21 +164,30 @@ def readme(assignment: Assignment) -> str:
     ]
     if assignment.sandbox == "none":
         lines += [
-            "Submissions are not shut in (`--sandbox none`): marks are not safe, and every result says so."
+            "Submissions are not shut in (`--sandbox none`): marks are not safe, and every result"
+            " says so."
         ]
     elif assignment.service != "folder":
-        lines += ["Where nothing there can shut a submission in, nothing is graded and the results say so; then hand out "
-                  "again with `--sandbox none`, which grades all the same and says that marks are not safe."]  # fmt: skip
+        lines += [
+            "Where nothing there can shut a submission in, nothing is graded and the results say"
+            " so; then hand out again with `--sandbox none`, which grades all the same and says"
+            " that marks are not safe."
+        ]
     return "\n".join(lines) + "\n"
 
 
 def _steps(assignment: Assignment) -> list[str]:
     return [
         "1. Give students what is in `student`.",
-        "2. Put what they hand in into one folder, a folder or a file per student, and grade it: "
-        "`workbench grade FOLDER --assignment assignment.json`. `class.csv` counts the points of this assignment; what was "
-        "not handed in counts nothing out of its points.",
-        "3. `workbench check --hidden` on a file of `teacher/full` gives full marks, on one of `teacher/none` none.",
+        (
+            "2. Put what they hand in into one folder, a folder or a file per student, and grade"
+            " it: `workbench grade FOLDER --assignment assignment.json`. `class.csv` counts the"
+            " points of this assignment; what was not handed in counts nothing out of its points."
+        ),
+        (
+            "3. `workbench check --hidden` on a file of `teacher/full` gives full marks, on one of"
+            " `teacher/none` none."
+        ),
     ]
 
 
@@ -181,7 +200,10 @@ def task(assignment: Assignment) -> str:
         _, watching, judging = commands(exercise)
         lines += [f"## {exercise.name} ({weight:g} points)", "", exercise.task, ""]
         lines += [
-            f"Write it in `my_{exercise.name}.py`. Watch it live with `{watching}`; try it with `{judging}`.",
+            (
+                f"Write it in `my_{exercise.name}.py`. Watch it live with `{watching}`; try it with"
+                f" `{judging}`."
+            ),
             "",
         ]
     return "\n".join(lines)

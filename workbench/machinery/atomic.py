@@ -8,15 +8,17 @@ import zlib
 from pathlib import Path
 from uuid import uuid4
 
-_MACHINE = f"{zlib.crc32(platform.node().encode()):08x}"  # machines that share a folder see their own processes only
+# machines that share a folder see their own processes only
+_MACHINE = f"{zlib.crc32(platform.node().encode()):08x}"
 _PART = re.compile(rf"\..+\.{_MACHINE}-(\d+)-[0-9a-f]{{8}}\.part")
 
 
 def write_atomic(path: Path, data: bytes) -> None:
-    """Put the whole file in place, or nothing: whatever stood there stays until the new file is complete.
+    """Put the whole file in place, or nothing: whatever stood there stays until the new file is
+    complete.
 
-    Until then it stands beside `path` under another name, which no exception leaves behind. A link is replaced, not
-    followed: give `path.resolve()` where it shall be.
+    Until then it stands beside `path` under another name, which no exception leaves behind. A link
+    is replaced, not followed: give `path.resolve()` where it shall be.
 
     Raises:
         OSError: If it cannot be written.
@@ -33,7 +35,9 @@ def write_atomic(path: Path, data: bytes) -> None:
 
 
 def remove_leftovers(folder: Path) -> None:
-    """Remove the unfinished files that processes of this machine which are no more left in a folder."""
+    """Remove the unfinished files that processes of this machine which are no more left in a
+    folder.
+    """
     for name in os.listdir(folder):
         found = _PART.fullmatch(name)
         if found is not None and not _is_alive(int(found[1])):

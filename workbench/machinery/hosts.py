@@ -1,7 +1,7 @@
 """Where a server of this machine listens, and which hosts a browser may name that asks it.
 
-On loopback it must name this machine, so that no page of the internet can get in by giving its own name this machine's
-address (DNS rebinding).
+On loopback it must name this machine, so that no page of the internet can get in by giving its own
+name this machine's address (DNS rebinding).
 """
 
 import ipaddress
@@ -32,7 +32,9 @@ class Hosts:
         self._names.add(f"[{listens.strip('[]')}]" if ":" in listens else listens.lower())
 
     def know(self, host: str) -> bool:
-        """Tell whether a browser that names this host, with a port or without, has come to the right place."""
+        """Tell whether a browser that names this host, with a port or without, has come to the
+        right place.
+        """
         found = name_in(host)
         if found is None:
             return False
@@ -69,7 +71,9 @@ def listening(host: str, port: int) -> socket.socket:
 
 
 def name_in(host: str) -> str | None:
-    """Return the name or address of what a browser names as host, in small letters; None where it is none."""
+    """Return the name or address of what a browser names as host, in small letters; None where it
+    is none.
+    """
     found = _HOST.fullmatch(host.lower())
     return None if found is None else found[1]
 

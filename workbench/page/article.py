@@ -1,8 +1,9 @@
 """A lesson's article as HTML: its text with links that run things, and the place of its questions.
 
-In page.md, `[the last step](run:far@-1)` opens the preset `far` at its last step, `[the last step](run:this@-1)` goes to a
-step of the run that is open, and `[[source]]` or `[[source|the scan]]` names a thing of the scene.
-`{{live: Drag the slider.}}` and `{{site: Choose a recorded run.}}` stand in that home only.
+In page.md, `[the last step](run:far@-1)` opens the preset `far` at its last step, `[the last
+step](run:this@-1)` goes to a step of the run that is open, and `[[source]]` or `[[source|the
+scan]]` names a thing of the scene. `{{live: Drag the slider.}}` and `{{site: Choose a recorded
+run.}}` stand in that home only.
 """
 
 import re
@@ -26,10 +27,12 @@ Address = Callable[[str, int | None], str]
 
 
 def article_html(lesson: Lesson, address: Address, home: str) -> str:
-    """Return a lesson's article as a home, `live` or `site`, has it, with PLACE where the questions belong.
+    """Return a lesson's article as a home, `live` or `site`, has it, with PLACE where the questions
+    belong.
 
     Raises:
-        AuthorError: If the page names a run that the lesson does not have, or a picture that is not there.
+        AuthorError: If the page names a run that the lesson does not have, or a picture that is not
+            there.
     """
     written = TERM.sub(
         lambda found: found[0].replace("|", r"\|"), wording(lesson.text(), home)
@@ -60,7 +63,9 @@ def _term(path: str, words: str) -> str:
 
 
 def _around_predict(html: str) -> tuple[str, str]:
-    """Split an article where its questions belong: behind the section that asks to predict, else at the end."""
+    """Split an article where its questions belong: behind the section that asks to predict, else at
+    the end.
+    """
     start = html.find('<section class="s-predict')
     end = html.find("</section>", start) + len("</section>") if start >= 0 else len(html)
     return html[:end], html[end:]

@@ -1,4 +1,6 @@
-"""Charts as plain data: axes with their ticks and words, curves of a step, and scalars over the steps of a run."""
+"""Charts as plain data: axes with their ticks and words, curves of a step, and scalars over the
+steps of a run.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -49,7 +51,10 @@ def table_html(table: Table) -> str:
         "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows
     )
     title = f"<strong>{escape(table.title)}</strong>" if table.title else ""
-    return f'<div class="wb wb-pad">{title}<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
+    return (
+        '<div class="wb'
+        f' wb-pad">{title}<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
+    )
 
 
 def chart_of(curves: Sequence[Curve]) -> dict[str, Any]:

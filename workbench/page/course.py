@@ -1,4 +1,6 @@
-"""The course page: every lesson as a card with a picture, in course order, with ticks for what was done in this browser."""
+"""The course page: every lesson as a card with a picture, in course order, with ticks for what was
+done in this browser.
+"""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -8,14 +10,16 @@ from workbench.page.document import THIRD_PARTIES, document_head
 from workbench.page.map import course_map
 
 WELCOME = (
-    "Every lesson is one algorithm that you can watch, step back through, break and write yourself. "
-    "Predict first, then look."
+    "Every lesson is one algorithm that you can watch, step back through, break and write yourself."
+    " Predict first, then look."
 )
 
 
 @dataclass(frozen=True, kw_only=True)
 class Card:
-    """A lesson on the course page: name, title, summary, what it builds on, and where its page and picture are."""
+    """A lesson on the course page: name, title, summary, what it builds on, and where its page and
+    picture are.
+    """
 
     name: str
     title: str
@@ -42,9 +46,12 @@ def course_document(
     return (
         f"{document_head('Geometry workbench', WELCOME, root, head)}"
         '<body class="course"><a class="skip" href="#course">To the lessons</a><main id="course">'
-        f'<h1>Geometry workbench</h1><p>{WELCOME}</p>{said}<ol class="cards">{shown}</ol>{_map(cards)}'
-        f'<p><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its licences</a></p></main>'
-        f'<script src="{root}tools.js"></script><script src="{root}progress.js"></script></body></html>\n'
+        f"<h1>Geometry workbench</h1><p>{WELCOME}</p>{said}<ol"
+        f' class="cards">{shown}</ol>{_map(cards)}'
+        f'<p><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its'
+        " licences</a></p></main>"
+        f'<script src="{root}tools.js"></script><script'
+        f' src="{root}progress.js"></script></body></html>\n'
     )
 
 

@@ -17,9 +17,19 @@ THIRD_PARTIES = "third-parties.txt"
 """Whose work is in our pages, and its licences."""
 STYLES = ("page.css", "ending.css", "course.css")
 SCRIPTS = (
-    "tools.js", "curves.js", "stage.js", "transport.js", "panels.js", "article.js", "knobs.js", "exercise.js",
-    "run.js", "progress.js", "text.js", "page.js",
-)  # fmt: skip
+    "tools.js",
+    "curves.js",
+    "stage.js",
+    "transport.js",
+    "panels.js",
+    "article.js",
+    "knobs.js",
+    "exercise.js",
+    "run.js",
+    "progress.js",
+    "text.js",
+    "page.js",
+)
 SCENE = ("wire.js", "looks.js", "feed.js", "labels.js", "handles.js", "sceneview.js")
 """The scripts that show scenes in viser's client."""
 LIVE = (*SCENE, "files.js", "edited.js", "returning.js", "live.js")
@@ -57,12 +67,14 @@ def lesson_document(
         lesson: What it is about.
         article: Its text as HTML, with PLACE where the questions belong.
         home: `live`, `site` or `notebook`.
-        root: The relative address of the folder with the page's own files; None puts them all into the document.
+        root: The relative address of the folder with the page's own files; None puts them all into
+            the document.
         head: More HTML for the head.
         opening: What stands before the text, as HTML.
         ending: What stands behind the text and its experiments, as HTML.
         more: What else the scripts need: name of a constant -> plain data.
-        alone: Of a page that shows one run and no article, its title and the address of the lesson's page, if it has one.
+        alone: Of a page that shows one run and no article, its title and the address of the
+            lesson's page, if it has one.
         still: The address of a picture that stands for the scene where no script runs.
     """
     data = lesson_data(lesson) | ({} if home == "live" else {"knobs": []})
@@ -72,18 +84,21 @@ def lesson_document(
     text = _alone(heading, alone[1]) if alone else _article(article, home, data, opening, ending)
     return (
         f"{document_head(heading, lesson.summary, root, head, math=root is not None or not alone)}"
-        f'<body{" class=alone" if alone else ""} data-home="{home}" data-lesson="{escape(lesson.name)}">'
+        f'<body{" class=alone" if alone else ""} data-home="{home}"'
+        f' data-lesson="{escape(lesson.name)}">'
         f'<a class="skip" href="#stage">To the stage</a><main>{text}'
         f'<div id="side">{_stage(still)}</div></main>'
         + _third_parties(root)
-        + f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"
+        + f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"  # noqa: E501
         + "".join(_script(root, name) for name in scripts)
         + "</body></html>\n"
     )
 
 
 def _third_parties(root: str | None) -> str:
-    """Return the licences of what is in a document that stands alone; another has them in a file beside it."""
+    """Return the licences of what is in a document that stands alone; another has them in a file
+    beside it.
+    """
     if root is not None:
         return ""
     text = (STATIC / THIRD_PARTIES).read_text(encoding="utf-8")
@@ -104,7 +119,9 @@ def _style(root: str | None, name: str) -> str:
 
 
 def bare(file: Path) -> str:
-    """Return a script or style without the lines that only tell a reader something, and without indents."""
+    """Return a script or style without the lines that only tell a reader something, and without
+    indents.
+    """
     lines = (line.strip() for line in file.read_text(encoding="utf-8").splitlines())
     return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 
@@ -112,7 +129,8 @@ def bare(file: Path) -> str:
 def _article(article: str, home: str, data: dict[str, Any], opening: str, ending: str) -> str:
     questions = "".join(_question(question) for question in data["questions"])
     presets = "".join(
-        f'<li><button type="button" data-run="{escape(preset["name"])}" aria-pressed="false">{escape(preset["title"])}'
+        f'<li><button type="button" data-run="{escape(preset["name"])}"'
+        f' aria-pressed="false">{escape(preset["title"])}'
         f"<small>{escape(preset['line'])}</small></button></li>"
         for preset in data["presets"]
     )
@@ -122,11 +140,12 @@ def _article(article: str, home: str, data: dict[str, Any], opening: str, ending
         else ""
     )
     return (
-        f'<article id="article">{_top("Geometry workbench", _course(home))}'
-        f'{opening}<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}'
-        f'{ending}<section class="s-run" id="this-run" hidden><h2>This run</h2></section>'
-        '<details id="text"><summary>Text of this run</summary><p></p><ol start="0"></ol></details>'
-        f'<nav id="around" aria-label="Lessons before and after" data-address="{_lesson(home)}"></nav></article>'
+        f'<article id="article">{_top("Geometry workbench", _course(home))}{opening}<div'
+        f' class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}<section'
+        ' class="s-run" id="this-run" hidden><h2>This run</h2></section><details'
+        ' id="text"><summary>Text of this run</summary><p></p><ol start="0"></ol></details><nav'
+        ' id="around" aria-label="Lessons before and after"'
+        f' data-address="{_lesson(home)}"></nav></article>'
     )
 
 
@@ -172,9 +191,12 @@ def _lesson(home: str) -> str:
 
 
 def _stage(still: str) -> str:
-    """Return the stage. What a home may lack has `data-needs`, the verbs of its source that it is shown with."""
+    """Return the stage. What a home may lack has `data-needs`, the verbs of its source that it is
+    shown with.
+    """
     buttons = "".join(
-        f'<button type="button" data-act="{verb}" title="{title}" aria-label="{title}">{_sign(sign)}</button>'
+        f'<button type="button" data-act="{verb}" title="{title}"'
+        f' aria-label="{title}">{_sign(sign)}</button>'
         for verb, title, sign in VERBS
     )
     speeds = "".join(f'<option value="{speed:g}">{speed:g}×</option>' for speed in SPEEDS)
@@ -184,24 +206,22 @@ def _stage(still: str) -> str:
         else ""
     )
     return (
-        '<section id="stage" aria-label="Stage"><div id="view"><div id="scene" aria-busy="true"></div>'
-        f"{picture}"
-        '<div id="legend" role="group" aria-label="Legend" tabindex="0"></div>'
-        '<div id="tools" role="group" aria-label="Tools">'
-        '<button type="button" id="move" data-needs="handles" aria-pressed="false" title="Handles in the scene (H)" hidden>'
-        "Move<span> it yourself</span></button>"
-        '<button type="button" id="pin" data-needs="pin" aria-pressed="false" title="Keep this run behind the next (I)" '
-        "hidden>Pin</button>"
-        '<button type="button" id="set" data-needs="change sweep" aria-expanded="false" aria-controls="drawer" '
-        'title="What this run is made with (S)" hidden>Knobs</button></div>'
-        '<aside id="drawer" aria-label="Knobs" hidden></aside></div>'
-        f'<div id="bar" role="group" aria-label="Steps">{buttons}'
-        '<input id="step" type="range" min="0" max="0" value="0" aria-label="Step"><output id="count"></output>'
-        '<select id="speed" aria-label="Speed" title="Steps per second"><option value="">Speed</option>'
-        f"{speeds}</select></div>"
-        '<p id="caption" role="status" aria-live="polite" tabindex="0"></p></section>'
-        '<div id="tiles" role="group" aria-label="Curves, pictures and code of this step"></div>'
-        '<div id="large" role="dialog" aria-label="Enlarged" hidden></div>'
+        '<section id="stage" aria-label="Stage"><div id="view"><div id="scene"'
+        f' aria-busy="true"></div>{picture}<div id="legend" role="group" aria-label="Legend"'
+        ' tabindex="0"></div><div id="tools" role="group" aria-label="Tools"><button type="button"'
+        ' id="move" data-needs="handles" aria-pressed="false" title="Handles in the scene (H)"'
+        ' hidden>Move<span> it yourself</span></button><button type="button" id="pin"'
+        ' data-needs="pin" aria-pressed="false" title="Keep this run behind the next (I)"'
+        ' hidden>Pin</button><button type="button" id="set" data-needs="change sweep"'
+        ' aria-expanded="false" aria-controls="drawer" title="What this run is made with (S)"'
+        ' hidden>Knobs</button></div><aside id="drawer" aria-label="Knobs"'
+        f' hidden></aside></div><div id="bar" role="group" aria-label="Steps">{buttons}<input'
+        ' id="step" type="range" min="0" max="0" value="0" aria-label="Step"><output'
+        ' id="count"></output><select id="speed" aria-label="Speed" title="Steps per'
+        f' second"><option value="">Speed</option>{speeds}</select></div><p id="caption"'
+        ' role="status" aria-live="polite" tabindex="0"></p></section><div id="tiles" role="group"'
+        ' aria-label="Curves, pictures and code of this step"></div><div id="large" role="dialog"'
+        ' aria-label="Enlarged" hidden></div>'
     )
 
 
@@ -213,14 +233,19 @@ def _question(question: dict[str, Any]) -> str:
     name = escape(question["name"])
     if question["choices"]:
         inputs = "".join(
-            f'<label><input type="radio" name="given" value="{escape(choice)}"> {escape(choice)}</label>'
+            f'<label><input type="radio" name="given" value="{escape(choice)}">'
+            f" {escape(choice)}</label>"
             for choice in question["choices"]
         )
     else:
         unit = escape(f" ({question['unit']})") if question["unit"] else ""
-        inputs = f'<label>Your prediction{unit} <input inputmode="decimal" autocomplete="off" name="given"></label>'
+        inputs = (
+            f'<label>Your prediction{unit} <input inputmode="decimal" autocomplete="off"'
+            ' name="given"></label>'
+        )
     return (
-        f'<form class="question" data-question="{name}"><fieldset><legend>{question["html"]}</legend>{inputs}</fieldset>'
-        '<button type="submit" value="answer">Answer</button> '
-        '<button type="submit" value="skip">Skip and show me</button><output aria-live="polite"></output></form>'
+        '<form class="question"'
+        f' data-question="{name}"><fieldset><legend>{question["html"]}</legend>{inputs}</fieldset><button'  # noqa: E501
+        ' type="submit" value="answer">Answer</button> <button type="submit" value="skip">Skip and'
+        ' show me</button><output aria-live="polite"></output></form>'
     )

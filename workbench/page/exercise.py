@@ -1,4 +1,6 @@
-"""A lesson's exercises on its page: the task and the contract as HTML, and what the checks found as plain data."""
+"""A lesson's exercises on its page: the task and the contract as HTML, and what the checks found as
+plain data.
+"""
 
 from collections.abc import Callable, Iterable
 from html import escape
@@ -26,7 +28,8 @@ def watched_html(
 ) -> str:
     """Return the section of the exercise whose function is watched, in a student's file.
 
-    It has one sentence for runs that call the function and one for those that do not; the page shows the one that is true.
+    It has one sentence for runs that call the function and one for those that do not; the page
+    shows the one that is true.
 
     Args:
         exercise: What the file is for.
@@ -45,19 +48,19 @@ def watched_html(
     )
     name = escape(exercise.name)
     return (
-        f'<section class="s-exercise" id="exercise"><h2>Your {name}</h2>'
-        f'<p data-called="true" hidden><code>{escape(file)}</code> drives this lesson; save it, and the run is new. Where '
-        "the two differ, the run of the reference is the faint ghost.</p>"
-        f'<p class="mistake" data-called="false" hidden>This run never calls <code>{name}</code>, so it looks the same '
-        f"whatever the function does. {there} calls it.</p>"
-        '<p><button type="button" id="difference" disabled>Go to the first difference'
-        '</button></p><div class="report" role="status"></div>'
-        f"{_task(exercise, alone=True)}</section>"
+        f'<section class="s-exercise" id="exercise"><h2>Your {name}</h2><p data-called="true"'
+        f" hidden><code>{escape(file)}</code> drives this lesson; save it, and the run is new."
+        ' Where the two differ, the run of the reference is the faint ghost.</p><p class="mistake"'
+        f' data-called="false" hidden>This run never calls <code>{name}</code>, so it looks the'
+        f' same whatever the function does. {there} calls it.</p><p><button type="button"'
+        ' id="difference" disabled>Go to the first difference</button></p><div class="report"'
+        f' role="status"></div>{_task(exercise, alone=True)}</section>'
     )
 
 
 def report_data(said: Report | str, printed: str = "") -> dict[str, Any]:
-    """Return what the checks found of a student's file, in the words of the terminal; text where they found nothing.
+    """Return what the checks found of a student's file, in the words of the terminal; text where
+    they found nothing.
 
     Args:
         said: The checks' report, or one line.

@@ -1,4 +1,6 @@
-"""The legend of a scene and the bar of a colour map, as HTML. Whatever a lesson or its params say is escaped."""
+"""The legend of a scene and the bar of a colour map, as HTML. Whatever a lesson or its params say
+is escaped.
+"""
 
 import html
 from typing import Any, cast
@@ -18,7 +20,8 @@ def css_color(rgb: tuple[int, int, int]) -> str:
 
 
 def legend_html(scene: Scene, grid: float | None) -> str:
-    """Return the legend of a scene: every named thing with its colour, every colour map with its bar and unit.
+    """Return the legend of a scene: every named thing with its colour, every colour map with its
+    bar and unit.
 
     Each row names the paths of what it is about, so that a page can tell which thing is meant.
     """

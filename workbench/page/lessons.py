@@ -1,4 +1,6 @@
-"""What a page knows of a lesson before anything runs: knobs, presets and questions, without their answers."""
+"""What a page knows of a lesson before anything runs: knobs, presets and questions, without their
+answers.
+"""
 
 from typing import Any
 
@@ -25,7 +27,9 @@ def lesson_data(lesson: Lesson) -> dict[str, Any]:
 
 
 def knob_data(field: Field) -> dict[str, Any]:
-    """Return how a field of Params is set: its name as formulas write it, hint, unit, range and kind."""
+    """Return how a field of Params is set: its name as formulas write it, hint, unit, range and
+    kind.
+    """
     knob = field.knob
     data: dict[str, Any] = {
         "name": field.name,

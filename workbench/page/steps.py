@@ -1,4 +1,6 @@
-"""The steps of a run as plain data: captions, what stands beside the scene, and where the code stood."""
+"""The steps of a run as plain data: captions, what stands beside the scene, and where the code
+stood.
+"""
 
 import base64
 import hashlib
@@ -19,7 +21,8 @@ from workbench.scene import Curve, Field, Picture, Scene, Table, in_space
 
 
 class Steps:
-    """Makes the data of a run's steps. What repeats from step to step is kept once, in `things`, and named by its number.
+    """Makes the data of a run's steps. What repeats from step to step is kept once, in `things`,
+    and named by its number.
 
     Each step is made once and shared by all who ask; any thread may ask.
 
@@ -39,7 +42,9 @@ class Steps:
 
     @classmethod
     def weakly(cls, timeline: Timeline) -> "Steps":
-        """Return the data of a run that somebody else holds: kept beside it, they do not keep it."""
+        """Return the data of a run that somebody else holds: kept beside it, they do not keep
+        it.
+        """
         made = cls(timeline)
         made._run = weakref.ref(timeline)
         return made
@@ -55,7 +60,9 @@ class Steps:
         return timeline
 
     def step(self, k: int) -> dict[str, Any]:
-        """Return a known step: caption and tone, and the numbers of what is `shown` and of the legend."""
+        """Return a known step: caption and tone, and the numbers of what is `shown` and of the
+        legend.
+        """
         with self._lock:
             if k not in self._steps:
                 self._steps[k] = made = self._made(self.timeline[k])
@@ -63,7 +70,9 @@ class Steps:
             return self._steps[k]
 
     def code(self, k: int) -> dict[str, Any] | None:
-        """Return where the code stood at a known step, with the number of its source; None where nobody was asked."""
+        """Return where the code stood at a known step, with the number of its source; None where
+        nobody was asked.
+        """
         moment = self.timeline[k].moment
         if moment is None:
             return None
@@ -75,7 +84,9 @@ class Steps:
         return {"source": source, **moment_data(moment)}
 
     def series(self, start: int = 0, end: int | None = None) -> dict[str, Any]:
-        """Return every scalar from step `start` to before `end` (None: all that are known), and the axes of all to there."""
+        """Return every scalar from step `start` to before `end` (None: all that are known), and the
+        axes of all to there.
+        """
         timeline = self.timeline
         known = len(timeline) if end is None else end
         series, key = timeline.series(known), (start, known)
@@ -84,8 +95,11 @@ class Steps:
                 self._series = dict(
                     tuple(self._series.items())[-7:]
                 )  # of those who follow a run as it grows
-                self._series[key] = {"from": start, "series": series_of(series, start),
-                                     "charts": series_charts(series, known)}  # fmt: skip
+                self._series[key] = {
+                    "from": start,
+                    "series": series_of(series, start),
+                    "charts": series_charts(series, known),
+                }
             return self._series[key]
 
     def whole(self) -> dict[str, Any]:
@@ -94,7 +108,9 @@ class Steps:
         return {"steps": steps, **self.series(), "things": self.things, "end": self.end()}
 
     def end(self) -> int | None:
-        """Return the last step of the run itself where tries of other starts follow it; None where none are known."""
+        """Return the last step of the run itself where tries of other starts follow it; None where
+        none are known.
+        """
         tries = self.timeline.lesson.tries
         if tries is None:
             return None
@@ -129,7 +145,9 @@ class Steps:
         return found
 
     def _picture(self, picture: Picture) -> int:
-        """Return the number of a picture: one with the arrays of an earlier step is not looked at again."""
+        """Return the number of a picture: one with the arrays of an earlier step is not looked at
+        again.
+        """
         image = picture.image
         field = (
             (id(image.values), image.low, image.high, image.map)

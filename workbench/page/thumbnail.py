@@ -1,4 +1,6 @@
-"""A small picture of a step, drawn without a browser or a graphics card: points, lines, faces and images, seen by a View."""
+"""A small picture of a step, drawn without a browser or a graphics card: points, lines, faces and
+images, seen by a View.
+"""
 
 import io
 from collections.abc import Iterator
@@ -30,7 +32,8 @@ def thumbnail(lesson: Lesson, timeline: Timeline | None = None) -> bytes:
 
     Args:
         lesson: Of what.
-        timeline: Its default run, where it is known already; computed to where the picture is taken.
+        timeline: Its default run, where it is known already; computed to where the picture is
+            taken.
     """
     timeline = timeline or Timeline(lesson, lesson.params())
     step = telling_step(lesson, timeline.complete())
@@ -38,7 +41,9 @@ def thumbnail(lesson: Lesson, timeline: Timeline | None = None) -> bytes:
 
 
 def telling_step(lesson: Lesson, timeline: Timeline) -> int:
-    """Return the step of a run that stands for it: where it opens; of one that opens at its start, where most is drawn."""
+    """Return the step of a run that stands for it: where it opens; of one that opens at its start,
+    where most is drawn.
+    """
     first = timeline.opening(f"lesson {lesson.name}", lesson.first_step)
     if first:
         return first
@@ -58,7 +63,9 @@ def picture_of(scene: Scene, view: View, size: tuple[int, int] = SIZE) -> bytes:
 
 
 def still_of(scene: Scene, view: View, size: tuple[int, int]) -> bytes:
-    """Return a scene as a PNG image on white, for places that know nothing of WebP and transparent grounds."""
+    """Return a scene as a PNG image on white, for places that know nothing of WebP and transparent
+    grounds.
+    """
     image = drawn(scene, view, size)
     ground = Image.new("RGBA", image.size, "white")
     ground.alpha_composite(image)
@@ -80,7 +87,9 @@ def drawn(scene: Scene, view: View, size: tuple[int, int]) -> Image.Image:
 
 
 def _around(sheet: Image.Image) -> tuple[float, float, float, float]:
-    """Return the part of a sheet, of its own proportions, that has all that is drawn, with a margin."""
+    """Return the part of a sheet, of its own proportions, that has all that is drawn, with a
+    margin.
+    """
     found = sheet.getbbox()
     if found is None:
         return 0, 0, *sheet.size

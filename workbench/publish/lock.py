@@ -13,7 +13,8 @@ LOCK = ".publishing.lock"
 
 @contextmanager
 def only_writer(out: Path) -> Iterator[None]:
-    """Hold a folder for the length of the block. The system lets go of it when the process ends, however it ends.
+    """Hold a folder for the length of the block. The system lets go of it when the process ends,
+    however it ends.
 
     Raises:
         InputError: If another process holds it, or let go of it at this moment.

@@ -1,4 +1,6 @@
-"""The HTML of a published site. Whatever comes from a lesson or its params is escaped or typeset here."""
+"""The HTML of a published site. Whatever comes from a lesson or its params is escaped or typeset
+here.
+"""
 
 import base64
 import json
@@ -48,7 +50,9 @@ def lessons_script(lessons: Mapping[str, Listed]) -> str:
 
 
 def moment(run: str, step: int | None) -> str:
-    """Return the address, on a lesson's page, of a step of a run; without a name, of the default run."""
+    """Return the address, on a lesson's page, of a step of a run; without a name, of the default
+    run.
+    """
     return f"#run={run or 'default'}" + ("" if step is None else f"&step={step}")
 
 
@@ -73,14 +77,18 @@ def lesson_page(lesson: Lesson, known: Mapping[str, Any], head: str = "") -> str
 
 
 def replies(question: Question) -> list[tuple[float, float, str]] | dict[str, str]:
-    """Return what is said to known wrong answers: by the text of a choice, else as (lowest, highest, words)."""
+    """Return what is said to known wrong answers: by the text of a choice, else as (lowest,
+    highest, words).
+    """
     if question.choices:
         return {text: question.reply(i) for i, text in enumerate(question.choices)}
     return list(question.wrong)
 
 
 def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
-    """Return what is told when a question is answered, by its name: base64, so that nobody reads it by the way."""
+    """Return what is told when a question is answered, by its name: base64, so that nobody reads it
+    by the way.
+    """
     found = {}
     for question in lesson.questions:
         told = answer(lesson, question, None, timelines)

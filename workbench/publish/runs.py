@@ -55,7 +55,8 @@ class Run:
 
 
 def runs_of(lesson: Lesson) -> tuple[Run, ...]:
-    """Return the runs of a lesson's page: the default, every preset, what its questions need, and its sweeps.
+    """Return the runs of a lesson's page: the default, every preset, what its questions need, and
+    its sweeps.
 
     What has equal params is one run.
     """
@@ -80,7 +81,9 @@ def runs_of(lesson: Lesson) -> tuple[Run, ...]:
 
 
 def question_run(lesson: Lesson, question: Question) -> str:
-    """Return the name of the run that answers a question: of the default, a preset or an earlier question if the same."""
+    """Return the name of the run that answers a question: of the default, a preset or an earlier
+    question if the same.
+    """
     if question.params == lesson.params():
         return "default"
     preset = lesson.preset_of(question.params)
@@ -102,10 +105,12 @@ def swept(lesson: Lesson, sweep: Sweep) -> list[tuple[str, str, Any]]:
 
 
 def sweep_data(lesson: Lesson) -> list[dict[str, Any]]:
-    """Return the sweeps of a lesson as knobs of a page that cannot compute: what is shown, and the run at each value.
+    """Return the sweeps of a lesson as knobs of a page that cannot compute: what is shown, and the
+    run at each value.
 
-    The default run is always on the dial, at its own value. `places` tells for every run of the page where the dial stands
-    and what it says: at the nearest value, where the run's own is not on it.
+    The default run is always on the dial, at its own value. `places` tells for every run of the
+    page where the dial stands and what it says: at the nearest value, where the run's own is not on
+    it.
     """
     return [_dial(lesson, sweep, runs_of(lesson)) for sweep in lesson.sweeps]
 
@@ -133,7 +138,9 @@ def _dial(lesson: Lesson, sweep: Sweep, runs: Sequence[Run]) -> dict[str, Any]:
 
 
 def _place(value: Any, values: Sequence[Any]) -> tuple[int, str]:
-    """Return where a value stands among others, or the nearest to it where they are numbers, and what it is in words."""
+    """Return where a value stands among others, or the nearest to it where they are numbers, and
+    what it is in words.
+    """
     if value in values or not isinstance(value, int | float):
         return values.index(value) if value in values else 0, knobs.text_of(value)
     return min(range(len(values)), key=lambda i: abs(values[i] - value)), knobs.text_of(value)
@@ -160,7 +167,9 @@ def swept_files(lessons: Iterable[Lesson]) -> set[str]:
 
 
 def recording_of(lesson: Lesson, run: Run) -> str | None:
-    """Return the name of a run's recording, which tells what it is where it is downloaded to; None where there is none."""
+    """Return the name of a run's recording, which tells what it is where it is downloaded to; None
+    where there is none.
+    """
     return file_name(lesson, None if run.name == "default" else run.name) if run.recorded else None
 
 
@@ -169,7 +178,8 @@ def render_all(
 ) -> Iterator[tuple[Lesson, Run, dict[str, bytes]]]:
     """Return each run with its files when they are done, in any order.
 
-    Lessons of the catalogue are rendered by one process per core, others, whose code only this process has, here.
+    Lessons of the catalogue are rendered by one process per core, others, whose code only this
+    process has, here.
 
     Raises:
         InputError: If a run fails.
@@ -263,7 +273,9 @@ def recorded(
             for name, run in zip(sweep["names"], sweep["runs"], strict=True)
         },
         "sweeps": sweeps,
-        "note": f"These runs are recorded. All knobs, live: {show_command(lesson, lesson.params())}",
+        "note": (
+            f"These runs are recorded. All knobs, live: {show_command(lesson, lesson.params())}"
+        ),
         "answers": dict(answers),
     }
 
@@ -283,9 +295,11 @@ def run_page(lesson: Lesson, run: Run) -> str:
 
 
 def digest_of(lesson: Lesson, run: Run) -> str:
-    """Return what a published run must agree with: itself, its params, and all source and data that it depends on."""
+    """Return what a published run must agree with: itself, its params, and all source and data that
+    it depends on.
+    """
     view = lesson.view_of(run.params)
-    said = f"{lesson.name}\0{lesson.title}\0{view}\0{run}\0{knobs.to_json(run.params)}\0{sources_digest(lesson)}"
+    said = f"{lesson.name}\0{lesson.title}\0{view}\0{run}\0{knobs.to_json(run.params)}\0{sources_digest(lesson)}"  # noqa: E501
     return hashlib.sha256(said.encode()).hexdigest()
 
 
@@ -304,7 +318,7 @@ def page_digest(lesson: Lesson, address: str) -> str:
         )
         for one in lesson.questions
     ]
-    said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"
+    said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"  # noqa: E501
     found = hashlib.sha256(f"{said}{sources_digest(lesson)}".encode())
     for file in sorted(
         (*STATIC.iterdir(), *STATIC.parent.glob("*.py"), *Path(__file__).parent.glob("*.py"))

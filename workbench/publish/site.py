@@ -1,4 +1,6 @@
-"""Writes a static site: a course page and one page per lesson, with replays that play from disk, offline."""
+"""Writes a static site: a course page and one page per lesson, with replays that play from disk,
+offline.
+"""
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from html.parser import HTMLParser
@@ -53,8 +55,8 @@ def publish(
 ) -> list[tuple[str, int]]:
     """Write lessons into a site and return all that the site holds of ours: (file, bytes).
 
-    What is there of an earlier site and still fits is kept. A file that we did not write, or that was changed since, is
-    neither replaced nor removed.
+    What is there of an earlier site and still fits is kept. A file that we did not write, or that
+    was changed since, is neither replaced nor removed.
 
     Args:
         out: The folder.
@@ -65,8 +67,9 @@ def publish(
         progress: Told of each run.
 
     Raises:
-        InputError: If somebody else's file is in the way (then nothing has changed), another publish is writing here, a
-            run fails, a file cannot be written, a link leads nowhere, or something is over its size budget.
+        InputError: If somebody else's file is in the way (then nothing has changed), another
+            publish is writing here, a run fails, a file cannot be written, a link leads nowhere, or
+            something is over its size budget.
     """
     for lesson in lessons:
         runs = runs_of(lesson)
@@ -79,7 +82,8 @@ def publish(
             )
         if len({run.file.casefold() for run in runs}) < len(runs):
             raise InputError(
-                f"lesson {lesson.name!r}: two of its runs would have one file; give them other names or values"
+                f"lesson {lesson.name!r}: two of its runs would have one file; give them other"
+                " names or values"
             )
     canonical(base_url, "")  # raises here where it is none
     try:
@@ -195,7 +199,9 @@ def _write_page(manifest: Manifest, lesson: Lesson, timelines: Timelines, addres
 
 
 def _is_equal(manifest: Manifest, name: str, data: bytes) -> bool:
-    """Return whether our file there is a recording of equal content: its bytes may differ all the same."""
+    """Return whether our file there is a recording of equal content: its bytes may differ all the
+    same.
+    """
     return (
         name.endswith(".rrd")
         and manifest.is_ours(name)
@@ -267,7 +273,9 @@ def _over(what: str, size: int, budget: int) -> str:
 
 
 def sizes_told(out: Path, files: Sequence[tuple[str, int]], swept: Collection[str] = ()) -> str:
-    """Return a summary of what a site holds, by kind of file, and where to begin; `swept` are the files of sweeps."""
+    """Return a summary of what a site holds, by kind of file, and where to begin; `swept` are the
+    files of sweeps.
+    """
     kinds = {"pages": "*.html", "runs": "*/runs/*.js", "recordings": "*.rrd"}
     lines = [
         _sizes(kind, [size for name, size in files if PurePosixPath(name).match(p)])
@@ -281,7 +289,10 @@ def sizes_told(out: Path, files: Sequence[tuple[str, int]], swept: Collection[st
 
 
 def _sizes(what: str, sizes: Sequence[int]) -> str:
-    return f"{len(sizes)} {what}, {sum(sizes) / 1e6:.1f} MB, the largest {max(sizes, default=0) / 1e6:.2f} MB"
+    return (
+        f"{len(sizes)} {what}, {sum(sizes) / 1e6:.1f} MB, the largest"
+        f" {max(sizes, default=0) / 1e6:.2f} MB"
+    )
 
 
 def links_in(page: str) -> Iterator[str]:

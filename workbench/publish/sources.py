@@ -1,7 +1,8 @@
-"""What a published run depends on: the source that runs, draws, records and renders it, its lesson's page, and libraries.
+"""What a published run depends on: the source that runs, draws, records and renders it, its
+lesson's page, and libraries.
 
-Found by reading imports, not by importing: a change in one lesson, or in a module that its runs never reach, renders no
-other lesson again.
+Found by reading imports, not by importing: a change in one lesson, or in a module that its runs
+never reach, renders no other lesson again.
 """
 
 import ast
@@ -30,7 +31,9 @@ def sources_digest(lesson: Lesson) -> str:
 
 
 def sources_of(lesson: Lesson) -> list[Path]:
-    """Return the files that a lesson's runs depend on: of its folder, and of all that they and we import."""
+    """Return the files that a lesson's runs depend on: of its folder, and of all that they and we
+    import.
+    """
     begin = {
         part.__module__ for part in (lesson.run, lesson.draw, lesson.params)
     } & sys.modules.keys()

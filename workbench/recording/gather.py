@@ -1,8 +1,10 @@
-"""Clouds whose points come and go: all points of a run are said once, and per step which of them are there.
+"""Clouds whose points come and go: all points of a run are said once, and per step which of them
+are there.
 
-A cloud that gains and loses points from step to step would be said again and again, 16 bytes a point. The union of all
-steps, in the order in which its points come and go, takes no more than a few times one step; which are there is a size
-per point, zero or not, that compresses to almost nothing.
+A cloud that gains and loses points from step to step would be said again and again, 16 bytes a
+point. The union of all steps, in the order in which its points come and go, takes no more than a
+few times one step; which are there is a size per point, zero or not, that compresses to almost
+nothing.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -17,8 +19,9 @@ from workbench.scene import Points, Scene
 WORTH = 0.5
 """A union is taken where it has at most this share of all points that would be said."""
 MOST, MOST_SAID = 24_000, 1_200_000
-"""A union of more points, or of which more would be said in all steps together, is thinned at random, and each point drawn
-larger: a recording has to stay small."""
+"""A union of more points, or of which more would be said in all steps together, is thinned at
+random, and each point drawn larger: a recording has to stay small.
+"""
 
 
 @dataclass(frozen=True, eq=False)

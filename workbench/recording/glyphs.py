@@ -1,4 +1,6 @@
-"""Words that Rerun's fonts can draw: its viewer stops, or shows boxes, at glyphs it does not have."""
+"""Words that Rerun's fonts can draw: its viewer stops, or shows boxes, at glyphs it does not
+have.
+"""
 
 import unicodedata
 
@@ -7,13 +9,54 @@ _SAFE = frozenset(
     "\n–—‘’“”„•…′″‰€™←↑→↓↔⇒⇔−≤≥≠≈≡≪≫∞√∂∆∑∏∫‖■□▲△▶▷▼▽◀◆◇○●✓✗⁰ⁱ⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ⁿ₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₒₓₕₖₗₘₙₚₛₜᵢⱼᵣᵤᵥ"
 ) | {chr(code) for low, high in _RANGES for code in range(low, high + 1)}
 _INSTEAD = {
-    "∈": " in ", "∉": " not in ", "∇": "grad ", "⟨": "<", "⟩": ">", "⊤": "^T", "ᵀ": "^T", "∥": "‖", "∘": "·", "⋅": "·",
-    "∗": "*", "⟶": "→", "⟵": "←", "↦": "→", "⟂": " perpendicular to ", "⊥": " perpendicular to ", "∝": " proportional to ",
-    "⋯": "…", "⌊": "floor(", "⌋": ")", "⌈": "ceil(", "⌉": ")", "ℓ": "l", "∣": "|", "∧": " and ", "∨": " or ", "∪": " or ",
-    "∩": " and ", "∖": " without ", "⊂": " in ", "⊆": " in ", "∅": "{}", "∀": "for all ", "∃": "there is ", "≅": "≈",
-    "∼": "~", "≃": "≈", "⊗": "×", "⊙": "·", "∓": "-/+", "∠": "angle ", "∬": "∫∫", "\t": "    ", "\u2009": " ", "\u202f": " ",
-    "\u00a0": " ", "\u200b": "",
-}  # fmt: skip
+    "∈": " in ",
+    "∉": " not in ",
+    "∇": "grad ",
+    "⟨": "<",
+    "⟩": ">",
+    "⊤": "^T",
+    "ᵀ": "^T",
+    "∥": "‖",
+    "∘": "·",
+    "⋅": "·",
+    "∗": "*",
+    "⟶": "→",
+    "⟵": "←",
+    "↦": "→",
+    "⟂": " perpendicular to ",
+    "⊥": " perpendicular to ",
+    "∝": " proportional to ",
+    "⋯": "…",
+    "⌊": "floor(",
+    "⌋": ")",
+    "⌈": "ceil(",
+    "⌉": ")",
+    "ℓ": "l",
+    "∣": "|",
+    "∧": " and ",
+    "∨": " or ",
+    "∪": " or ",
+    "∩": " and ",
+    "∖": " without ",
+    "⊂": " in ",
+    "⊆": " in ",
+    "∅": "{}",
+    "∀": "for all ",
+    "∃": "there is ",
+    "≅": "≈",
+    "∼": "~",
+    "≃": "≈",
+    "⊗": "×",
+    "⊙": "·",
+    "∓": "-/+",
+    "∠": "angle ",
+    "∬": "∫∫",
+    "\t": "    ",
+    "\u2009": " ",
+    "\u202f": " ",
+    "\u00a0": " ",
+    "\u200b": "",
+}
 
 
 def safe(text: str) -> str:

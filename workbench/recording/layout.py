@@ -1,4 +1,6 @@
-"""The layout a recording opens with: the scene with its legend and caption left, curves, charts and pictures right."""
+"""The layout a recording opens with: the scene with its legend and caption left, curves, charts and
+pictures right.
+"""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -19,8 +21,10 @@ from workbench.words.axis import value_axis
 
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
 LEAST_TILT = np.radians(1.0)
-"""Angle to the up direction below which the viewer takes no eye: it decides by itself from 0.81 degrees on (cos 0.9999), and
-puts -y up in the picture of a scene seen from above; the first drag takes an eye to 0.9 degrees."""
+"""Angle to the up direction below which the viewer takes no eye: it decides by itself from 0.81
+degrees on (cos 0.9999), and puts -y up in the picture of a scene seen from above; the first drag
+takes an eye to 0.9 degrees.
+"""
 LATE = 0.5
 """Share of a run after which what appears for the first time stands behind a tab."""
 MOST_ROWS = 5.2
@@ -55,7 +59,9 @@ def one_run(view: View, contents: Contents, values: Values) -> Any:
 def two_runs(
     view: View, contents: Contents, runs: Mapping[str, Values], names: Mapping[str, str]
 ) -> Any:
-    """Return the layout of two runs, given by their root entities: scenes side by side, curves in the same plots."""
+    """Return the layout of two runs, given by their root entities: scenes side by side, curves in
+    the same plots.
+    """
     scenes = [
         rrb.Vertical(scene_view(root, view, names[root]), caption_view(root), row_shares=[4, 1.9])
         for root in runs
@@ -150,7 +156,8 @@ def _beside(
 ) -> list[tuple[Any, float]]:
     """Return rows of pictures, curves, charts and tables, each with its share of the height.
 
-    What appears only in a run's second half is late, and left out or all there is: until then it would be empty room.
+    What appears only in a run's second half is late, and left out or all there is: until then it
+    would be empty room.
     """
     steps = max((len(values) for run in runs.values() for values in run.values()), default=0)
     plots = (
@@ -181,7 +188,9 @@ def _rows(views: Sequence[Any], share: float, at_once: int) -> list[tuple[Any, f
 
 
 def _column(rows: Sequence[tuple[Any, float]], late: Sequence[tuple[Any, float]]) -> Any:
-    """Return rows below each other, those that do not fit or are late behind further tabs; None where there is no row."""
+    """Return rows below each other, those that do not fit or are late behind further tabs; None
+    where there is no row.
+    """
     stacks: list[list[tuple[Any, float]]] = []
     for row in rows:
         if not stacks or sum(share for _, share in stacks[-1]) + row[1] > MOST_ROWS:
@@ -247,7 +256,9 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
 
 
 def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
-    """Return the corner of a plot, 0 to 1 both ways, in which the fewest values lie: the legend shall cover none."""
+    """Return the corner of a plot, 0 to 1 both ways, in which the fewest values lie: the legend
+    shall cover none.
+    """
     corners = {
         rrb.Corner2D.RightTop: (x > 0.5) & (y > 0.6),
         rrb.Corner2D.LeftTop: (x < 0.5) & (y > 0.6),
@@ -258,7 +269,8 @@ def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
 
 
 def _eye(view: View) -> np.ndarray:
-    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does.
+    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's
+    does.
 
     Where it looks along up it is moved further aside, the same way as the lesson's.
     """

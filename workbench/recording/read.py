@@ -1,4 +1,6 @@
-"""Reads a recording back: lesson, params, scalars per step, captions; without a viewer, and wary of damaged files."""
+"""Reads a recording back: lesson, params, scalars per step, captions; without a viewer, and wary of
+damaged files.
+"""
 
 import json
 import re
@@ -23,7 +25,9 @@ from workbench.scene import Scalar
 
 FOREIGN = "is no Rerun recording, or is damaged"
 FORMAT = 2
-"""What this version writes and reads; it grows when an older version could not read a new recording."""
+"""What this version writes and reads; it grows when an older version could not read a new
+recording.
+"""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -42,7 +46,8 @@ class Recording:
         version: The version of the workbench that wrote it.
         captions: What happened, step by step.
         tones: `info`, `good` or `wrong`, step by step.
-        scalars: One column per curve, by path, NaN where a step has none; with `step` first, a table. Read-only.
+        scalars: One column per curve, by path, NaN where a step has none; with `step` first, a
+            table. Read-only.
         curves: How each scalar is drawn, by path: name, unit, colour; with its last value.
         layout: What stands beside the scene and how that is first seen, for a viewer.
     """
@@ -67,7 +72,9 @@ class Recording:
         return len(self.captions)
 
     def __repr__(self) -> str:
-        """Return one short line: the file, the lesson, where it comes from, how many steps, and how it ended."""
+        """Return one short line: the file, the lesson, where it comes from, how many steps, and how
+        it ended.
+        """
         words = [
             self.path.name,
             self.lesson,
@@ -93,7 +100,8 @@ def open_recording(path: str | Path) -> Recording:
     """Read a recording.
 
     Raises:
-        InputError: One line, if the file is missing, empty, damaged, cut short, or no recording of a run.
+        InputError: One line, if the file is missing, empty, damaged, cut short, or no recording of
+            a run.
     """
     path = Path(path)
     _check_file(path)
@@ -109,9 +117,11 @@ def open_recording(path: str | Path) -> Recording:
 def reopening(
     path: Path, given: Lesson | None = None, *, files: bool = False
 ) -> tuple[Lesson, Any, list[str]]:
-    """Return the lesson and the params of a recording, and a line for everything that is not as it was.
+    """Return the lesson and the params of a recording, and a line for everything that is not as it
+    was.
 
-    The lesson's name is looked up in the catalogue and nowhere else: a recording may come from anybody.
+    The lesson's name is looked up in the catalogue and nowhere else: a recording may come from
+    anybody.
 
     Args:
         path: The recording.
@@ -119,18 +129,21 @@ def reopening(
         files: Whether the person lets the run read the files that the recording names.
 
     Raises:
-        InputError: If the file cannot be read, its lesson is not here, or it names files and may not.
+        InputError: If the file cannot be read, its lesson is not here, or it names files and may
+            not.
     """
     recording = open_recording(path)
     lesson = _lesson_of(recording, given)
     lines = []
     if recording.version != __version__:
         lines.append(
-            f"{path}: recorded by version {recording.version}, this is {__version__}; the run may differ"
+            f"{path}: recorded by version {recording.version}, this is {__version__}; the run may"
+            " differ"
         )
     if recording.format > FORMAT:
         lines.append(
-            f"{path}: format {recording.format} is newer than this version's {FORMAT}; trying all the same"
+            f"{path}: format {recording.format} is newer than this version's {FORMAT}; trying all"
+            " the same"
         )
     fields = {field.name: field for field in knobs.fields_of(lesson.params)}
     values = {}
@@ -149,14 +162,16 @@ def reopening(
     ]
     if named and not files:
         raise InputError(
-            f"{path}: was made from files ({', '.join(named)}); a recording may come from anybody, so they are read"
-            " only with --files"
+            f"{path}: was made from files ({', '.join(named)}); a recording may come from anybody,"
+            " so they are read only with --files"
         )
     return lesson, knobs.make(lesson.params, values), lines
 
 
 def _lesson_of(recording: Recording, given: Lesson | None) -> Lesson:
-    """Return the lesson of a recording: the one given if it has the name, or the one that the catalogue has."""
+    """Return the lesson of a recording: the one given if it has the name, or the one that the
+    catalogue has.
+    """
     name, path = recording.lesson, recording.path
     if given is not None and given.name != name:
         raise InputError(
@@ -165,8 +180,8 @@ def _lesson_of(recording: Recording, given: Lesson | None) -> Lesson:
     found = catalog().get(name) if given is None else given
     if found is None:
         raise InputError(
-            f"{path}: is a run of the lesson {name[:80]!r}, which is not installed; if you have its file, name it:"
-            " --lesson FILE.py"
+            f"{path}: is a run of the lesson {name[:80]!r}, which is not installed; if you have its"
+            " file, name it: --lesson FILE.py"
         )
     return found
 
@@ -174,7 +189,8 @@ def _lesson_of(recording: Recording, given: Lesson | None) -> Lesson:
 def read_chunks(path: Path) -> list[Any]:
     """Return the chunks of the one recording in a file, layouts left out.
 
-    A damaged file can end this process from inside rerun: `open_recording` has it checked in another one first.
+    A damaged file can end this process from inside rerun: `open_recording` has it checked in
+    another one first.
 
     Raises:
         InputError: If the file cannot be read.
@@ -197,7 +213,9 @@ def read_chunks(path: Path) -> list[Any]:
 
 
 def _check_file(path: Path) -> None:
-    """Raise InputError if the file is missing, empty, foreign, or so damaged that rerun cannot decode it."""
+    """Raise InputError if the file is missing, empty, foreign, or so damaged that rerun cannot
+    decode it.
+    """
     try:
         if not path.is_file():
             raise InputError(f"{path}: no such file")
@@ -321,7 +339,9 @@ def _column(chunks: Sequence[Any], entity: str, component: str, n: int) -> list[
 
 
 def _scene_path(entity: str) -> str:
-    """Return a scene's path from an entity's, where special signs stand behind a backslash or as `\\u{code}`."""
+    """Return a scene's path from an entity's, where special signs stand behind a backslash or as
+    `\\u{code}`.
+    """
     return re.sub(
         r"\\u\{([0-9A-Fa-f]+)\}|\\(.)",
         lambda match: chr(int(match[1], 16)) if match[1] else match[2],

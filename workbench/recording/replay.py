@@ -1,4 +1,6 @@
-"""Plays recordings in Rerun's viewer: in the browser, under the names of this machine only, or in Rerun's own window."""
+"""Plays recordings in Rerun's viewer: in the browser, under the names of this machine only, or in
+Rerun's own window.
+"""
 
 import html
 import json
@@ -20,8 +22,9 @@ from workbench.machinery.hosts import Hosts, listening
 from workbench.recording.viewer_files import binary, quiet_environment, rerun_version, web_viewer
 
 POLICY = (
-    "default-src 'self'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self'; worker-src 'self' blob:"
+    "default-src 'self'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'self'"
+    " 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self';"
+    " worker-src 'self' blob:"
 )
 """Keeps the viewer from talking to anybody but us: no statistics, no fonts from elsewhere."""
 
@@ -86,7 +89,8 @@ def _play_native(paths: Sequence[Path]) -> None:
 
 
 class Replay:
-    """A web server that hands out a page with Rerun's viewer, and recordings. Serves from a thread of its own.
+    """A web server that hands out a page with Rerun's viewer, and recordings. Serves from a thread
+    of its own.
 
     Args:
         files: Recordings by file name: a path, or the bytes.
@@ -133,7 +137,9 @@ class Replay:
         self._thread.join()
 
     def _answer(self, request: Request) -> Response:
-        """Return one of a fixed set of files, and nothing else, where it is asked for by this machine's name."""
+        """Return one of a fixed set of files, and nothing else, where it is asked for by this
+        machine's name.
+        """
         if not self._hosts.know(request.headers.get("host", "")):
             return Response("This server is not known under that name.", 403)
         name = request.url.path
@@ -143,9 +149,9 @@ class Replay:
         headers = {
             "Content-Security-Policy": POLICY,
             "X-Content-Type-Options": "nosniff",
-            "Cache-Control": "public, max-age=31536000, immutable"
-            if name.startswith("/viewer-")
-            else "no-store",
+            "Cache-Control": (
+                "public, max-age=31536000, immutable" if name.startswith("/viewer-") else "no-store"
+            ),
         }
         kind = KINDS.get(Path(name).suffix or ".html", "application/octet-stream")
         make = FileResponse if isinstance(content, Path) else Response

@@ -1,4 +1,6 @@
-"""Makes a Rerun stream equal to scenes, one step after another, and says only what has changed since the step before."""
+"""Makes a Rerun stream equal to scenes, one step after another, and says only what has changed
+since the step before.
+"""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
@@ -45,12 +47,13 @@ TABLES = "/tables"
 class RerunSink:
     """Writes scenes into a recording stream.
 
-    Entities: `world/PATH` in space, `pictures/PATH`, `charts/TITLE`, `tables`, `legend`. Scalars and captions are not said
-    here: they go as whole columns.
+    Entities: `world/PATH` in space, `pictures/PATH`, `charts/TITLE`, `tables`, `legend`. Scalars
+    and captions are not said here: they go as whole columns.
 
     Args:
         stream: Rerun's recording stream.
-        canvases: Where charts, pictures and tables are shown, by entity. While there are none, it says so there.
+        canvases: Where charts, pictures and tables are shown, by entity. While there are none, it
+            says so there.
         unions: Clouds that are said once for all steps, by path.
     """
 

@@ -1,4 +1,6 @@
-"""Streams of rerun that end as bytes and leave nothing behind: no thread, no memory, no statistics."""
+"""Streams of rerun that end as bytes and leave nothing behind: no thread, no memory, no
+statistics.
+"""
 
 import re
 import threading
@@ -15,15 +17,19 @@ _one_at_a_time = threading.Lock()
 
 
 def application_id(lesson_name: str) -> str:
-    """Return the name by which viewers tell a lesson's recordings from others; `stream_bytes` adds to it."""
+    """Return the name by which viewers tell a lesson's recordings from others; `stream_bytes` adds
+    to it.
+    """
     return f"workbench-{re.sub('[^a-z0-9]+', '-', lesson_name.lower()).strip('-')}"
 
 
 def stream_bytes(application: str, fill: Callable[[Any], None], layout: Any = None) -> bytes:
-    """Return the bytes of a recording that `fill` logs into a stream, with its layout. Wrong shapes raise.
+    """Return the bytes of a recording that `fill` logs into a stream, with its layout. Wrong shapes
+    raise.
 
-    The recording's id is made from the content. The application's ends in a digest of the layout: viewers keep one layout
-    for each application, and would show runs of other presets in that of the first.
+    The recording's id is made from the content. The application's ends in a digest of the layout:
+    viewers keep one layout for each application, and would show runs of other presets in that of
+    the first.
     """
     with _one_at_a_time:
         strict = rr.strict_mode()
@@ -48,7 +54,9 @@ def stream_bytes(application: str, fill: Callable[[Any], None], layout: Any = No
 
 
 def _send(stream: Any, application: str, chunks: Sequence[Any], layout: Sequence[Any]) -> None:
-    """Send all chunks. `stream.send_blueprint` would leave two threads and a megabyte behind each time."""
+    """Send all chunks. `stream.send_blueprint` would leave two threads and a megabyte behind each
+    time.
+    """
     if layout:
         own = _layout(application)
         memory = own.memory_recording()

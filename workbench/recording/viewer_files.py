@@ -1,4 +1,6 @@
-"""Rerun's own programs: the viewer's binary, and the two files of its web viewer that the binary carries inside."""
+"""Rerun's own programs: the viewer's binary, and the two files of its web viewer that the binary
+carries inside.
+"""
 
 import importlib.metadata
 import os
@@ -26,7 +28,9 @@ def rerun_version() -> str:
 
 
 def binary() -> Path:
-    """Return Rerun's binary itself: ending the Python wrapper around it would leave the binary behind."""
+    """Return Rerun's binary itself: ending the Python wrapper around it would leave the binary
+    behind.
+    """
     import rerun_cli
 
     folder = Path(str(rerun_cli.__file__)).parent
@@ -38,7 +42,9 @@ def binary() -> Path:
 
 
 def quiet_environment() -> dict[str, str]:
-    """Return the environment for the binary: it says its address, and sends statistics only if RERUN_ANALYTICS is set."""
+    """Return the environment for the binary: it says its address, and sends statistics only if
+    RERUN_ANALYTICS is set.
+    """
     environment = {**os.environ, "RUST_LOG": "info"}
     if "RERUN_ANALYTICS" not in environment:
         environment["CI"] = "1"
@@ -46,7 +52,8 @@ def quiet_environment() -> dict[str, str]:
 
 
 def web_viewer() -> dict[str, Path]:
-    """Return where the web viewer's files are, by name; at first use they are taken out of the binary (43 MB).
+    """Return where the web viewer's files are, by name; at first use they are taken out of the
+    binary (43 MB).
 
     Raises:
         InputError: If the binary does not hand them out.
@@ -75,7 +82,9 @@ def _fetch(address: str, file: Path) -> None:
 
 @contextmanager
 def _serving() -> Iterator[str]:
-    """Run the binary as a web server without a recording, which costs nothing, and yield its address."""
+    """Run the binary as a web server without a recording, which costs nothing, and yield its
+    address.
+    """
     command = [
         str(binary()),
         "--serve-web",

@@ -1,4 +1,6 @@
-"""Writes runs to recordings: into a file that is there whole or not at all, into a pipe, or into bytes."""
+"""Writes runs to recordings: into a file that is there whole or not at all, into a pipe, or into
+bytes.
+"""
 
 import json
 import os
@@ -51,20 +53,22 @@ def record(
 ) -> Path:
     """Run a lesson and write the run to a recording.
 
-    `record("icp", "icp.rrd", start_angle=120)` runs the defaults with one field changed; `preset="far"` starts from a
-    preset instead.
+    `record("icp", "icp.rrd", start_angle=120)` runs the defaults with one field changed;
+    `preset="far"` starts from a preset instead.
 
     Args:
-        lesson: The lesson, its name, or the `Path` of its file or folder, which is run (text is only looked up).
+        lesson: The lesson, its name, or the `Path` of its file or folder, which is run (text is
+            only looked up).
         path: Where to write, `.rrd`.
         params: The whole inputs, as the lesson's Params; instead of a preset and values.
-        preset: The preset to start from. Its name is kept in the recording where no value differs from it.
+        preset: The preset to start from. Its name is kept in the recording where no value differs
+            from it.
         force: Replace a file that is there.
         values: Fields of the lesson's Params, by name.
 
     Raises:
-        InputError: If the inputs cannot be used, the run fails, or the file is there or cannot be written; then nothing
-            has changed.
+        InputError: If the inputs cannot be used, the run fails, or the file is there or cannot be
+            written; then nothing has changed.
     """
     found = (
         find(lesson)
@@ -94,10 +98,12 @@ def record_file(
     force: bool = False,
     progress: TextIO | None = None,
 ) -> Written:
-    """Run a lesson and write the run to `path`; a bar is drawn on `progress` where that is a terminal.
+    """Run a lesson and write the run to `path`; a bar is drawn on `progress` where that is a
+    terminal.
 
     Raises:
-        InputError: If the run fails, or the file is there or cannot be written; then nothing has changed.
+        InputError: If the run fails, or the file is there or cannot be written; then nothing has
+            changed.
     """
     _check_place(path, force)
     with bar(progress, "Recording") as tell:
@@ -108,7 +114,8 @@ def record_file(
 
 
 def record_to_stdout(lesson: Lesson, params: Any, *, preset: str | None = None) -> None:
-    """Run a lesson and write the recording to standard output; a bar is drawn where errors go, if that is a terminal.
+    """Run a lesson and write the recording to standard output; a bar is drawn where errors go, if
+    that is a terminal.
 
     Raises:
         InputError: If the run fails, or standard output is a terminal, closed, or full.
@@ -140,7 +147,8 @@ def record_bytes(
 
     Args:
         timeline: The run.
-        preset: The preset that the params started from; it is kept where they still are the preset's.
+        preset: The preset that the params started from; it is kept where they still are the
+            preset's.
         progress: Told of each step.
 
     Raises:
@@ -187,7 +195,9 @@ def record_bytes(
 
 
 def _run(lesson: Lesson, params: Any, tell: Progress) -> Timeline:
-    """Return a run to its end, or to the bound at which it was cut; raise InputError where it failed."""
+    """Return a run to its end, or to the bound at which it was cut; raise InputError where it
+    failed.
+    """
     timeline = Timeline(lesson, params)
     while timeline.extend():
         tell("computed", len(timeline), None)
@@ -240,7 +250,9 @@ def _check_place(path: Path, force: bool, how: str = "--force") -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Put the whole file in place, or nothing; a link is followed. What a killed process left half written goes."""
+    """Put the whole file in place, or nothing; a link is followed. What a killed process left half
+    written goes.
+    """
     final = path.resolve()
     try:
         remove_leftovers(final.parent)

@@ -1,9 +1,11 @@
-"""Command-line flags made from the signature of a command and the Params of a lesson, read by argparse.
+"""Command-line flags made from the signature of a command and the Params of a lesson, read by
+argparse.
 
-A command is a function whose parameters are `Annotated[type, Option(...)]`, positional on the command line where they are
-positional-only. A parameter of type `Chosen` becomes LESSON, --preset and one flag per Params field; one of type
-`Serving` becomes --host, --port and --no-browser, and `ServingLive` --open, --behind and --workers too. Whatever cannot
-be used raises InputError with one line.
+A command is a function whose parameters are `Annotated[type, Option(...)]`, positional on the
+command line where they are positional-only. A parameter of type `Chosen` becomes LESSON, --preset
+and one flag per Params field; one of type `Serving` becomes --host, --port and --no-browser, and
+`ServingLive` --open, --behind and --workers too. Whatever cannot be used raises InputError with one
+line.
 """
 
 import argparse
@@ -25,14 +27,18 @@ _WORDS = (
     "lesson preset step out force host port browser with native help params open behind workers key"
 )
 RESERVED = frozenset(_WORDS.split())
-"""Flags of the commands, words of links, keywords of `record`: no Params field may have one of these names."""
+"""Flags of the commands, words of links, keywords of `record`: no Params field may have one of
+these names.
+"""
 
 HELP = {"-h", "--help"}
 
 
 @dataclass(frozen=True)
 class Option:
-    """What `--help` says of an option, its value's placeholder, a short form such as `-o`, and its flag if not its name."""
+    """What `--help` says of an option, its value's placeholder, a short form such as `-o`, and its
+    flag if not its name.
+    """
 
     help: str
     placeholder: str = ""
@@ -72,7 +78,8 @@ class ServingLive(Serving):
 
 @dataclass(frozen=True)
 class Chosen:
-    """A lesson and its params, as asked for, and the preset they started from (flags may have changed them since).
+    """A lesson and its params, as asked for, and the preset they started from (flags may have
+    changed them since).
 
     `path` is the lesson's file or folder, where the person named it by that.
     """
@@ -108,9 +115,11 @@ def parse(
     parser = _Parser(prog, description=description, allow_abbrev=False, formatter_class=_layout)
     asked = _asked(words, signature.parameters.values())
     readers = {
-        name: _lesson_reader(parser, words, *asked)
-        if one.annotation is Chosen
-        else _reader(parser, one)
+        name: (
+            _lesson_reader(parser, words, *asked)
+            if one.annotation is Chosen
+            else _reader(parser, one)
+        )
         for name, one in signature.parameters.items()
     }
     places = "".join(
@@ -131,7 +140,9 @@ def parse(
 
 
 def _spelled(args: Sequence[str]) -> list[str]:
-    """Return the words with hyphens for the underscores of flags, and a negative number joined to the flag before it."""
+    """Return the words with hyphens for the underscores of flags, and a negative number joined to
+    the flag before it.
+    """
     words: list[str] = []
     for word in args:
         if words and re.fullmatch("--[^=]+", words[-1]) and re.match(r"-[\d.]", word):
@@ -163,7 +174,9 @@ def _reader(parser: argparse.ArgumentParser, one: inspect.Parameter) -> Reader:
 def _option(
     group: Any, name: str, annotation: Any, default: Any, *, positional: bool = False
 ) -> Reader:
-    """Add an option of the command itself; a default of `Parameter.empty` means that it must be given."""
+    """Add an option of the command itself; a default of `Parameter.empty` means that it must be
+    given.
+    """
     kind, option = get_args(annotation)
     required, many = default is inspect.Parameter.empty, get_origin(kind) is tuple
     about = option.help.replace("%", "%%") + (" (required)" if required else "")
@@ -200,7 +213,9 @@ def _option(
 def _asked(
     words: Sequence[str], parameters: Iterable[inspect.Parameter]
 ) -> tuple[str | None, str | None]:
-    """Return the lesson that is named, and the preset: what stands behind another flag is its value, and never run."""
+    """Return the lesson that is named, and the preset: what stands behind another flag is its
+    value, and never run.
+    """
     finder = _Parser(add_help=False, allow_abbrev=False)
     for one in parameters:
         if one.annotation is not Chosen:
@@ -226,7 +241,10 @@ def _lesson_reader(
         names = ", ".join(catalog())
         if not HELP & set(words):
             raise InputError(f"which lesson? There are: {names}")
-        about = f"One of {names}, or a file or folder. `{parser.prog} LESSON --help` shows its parameters."
+        about = (
+            f"One of {names}, or a file or folder. `{parser.prog} LESSON --help` shows its"
+            " parameters."
+        )
         parser.add_argument("lesson", metavar="LESSON", help=about)
         return lambda values: None
     words.remove(name)
@@ -262,7 +280,9 @@ def _lesson_reader(
 
 
 def _add_param(group: Any, field: knobs.Field, default: Any) -> None:
-    """Add the flag of a Params field. It takes text: `knobs` knows kind and range, and says what is allowed."""
+    """Add the flag of a Params field. It takes text: `knobs` knows kind and range, and says what is
+    allowed.
+    """
     knob, about, flag = field.knob, field.knob.hint.rstrip("."), "--" + field.name.replace("_", "-")
     shown = "" if default in (None, "") else f" (default: {knobs.text_of(default)})"
     more: dict[str, Any] = {"dest": field.name}

@@ -1,4 +1,5 @@
-"""Addresses and commands that open exact moments: `?lesson=icp&start_angle=120`, `workbench show icp --start-angle=120`.
+"""Addresses and commands that open exact moments: `?lesson=icp&start_angle=120`, `workbench show
+icp --start-angle=120`.
 
 Everything in an address is checked like any other input.
 """
@@ -26,7 +27,9 @@ class Place:
 
 
 def write(place: Place) -> str:
-    """Return the query of a place, starting with `?`; params at their defaults and file paths are left out."""
+    """Return the query of a place, starting with `?`; params at their defaults and file paths are
+    left out.
+    """
     private = knobs.paths_of(type(place.params))
     query = {"lesson": place.lesson.name}
     query |= {
@@ -44,10 +47,12 @@ def read(query: str, *, here: Lesson | None = None) -> Place | None:
         query: What stands behind the address, with or without `?`; untrusted.
         here: A lesson that is served although the catalogue does not have it.
 
-    Keys that are not ours, such as those of a mail program or a proxy, are left alone; a misspelt parameter is told.
+    Keys that are not ours, such as those of a mail program or a proxy, are left alone; a misspelt
+    parameter is told.
 
     Raises:
-        InputError: On an unknown lesson, value or step, a misspelt parameter, and on a parameter that names a file.
+        InputError: On an unknown lesson, value or step, a misspelt parameter, and on a parameter
+            that names a file.
     """
     values = dict(parse_qsl(query[:4000].removeprefix("?"), keep_blank_values=True))
     name = values.pop("lesson", None)
@@ -103,8 +108,8 @@ def _quoted(word: str) -> str:
 def show_command(lesson: Lesson, params: Any) -> str:
     """Return the command that opens a lesson live at these params.
 
-    A lesson that the catalogue does not have is named by its file. Where a run reads somebody's own file, FILE stands in
-    its place: what a person's folders are called is nobody else's business.
+    A lesson that the catalogue does not have is named by its file. Where a run reads somebody's own
+    file, FILE stands in its place: what a person's folders are called is nobody else's business.
     """
     given = knobs.changed(params)
     flags = [

@@ -1,4 +1,6 @@
-"""The list of lessons, read off their source: importing every lesson would take five times as long."""
+"""The list of lessons, read off their source: importing every lesson would take five times as
+long.
+"""
 
 import ast
 from importlib.machinery import PathFinder
@@ -18,7 +20,9 @@ def listed() -> str:
 
 
 def _heads() -> list[tuple[int, str, str]] | None:
-    """Return (order, name, summary) of all lessons, None where that cannot be told without running their code."""
+    """Return (order, name, summary) of all lessons, None where that cannot be told without running
+    their code.
+    """
     package = PathFinder.find_spec("lessons")
     if package is None or entry_points(group="workbench.lessons"):
         return None

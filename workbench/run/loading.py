@@ -1,7 +1,9 @@
-"""Loads a lesson by the path that a person names: a single file, or a folder with `lesson.py` in it, anywhere.
+"""Loads a lesson by the path that a person names: a single file, or a folder with `lesson.py` in
+it, anywhere.
 
-A folder is a package under a name of its own, so that two folders of one name are two lessons, and a lesson's files may
-import each other (`from .draw import draw`). Loaded again, it is another package: what runs keeps the code it began with.
+A folder is a package under a name of its own, so that two folders of one name are two lessons, and
+a lesson's files may import each other (`from .draw import draw`). Loaded again, it is another
+package: what runs keeps the code it began with.
 """
 
 import importlib
@@ -24,12 +26,13 @@ _numbers = itertools.count(1)
 def load(path: Path) -> Lesson:
     """Run a Python file, or `lesson.py` of a folder, and return the `lesson` that it defines.
 
-    The file is a program and may do anything: its path must come from the person, never out of a file or a link.
-    A file named `lesson.py` stands for its folder.
+    The file is a program and may do anything: its path must come from the person, never out of a
+    file or a link. A file named `lesson.py` stands for its folder.
 
     Args:
-        path: The file or folder. Every call runs it anew; a folder that Python can import under a name, such as one of
-            the course, is that package: its modules are replaced where they were imported before.
+        path: The file or folder. Every call runs it anew; a folder that Python can import under a
+            name, such as one of the course, is that package: its modules are replaced where they
+            were imported before.
 
     Raises:
         InputError: If there is no such file or folder, or it defines no lesson.
@@ -57,7 +60,8 @@ def load(path: Path) -> Lesson:
 
 
 def word_for(lesson: str, module: str) -> str:
-    """Return what a person types to name a lesson: its name in the catalogue, else the name of its file or folder.
+    """Return what a person types to name a lesson: its name in the catalogue, else the name of its
+    file or folder.
 
     Args:
         lesson: The lesson's name.
@@ -74,7 +78,9 @@ def word_for(lesson: str, module: str) -> str:
 
 
 def taken_by(lesson: Lesson) -> str | None:
-    """Return which other lesson of the catalogue has the name of this one, with its file; None where none has."""
+    """Return which other lesson of the catalogue has the name of this one, with its file; None
+    where none has.
+    """
     other = catalog().get(lesson.name)
     files = [
         getattr(sys.modules.get(one.params.__module__), "__file__", None)
@@ -87,12 +93,15 @@ def taken_by(lesson: Lesson) -> str | None:
 
 
 def lesson_given(word: str) -> Lesson:
-    """Return the lesson that a person names on the command line: by its name, or by the path of its file or folder.
+    """Return the lesson that a person names on the command line: by its name, or by the path of its
+    file or folder.
 
-    For words that a person typed only, since the file is run; names out of files and links go to `find`.
+    For words that a person typed only, since the file is run; names out of files and links go to
+    `find`.
 
     Raises:
-        InputError: If there is no such lesson, the file cannot be used, or its lesson has the name of another.
+        InputError: If there is no such lesson, the file cannot be used, or its lesson has the name
+            of another.
     """
     if not is_path(word):
         return find(word)
@@ -104,7 +113,9 @@ def lesson_given(word: str) -> Lesson:
 
 
 def is_path(word: str) -> bool:
-    """Tell whether a word names a lesson by its path: a Python file, a folder, or what has a slash in it."""
+    """Tell whether a word names a lesson by its path: a Python file, a folder, or what has a slash
+    in it.
+    """
     return word not in catalog() and (
         word.endswith(".py") or os.sep in word or "/" in word or Path(word).is_dir()
     )
@@ -119,7 +130,9 @@ class _Place(ModuleType):
 
 
 class _Compiled(SourceFileLoader):
-    """Compiles a file as it is now: bytecode that is kept tells two saves in one second apart by their length only."""
+    """Compiles a file as it is now: bytecode that is kept tells two saves in one second apart by
+    their length only.
+    """
 
     def path_stats(self, path: str) -> dict[str, int]:  # type: ignore[override]
         """Let no bytecode be kept."""
@@ -127,7 +140,9 @@ class _Compiled(SourceFileLoader):
 
 
 class _Folders:
-    """Finds the modules of loaded folders by the names of their packages; one of these stands among Python's finders."""
+    """Finds the modules of loaded folders by the names of their packages; one of these stands among
+    Python's finders.
+    """
 
     def __init__(self) -> None:
         self.roots: dict[str, Path] = {}
@@ -185,7 +200,9 @@ def _run_folder(folder: Path) -> ModuleType:
 
 
 def _importable_as(folder: Path) -> str | None:
-    """Return the name under which Python imports a folder, None where it does not, or finds another one."""
+    """Return the name under which Python imports a folder, None where it does not, or finds another
+    one.
+    """
     parts, top = [folder.name], folder
     while (top := top.parent) and (top / "__init__.py").is_file():
         parts.insert(0, top.name)

@@ -1,4 +1,6 @@
-"""What a click in the scene means: the point, vertex or pixel nearest to the ray behind the cursor."""
+"""What a click in the scene means: the point, vertex or pixel nearest to the ray behind the
+cursor.
+"""
 
 from typing import Any
 
@@ -13,9 +15,11 @@ WIDEST = np.radians(2.0)  # a click further than this from every point means non
 def picked_params(
     params: Any, scene: Scene, p_origin: np.ndarray, v_ray: np.ndarray
 ) -> dict[str, Any]:
-    """Return the params that a click sets: the first field with a Pick whose primitive is hit; nothing where none is.
+    """Return the params that a click sets: the first field with a Pick whose primitive is hit;
+    nothing where none is.
 
-    A field that holds several indices keeps its latest ones: the new one comes last, the oldest goes.
+    A field that holds several indices keeps its latest ones: the new one comes last, the oldest
+    goes.
     """
     for field in fields_of(type(params)):
         pick = field.knob.by
@@ -30,7 +34,8 @@ def picked_params(
 def picked(
     primitive: Primitive, p_origin: np.ndarray, v_ray: np.ndarray
 ) -> int | tuple[int, int] | None:
-    """Return the index of the picked point or vertex, the pixel (u, v) of a picture in space, or None.
+    """Return the index of the picked point or vertex, the pixel (u, v) of a picture in space, or
+    None.
 
     Args:
         primitive: What may be picked: Points, Mesh, or a Picture with a width.
@@ -38,8 +43,8 @@ def picked(
         v_ray: (3,) the direction of the click, any length.
 
     Note:
-        Among the points within two degrees of the ray, the nearest to the eye wins unless another is four times nearer
-        to the ray; a mesh's hidden vertices lose to those in front.
+        Among the points within two degrees of the ray, the nearest to the eye wins unless another
+        is four times nearer to the ray; a mesh's hidden vertices lose to those in front.
     """
     v_ray = v_ray / np.linalg.norm(v_ray)
     if not pickable(primitive):
@@ -50,7 +55,9 @@ def picked(
 
 
 def pickable(primitive: Primitive) -> bool:
-    """Tell whether a click can pick something of a primitive: Points, a Mesh, or a Picture that stands in space."""
+    """Tell whether a click can pick something of a primitive: Points, a Mesh, or a Picture that
+    stands in space.
+    """
     return isinstance(primitive, (Points, Mesh)) or (
         isinstance(primitive, Picture) and primitive.width is not None
     )

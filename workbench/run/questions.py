@@ -32,7 +32,8 @@ class Answer:
 
 
 def answer(lesson: Lesson, question: Question, given: Any, timelines: Timelines) -> Answer:
-    """Compare a prediction (None: skipped, only tell) with the run that answers it; computes that run.
+    """Compare a prediction (None: skipped, only tell) with the run that answers it; computes that
+    run.
 
     Raises:
         InputError: If what was given is no answer to this question, or its run fails.

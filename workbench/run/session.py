@@ -1,7 +1,9 @@
-"""One person's place in the course: which lesson, which params, which step. Knows no viewer; playing is the page's own.
+"""One person's place in the course: which lesson, which params, which step. Knows no viewer;
+playing is the page's own.
 
-A viewer calls the verbs (`seek`, `change`, ...), lets `compute` run somewhere off its event loop while `pending`,
-and shows what `look` returns. The latest wish wins: `compute` gives up a run as soon as another one is wanted.
+A viewer calls the verbs (`seek`, `change`, ...), lets `compute` run somewhere off its event loop
+while `pending`, and shows what `look` returns. The latest wish wins: `compute` gives up a run as
+soon as another one is wanted.
 """
 
 import time
@@ -21,8 +23,10 @@ class Look:
     """What a person sees now.
 
     Args:
-        lesson, params: The lesson and the params that are wanted (the picture may still be of the run before).
-        own: The params that name the person's own files, where they have any; those of `params`, or put aside.
+        lesson, params: The lesson and the params that are wanted (the picture may still be of the
+            run before).
+        own: The params that name the person's own files, where they have any; those of `params`, or
+            put aside.
         k, known: The step that is shown, and how many steps there are so far.
         finished: Whether all steps are known.
         scene: The step's scene.
@@ -46,7 +50,8 @@ class Session:
     Args:
         lesson: The lesson that is open.
         timelines: Where runs are kept; share one between the sessions of a server.
-        slots: Functions that replace keyword arguments of the lesson's run (a student's); such runs are not shared.
+        slots: Functions that replace keyword arguments of the lesson's run (a student's); such runs
+            are not shared.
 
     Attributes:
         params: What is wanted.
@@ -74,12 +79,13 @@ class Session:
         self.timeline = self._run(self.params)
         self._start(f"lesson {lesson.name}", lesson.first_step)
 
-    # what is wanted -------------------------------------------------------------------------------------------------
+    # what is wanted -------------------------------------------------------------------------------
 
     def open(self, lesson: Lesson, params: Any = None, step: int | None = None) -> None:
         """Go to a lesson, at these params and this step (negative counts from the end).
 
-        In the same lesson, params that name no files put a person's own ones aside: the next preset or reset has them.
+        In the same lesson, params that name no files put a person's own ones aside: the next preset
+        or reset has them.
 
         Raises:
             InputError: If the params are not the lesson's; nothing has changed then.
@@ -116,9 +122,11 @@ class Session:
         self._want(wanted)
 
     def change(self, /, **values: Any) -> None:
-        """Set params; numbers out of range go to the nearer end. What cannot be used becomes the caption, no more.
+        """Set params; numbers out of range go to the nearer end. What cannot be used becomes the
+        caption, no more.
 
-        Own files that are put aside come back with another one, and one that is set to None is forgotten.
+        Own files that are put aside come back with another one, and one that is set to None is
+        forgotten.
         """
         base, aside = self.params, self._aside
         try:
@@ -160,18 +168,24 @@ class Session:
 
     @property
     def own(self) -> Any:
-        """The params that name the person's own files, if they have any: what is wanted, or what is put aside."""
+        """The params that name the person's own files, if they have any: what is wanted, or what is
+        put aside.
+        """
         return self.params if self._aside is None else self._aside
 
     def let_go(self) -> None:
-        """Hold the run no longer, to make room; what is shown stays until `take_up` or another wish."""
+        """Hold the run no longer, to make room; what is shown stays until `take_up` or another
+        wish.
+        """
         self.timeline, self._shown = Timeline(self.lesson, self.params, self.slots), None
 
     def take_up(self) -> None:
-        """Hold the run of the wanted params again, after `let_go`; its steps may have to be computed anew."""
+        """Hold the run of the wanted params again, after `let_go`; its steps may have to be
+        computed anew.
+        """
         self.timeline = self._run(self.params)
 
-    # moving in time -------------------------------------------------------------------------------------------------
+    # moving in time -------------------------------------------------------------------------------
 
     @property
     def step(self) -> int:
@@ -208,7 +222,7 @@ class Session:
         """The step that is wanted, known or not; negative counts from the end."""
         return self._wanted
 
-    # computing and looking ------------------------------------------------------------------------------------------
+    # computing and looking ------------------------------------------------------------------------
 
     @property
     def pending(self) -> bool:
@@ -216,13 +230,17 @@ class Session:
         return not self.timeline.finished
 
     def compute(self, seconds: float) -> None:
-        """Compute steps of the wanted run for about so long, at least one; return early when another run is wanted."""
+        """Compute steps of the wanted run for about so long, at least one; return early when
+        another run is wanted.
+        """
         timeline, end = self.timeline, time.perf_counter() + seconds
         while timeline is self.timeline and timeline.extend() and time.perf_counter() < end:
             pass
 
     def look(self) -> Look | None:
-        """Return what is to be seen now; None when there is nothing yet. The picture of the run before stays meanwhile."""
+        """Return what is to be seen now; None when there is nothing yet. The picture of the run
+        before stays meanwhile.
+        """
         timeline = self.timeline
         if len(timeline):
             self._shown, k = timeline, self.step
@@ -245,7 +263,9 @@ class Session:
         )
 
     def _still_aside(self, own: Any) -> Any:
-        """Return params as what is put aside: None where what is wanted names files, or they name none themselves."""
+        """Return params as what is put aside: None where what is wanted names files, or they name
+        none themselves.
+        """
         return (
             None
             if own is None or knobs.names_files(self.params) or not knobs.names_files(own)
@@ -266,7 +286,9 @@ class Session:
         self._wanted, self._opens = step, None
 
     def _start(self, who: str, step: int) -> None:
-        """Go to the step at which an author lets a run open; `who` is told if it turns out that there is none."""
+        """Go to the step at which an author lets a run open; `who` is told if it turns out that
+        there is none.
+        """
         self._wanted, self._opens = step, (who, step)
 
     def _trouble(self, k: int) -> Caption | None:

@@ -1,4 +1,6 @@
-"""One run as random access: its states, scenes and moments, computed when first asked for, kept, read-only, shared."""
+"""One run as random access: its states, scenes and moments, computed when first asked for, kept,
+read-only, shared.
+"""
 
 import threading
 import weakref
@@ -25,7 +27,9 @@ MOST_BYTES = 512 * 2**20
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """One step of a run: what the algorithm yielded, what it looks like, and where in the code it was yielded."""
+    """One step of a run: what the algorithm yielded, what it looks like, and where in the code it
+    was yielded.
+    """
 
     state: Any
     scene: Scene
@@ -39,7 +43,8 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """A scalar over the steps of a run: how it is drawn, and its value per step, NaN where a step has none.
+    """A scalar over the steps of a run: how it is drawn, and its value per step, NaN where a step
+    has none.
 
     What is below round-off is zero.
     """
@@ -51,8 +56,9 @@ class Series:
 class Timeline:
     """The steps of one run, by index.
 
-    Steps are computed in order, each once, by whoever asks first; going back is a look-up. Every array that a state or a
-    scene holds becomes read-only, so a state that is changed after it was yielded raises where it is changed.
+    Steps are computed in order, each once, by whoever asks first; going back is a look-up. Every
+    array that a state or a scene holds becomes read-only, so a state that is changed after it was
+    yielded raises where it is changed.
 
     Args:
         lesson: What is run.
@@ -123,7 +129,8 @@ class Timeline:
                 self._end(f"The run was cut after {self._most_steps:,} steps.")
             elif self.bytes > self._most_bytes:
                 self._end(
-                    f"The run was cut after {len(self._steps):,} steps: it holds over {self._most_bytes >> 20} MB."
+                    f"The run was cut after {len(self._steps):,} steps: it holds over"
+                    f" {self._most_bytes >> 20} MB."
                 )
             return True
 
@@ -135,7 +142,9 @@ class Timeline:
         return self
 
     def give_up(self, why: str, failure: str | None = None) -> None:
-        """End the run at the steps that are known, and say why; nothing happens where it has ended already."""
+        """End the run at the steps that are known, and say why; nothing happens where it has ended
+        already.
+        """
         with self._lock:
             if not self.finished:
                 self.failure = failure
@@ -157,10 +166,12 @@ class Timeline:
         return tuple(step.state for step in self._steps)
 
     def opening(self, who: str, step: int) -> int:
-        """Return the index of the step where a run opens, as an author gave it: negative counts from the end.
+        """Return the index of the step where a run opens, as an author gave it: negative counts
+        from the end.
 
         Args:
-            who: Who asks for the step, in words that begin the line, such as "lesson icp, preset far".
+            who: Who asks for the step, in words that begin the line, such as "lesson icp, preset
+                far".
             step: An index.
 
         Raises:
@@ -169,12 +180,15 @@ class Timeline:
         n = len(self)
         if self.finished and self.stopped is None and not -n <= step < n:
             raise AuthorError(
-                f"{who} opens at step {step}, but its run has {n} steps: 0 to {n - 1}, or -1 to -{n}"
+                f"{who} opens at step {step}, but its run has {n} steps: 0 to {n - 1}, or -1 to"
+                f" -{n}"
             )
         return step if step >= 0 else max(0, n + step)
 
     def series(self, steps: int | None = None) -> dict[str, Series]:
-        """Return every scalar of the first known steps, by path, in order of appearance; costs no look at the steps."""
+        """Return every scalar of the first known steps, by path, in order of appearance; costs no
+        look at the steps.
+        """
         return self._series.until(len(self._steps) if steps is None else steps)
 
     def _next(self) -> tuple[Any, Moment | None]:
@@ -210,7 +224,9 @@ class Timeline:
             return {**shown, "caption": caption} if caption is not caption_of(shown) else {**shown}
 
     def _notes(self) -> str:
-        """Return what is to be said of the person's own files, such as how many rows of them were left out."""
+        """Return what is to be said of the person's own files, such as how many rows of them were
+        left out.
+        """
         own = [
             path
             for name in paths_of(type(self.params))
@@ -219,10 +235,15 @@ class Timeline:
         return " ".join(words for path in own for words in told(path))
 
     def _incomplete(self) -> str | None:
-        """Say what a run that came to its end lacks, None when nothing: a step, and what the default run is to show."""
+        """Say what a run that came to its end lacks, None when nothing: a step, and what the
+        default run is to show.
+        """
         lesson = self.lesson
         if not self._steps:
-            return f"lesson {lesson.name}: {at(lesson.run)}run ended without a step; it yields at least one state"
+            return (
+                f"lesson {lesson.name}: {at(lesson.run)}run ended without a step; it yields at"
+                " least one state"
+            )
         if self._slots or self.params != lesson.params():
             return None
         picked = (_not_picked(field, self._shown) for field in fields_of(lesson.params))
@@ -305,7 +326,10 @@ def _not_picked(field: Field, shown: Mapping[str, Primitive]) -> str | None:
         return None
     can = ", ".join(path for path, primitive in shown.items() if pickable(primitive)) or "nothing"
     there = f"shows {_kind(shown[pick.path])} at" if pick.path in shown else "shows nothing at"
-    return f"{field.name} is picked at {pick.path!r}, but the default run {there} {pick.path!r}; what can be picked: {can}"
+    return (
+        f"{field.name} is picked at {pick.path!r}, but the default run {there} {pick.path!r}; what"
+        f" can be picked: {can}"
+    )
 
 
 def _kind(value: object) -> str:
@@ -316,15 +340,19 @@ def _kind(value: object) -> str:
 
 
 def plotted_values(scalar: Scalar, values: np.ndarray) -> np.ndarray:
-    """Return what is plotted of a scalar's values: they or their logarithm; NaN where there is none."""
+    """Return what is plotted of a scalar's values: they or their logarithm; NaN where there is
+    none.
+    """
     values = np.asarray(values, float)
     return np.log10(np.where(values > 0, values, np.nan)) if scalar.log else values
 
 
 class Timelines:
-    """Runs kept for whoever wants them again: by lesson and params, least recently used ones dropped.
+    """Runs kept for whoever wants them again: by lesson and params, least recently used ones
+    dropped.
 
-    A run that is dropped while somebody still holds it is found again as long as they do, and counts as long.
+    A run that is dropped while somebody still holds it is found again as long as they do, and
+    counts as long.
     """
 
     def __init__(self, most_bytes: int = 2 * 2**30, most_runs: int = 256):
@@ -363,7 +391,9 @@ class Timelines:
 
     @property
     def bytes(self) -> int:
-        """What all runs hold that are kept here or held by somebody, arrays that two runs share counted twice."""
+        """What all runs hold that are kept here or held by somebody, arrays that two runs share
+        counted twice.
+        """
         return sum(timeline.bytes for timeline in self.alive())
 
     def __len__(self) -> int:

@@ -1,10 +1,12 @@
 """What one step looks like, for any viewer: a mapping from path to frozen primitive.
 
-In space: `Points`, `Segments`, `Mesh`, `Axes`, `Camera`, `Label`, `Picture`. Beside it: `Scalar` (one number per step),
-`Curve` (y over x at this step), `Table`, `Picture` without a place in space, and `Caption`.
+In space: `Points`, `Segments`, `Mesh`, `Axes`, `Camera`, `Label`, `Picture`. Beside it: `Scalar`
+(one number per step), `Curve` (y over x at this step), `Table`, `Picture` without a place in space,
+and `Caption`.
 
-A path such as `"source/points"` names a thing for the length of a run: a sink makes its world equal to a scene by path.
-A thing that moves keeps its arrays (the same objects) and changes `T_world_object`, so that sinks send a pose.
+A path such as `"source/points"` names a thing for the length of a run: a sink makes its world equal
+to a scene by path. A thing that moves keeps its arrays (the same objects) and changes
+`T_world_object`, so that sinks send a pose.
 """
 
 from workbench.scene.colors import (

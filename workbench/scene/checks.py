@@ -1,4 +1,6 @@
-"""What is asked of the values that make up a scene, each refusal in words that say what would do."""
+"""What is asked of the values that make up a scene, each refusal in words that say what would
+do.
+"""
 
 import numpy as np
 

@@ -1,4 +1,6 @@
-"""What colours mean: one role, one colour in all lessons; numbers by a colour map, classes by roles."""
+"""What colours mean: one role, one colour in all lessons; numbers by a colour map, classes by
+roles.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -86,7 +88,8 @@ class Field:
     def magnitude(
         cls, values: np.ndarray, title: str, unit: str = "", *, percent: float = 95.0
     ) -> "Field":
-        """Return sizes from zero to where so many per cent of the known values are reached, so that a few do not pale all.
+        """Return sizes from zero to where so many per cent of the known values are reached, so that
+        a few do not pale all.
 
         The bar ends at 1 where no value is known, and never at 0.
         """
@@ -124,7 +127,9 @@ class Classes:
     def marking(
         cls, marked: np.ndarray, role: Role, name: str, *, others: tuple[Role, str]
     ) -> "Classes":
-        """Return two classes: the items that are `marked` (n,) bool, and the others, with their role and name."""
+        """Return two classes: the items that are `marked` (n,) bool, and the others, with their
+        role and name.
+        """
         return cls(marked.astype(np.uint8), (others[0], role), (others[1], name))
 
     def present(self) -> list[tuple[Role, str]]:
@@ -147,8 +152,8 @@ Color: TypeAlias = Role | Field | Classes | np.ndarray
 def color_map(name: Literal["viridis", "diverging"], level: np.ndarray) -> np.ndarray:
     """Return uint8 colours (..., 3) for levels from 0 to 1, clipped.
 
-    Reference: viridis after van der Walt and Smith (2015), at nine stops; the diverging map joins the palette's blue and
-    vermillion through near-white.
+    Reference: viridis after van der Walt and Smith (2015), at nine stops; the diverging map joins
+    the palette's blue and vermillion through near-white.
     """
     stops = np.array(
         [

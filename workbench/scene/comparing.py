@@ -1,4 +1,6 @@
-"""What a step looks like as one value: compared with another, walked through, and as the ghost of another."""
+"""What a step looks like as one value: compared with another, walked through, and as the ghost of
+another.
+"""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
@@ -48,11 +50,13 @@ def caption_of(scene: Scene) -> Caption:
 
 
 def ghost(scene: Scene, beside: Scene) -> dict[str, Primitive]:
-    """Return what another scene has elsewhere, faded, under `ghost/`, to stand behind the scene `beside`.
+    """Return what another scene has elsewhere, faded, under `ghost/`, to stand behind the scene
+    `beside`.
 
-    What is at the same place in both is left out: a ghost over it would only pale it. A ghost hides nothing: points and
-    lines, which are drawn opaque, are finer than those they stand behind, a camera is its frustum alone, and a picture
-    that differs from one at its place in space is left out. A picture beside the scene stands there as pinned.
+    What is at the same place in both is left out: a ghost over it would only pale it. A ghost hides
+    nothing: points and lines, which are drawn opaque, are finer than those they stand behind, a
+    camera is its frustum alone, and a picture that differs from one at its place in space is left
+    out. A picture beside the scene stands there as pinned.
     """
     return {
         f"ghost/{path}": _faint(primitive)
@@ -76,7 +80,9 @@ def _faint(primitive: Spatial) -> Spatial:
 
 
 def _same_place(a: Primitive, b: Primitive | None) -> bool:
-    """Tell whether b is where a is and like it, up to round-off and how it is coloured and named."""
+    """Tell whether b is where a is and like it, up to round-off and how it is coloured and
+    named.
+    """
     looks = {"color", "opacity", "name", "title"}
     if isinstance(a, Camera) or (isinstance(a, Picture) and in_space(a)):
         looks.add("image")
@@ -100,7 +106,9 @@ def _near(a: Any, b: Any) -> bool:
 
 
 def same(a: object, b: object) -> bool:
-    """Tell whether two values of a scene look the same; arrays are compared by identity first, then by content."""
+    """Tell whether two values of a scene look the same; arrays are compared by identity first, then
+    by content.
+    """
     if a is b:
         return True
     if type(a) is not type(b):
@@ -134,7 +142,9 @@ def same_but_for_pose(a: Primitive, b: Primitive | None) -> bool:
 
 
 def arrays(value: Any) -> Iterator[np.ndarray]:
-    """Walk through all arrays that a scene, primitive or state holds; what it holds twice is walked through once."""
+    """Walk through all arrays that a scene, primitive or state holds; what it holds twice is walked
+    through once.
+    """
     waiting, seen = [value], {}
     while waiting:
         value = waiting.pop()

@@ -14,7 +14,8 @@ from workbench.scene.colors import Role, check_role
 class Scalar:
     """One number of this step; a sink draws it as a curve over steps. NaN means: none at this step.
 
-    Scalars with the same `chart` share one plot; `unit` is written at its axis. `log` asks for a logarithmic axis.
+    Scalars with the same `chart` share one plot; `unit` is written at its axis. `log` asks for a
+    logarithmic axis.
     """
 
     value: float
@@ -36,9 +37,11 @@ class Scalar:
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """y over x at this step: a cost curve, a histogram, a basin. Curves with the same `chart` share one plot.
+    """y over x at this step: a cost curve, a histogram, a basin. Curves with the same `chart` share
+    one plot.
 
-    `marks` are x positions worth a vertical line (the chosen disparity, the current angle). NaN in y leaves a gap.
+    `marks` are x positions worth a vertical line (the chosen disparity, the current angle). NaN in
+    y leaves a gap.
     """
 
     x: np.ndarray
@@ -57,7 +60,8 @@ class Curve:
         good = self.x.ndim == 1 and self.x.shape == self.y.shape and len(self.x) > 0
         need(
             good,
-            f"Curve.x and y are (n,), n > 0, as long as each other, not {self.x.shape} and {self.y.shape}",
+            f"Curve.x and y are (n,), n > 0, as long as each other, not {self.x.shape} and"
+            f" {self.y.shape}",
         )
         check_role(self.color)
         check_finite("Curve.x", self.x)
@@ -114,7 +118,9 @@ class Chart:
         *,
         marks: tuple[float, ...] = (),
     ) -> Curve:
-        """Return how many of the values lie in each of so many bins, or between edges, as bars at their middles."""
+        """Return how many of the values lie in each of so many bins, or between edges, as bars at
+        their middles.
+        """
         counts, edges = np.histogram(values, bins)
         x = (edges[1:] + edges[:-1]) / 2
         return Curve(
@@ -130,7 +136,9 @@ class Chart:
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """A small table of text beside the scene: a matrix, measured invariants. Rows have the length of `header`."""
+    """A small table of text beside the scene: a matrix, measured invariants. Rows have the length
+    of `header`.
+    """
 
     title: str
     header: tuple[str, ...]
@@ -148,7 +156,9 @@ class Table:
     def of_matrix(
         cls, title: str, header: tuple[str, ...], matrix: np.ndarray, places: int = 2
     ) -> "Table":
-        """Return a matrix as a table, every number with so many decimals; the header names its columns."""
+        """Return a matrix as a table, every number with so many decimals; the header names its
+        columns.
+        """
         return cls(
             title, header, tuple(tuple(fixed(value, places) for value in row) for row in matrix)
         )
@@ -156,7 +166,9 @@ class Table:
 
 @dataclass(frozen=True, eq=False)
 class Caption:
-    """What just happened and why, with the number that changed: one or two sentences of plain text."""
+    """What just happened and why, with the number that changed: one or two sentences of plain
+    text.
+    """
 
     text: str
     tone: Literal["info", "good", "wrong"] = "info"
@@ -167,9 +179,11 @@ class Caption:
 
     @classmethod
     def verdict(cls, text: str, *, right: bool, settled: bool = True) -> "Caption":
-        """Return the caption of an end whose truth is known: where it is wrong, it says so behind the text.
+        """Return the caption of an end whose truth is known: where it is wrong, it says so behind
+        the text.
 
-        `settled` says that the method itself came to rest, so that nothing but the truth shows that it is wrong.
+        `settled` says that the method itself came to rest, so that nothing but the truth shows that
+        it is wrong.
         """
         if right:
             return cls(text, "good")

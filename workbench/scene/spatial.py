@@ -39,7 +39,9 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Segments:
-    """Line segments: `ends` (n, 2, 3); `width` in pixels. `color` as for Points, one per segment."""
+    """Line segments: `ends` (n, 2, 3); `width` in pixels. `color` as for Points, one per
+    segment.
+    """
 
     ends: np.ndarray
     color: Color = "correspondence"
@@ -60,7 +62,9 @@ class Segments:
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A triangle mesh: `p` (v, 3), `faces` (f, 3) indices; `color` as for Points, one per vertex."""
+    """A triangle mesh: `p` (v, 3), `faces` (f, 3) indices; `color` as for Points, one per
+    vertex.
+    """
 
     p: np.ndarray
     faces: np.ndarray
@@ -151,8 +155,9 @@ class Label:
 class Picture:
     """An image: on a plane in space where `width` (metres) is given, else beside the scene.
 
-    On a plane it is centred at the object's origin, columns along +x, rows along +y of the object's frame (an OpenCV image
-    plane seen from behind the camera). `image` is (h, w) or (h, w, 3) uint8, or a Field of values (h, w).
+    On a plane it is centred at the object's origin, columns along +x, rows along +y of the object's
+    frame (an OpenCV image plane seen from behind the camera). `image` is (h, w) or (h, w, 3) uint8,
+    or a Field of values (h, w).
     """
 
     image: np.ndarray | Field
@@ -185,9 +190,11 @@ class Picture:
         return w, h
 
     def places(self, uv: np.ndarray, nearer: float = 0.0) -> np.ndarray:
-        """Return where pixels (..., 2), column first, lie in the world, (..., 3); for a picture that stands in space.
+        """Return where pixels (..., 2), column first, lie in the world, (..., 3); for a picture
+        that stands in space.
 
-        `nearer` is how far in front of the picture, metres: what is drawn on it is not to be hidden by it.
+        `nearer` is how far in front of the picture, metres: what is drawn on it is not to be hidden
+        by it.
         """
         w, h = self.size
         xy = (uv - np.array([w - 1, h - 1]) / 2) * (self.width or 1.0) / w
@@ -196,7 +203,9 @@ class Picture:
         return p - nearer * T[:3, 2] if nearer else p
 
     def box(self, low: np.ndarray, high: np.ndarray, nearer: float = 0.0) -> np.ndarray:
-        """Return the outline (4, 2, 3) of the pixels between two corners, in the world, as `places` does."""
+        """Return the outline (4, 2, 3) of the pixels between two corners, in the world, as `places`
+        does.
+        """
         (u0, v0), (u1, v1) = low, high
         corners = self.places(np.array([[u0, v0], [u1, v0], [u1, v1], [u0, v1]]), nearer)
         return np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
@@ -210,7 +219,9 @@ Spatial: TypeAlias = Points | Segments | Mesh | Axes | Camera | Label | Picture
 
 
 def is_rigid(T: np.ndarray) -> bool:
-    """Tell whether a 4x4 is a rotation and a translation, so that a viewer can take it as a pose."""
+    """Tell whether a 4x4 is a rotation and a translation, so that a viewer can take it as a
+    pose.
+    """
     rows, last = T[:3, :3].tolist(), T[3].tolist()
     if last != [0.0, 0.0, 0.0, 1.0]:
         return False

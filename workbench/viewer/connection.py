@@ -1,8 +1,9 @@
-"""One person's page on the live server: hears its requests, computes what they need, and tells what came of them.
+"""One person's page on the live server: hears its requests, computes what they need, and tells what
+came of them.
 
-Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To the page: {"tell": "run" | "step" |
-"answer" | "trouble", ...}, and scenes as bytes. A request is only noted; one task per page computes off the event loop, and
-the latest request wins.
+Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To the page: {"tell":
+"run" | "step" | "answer" | "trouble", ...}, and scenes as bytes. A request is only noted; one task
+per page computes off the event loop, and the latest request wins.
 """
 
 import asyncio
@@ -43,7 +44,8 @@ class PageConnection:
     Args:
         lessons: All lessons that are served, by name.
         runs: What is shared between all pages.
-        send: Sends a text to the page, and returns when it may be sent more; says nothing where the page has left.
+        send: Sends a text to the page, and returns when it may be sent more; says nothing where the
+            page has left.
     """
 
     def __init__(
@@ -86,7 +88,9 @@ class PageConnection:
         self.runs.scheduler.leave(self)
 
     def sleep(self) -> bool:
-        """Let go of the run, to make room, until something is wished for; tell whether there was one. From any thread."""
+        """Let go of the run, to make room, until something is wished for; tell whether there was
+        one. From any thread.
+        """
         is_awaited = self._waits and self._loop.time() - self.acted < AWAITED
         if self.asleep or self.session is None or self._requests or is_awaited:
             return False
@@ -151,7 +155,9 @@ class PageConnection:
         )
 
     def _show(self, session: Session, tell: bool) -> list[str | bytes]:
-        """Return what the page is to be sent so that it shows what is to be seen now. Not on the event loop."""
+        """Return what the page is to be sent so that it shows what is to be seen now. Not on the
+        event loop.
+        """
         look = session.look()
         if look is None or session is not self.session:
             return []
@@ -162,7 +168,7 @@ class PageConnection:
         """Look again: steps have come. Called in a thread that computes."""
         self._loop.call_soon_threadsafe(self._wake.set)
 
-    # the verbs ------------------------------------------------------------------------------------------------------
+    # the verbs ------------------------------------------------------------------------------------
 
     async def open(self, message: Mapping[str, Any]) -> None:
         """Open what an address names."""
@@ -229,7 +235,9 @@ class PageConnection:
             session.change(**{str(name): None})
 
     async def predict(self, message: Mapping[str, Any]) -> None:
-        """Compare a prediction with the run that answers, tell the page, and show that run; own files are put aside."""
+        """Compare a prediction with the run that answers, tell the page, and show that run; own
+        files are put aside.
+        """
         session = self.session
         if session is None:
             return
@@ -255,7 +263,9 @@ class PageConnection:
         self._updates.aim.open(lesson, question.params)
 
     async def click(self, message: Mapping[str, Any]) -> None:
-        """Set the params that a click in the scene picks: the ray of `p_origin` (3,) and `v_ray` (3,), in the world."""
+        """Set the params that a click in the scene picks: the ray of `p_origin` (3,) and `v_ray`
+        (3,), in the world.
+        """
         session, ray = self.session, _ray(message)
         look = None if session is None else session.look()
         if look is not None and session is not None and ray is not None:
@@ -273,7 +283,7 @@ class PageConnection:
             await came.wait()
             came.clear()
 
-    # what comes from elsewhere ---------------------------------------------------------------------------------------
+    # what comes from elsewhere --------------------------------------------------------------------
 
     async def take_file(self, field: str, name: str, parts: AsyncIterator[bytes]) -> None:
         """Set a field of Params to a person's own file; the folder it is in goes with this page.
@@ -292,7 +302,9 @@ class PageConnection:
         self._wake.set()
 
     def go_on(self, before: Lesson, after: Lesson, news: Mapping[str, Any] | None) -> None:
-        """Go on in another version of a lesson, at the same params and step, where it is open; called in another thread."""
+        """Go on in another version of a lesson, at the same params and step, where it is open;
+        called in another thread.
+        """
         self._soon(self._go_on, before, after, news)
 
     def tell_where(self, lesson: Lesson, news: Mapping[str, Any]) -> None:
@@ -323,7 +335,9 @@ class PageConnection:
 
 
 def _ray(message: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return origin and direction of a click, both (3,); None where a browser sends something else."""
+    """Return origin and direction of a click, both (3,); None where a browser sends something
+    else.
+    """
     found = []
     for name in ("p_origin", "v_ray"):
         values = message.get(name)

@@ -1,4 +1,6 @@
-"""The documents of the live home: the course, and the page of each lesson. What an author did wrong is told in its place."""
+"""The documents of the live home: the course, and the page of each lesson. What an author did wrong
+is told in its place.
+"""
 
 from collections.abc import Callable, Mapping
 from html import escape
@@ -35,7 +37,9 @@ def course_page(lessons: Mapping[str, Lesson], trouble: str | None = None) -> st
 
 
 class LessonPages:
-    """The documents of lessons, each made once for all who open it, and anew when its page.md is another."""
+    """The documents of lessons, each made once for all who open it, and anew when its page.md is
+    another.
+    """
 
     def __init__(self) -> None:
         self._made: dict[str, tuple[Lesson, str, tuple[str, ...], str]] = {}
@@ -101,7 +105,9 @@ def address(lesson: Lesson, run: str, step: int | None) -> str:
 
 
 def start_address(start: links.Place, query: str) -> str:
-    """Return the relative address where browsers begin, with the keys of theirs that are not ours."""
+    """Return the relative address where browsers begin, with the keys of theirs that are not
+    ours.
+    """
     return links.write(start) + (f"&{query}" if query else "")
 
 

@@ -1,6 +1,8 @@
-"""Follows the files behind a served lesson while they are edited: a student's function, and a lesson given by its path.
+"""Follows the files behind a served lesson while they are edited: a student's function, and a
+lesson given by its path.
 
-Two threads of their own look at the files and run the checks, so that no file, however long its code takes, holds up a page.
+Two threads of their own look at the files and run the checks, so that no file, however long its
+code takes, holds up a page.
 """
 
 import threading
@@ -133,7 +135,9 @@ class Following:
 
 
 def exercise_news(watched: Watched) -> dict[str, Any]:
-    """Return what a page is told of a student's file: its name, its source, and what the checks found."""
+    """Return what a page is told of a student's file: its name, its source, and what the checks
+    found.
+    """
     source = {"name": watched.path.name, "html": text_html(watched.source)}
     return {
         "tell": "exercise",
@@ -144,5 +148,7 @@ def exercise_news(watched: Watched) -> dict[str, Any]:
 
 
 def report_of(watched: Watched) -> dict[str, Any]:
-    """Return what the checks found of a student's file as it is now, and what it printed in the run that it drives."""
+    """Return what the checks found of a student's file as it is now, and what it printed in the run
+    that it drives.
+    """
     return report_data(watched.said, watched.printed())

@@ -1,4 +1,6 @@
-"""Files that a person gives to one page: kept in a folder of that page, under names of ours, as long as it is open."""
+"""Files that a person gives to one page: kept in a folder of that page, under names of ours, as
+long as it is open.
+"""
 
 import re
 import shutil
@@ -28,7 +30,8 @@ class OwnFiles:
 
         Args:
             field: The name of the field of Params that it is for; the file is called after it.
-            name: What the person's file is called; only its ending is taken over, since readers go by that.
+            name: What the person's file is called; only its ending is taken over, since readers go
+                by that.
             parts: The file; given up as soon as it is larger than MOST_BYTES.
 
         Raises:

@@ -1,4 +1,6 @@
-"""What a page requests for and has not got yet: of each kind the latest, so that a flood of requests is one of each kind."""
+"""What a page requests for and has not got yet: of each kind the latest, so that a flood of
+requests is one of each kind.
+"""
 
 import json
 from collections.abc import Mapping

@@ -1,4 +1,6 @@
-"""The runs of all pages: computed in turn, their data made once for everybody, all within one bound of memory."""
+"""The runs of all pages: computed in turn, their data made once for everybody, all within one bound
+of memory.
+"""
 
 import asyncio
 import contextlib
@@ -81,12 +83,14 @@ def _settle(answer: asyncio.Future, found: Any, error: Exception | None) -> None
 class Runs:
     """What the pages of a server share.
 
-    `stepping` shows a step of the run that a page shows already, `showing` the first of another, which costs several times
-    as much: who only steps does not wait for who moves knobs. `asking` answers, `keeping` makes recordings and pictures.
+    `stepping` shows a step of the run that a page shows already, `showing` the first of another,
+    which costs several times as much: who only steps does not wait for who moves knobs. `asking`
+    answers, `keeping` makes recordings and pictures.
 
     Args:
-        most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that nobody looks at go
-            first, then lessons' caches, then the runs of pages where nothing was done for longest.
+        most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that
+            nobody looks at go first, then lessons' caches, then the runs of pages where nothing was
+            done for longest.
         threads: How many compute.
     """
 
@@ -118,7 +122,9 @@ class Runs:
         self.keeping.close()
 
     def held(self, lessons: Iterable[Lesson]) -> int:
-        """Return the bytes of all runs, of what is sent of them, and of these lessons' caches; each array counts once."""
+        """Return the bytes of all runs, of what is sent of them, and of these lessons' caches; each
+        array counts once.
+        """
         owned: dict[int, int] = {}
         for timeline in self.timelines.alive():
             owned |= timeline.owned()
@@ -194,10 +200,11 @@ def _cached_arrays(cached: Any) -> Iterable[Any]:
 
 
 def settle() -> None:
-    """Keep what is there now out of every collection of garbage: of a whole server, one takes a tenth of a second.
+    """Keep what is there now out of every collection of garbage: of a whole server, one takes a
+    tenth of a second.
 
-    All threads stand still meanwhile; whoever sends deeply nested rubbish can bring one about at every message.
-    For a process that is a server and nothing else.
+    All threads stand still meanwhile; whoever sends deeply nested rubbish can bring one about at
+    every message. For a process that is a server and nothing else.
     """
     gc.collect()
     gc.freeze()

@@ -1,7 +1,8 @@
 """The live home of the page: the only thing that listens.
 
-One port, one origin: `/` is the page, `/live` its websocket, `/scene/` viser's client, one file, which the page puts into a
-frame and feeds. A page has a token; it is made here, and says nothing of anybody.
+One port, one origin: `/` is the page, `/live` its websocket, `/scene/` viser's client, one file,
+which the page puts into a frame and feeds. A page has a token; it is made here, and says nothing of
+anybody.
 """
 
 import asyncio
@@ -51,7 +52,9 @@ ROOM = 3.0
 EMPTY = 30.0
 """Seconds without a page after which nothing is held any more."""
 SWITCH = 0.001
-"""Seconds that a thread which computes holds up another, such as the one that hears and tells; Python's own is 0.005."""
+"""Seconds that a thread which computes holds up another, such as the one that hears and tells;
+Python's own is 0.005.
+"""
 _TOKEN = re.compile(r"[0-9a-f]{24}")
 
 
@@ -61,9 +64,12 @@ class Server:
     Args:
         start: Where browsers begin whose address names no lesson; None is the course page.
         host, port: Where it listens; port 0 picks a free one.
-        watched: A student's file that drives the lesson of `start`; loaded again whenever it is saved.
-        edited: The lesson of `start` where it was given by its path; loaded again whenever one of its files is saved.
-        open_to_all: Let everybody in who reaches it; else whoever is not on this machine brings the token of `links`.
+        watched: A student's file that drives the lesson of `start`; loaded again whenever it is
+            saved.
+        edited: The lesson of `start` where it was given by its path; loaded again whenever one of
+            its files is saved.
+        open_to_all: Let everybody in who reaches it; else whoever is not on this machine brings the
+            token of `links`.
         behind: The name under which browsers find it, where it stands behind a proxy.
         most_bytes: What runs and all that belongs to them may hold.
         most_pages: How many pages may be open.
@@ -136,7 +142,7 @@ class Server:
         self._thread.join(10)
         self.runs.close()
 
-    # the page -------------------------------------------------------------------------------------------------------
+    # the page -------------------------------------------------------------------------------------
 
     def _app(self) -> Starlette:
         return Starlette(

@@ -1,4 +1,6 @@
-"""The commands' side of the live page: listens on the one port that is printed, until interrupted."""
+"""The commands' side of the live page: listens on the one port that is printed, until
+interrupted.
+"""
 
 import contextlib
 import signal
@@ -43,7 +45,8 @@ def serve(
     )
     if workers != 1:
         raise InputError(
-            f"--workers {workers}: one process serves a hundred students; more servers: docs/classroom.md"
+            f"--workers {workers}: one process serves a hundred students; more servers:"
+            " docs/classroom.md"
         )
     with _ended_as_by_ctrl_c():
         server = Server(

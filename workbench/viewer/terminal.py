@@ -11,7 +11,9 @@ _lock = threading.Lock()
 
 
 def tell_terminal(error: Exception) -> None:
-    """Write an error of a lesson's or our own code to stderr with its traceback, each once; a person's input is not told."""
+    """Write an error of a lesson's or our own code to stderr with its traceback, each once; a
+    person's input is not told.
+    """
     if isinstance(error, InputError) and not isinstance(error, AuthorError):
         return
     with _lock:

@@ -1,4 +1,6 @@
-"""What goes over HTTP beside a page: viser's client, and, asked for by its token, the recording of its run and own files."""
+"""What goes over HTTP beside a page: viser's client, and, asked for by its token, the recording of
+its run and own files.
+"""
 
 from urllib.parse import quote
 
@@ -12,7 +14,9 @@ from workbench.viewer.terminal import tell_terminal
 
 
 def scene_response(request: Request, plain: bytes, compressed: bytes, etag: str) -> Response:
-    """Return viser's client: nothing where the browser has it already, else compressed where it can read that."""
+    """Return viser's client: nothing where the browser has it already, else compressed where it can
+    read that.
+    """
     headers = {"etag": etag, "cache-control": "no-cache", "vary": "accept-encoding"}
     if etag in (
         one.strip().removeprefix("W/")

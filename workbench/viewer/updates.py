@@ -1,4 +1,6 @@
-"""What one page is told of the run it looks at, and sent of its scenes: only what it has not got."""
+"""What one page is told of the run it looks at, and sent of its scenes: only what it has not
+got.
+"""
 
 import json
 from collections.abc import Mapping
@@ -51,7 +53,8 @@ class PageUpdates:
     def show(
         self, session: Session, look: Look, *, tell: bool, watched: Watched | None
     ) -> list[str | bytes]:
-        """Return what the page is to be sent so that it shows a look: its scene as bytes, and texts.
+        """Return what the page is to be sent so that it shows a look: its scene as bytes, and
+        texts.
 
         Args:
             session: Where the person is.
@@ -83,9 +86,11 @@ class PageUpdates:
         ]
 
     def _scene(self, look: Look, *, current: bool) -> tuple[bytes | None, str | None]:
-        """Return the bytes that the page lacks of a scene, or what went wrong; its view is of the run that is wanted.
+        """Return the bytes that the page lacks of a scene, or what went wrong; its view is of the
+        run that is wanted.
 
-        Nothing where the page shows it: a caption that is another, or a run that is no longer wanted, draws nothing anew.
+        Nothing where the page shows it: a caption that is another, or a run that is no longer
+        wanted, draws nothing anew.
         """
         lesson, head = look.lesson, {"run": self._run, "k": look.k}
         try:
@@ -108,9 +113,11 @@ class PageUpdates:
         params, lesson = look.params, look.lesson
         is_watched = watched is not None and watched.lesson is lesson
         said = {
-            "name": "default"
-            if params == lesson.params()
-            else getattr(lesson.preset_of(params), "name", ""),
+            "name": (
+                "default"
+                if params == lesson.params()
+                else getattr(lesson.preset_of(params), "name", "")
+            ),
             "params": values_of(params),
             "known": look.known,
             "finished": look.finished,

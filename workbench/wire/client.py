@@ -1,4 +1,6 @@
-"""viser's client: one file that draws scenes, and takes the page for the worker through which it would reach a server."""
+"""viser's client: one file that draws scenes, and takes the page for the worker through which it
+would reach a server.
+"""
 
 import functools
 import gzip
@@ -36,7 +38,9 @@ def client_html() -> str:
 
 @functools.cache
 def client_bytes() -> tuple[bytes, bytes, str]:
-    """Return the client's file as it is, compressed by gzip, and what stands for its content in an ETag."""
+    """Return the client's file as it is, compressed by gzip, and what stands for its content in an
+    ETag.
+    """
     plain = client_html().encode()
     return (
         plain,

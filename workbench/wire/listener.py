@@ -15,7 +15,9 @@ Said = dict[str, Any]
 
 
 class _Wire(WebsockMessageHandler):
-    """What a SceneApi takes for its client, for the connection of that client, and for the server behind it."""
+    """What a SceneApi takes for its client, for the connection of that client, and for the server
+    behind it.
+    """
 
     client_id = ""
 
@@ -54,7 +56,9 @@ class Listener:
             ) from error
 
     def heard(self, add: Callable[[viser.SceneApi], Any]) -> list[tuple[Said, list[memoryview]]]:
-        """Return what viser says when something is added to its scene: each message, and its arrays."""
+        """Return what viser says when something is added to its scene: each message, and its
+        arrays.
+        """
         add(self._scene)
         return self._taken()
 

@@ -1,7 +1,7 @@
 """A scene as plain nodes that any page can draw: of which kind, with which properties, where.
 
-A node is made once, the same for all who ask, and lives as long as the primitive that it shows. Equal content has an equal
-key, so that a page is sent it once.
+A node is made once, the same for all who ask, and lives as long as the primitive that it shows.
+Equal content has an equal key, so that a page is sent it once.
 """
 
 import functools
@@ -42,7 +42,8 @@ class Kind:
 
     Attributes:
         key: Of equal content, equal keys.
-        text: As JSON: viser's type of node, its properties, and how opaque it is; an array is `{"$": key, "as": dtype}`.
+        text: As JSON: viser's type of node, its properties, and how opaque it is; an array is
+            `{"$": key, "as": dtype}`.
         arrays: Those that belong to it.
     """
 
@@ -82,7 +83,9 @@ class Maker:
             return sum(len(content.data) for content in self._contents.values())
 
     def nodes(self, scene: Scene, view: View) -> dict[str, Node]:
-        """Return all nodes of a scene and of its stage, by name, in the order in which they are drawn."""
+        """Return all nodes of a scene and of its stage, by name, in the order in which they are
+        drawn.
+        """
         found = dict(self.stage(view).nodes)
         for path, primitive in scene.items():
             if in_space(primitive):

@@ -1,4 +1,6 @@
-"""How numbers are laid on an axis: what counts as zero, where the axis ends, its ticks, and their words. For every home."""
+"""How numbers are laid on an axis: what counts as zero, where the axis ends, its ticks, and their
+words. For every home.
+"""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -13,7 +15,9 @@ LONGEST_LABEL = 20
 
 @dataclass(frozen=True)
 class Axis:
-    """An axis from `low` to `high` with ticks at round numbers inside, each with its word; no two words are the same."""
+    """An axis from `low` to `high` with ticks at round numbers inside, each with its word; no two
+    words are the same.
+    """
 
     low: float
     high: float
@@ -29,7 +33,8 @@ def settled(values: np.ndarray) -> np.ndarray:
 def axis(low: float, high: float, most: int = 5, whole: bool = False) -> Axis:
     """Return the axis from low to high; around both where nothing but round-off lies between them.
 
-    `whole` says that there is nothing between whole numbers, steps for instance: ticks are at some of these then.
+    `whole` says that there is nothing between whole numbers, steps for instance: ticks are at some
+    of these then.
     """
     low, high = apart(low, high)
     places = ticks(low, high, most)
@@ -39,7 +44,8 @@ def axis(low: float, high: float, most: int = 5, whole: bool = False) -> Axis:
 
 
 def value_axis(columns: Iterable[np.ndarray], from_zero: bool = False, most: int = 5) -> Axis:
-    """Return the axis of values with some room around them, from zero where they are magnitudes far apart.
+    """Return the axis of values with some room around them, from zero where they are magnitudes far
+    apart.
 
     Args:
         columns: The values; NaN is left out.
@@ -87,7 +93,9 @@ def ticks(low: float, high: float, most: int = 5) -> np.ndarray:
 
 
 def _words(places: np.ndarray) -> tuple[str, ...]:
-    """Return ticks with the digits that tell them apart, and one power of ten where they are tiny or huge."""
+    """Return ticks with the digits that tell them apart, and one power of ten where they are tiny
+    or huge.
+    """
     largest = float(np.abs(places).max(initial=0.0))
     step = float(np.diff(places).min()) if len(places) > 1 else largest
     if largest == 0.0 or step <= 0.0:
@@ -105,7 +113,9 @@ def _word(value: float, power: int, digits: int) -> str:
 
 
 def number(value: float) -> str:
-    """Return a number with three significant digits, with a true minus sign; zero where it is round-off."""
+    """Return a number with three significant digits, with a true minus sign; zero where it is
+    round-off.
+    """
     if abs(value) < ROUND_OFF:
         return "0"
     power = int(np.floor(np.log10(abs(float(f"{value:.2e}")))))
@@ -115,7 +125,9 @@ def number(value: float) -> str:
 
 
 def labelled(chart: str, unit: str, log: bool) -> tuple[str, str]:
-    """Return what stands above a chart before its values, and its label; a label that would be cut goes above."""
+    """Return what stands above a chart before its values, and its label; a label that would be cut
+    goes above.
+    """
     name = f"log₁₀ {chart}" if log else chart
     whole = f"{name} ({unit})" if unit else name
     if len(whole) <= LONGEST_LABEL:

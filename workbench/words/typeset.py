@@ -1,7 +1,7 @@
 """Turns a lesson's page.md into HTML with typeset maths, for the live page and for published ones.
 
-Markdown with `$...$` and `$$...$$`; raw HTML in the text is shown as text. Formulas become MathML, which browsers draw
-themselves; they need a font with a MATH table, which `math_font_css` supplies.
+Markdown with `$...$` and `$$...$$`; raw HTML in the text is shown as text. Formulas become MathML,
+which browsers draw themselves; they need a font with a MATH table, which `math_font_css` supplies.
 """
 
 import base64
@@ -29,7 +29,8 @@ WORDING = re.compile(r"\{\{(live|site):\s*(.*?)\}\}", re.DOTALL)
 
 
 def wording(markdown: str, home: str) -> str:
-    """Return a lesson's page as one home has it: what stands as `{{live: ...}}` or `{{site: ...}}` is for that one only.
+    """Return a lesson's page as one home has it: what stands as `{{live: ...}}` or `{{site: ...}}`
+    is for that one only.
 
     `site` is every home that cannot compute: a published page, a notebook, a recording.
     """
@@ -40,15 +41,18 @@ def page_of(markdown: str, file: Path | None) -> str:
     """Return the HTML of a lesson's page, with the pictures it names below the folder of its file.
 
     Raises:
-        AuthorError: If a picture is not there, is of another kind than PICTURES, or larger than LARGEST_PICTURE.
+        AuthorError: If a picture is not there, is of another kind than PICTURES, or larger than
+            LARGEST_PICTURE.
     """
     return page_html(markdown, None if file is None else lambda name: _picture_data(file, name))
 
 
 def page_html(markdown: str, picture: Callable[[str], str] | None = None) -> str:
-    """Return the HTML of a page; every second-level heading and what follows it is one `<section class="s-...">`.
+    """Return the HTML of a page; every second-level heading and what follows it is one `<section
+    class="s-...">`.
 
-    `picture` returns the address of a picture by the name that the page gives it; without it pictures are their words.
+    `picture` returns the address of a picture by the name that the page gives it; without it
+    pictures are their words.
     """
     with _one_at_a_time, _pictures_by(picture):
         return _sections(markdown)
@@ -103,11 +107,16 @@ def _image(renderer: Any, tokens: Any, i: int, options: Any, env: Any) -> str:
     address = _picture.get()
     if address is None:
         return words
-    return f'<img class="wb-picture" src="{html.escape(address(unquote(tokens[i].attrs["src"])))}" alt="{words}">'
+    return (
+        f'<img class="wb-picture" src="{html.escape(address(unquote(tokens[i].attrs["src"])))}"'
+        f' alt="{words}">'
+    )
 
 
 def _picture_data(page: Path, name: str) -> str:
-    """Return a picture below a page's folder as a data address; names are looked up, one part after the other."""
+    """Return a picture below a page's folder as a data address; names are looked up, one part after
+    the other.
+    """
     place: Path | None = page.parent.resolve()
     for part in name.removeprefix("./").split("/"):
         entries = (
@@ -122,13 +131,17 @@ def _picture_data(page: Path, name: str) -> str:
         or not place.resolve().is_relative_to(page.parent.resolve())
     ):
         raise AuthorError(
-            f"{page}: there is no picture {name!r} in the page's folder; name it relative to the page"
+            f"{page}: there is no picture {name!r} in the page's folder; name it relative to the"
+            " page"
         )
     kind = PICTURES.get(place.suffix.lower())
     if kind is None:
         raise AuthorError(f"{page}: the picture {name!r} is none of {', '.join(PICTURES)}")
     if place.stat().st_size > LARGEST_PICTURE:
-        size = f"{place.stat().st_size / 1e3:,.0f} kB, over the limit of {LARGEST_PICTURE / 1e3:,.0f} kB"
+        size = (
+            f"{place.stat().st_size / 1e3:,.0f} kB, over the limit of"
+            f" {LARGEST_PICTURE / 1e3:,.0f} kB"
+        )
         raise AuthorError(f"{page}: the picture {name!r} has {size}")
     return f"data:image/{kind};base64,{base64.b64encode(place.read_bytes()).decode()}"
 
@@ -159,12 +172,17 @@ def math_html(tex: str, block: bool = False) -> str:
 
 @functools.cache
 def math_font_css() -> str:
-    """Return a style sheet with a subset of STIX Two Math as data, some 150 kB, or nothing where the font is missing."""
+    """Return a style sheet with a subset of STIX Two Math as data, some 150 kB, or nothing where
+    the font is missing.
+    """
     data = _font()
     if data is None:
         return ""
     source = f"url(data:font/woff2;base64,{base64.b64encode(data).decode()}) format('woff2')"
-    return f"@font-face{{font-family:'Workbench Math';src:{source}}} math{{font-family:'Workbench Math',math}}"
+    return (
+        f"@font-face{{font-family:'Workbench Math';src:{source}}} math{{font-family:'Workbench"
+        " Math',math}"
+    )
 
 
 def _font() -> bytes | None:
@@ -197,7 +215,8 @@ def _subset() -> bytes:
     )
     if path is None:
         raise FileNotFoundError("no font with a MATH table")
-    # letters, Greek, signs, and the styles that formulas have: bold, italic, and capitals in script and double-struck
+    # letters, Greek, signs, and the styles that formulas have: bold, italic, and capitals in script
+    # and double-struck
     chosen = [
         *range(0x20, 0x7F),
         *range(0xA0, 0x100),

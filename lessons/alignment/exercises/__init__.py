@@ -1,4 +1,6 @@
-"""The exercises of this lesson: axes, their signs, and the scale of pairs. Judged in degrees, signs and per cent."""
+"""The exercises of this lesson: axes, their signs, and the scale of pairs. Judged in degrees, signs
+and per cent.
+"""
 
 import numpy as np
 

@@ -1,5 +1,6 @@
-"""Give axes their signs, so that a frame turns with its cloud. The lesson lays one scan's frame on the other's by your
-function: with a sign that hangs on the coordinates the scan lands half a turn away.
+"""Give axes their signs, so that a frame turns with its cloud. The lesson lays one scan's frame on
+the other's by your function: with a sign that hangs on the coordinates the scan lands half a turn
+away.
 """
 
 import numpy as np
@@ -24,22 +25,28 @@ from workbench.geometry.motions import principal_axes as geometry
 @contract(
     slot="canonical_signs",
     examples=(
-        ("canonical_signs(np.eye(3), np.array([[0.0, 0, 0], [0, 0, 0], [-3, 3, 1]]))",
-         "[[-1, 0, 0], [0, 1, 0], [0, 0, -1]]"),
-        ("canonical_signs(-np.eye(3), np.array([[9.0, 8, 5], [9, 8, 6], [12, 11, 7]]))",
-         "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
+        (
+            "canonical_signs(np.eye(3), np.array([[0.0, 0, 0], [0, 0, 0], [-3, 3, 1]]))",
+            "[[-1, 0, 0], [0, 1, 0], [0, 0, -1]]",
+        ),
+        (
+            "canonical_signs(-np.eye(3), np.array([[9.0, 8, 5], [9, 8, 6], [12, 11, 7]]))",
+            "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+        ),
     ),
-)  # fmt: skip
+)
 def canonical_signs(
     axes: Float[np.ndarray, "3 3"], p: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "3 3"]:
     """Return the axes of a cloud with signs that the cloud decides.
 
-    Axes 1 and 2 point to where the third moment about the centroid, the sum of (axis . (p - centroid))^3, is positive;
-    where it is 0 they stay as they are. Axis 3 is the cross product of these two.
+    Axes 1 and 2 point to where the third moment about the centroid, the sum of (axis . (p -
+    centroid))^3, is positive; where it is 0 they stay as they are. Axis 3 is the cross product of
+    these two.
 
     Args:
-        axes: Three perpendicular unit vectors in columns, each of any sign; the frame may be left-handed.
+        axes: Three perpendicular unit vectors in columns, each of any sign; the frame may be
+            left-handed.
         p: The cloud whose axes they are, metres; anywhere.
 
     Returns:
@@ -48,7 +55,10 @@ def canonical_signs(
     return geometry.canonical_signs(axes, p)
 
 
-SIGNS_HINT = "Sign of the mean of ((p - centroid) @ axis)**3 for axes 1 and 2; the third is np.cross of the two."
+SIGNS_HINT = (
+    "Sign of the mean of ((p - centroid) @ axis)**3 for axes 1 and 2; the third is np.cross of the"
+    " two."
+)
 
 
 def signs_verdict(
@@ -72,7 +82,8 @@ def signs_verdict(
     said = f"The third moments of what came in are {moments} (over the cube of the spread)"
     names = " and ".join(map(str, turned))
     return fail(
-        f"Of the three axes {len(turned)} are turned round (axis {names}), right is 0. {said}. {hint}"
+        f"Of the three axes {len(turned)} are turned round (axis {names}), right is 0. {said}."
+        f" {hint}"
     )
 
 
@@ -124,7 +135,9 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def mirror_images(candidate: Function) -> Verdict:
-    """Clouds whose three tails are left-handed get right-handed frames: axis 3 has no say of its own."""
+    """Clouds whose three tails are left-handed get right-handed frames: axis 3 has no say of its
+    own.
+    """
     return several(candidate, GRADERS(), 6, mirrored=True)
 
 
@@ -161,7 +174,9 @@ def few_outvote_many(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def against_the_farthest_point(candidate: Function) -> Verdict:
-    """One point far away does not outvote a tail of many; where the third moment is 0 an axis stays as it is."""
+    """One point far away does not outvote a tail of many; where the third moment is 0 an axis stays
+    as it is.
+    """
     rng = np.random.default_rng(GRADERS() + 60)
     along = np.concatenate(
         [np.tile([[-0.7], [0.2]], (1, 3)).repeat([60, 240], axis=0), np.full((30, 3), 1.4)]
@@ -186,8 +201,8 @@ def against_the_farthest_point(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You make the largest entry of each axis positive. That looks at coordinates, not at the cloud: turn the cloud, and the"
-    " signs change. Use third moments."
+    "You make the largest entry of each axis positive. That looks at coordinates, not at the cloud:"
+    " turn the cloud, and the signs change. Use third moments."
 )
 def largest_entry(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """The rule of svd_flip."""
@@ -195,7 +210,8 @@ def largest_entry(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your third moments are about the origin. Subtract the centroid first, or they tell where the cloud is."
+    "Your third moments are about the origin. Subtract the centroid first, or they tell where the"
+    " cloud is."
 )
 def about_the_origin(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Does not centre."""
@@ -203,8 +219,8 @@ def about_the_origin(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Axis 3 has a sign by its own third moment here, so that some frames are left-handed. Two axes decide; the third is"
-    " their cross product."
+    "Axis 3 has a sign by its own third moment here, so that some frames are left-handed. Two axes"
+    " decide; the third is their cross product."
 )
 def each_by_its_own_moment(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Turns all three by their moments."""
@@ -212,7 +228,8 @@ def each_by_its_own_moment(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Axes 1 and 2 are right, and axis 3 stays as it came in. Take the cross product of axes 1 and 2."
+    "Axes 1 and 2 are right, and axis 3 stays as it came in. Take the cross product of axes 1"
+    " and 2."
 )
 def third_axis_kept(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Leaves the third axis alone."""
@@ -222,7 +239,8 @@ def third_axis_kept(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your axes point away from the long tails: their third moments are negative. Turn axes 1 and 2 round."
+    "Your axes point away from the long tails: their third moments are negative. Turn axes 1 and 2"
+    " round."
 )
 def to_the_negative_side(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Makes the moments negative."""
@@ -230,8 +248,8 @@ def to_the_negative_side(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You point each axis to where more points lie. The long tail, where the third moment is positive, is often on the other"
-    " side: sum the cubes."
+    "You point each axis to where more points lie. The long tail, where the third moment is"
+    " positive, is often on the other side: sum the cubes."
 )
 def to_more_points(axes: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Counts points on either side of the centroid."""

@@ -1,5 +1,6 @@
-"""Write the frame of a cloud: its principal axes. The lesson lays the frames of two scans on each other by your function;
-which end of an axis is its tip is left to you here, and to the next exercise.
+"""Write the frame of a cloud: its principal axes. The lesson lays the frames of two scans on each
+other by your function; which end of an axis is its tip is left to you here, and to the next
+exercise.
 """
 
 import numpy as np
@@ -26,7 +27,9 @@ TURNED = ([-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0])
 
 
 def other_signs(axes: np.ndarray) -> list[np.ndarray]:
-    """Return the axes with two of three columns turned round: as right, and of the same handedness."""
+    """Return the axes with two of three columns turned round: as right, and of the same
+    handedness.
+    """
     return [np.asarray(axes) * signs for signs in TURNED]
 
 
@@ -35,11 +38,17 @@ def other_signs(axes: np.ndarray) -> list[np.ndarray]:
     either=other_signs,
     examples=(
         (
-            "principal_axes(np.array([[5.0, 1, 0], [5, -1, 0], [6, 0, 0], [4, 0, 0], [5, 4, 0], [5, -4, 0]]))",
+            (
+                "principal_axes(np.array([[5.0, 1, 0], [5, -1, 0], [6, 0, 0], [4, 0, 0], [5, 4, 0],"
+                " [5, -4, 0]]))"
+            ),
             "[[0, 1, 0], [1, 0, 0], [0, 0, -1]]",
         ),
         (
-            "principal_axes(np.array([[0.0, 0, 3], [0, 0, -3], [2, 0, 0], [-2, 0, 0], [0, 1, 0], [0, -1, 0]]))",
+            (
+                "principal_axes(np.array([[0.0, 0, 3], [0, 0, -3], [2, 0, 0], [-2, 0, 0], [0, 1,"
+                " 0], [0, -1, 0]]))"
+            ),
             "[[0, 1, 0], [0, 0, 1], [1, 0, 0]]",
         ),
     ),
@@ -51,9 +60,9 @@ def principal_axes(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "3 3"]:
         p: Points, metres; anywhere, also a thousand kilometres from the origin.
 
     Returns:
-        A rotation: column k is the unit vector of axis k, the largest variance first, and the determinant is +1. Two
-        columns may be turned round together: an axis has no sign. Where the cloud leaves directions open (points on one
-        line, a single point), any that fit will do.
+        A rotation: column k is the unit vector of axis k, the largest variance first, and the
+        determinant is +1. Two columns may be turned round together: an axis has no sign. Where the
+        cloud leaves directions open (points on one line, a single point), any that fit will do.
 
     Raises:
         ValueError: If there is no point (n = 0).
@@ -61,11 +70,15 @@ def principal_axes(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "3 3"]:
     return geometry.largest_entry_signs(geometry.principal_axes(p))
 
 
-AXES_HINT = "Centre the points, take the eigenvectors of their covariance, and look at their order and determinant."
+AXES_HINT = (
+    "Centre the points, take the eigenvectors of their covariance, and look at their order and"
+    " determinant."
+)
 
 
 def axes_verdict(axes: np.ndarray, p: np.ndarray, hint: str = AXES_HINT, first: int = 3) -> Verdict:
-    """Judge axes by their angles to the eigenvectors, whatever the signs; what is no rotation earns nothing.
+    """Judge axes by their angles to the eigenvectors, whatever the signs; what is no rotation earns
+    nothing.
 
     Args:
         axes: The answer.
@@ -76,7 +89,8 @@ def axes_verdict(axes: np.ndarray, p: np.ndarray, hint: str = AXES_HINT, first: 
     off, det = float(np.abs(axes.T @ axes - np.eye(3)).max()), float(np.linalg.det(axes))
     if off > SKEWED:
         return fail(
-            f"The columns are no frame: V^T V is off by {off:.2g}, right is the identity, up to {SKEWED:.5f}. {hint}"
+            f"The columns are no frame: V^T V is off by {off:.2g}, right is the identity, up to"
+            f" {SKEWED:.5f}. {hint}"
         )
     if det < 0:
         return fail(f"The determinant is {det:.3g}, right is 1: the frame is left-handed. {hint}")
@@ -147,7 +161,9 @@ def far_away(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def flat_and_thin(candidate: Function) -> Verdict:
-    """A flat cloud, points on one line, few and equal ones get right-handed frames that fit; no point is refused."""
+    """A flat cloud, points on one line, few and equal ones get right-handed frames that fit; no
+    point is refused.
+    """
     rng = np.random.default_rng(GRADERS() + 20)
     flat = rng.normal(size=(50, 3)) * [0.5, 0.2, 0.0] @ a_rotation(rng).T + 1.0
     line = np.outer(np.linspace(-1, 1, 9), [0.6, 0.0, 0.8]) + 0.3
@@ -186,9 +202,12 @@ def frame_only(axes: np.ndarray) -> Verdict:
     off = float(np.abs(axes.T @ axes - np.eye(3)).max())
     return band(
         "A single place: its frame, V^T V and determinant, is off by",
-        max(off, abs(float(np.linalg.det(axes)) - 1.0)), "", good=SKEWED, fair=SKEWED,
+        max(off, abs(float(np.linalg.det(axes)) - 1.0)),
+        "",
+        good=SKEWED,
+        fair=SKEWED,
         hint="Right is 0: any right-handed frame.",
-    )  # fmt: skip
+    )
 
 
 def covariance(p: np.ndarray) -> np.ndarray:
@@ -208,7 +227,8 @@ def ascending(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You did not subtract the centroid, so that your first axis points at the cloud from the origin."
+    "You did not subtract the centroid, so that your first axis points at the cloud from the"
+    " origin."
 )
 def not_centred(p: np.ndarray) -> np.ndarray:
     """Takes the moments about the origin."""
@@ -224,7 +244,8 @@ def rows_for_columns(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your axes are right but where their determinant is −1: turn one column round there, to be right-handed."
+    "Your axes are right but where their determinant is −1: turn one column round there, to be"
+    " right-handed."
 )
 def left_handed(p: np.ndarray) -> np.ndarray:
     """Leaves the handedness as eigh gives it."""
@@ -232,8 +253,8 @@ def left_handed(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You divided each coordinate by its standard deviation first (a correlation matrix). Coordinates are all in metres:"
-    " their spread is what the axes are about."
+    "You divided each coordinate by its standard deviation first (a correlation matrix)."
+    " Coordinates are all in metres: their spread is what the axes are about."
 )
 def standardised(p: np.ndarray) -> np.ndarray:
     """Takes the correlation instead of the covariance."""
@@ -245,8 +266,8 @@ def standardised(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You subtract the product of the means from the mean of the products. Far from the origin all digits cancel: subtract"
-    " the centroid from the points first."
+    "You subtract the product of the means from the mean of the products. Far from the origin all"
+    " digits cancel: subtract the centroid from the points first."
 )
 def moments_cancel(p: np.ndarray) -> np.ndarray:
     """Uses E[x x^T] - E[x] E[x]^T."""
@@ -271,7 +292,9 @@ def axes_by_svd(p: np.ndarray) -> np.ndarray:
 
 @alternative
 def axes_by_power_iteration(p: np.ndarray) -> np.ndarray:
-    """Power iteration for the first axis, squaring the matrix each time, and for the next one without it."""
+    """Power iteration for the first axis, squaring the matrix each time, and for the next one
+    without it.
+    """
     C, found = covariance(p), []
     for k in range(2):
         A = C / (np.trace(C) or 1.0)

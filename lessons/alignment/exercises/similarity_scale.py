@@ -1,5 +1,5 @@
-"""Write the scale between two scans whose points are paired. The last step by pairs takes it from your function, there and
-back: see the presets 'Noise in both scans' and 'A mirror image'.
+"""Write the scale between two scans whose points are paired. The last step by pairs takes it from
+your function, there and back: see the presets 'Noise in both scans' and 'A mirror image'.
 """
 
 import numpy as np
@@ -26,26 +26,38 @@ from workbench.geometry.motions import alignment
     slot="similarity_scale",
     preset="scale",
     examples=(
-        ("similarity_scale(np.array([[0.0, 0, 0], [3, 0, 0], [0, 6, 0]]), np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0]]))",
-         "3"),
-        ("similarity_scale(np.array([[4.0, 0, 0], [5, 0, 0], [4, 1, 0]]), np.array([[1.0, 1, 1], [1, 1, 1], [1, 1, 1]]))",
-         "1"),
+        (
+            (
+                "similarity_scale(np.array([[0.0, 0, 0], [3, 0, 0], [0, 6, 0]]), np.array([[0.0, 0,"
+                " 0], [1, 0, 0], [0, 2, 0]]))"
+            ),
+            "3",
+        ),
+        (
+            (
+                "similarity_scale(np.array([[4.0, 0, 0], [5, 0, 0], [4, 1, 0]]), np.array([[1.0, 1,"
+                " 1], [1, 1, 1], [1, 1, 1]]))"
+            ),
+            "1",
+        ),
     ),
-)  # fmt: skip
+)
 def similarity_scale(
     p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]
 ) -> float:
-    """Return the scale s of the similarity p_target = s R p_source + t that leaves the least sum of squared distances.
+    """Return the scale s of the similarity p_target = s R p_source + t that leaves the least sum of
+    squared distances.
 
-    R is a rotation (determinant +1), also where a mirror image would fit better, and s, R and t are the best together.
+    R is a rotation (determinant +1), also where a mirror image would fit better, and s, R and t are
+    the best together.
 
     Args:
         p_target: Points in the target frame, metres.
         p_source: Their partners in the source frame, metres: row k belongs to row k.
 
     Returns:
-        How many times as large the target is. Noise in the source makes it too small; that is so, leave it. Source points
-        that all coincide say nothing about scale: 1 then.
+        How many times as large the target is. Noise in the source makes it too small; that is so,
+        leave it. Source points that all coincide say nothing about scale: 1 then.
 
     Raises:
         ValueError: If there are no pairs (n = 0).
@@ -111,7 +123,9 @@ def pairs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def mirror_images(candidate: Function) -> Verdict:
-    """Where one scan is a mirror image, and where flat scans have noise, no reflection is counted in."""
+    """Where one scan is a mirror image, and where flat scans have noise, no reflection is counted
+    in.
+    """
     verdicts = []
     for k in range(6):
         p_target, p_source = pairs(GRADERS() + k, 1.0 + 0.2 * k, 0.02, mirror=bool(k % 2))
@@ -140,7 +154,9 @@ def far_away(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def small_and_large(candidate: Function) -> Verdict:
-    """Objects of centimetres and of kilometres have their scale too, and what is a hundredth or a hundred times as large."""
+    """Objects of centimetres and of kilometres have their scale too, and what is a hundredth or a
+    hundred times as large.
+    """
     verdicts = []
     for k, size in enumerate((0.01, 1000.0)):
         p_target, p_source = pairs(GRADERS() + 40 + k, 0.8, 0.05)
@@ -159,7 +175,9 @@ def small_and_large(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def no_scale_to_see(candidate: Function) -> Verdict:
-    """Source points that coincide, and a single pair, give 1; two pairs have a scale; no pairs are refused."""
+    """Source points that coincide, and a single pair, give 1; two pairs have a scale; no pairs are
+    refused.
+    """
     p_target, p_source = pairs(GRADERS() + 30, 1.2)
     verdicts = [refused(candidate, np.empty((0, 3)), np.empty((0, 3)), what="A call without pairs")]
     for what, q in (
@@ -197,8 +215,8 @@ def centred(p_target: np.ndarray, p_source: np.ndarray) -> tuple[np.ndarray, np.
 
 
 @mistake(
-    "You returned the ratio of the clouds' sizes. It agrees for exact pairs only: noise swells both. Least squares takes the"
-    " singular values of the cross-covariance."
+    "You returned the ratio of the clouds' sizes. It agrees for exact pairs only: noise swells"
+    " both. Least squares takes the singular values of the cross-covariance."
 )
 def ratio_of_sizes(p_target: np.ndarray, p_source: np.ndarray) -> float:
     """Divides root mean square radii."""
@@ -207,8 +225,8 @@ def ratio_of_sizes(p_target: np.ndarray, p_source: np.ndarray) -> float:
 
 
 @mistake(
-    "You add up all singular values. Where the SVD gives a mirror image (determinant −1) the least one counts negative:"
-    " tr(D S), not tr(D)."
+    "You add up all singular values. Where the SVD gives a mirror image (determinant −1) the least"
+    " one counts negative: tr(D S), not tr(D)."
 )
 def mirror_counted_in(p_target: np.ndarray, p_source: np.ndarray) -> float:
     """Takes the trace without the sign."""
@@ -217,8 +235,8 @@ def mirror_counted_in(p_target: np.ndarray, p_source: np.ndarray) -> float:
 
 
 @mistake(
-    "You divide by the variance of the target: that is the scale from target to source. Divide by the source's, which is"
-    " what s is multiplied with."
+    "You divide by the variance of the target: that is the scale from target to source. Divide by"
+    " the source's, which is what s is multiplied with."
 )
 def target_to_source(p_target: np.ndarray, p_source: np.ndarray) -> float:
     """Returns the scale that goes back."""
@@ -227,7 +245,8 @@ def target_to_source(p_target: np.ndarray, p_source: np.ndarray) -> float:
 
 
 @mistake(
-    "Your scale is one over the right one. s is multiplied with the source, so it is large where the target is large."
+    "Your scale is one over the right one. s is multiplied with the source, so it is large where"
+    " the target is large."
 )
 def upside_down(p_target: np.ndarray, p_source: np.ndarray) -> float:
     """Returns 1 / s."""
@@ -235,7 +254,8 @@ def upside_down(p_target: np.ndarray, p_source: np.ndarray) -> float:
 
 
 @mistake(
-    "You did not subtract the centroids: about the origin the shift between the scans counts as size."
+    "You did not subtract the centroids: about the origin the shift between the scans counts as"
+    " size."
 )
 def not_centred(p_target: np.ndarray, p_source: np.ndarray) -> float:
     """Takes moments about the origin."""
@@ -247,7 +267,8 @@ def not_centred(p_target: np.ndarray, p_source: np.ndarray) -> float:
 
 
 @mistake(
-    "You take the trace of the cross-covariance without the rotation, tr(H). The clouds are turned: it is tr(D S)."
+    "You take the trace of the cross-covariance without the rotation, tr(H). The clouds are turned:"
+    " it is tr(D S)."
 )
 def without_the_rotation(p_target: np.ndarray, p_source: np.ndarray) -> float:
     """Projects without turning."""

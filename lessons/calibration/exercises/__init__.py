@@ -14,7 +14,9 @@ CAMERA = intrinsics(536.0, 342.0, 236.0, fy=541.0)
 
 
 def views(seed: int, count: int = 3, noise: float = 0.0) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return poses T_camera_board of a board some decimetres away, and its homographies, of any scale and sign."""
+    """Return poses T_camera_board of a board some decimetres away, and its homographies, of any
+    scale and sign.
+    """
     rng = np.random.default_rng(seed)
     found = []
     for k in range(count):

@@ -1,5 +1,5 @@
-"""Write the two equations that a picture of a flat board gives about the camera. The closed form stacks what you return: see
-K in the captions of the steps 'view by view'.
+"""Write the two equations that a picture of a flat board gives about the camera. The closed form
+stacks what you return: see K in the captions of the steps 'view by view'.
 """
 
 import numpy as np
@@ -30,15 +30,18 @@ from workbench.geometry.cameras import calibration
     ),
 )
 def constraint_rows(H: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "2 6"]:
-    """Return two rows whose products with b = (B11, B12, B22, B13, B23, B33) are 0 for the true camera.
+    """Return two rows whose products with b = (B11, B12, B22, B13, B23, B33) are 0 for the true
+    camera.
 
-    B = K^-T K^-1 is symmetric. With the columns h1 and h2 of the homography, h1^T B h2 = 0 and h1^T B h1 = h2^T B h2.
+    B = K^-T K^-1 is symmetric. With the columns h1 and h2 of the homography, h1^T B h2 = 0 and h1^T
+    B h1 = h2^T B h2.
 
     Args:
         H: Takes (X, Y, 1) on the board, metres, to pixels, up to scale.
 
     Returns:
-        Row 0: coefficients of h1^T B h2. Row 1: those of h1^T B h1 - h2^T B h2. Not scaled; H stays as it is.
+        Row 0: coefficients of h1^T B h2. Row 1: those of h1^T B h1 - h2^T B h2. Not scaled; H stays
+        as it is.
     """
     return calibration.constraint_rows(H)
 
@@ -129,7 +132,8 @@ def added(H: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your two rows are in the other order: the contract has h1ᵀ B h2 first, and the difference of lengths second."
+    "Your two rows are in the other order: the contract has h1ᵀ B h2 first, and the difference of"
+    " lengths second."
 )
 def swapped(H: np.ndarray) -> np.ndarray:
     """The second row first."""
@@ -158,7 +162,8 @@ def mixed_once(H: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your entries are ordered along the rows of B: B11, B12, B13, B22, ... The contract has B22 before B13."
+    "Your entries are ordered along the rows of B: B11, B12, B13, B22, ... The contract has B22"
+    " before B13."
 )
 def row_by_row(H: np.ndarray) -> np.ndarray:
     """B13 before B22."""
@@ -166,7 +171,8 @@ def row_by_row(H: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You took columns 2 and 3 of H. The third one is t, of which nothing is known: r1 and r2 are columns 1 and 2."
+    "You took columns 2 and 3 of H. The third one is t, of which nothing is known: r1 and r2 are"
+    " columns 1 and 2."
 )
 def columns_one_too_far(H: np.ndarray) -> np.ndarray:
     """h2 and h3."""

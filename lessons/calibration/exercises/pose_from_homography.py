@@ -1,5 +1,6 @@
-"""Write where a board stands, from its homography and the camera. Your poses are drawn at the step that places the boards:
-see whether they stand before the camera, and where the refinement goes from there.
+"""Write where a board stands, from its homography and the camera. Your poses are drawn at the step
+that places the boards: see whether they stand before the camera, and where the refinement goes from
+there.
 """
 
 import numpy as np
@@ -32,7 +33,10 @@ from workbench.geometry.motions import inverse, motion
             "[[1, 0, 0, 0.2], [0, 1, 0, 0.1], [0, 0, 1, 0.5], [0, 0, 0, 1]]",
         ),
         (
-            "pose_from_homography(np.diag([2.0, 2, 1]), np.array([[0.0, 4, -2], [-4, 0, 0], [0, 0, -2]]))",
+            (
+                "pose_from_homography(np.diag([2.0, 2, 1]), np.array([[0.0, 4, -2], [-4, 0, 0], [0,"
+                " 0, -2]]))"
+            ),
             "[[0, -1, 0, 0.5], [1, 0, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]]",
         ),
     ),
@@ -42,15 +46,17 @@ def pose_from_homography(
 ) -> Float[np.ndarray, "4 4"]:
     """Return T_camera_board, metres: the board's pose before the camera.
 
-    H ~ K [r1 r2 t] up to a scale of either sign. r1 and r2 are unit vectors. The board's origin is before the camera:
-    t_z > 0. It may show its front or its back.
+    H ~ K [r1 r2 t] up to a scale of either sign. r1 and r2 are unit vectors. The board's origin is
+    before the camera: t_z > 0. It may show its front or its back.
 
     Args:
         K: Intrinsics, pixels.
-        H: Takes (X, Y, 1) on the board, metres, to pixels. Noise leaves its r1 and r2 not quite orthonormal.
+        H: Takes (X, Y, 1) on the board, metres, to pixels. Noise leaves its r1 and r2 not quite
+            orthonormal.
 
     Returns:
-        A rigid motion, also with noise: its R has R^T R = I and determinant +1. The inputs stay as they are.
+        A rigid motion, also with noise: its R has R^T R = I and determinant +1. The inputs stay as
+        they are.
     """
     return calibration.pose_from_homography(K, H)
 
@@ -109,7 +115,9 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_views(candidate: Function) -> Verdict:
-    """Other exact homographies, of either sign, give their poses: near, far, at any scale, by another camera with skew."""
+    """Other exact homographies, of either sign, give their poses: near, far, at any scale, by
+    another camera with skew.
+    """
     K = intrinsics(1100.0, 350.0, 700.0, fy=900.0, skew=12.0)
     verdicts = [posed(candidate, GRADERS(), 4)]
     for (T, _), depth, scale in zip(
@@ -130,7 +138,9 @@ def other_noise(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def before_the_camera(candidate: Function) -> Verdict:
-    """H and -H give the same pose, with the board's origin before the camera, seen from the front or from the back."""
+    """H and -H give the same pose, with the board's origin before the camera, seen from the front
+    or from the back.
+    """
     T, _ = views(GRADERS() + 20, 1)[0]
     verdicts = []
     for turn in (
@@ -159,7 +169,8 @@ def _rotation(Q: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You left the sign of λ as it came. Of the two signs only one has the board before the camera: t_z > 0."
+    "You left the sign of λ as it came. Of the two signs only one has the board before the camera:"
+    " t_z > 0."
 )
 def sign_as_it_came(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """λ always positive."""
@@ -170,7 +181,8 @@ def sign_as_it_came(K: np.ndarray, H: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your R is not orthonormal where H has noise. Take the nearest rotation: U Vᵀ of its singular value decomposition."
+    "Your R is not orthonormal where H has noise. Take the nearest rotation: U Vᵀ of its singular"
+    " value decomposition."
 )
 def not_orthonormal(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """[r1 r2 r1 × r2] as they are."""
@@ -179,7 +191,8 @@ def not_orthonormal(K: np.ndarray, H: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your r3 is r2 × r1: R has determinant −1, a mirror image. A right-handed frame has r3 = r1 × r2."
+    "Your r3 is r2 × r1: R has determinant −1, a mirror image. A right-handed frame has r3 = r1"
+    " × r2."
 )
 def mirrored(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """r3 = r2 × r1."""
@@ -188,7 +201,8 @@ def mirrored(K: np.ndarray, H: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your t is not scaled by λ. The scale that makes r1 and r2 unit vectors belongs to the whole of K⁻¹ H."
+    "Your t is not scaled by λ. The scale that makes r1 and r2 unit vectors belongs to the whole of"
+    " K⁻¹ H."
 )
 def t_unscaled(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """Takes t as it comes out of K^-1 H."""
@@ -209,7 +223,8 @@ def t_of_length_one(K: np.ndarray, H: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You returned T_board_camera. The contract asks for T_camera_board, which takes points of the board to the camera."
+    "You returned T_board_camera. The contract asks for T_camera_board, which takes points of the"
+    " board to the camera."
 )
 def inverted(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """The inverse."""

@@ -1,5 +1,6 @@
-"""Write the number that calibrations are judged by. It is the curve 'reprojection, rms' and the number in the captions; the
-table 'What is called the error', two steps before the end, has its namesakes.
+"""Write the number that calibrations are judged by. It is the curve 'reprojection, rms' and the
+number in the captions; the table 'What is called the error', two steps before the end, has its
+namesakes.
 """
 
 import numpy as np
@@ -29,7 +30,8 @@ from workbench.geometry.cameras import calibration
     ),
 )
 def reprojection_rms(residuals: Float[np.ndarray, "n 2"]) -> float:
-    """Return the root mean square length of the residuals, in pixels: per point, not per coordinate.
+    """Return the root mean square length of the residuals, in pixels: per point, not per
+    coordinate.
 
     Args:
         residuals: Projected minus measured, pixels, one row (du, dv) per corner; at least one.
@@ -100,7 +102,8 @@ def one_corner_and_none_off(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You averaged over the 2n coordinates. The rms is per point: divide the sum of squares by n, not by 2n."
+    "You averaged over the 2n coordinates. The rms is per point: divide the sum of squares by n,"
+    " not by 2n."
 )
 def per_coordinate(residuals: np.ndarray) -> float:
     """Over coordinates."""
@@ -108,7 +111,8 @@ def per_coordinate(residuals: np.ndarray) -> float:
 
 
 @mistake(
-    "You divided the norm of all residuals by n, as an old tutorial does: n has to go under the root."
+    "You divided the norm of all residuals by n, as an old tutorial does: n has to go under the"
+    " root."
 )
 def norm_over_n(residuals: np.ndarray) -> float:
     """Divides the norm by n."""
@@ -116,7 +120,8 @@ def norm_over_n(residuals: np.ndarray) -> float:
 
 
 @mistake(
-    "You averaged the lengths. Square them first, and take the root of the mean: large residuals count more."
+    "You averaged the lengths. Square them first, and take the root of the mean: large residuals"
+    " count more."
 )
 def mean_length(residuals: np.ndarray) -> float:
     """The mean of lengths."""
@@ -136,7 +141,8 @@ def norm(residuals: np.ndarray) -> float:
 
 
 @mistake(
-    "You took off the mean residual first. A shift that all corners share is an error too, and counts."
+    "You took off the mean residual first. A shift that all corners share is an error too, and"
+    " counts."
 )
 def about_the_mean(residuals: np.ndarray) -> float:
     """A standard deviation."""
@@ -144,7 +150,8 @@ def about_the_mean(residuals: np.ndarray) -> float:
 
 
 @mistake(
-    "You took the median of the lengths: a corner that is far off plays no part in it, in the rms it does."
+    "You took the median of the lengths: a corner that is far off plays no part in it, in the rms"
+    " it does."
 )
 def median_length(residuals: np.ndarray) -> float:
     """The median of lengths."""

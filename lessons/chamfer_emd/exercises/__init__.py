@@ -1,4 +1,6 @@
-"""The exercises of this lesson: one side of Chamfer, both sides, earth mover's distance. Judged by relative error."""
+"""The exercises of this lesson: one side of Chamfer, both sides, earth mover's distance. Judged by
+relative error.
+"""
 
 import numpy as np
 
@@ -29,7 +31,9 @@ ZERO = 1e-7  # metres, or square metres: what counts as 0
 
 
 def value_verdict(got: float, right: float, unit: str, hint: str, what: str = "") -> Verdict:
-    """Judge a distance by its relative error: all points up to 0.01 %, half up to 1 %; a distance of 0 by itself."""
+    """Judge a distance by its relative error: all points up to 0.01 %, half up to 1 %; a distance
+    of 0 by itself.
+    """
     yours = f"{what}yours" if what else "Yours"
     if right == 0.0:
         if abs(got) <= ZERO:
@@ -86,6 +90,8 @@ def all_distances(p_a: np.ndarray, p_b: np.ndarray) -> np.ndarray:
 
 
 def rows_of_both(p_a: np.ndarray, p_b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return both clouds as if row k of one belonged to row k of the other, the shorter one over again."""
+    """Return both clouds as if row k of one belonged to row k of the other, the shorter one over
+    again.
+    """
     k = np.arange(max(len(p_a), len(p_b)))
     return p_a[k % len(p_a)], p_b[k % len(p_b)]

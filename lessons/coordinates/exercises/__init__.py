@@ -14,7 +14,9 @@ STUDENTS, GRADERS = (
 
 
 def numbers(values: np.ndarray) -> str:
-    """Write some numbers of an answer in brackets: small ones with their digits, what is none by its name."""
+    """Write some numbers of an answer in brackets: small ones with their digits, what is none by
+    its name.
+    """
     return f"({', '.join(one(float(value)) for value in np.atleast_1d(values))})"
 
 
@@ -26,7 +28,9 @@ def one(value: float) -> str:
 
 
 def told(got: np.ndarray, right: np.ndarray) -> str:
-    """Write an answer and the right one, with more digits where these few would not tell them apart."""
+    """Write an answer and the right one, with more digits where these few would not tell them
+    apart.
+    """
     yours, wanted = numbers(got), numbers(right)
     return (
         against(np.atleast_1d(got), np.atleast_1d(right), 5)
@@ -45,7 +49,8 @@ def row_by_row(
     good: float,
     fair: float,
 ) -> Verdict:
-    """Judge the row that is farthest off, or is no number at all, and say what was asked, what came and what is right.
+    """Judge the row that is farthest off, or is no number at all, and say what was asked, what came
+    and what is right.
 
     Args:
         asked: What the call was, row by row, in words.

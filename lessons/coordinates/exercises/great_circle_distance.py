@@ -1,5 +1,5 @@
-"""Write how far apart places on a globe are. Both travellers' ways are measured with it, piece by piece, and so is how far
-a mean of numbers is from the middle.
+"""Write how far apart places on a globe are. Both travellers' ways are measured with it, piece by
+piece, and so is how far a mean of numbers is from the middle.
 """
 
 import numpy as np
@@ -25,7 +25,10 @@ from workbench.geometry.shapes import globe
     examples=(
         ("great_circle_distance(np.array([[0.0, 0.0]]), np.array([[0.0, 90.0]]), 2.0)", "[3.1416]"),
         (
-            "great_circle_distance(np.array([[51.5074, -0.1278]]), np.array([[34.0522, -118.2437]]), 6371.0088)",
+            (
+                "great_circle_distance(np.array([[51.5074, -0.1278]]), np.array([[34.0522,"
+                " -118.2437]]), 6371.0088)"
+            ),
             "[8755.6]",
         ),
     ),
@@ -33,10 +36,12 @@ from workbench.geometry.shapes import globe
 def great_circle_distance(
     a: Float[np.ndarray, "n 2"], b: Float[np.ndarray, "n 2"], radius: float
 ) -> Float[np.ndarray, " n"]:
-    """Return the shortest ways along a sphere between places in the same rows, in the unit of the radius.
+    """Return the shortest ways along a sphere between places in the same rows, in the unit of the
+    radius.
 
-    It is exact to a millionth of itself, also for places a millimetre apart on the Earth; a place and itself are 0 apart,
-    antipodes half the circumference (to a tenth of a metre on the Earth), and rounding makes neither NaN.
+    It is exact to a millionth of itself, also for places a millimetre apart on the Earth; a place
+    and itself are 0 apart, antipodes half the circumference (to a tenth of a metre on the Earth),
+    and rounding makes neither NaN.
 
     Args:
         a: One row (latitude, longitude) per place, degrees, north and east positive.
@@ -80,9 +85,13 @@ def cities(candidate: Function) -> Verdict:
 def globe_cities() -> dict[str, tuple[float, float]]:
     """Return some cities."""
     return {
-        "London": (51.5074, -0.1278), "Los Angeles": (34.0522, -118.2437), "Tokyo": (35.6762, 139.6503),
-        "Suva": (-18.1248, 178.4501), "Apia": (-13.8333, -171.7667), "Quito": (-0.1807, -78.4678),
-    }  # fmt: skip
+        "London": (51.5074, -0.1278),
+        "Los Angeles": (34.0522, -118.2437),
+        "Tokyo": (35.6762, 139.6503),
+        "Suva": (-18.1248, 178.4501),
+        "Apia": (-13.8333, -171.7667),
+        "Quito": (-0.1807, -78.4678),
+    }
 
 
 @check(2)
@@ -104,7 +113,8 @@ def short_ways(candidate: Function) -> Verdict:
 
 
 def short(candidate: Function, axis: int, metres: float) -> Verdict:
-    """Judge a short way to the north (0) or east (1), in a call of its own: beside a long one it would not count.
+    """Judge a short way to the north (0) or east (1), in a call of its own: beside a long one it
+    would not count.
 
     It begins at (0, 0), where what a cosine loses does not depend on how a machine rounds.
     """
@@ -115,7 +125,9 @@ def short(candidate: Function, axis: int, metres: float) -> Verdict:
 
 @check(2, public=False)
 def other_places(candidate: Function) -> Verdict:
-    """Other places are right, across the date line, near the poles and nearly opposite, on a marble too."""
+    """Other places are right, across the date line, near the poles and nearly opposite, on a marble
+    too.
+    """
     a, b = places(GRADERS(), 12), places(GRADERS() + 1, 12)
     a[:3], b[:3] = (
         [[10.0, 179.5], [-40.0, 170.0], [89.0, 0.0]],
@@ -130,7 +142,9 @@ def other_places(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def the_same_place(candidate: Function) -> Verdict:
-    """A place and itself are 0 apart, antipodes half the circumference; a pole is one place at any longitude."""
+    """A place and itself are 0 apart, antipodes half the circumference; a pole is one place at any
+    longitude.
+    """
     a = np.vstack([places(GRADERS() + 2, 40), [[0.0, 0.0], [90.0, 0.0]]])
     b = np.column_stack([-a[:, 0], np.where(a[:, 1] > 0, a[:, 1] - 180, a[:, 1] + 180)])
     a, b = (
@@ -139,7 +153,10 @@ def the_same_place(candidate: Function) -> Verdict:
     )
     got, right = candidate(a, b, EARTH), np.repeat([0.0, np.pi * EARTH], len(a) // 2)
     asked = [f"{numbers(p)} to {numbers(q)}" for p, q in zip(a, b, strict=True)]
-    hint = f"Near half way round, and near the start, an arc sine or cosine loses digits: take arctan2. {HINT}"
+    hint = (
+        "Near half way round, and near the start, an arc sine or cosine loses digits: take"
+        f" arctan2. {HINT}"
+    )
     return row_by_row(asked, got, right, np.abs(got - right), hint, good=0.5, fair=5.0)
 
 
@@ -157,7 +174,8 @@ def radians(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, ...]:
 
 
 @mistake(
-    "You measured the chord, straight through the sphere. The way along it is 2 R asin(chord / 2 R)."
+    "You measured the chord, straight through the sphere. The way along it is 2 R asin(chord /"
+    " 2 R)."
 )
 def chord(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Goes through the ground."""
@@ -165,7 +183,8 @@ def chord(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
 
 
 @mistake(
-    "You took latitude and longitude for lengths in a plane. A degree of longitude shrinks with cos of the latitude."
+    "You took latitude and longitude for lengths in a plane. A degree of longitude shrinks with cos"
+    " of the latitude."
 )
 def flat_degrees(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Pythagoras on degrees."""
@@ -173,7 +192,8 @@ def flat_degrees(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
 
 
 @mistake(
-    "You shrink longitudes with the cosine of one latitude and go on in a plane: that holds for short ways only."
+    "You shrink longitudes with the cosine of one latitude and go on in a plane: that holds for"
+    " short ways only."
 )
 def plane_with_cosine(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Takes the mean latitude."""
@@ -194,8 +214,8 @@ def swapped(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
 
 
 @mistake(
-    "You used the law of cosines, or arccos of a dot product: for short ways that cosine is 1 but for rounding, and a"
-    " millimetre becomes 0 or decimetres."
+    "You used the law of cosines, or arccos of a dot product: for short ways that cosine is 1 but"
+    " for rounding, and a millimetre becomes 0 or decimetres."
 )
 def law_of_cosines(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Takes the arc cosine, clipped."""
@@ -205,7 +225,8 @@ def law_of_cosines(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
 
 
 @mistake(
-    "Your way is half as long as the right one: the haversine gives half the angle. Multiply the arc sine by 2."
+    "Your way is half as long as the right one: the haversine gives half the angle. Multiply the"
+    " arc sine by 2."
 )
 def half_the_angle(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Forgets the 2."""

@@ -1,5 +1,5 @@
-"""Write where lines meet, in homogeneous coordinates. The lesson turns two lines parallel and takes their meeting from you:
-it has to stay a vector without a division by 0.
+"""Write where lines meet, in homogeneous coordinates. The lesson turns two lines parallel and takes
+their meeting from you: it has to stay a vector without a division by 0.
 """
 
 import numpy as np
@@ -30,7 +30,8 @@ from workbench.geometry.shapes import projective
 def meet(
     lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points (x, y, w) where the lines cross those in the same rows, in homogeneous coordinates.
+    """Return the points (x, y, w) where the lines cross those in the same rows, in homogeneous
+    coordinates.
 
     Any factor other than 0 will do: (2, 3, 1) and (-4, -6, -2) are the same point.
 
@@ -39,8 +40,8 @@ def meet(
         lines_b: Likewise.
 
     Returns:
-        For parallel lines the point at infinity, w = 0. The same line twice, at whatever scale, has no one meeting:
-        (0, 0, 0).
+        For parallel lines the point at infinity, w = 0. The same line twice, at whatever scale, has
+        no one meeting: (0, 0, 0).
     """
     return projective.meet(lines_a, lines_b)
 
@@ -113,7 +114,9 @@ def nearly_parallel(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_lines(candidate: Function) -> Verdict:
-    """Other lines meet too, and so do single ones, and lines of very small or very large numbers."""
+    """Other lines meet too, and so do single ones, and lines of very small or very large
+    numbers.
+    """
     one = lines(GRADERS() + 1, 1)
     a, b = lines(GRADERS(), 12)
     found = judged(candidate, *one)
@@ -142,7 +145,8 @@ def parts(lines_a: np.ndarray, lines_b: np.ndarray) -> tuple[np.ndarray, ...]:
 
 
 @mistake(
-    "You divided by w. That is infinite or no number for parallels; a homogeneous vector needs no division."
+    "You divided by w. That is infinite or no number for parallels; a homogeneous vector needs no"
+    " division."
 )
 def divided_by_w(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Makes w one."""
@@ -151,7 +155,8 @@ def divided_by_w(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You solved with slopes y = m x + k: upright lines have none, and parallels divide by 0. Take l × l′."
+    "You solved with slopes y = m x + k: upright lines have none, and parallels divide by 0. Take l"
+    " × l′."
 )
 def by_slopes(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Divides by b."""
@@ -167,7 +172,8 @@ def middle_sign(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You read lines as a x + b y = c. Here c is on the other side: a x + b y + c = 0, so your points are mirrored."
+    "You read lines as a x + b y = c. Here c is on the other side: a x + b y + c = 0, so your"
+    " points are mirrored."
 )
 def c_on_the_right(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Turns c round."""
@@ -184,7 +190,8 @@ def entry_by_entry(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You return (x, y, 1) from a solver and something made up where it fails. l × l′ needs no solver and never fails."
+    "You return (x, y, 1) from a solver and something made up where it fails. l × l′ needs no"
+    " solver and never fails."
 )
 def solved_with_nan(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Solves two equations, NaN where they are singular."""
@@ -200,7 +207,8 @@ def solved_with_nan(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You subtracted the lines: l − l′ is another line through the meeting, not the meeting. Take l × l′."
+    "You subtracted the lines: l − l′ is another line through the meeting, not the meeting. Take l"
+    " × l′."
 )
 def difference(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Takes l - l'."""

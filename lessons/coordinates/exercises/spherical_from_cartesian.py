@@ -1,5 +1,5 @@
-"""Write the spherical coordinates of points. The walk past the axis and the camera's mount take their angles from you: a
-camera with a wrong azimuth looks past its target.
+"""Write the spherical coordinates of points. The walk past the axis and the camera's mount take
+their angles from you: a camera with a wrong azimuth looks past its target.
 """
 
 import math
@@ -25,21 +25,26 @@ from workbench.geometry.shapes import curvilinear
     slot="spherical_from_cartesian",
     examples=(
         ("spherical_from_cartesian(np.array([[0.0, 2.0, 0.0]]))", "[[2, 1.5708, 1.5708]]"),
-        ("spherical_from_cartesian(np.array([[-1.0, 0.0, 1.0], [0.0, 0.0, -3.0]]))",
-         "[[1.4142, 0.7854, 3.1416], [3, 3.1416, 0]]"),
+        (
+            "spherical_from_cartesian(np.array([[-1.0, 0.0, 1.0], [0.0, 0.0, -3.0]]))",
+            "[[1.4142, 0.7854, 3.1416], [3, 3.1416, 0]]",
+        ),
     ),
-)  # fmt: skip
+)
 def spherical_from_cartesian(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
     """Return r, polar angle and azimuth of points, one row each; metres and radians.
 
-    The polar angle runs from 0 at +z to pi at -z and is exact near the axis too: a point a billionth of a radian from +z
-    has a polar angle of 1e-9. The azimuth runs from +x towards +y, in (-pi, pi].
+    The polar angle runs from 0 at +z to pi at -z and is exact near the axis too: a point a
+    billionth of a radian from +z has a polar angle of 1e-9. The azimuth runs from +x towards +y, in
+    (-pi, pi].
 
     Args:
-        p: One row (x, y, z) per point, metres. A coordinate may be -0.0, which is 0: (-1, -0.0, 0) has the azimuth pi.
+        p: One row (x, y, z) per point, metres. A coordinate may be -0.0, which is 0: (-1, -0.0, 0)
+            has the azimuth pi.
 
     Returns:
-        Rows (r, polar, azimuth). On the axis, where the azimuth has no meaning, it is 0; the origin is (0, 0, 0).
+        Rows (r, polar, azimuth). On the axis, where the azimuth has no meaning, it is 0; the origin
+        is (0, 0, 0).
     """
     return curvilinear.spherical_from_cartesian(p)
 
@@ -54,7 +59,9 @@ AXIS = "Near the axis arccos has no digits left: atan2(√(x² + y²), z) has."
 
 
 def judged(candidate: Function, p: np.ndarray, hint: str = ANGLES) -> Verdict:
-    """Judge coordinates by their largest difference, of r as a share of it, of angles in radians."""
+    """Judge coordinates by their largest difference, of r as a share of it, of angles in
+    radians.
+    """
     got, right = candidate(p), curvilinear.spherical_from_cartesian(p)
     size = np.column_stack([np.maximum(right[:, 0], 1e-12), np.ones((len(p), 2))])
     off = (np.abs(got - right) / size).max(axis=1)
@@ -121,7 +128,9 @@ def other_points_all_round(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def nearer_the_axis(candidate: Function) -> Verdict:
-    """So have points other millionths from the axis, in any direction, and below: there the azimuth has a meaning still."""
+    """So have points other millionths from the axis, in any direction, and below: there the azimuth
+    has a meaning still.
+    """
     polar = np.array([3e-5, 2e-7, *LOST, 2e-10])
     found = [near(candidate, polar, 2e-3), near(candidate, polar, 2e-3, azimuth=2.4)]
     p = np.column_stack([np.zeros(6), -0.5 * np.sin(polar), -0.5 * np.cos(polar)])
@@ -158,7 +167,8 @@ def columns(r: np.ndarray, polar: np.ndarray, azimuth: np.ndarray) -> np.ndarray
 
 
 @mistake(
-    "You wrote arctan(y / x): it cannot tell (x, y) from (−x, −y), so half of all azimuths are π off. atan2(y, x) can."
+    "You wrote arctan(y / x): it cannot tell (x, y) from (−x, −y), so half of all azimuths are π"
+    " off. atan2(y, x) can."
 )
 def atan_of_the_quotient(p: np.ndarray) -> np.ndarray:
     """Divides first."""
@@ -169,7 +179,8 @@ def atan_of_the_quotient(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You wrote arctan(y / x) and divide by 0 on the axis; it also puts half of all azimuths π off. Use atan2(y, x)."
+    "You wrote arctan(y / x) and divide by 0 on the axis; it also puts half of all azimuths π off."
+    " Use atan2(y, x)."
 )
 def atan_and_nan(p: np.ndarray) -> np.ndarray:
     """Divides first, also by 0."""
@@ -178,8 +189,8 @@ def atan_and_nan(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your polar angle is arccos(z / r): below a hundred-millionth of a radian it is 0, near that it is wrong, and at the"
-    " origin it is 0 / 0. Use atan2(√(x² + y²), z)."
+    "Your polar angle is arccos(z / r): below a hundred-millionth of a radian it is 0, near that it"
+    " is wrong, and at the origin it is 0 / 0. Use atan2(√(x² + y²), z)."
 )
 def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, also of 0 / 0."""
@@ -188,8 +199,8 @@ def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your polar angle is arccos(z / r), with the origin looked after: below a hundred-millionth of a radian it is 0, near"
-    " that it is wrong. Use atan2(√(x² + y²), z)."
+    "Your polar angle is arccos(z / r), with the origin looked after: below a hundred-millionth of"
+    " a radian it is 0, near that it is wrong. Use atan2(√(x² + y²), z)."
 )
 def arccos_with_care(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, but not of 0 / 0."""
@@ -198,7 +209,8 @@ def arccos_with_care(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your second angle is the elevation above the x-y plane. The polar angle starts at +z: the two add up to π/2."
+    "Your second angle is the elevation above the x-y plane. The polar angle starts at +z: the two"
+    " add up to π/2."
 )
 def elevation(p: np.ndarray) -> np.ndarray:
     """Measures from the plane."""
@@ -219,7 +231,8 @@ def in_degrees(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your azimuth runs from 0 to 2π. Here it is in (−π, π]: what atan2 gives, without anything added."
+    "Your azimuth runs from 0 to 2π. Here it is in (−π, π]: what atan2 gives, without anything"
+    " added."
 )
 def from_zero_to_two_pi(p: np.ndarray) -> np.ndarray:
     """Adds a turn to negative ones."""
@@ -244,8 +257,8 @@ def distance_from_the_axis(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "All is right but where a coordinate is minus zero: atan2 listens to the sign of a zero and says −π, or π on the axis."
-    " Add 0.0 to the coordinates first."
+    "All is right but where a coordinate is minus zero: atan2 listens to the sign of a zero and"
+    " says −π, or π on the axis. Add 0.0 to the coordinates first."
 )
 def sign_of_a_zero(p: np.ndarray) -> np.ndarray:
     """Takes the arctangents of what comes in."""

@@ -1,5 +1,6 @@
-"""Write the mean-curvature normals of a mesh by the cotangent formula: at each vertex how its neighbours pull, divided
-by its area. The lesson draws them, and reads H off as half their length along the outward normal.
+"""Write the mean-curvature normals of a mesh by the cotangent formula: at each vertex how its
+neighbours pull, divided by its area. The lesson draws them, and reads H off as half their length
+along the outward normal.
 """
 
 import numpy as np
@@ -37,7 +38,10 @@ from workbench.geometry.meshes.laplacian import mixed_areas
     examples=(
         (
             f"mean_curvature_normals({TETRAHEDRON})",
-            "[[2.928, -0.536, -0.536], [-0.536, 2.928, -0.536], [-0.536, -0.536, 2.928], [-1.333, -1.333, -1.333]]",
+            (
+                "[[2.928, -0.536, -0.536], [-0.536, 2.928, -0.536], [-0.536, -0.536, 2.928],"
+                " [-1.333, -1.333, -1.333]]"
+            ),
         ),
         (f"mean_curvature_normals({TRIANGLE})", "np.full((3, 3), nan)"),
     ),
@@ -47,22 +51,26 @@ def mean_curvature_normals(
 ) -> Float[np.ndarray, "v 3"]:
     """Return the mean-curvature normal 2 H n at each vertex, 1/m.
 
-    For vertex i it is 1 / (2 A_i) times the sum over its edges ij of (cot a_ij + cot b_ij) (p_i - p_j). a_ij and b_ij are
-    the angles opposite the edge, one in each of its two faces. A_i is the mixed area, made of a part of each face around:
+    For vertex i it is 1 / (2 A_i) times the sum over its edges ij of (cot a_ij + cot b_ij) (p_i -
+    p_j). a_ij and b_ij are the angles opposite the edge, one in each of its two faces. A_i is the
+    mixed area, made of a part of each face around:
 
-    - of a face without an obtuse angle, the points nearer to this vertex than to the other two (its Voronoi part):
-      (|ij|^2 cot k + |ik|^2 cot j) / 8 for vertex i, j and k being the angles at the other two;
-    - of an obtuse face, half where the obtuse angle is at this vertex, a quarter where it is at another one.
+    - of a face without an obtuse angle, the points nearer to this vertex than to the other two (its
+      Voronoi part): (|ij|^2 cot k + |ik|^2 cot j) / 8 for vertex i, j and k being the angles at the
+      other two;
+    - of an obtuse face, half where the obtuse angle is at this vertex, a quarter where it is at
+      another one.
 
     Args:
         p: Vertices, metres, one row each. Every vertex belongs to a face.
-        faces: Three vertex numbers per triangle, counterclockwise seen from outside. No edge has more than two faces, and
-            no face is without area.
+        faces: Three vertex numbers per triangle, counterclockwise seen from outside. No edge has
+            more than two faces, and no face is without area.
 
     Returns:
-        One vector per vertex, 1/m: on a sphere of radius r it points outward and is 2/r long; on a plane it is 0. It does
-        not depend on which side is called outside. nan (all three) on the border, the vertices of edges that only one face
-        has: it is not defined there. The inputs stay as they are.
+        One vector per vertex, 1/m: on a sphere of radius r it points outward and is 2/r long; on a
+        plane it is 0. It does not depend on which side is called outside. nan (all three) on the
+        border, the vertices of edges that only one face has: it is not defined there. The inputs
+        stay as they are.
     """
     return curvature.mean_curvature_normals(p, faces)
 
@@ -137,7 +145,9 @@ def plane_and_soap_film(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def turns_with_the_mesh(candidate: Function) -> Verdict:
-    """They turn with the mesh, halve on one of twice the size, and stay where its outside is called inside."""
+    """They turn with the mesh, halve on one of twice the size, and stay where its outside is called
+    inside.
+    """
     mesh = irregular("torus", GRADERS() + 5, 100)
     right, R = curvature.mean_curvature_normals(mesh.p, mesh.faces), some_rotation(GRADERS() + 5)
     p = mesh.p @ R.T + np.array([1.0, -4.0, 2.0])
@@ -154,8 +164,8 @@ def turns_with_the_mesh(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "Your vectors have the right length and point the wrong way: on a sphere 2 H n points outward. Take p_i - "
-    "p_j, from the neighbour to the vertex."
+    "Your vectors have the right length and point the wrong way: on a sphere 2 H n points outward."
+    " Take p_i - p_j, from the neighbour to the vertex."
 )
 def inward(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """p_j - p_i."""
@@ -163,7 +173,8 @@ def inward(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your vectors are half as long as asked: you returned H n. The contract asks for 2 H n, 2/r on a sphere."
+    "Your vectors are half as long as asked: you returned H n. The contract asks for 2 H n, 2/r on"
+    " a sphere."
 )
 def h_n(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """H n."""
@@ -171,7 +182,8 @@ def h_n(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your vectors are twice too long. The sum over the edges is divided by twice the area: 1 / (2 A)."
+    "Your vectors are twice too long. The sum over the edges is divided by twice the area: 1 /"
+    " (2 A)."
 )
 def four_h_n(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Divides by the area, not by twice the area."""
@@ -179,8 +191,8 @@ def four_h_n(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You did not divide by the area: your vectors are the integral of 2 H n over each vertex' area, and shrink "
-    "with the triangles."
+    "You did not divide by the area: your vectors are the integral of 2 H n over each vertex' area,"
+    " and shrink with the triangles."
 )
 def area_forgotten(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The integral over the vertex' area."""
@@ -188,8 +200,8 @@ def area_forgotten(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You divided by a third of the faces around. The contract asks for the mixed area: the Voronoi part, or a "
-    "half and two quarters of an obtuse face."
+    "You divided by a third of the faces around. The contract asks for the mixed area: the Voronoi"
+    " part, or a half and two quarters of an obtuse face."
 )
 def a_third_of_each_face(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Divides by a third of the faces around."""
@@ -216,8 +228,8 @@ def cotangent_pull(
 
 
 @mistake(
-    "You took the cotangent of an angle that the edge belongs to. It is that of the angles opposite the edge, "
-    "one in each of its two faces."
+    "You took the cotangent of an angle that the edge belongs to. It is that of the angles opposite"
+    " the edge, one in each of its two faces."
 )
 def angle_beside_the_edge(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The cotangent of an angle at the edge, not opposite it."""
@@ -225,7 +237,8 @@ def angle_beside_the_edge(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Every edge of yours counts with one of its two faces only. Its weight is cot a + cot b, one angle from each face."
+    "Every edge of yours counts with one of its two faces only. Its weight is cot a + cot b, one"
+    " angle from each face."
 )
 def one_cotangent(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Every edge counts with one of its two faces."""
@@ -233,8 +246,8 @@ def one_cotangent(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You took the vertex less the mean of its neighbours. That mixes bending with how the neighbours are "
-    "spread: weigh each by its two cotangents."
+    "You took the vertex less the mean of its neighbours. That mixes bending with how the"
+    " neighbours are spread: weigh each by its two cotangents."
 )
 def mean_of_the_neighbours(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The vertex less the mean of its neighbours, over the area."""
@@ -248,7 +261,8 @@ def mean_of_the_neighbours(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You returned normals of length 1. The length is what is asked for: 2 H, so that a sphere of radius r has 2/r."
+    "You returned normals of length 1. The length is what is asked for: 2 H, so that a sphere of"
+    " radius r has 2/r."
 )
 def unit_normals(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Unit normals."""
@@ -258,8 +272,8 @@ def unit_normals(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You gave vectors on the border. Half of the neighbours are missing there, and the sum pulls along the "
-    "surface: return nan."
+    "You gave vectors on the border. Half of the neighbours are missing there, and the sum pulls"
+    " along the surface: return nan."
 )
 def a_value_on_the_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Does not know of a border."""
@@ -277,7 +291,9 @@ def a_value_on_the_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 @alternative
 def gradient_of_area(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """How the area of the faces around grows when the vertex moves, over the area that belongs to it."""
+    """How the area of the faces around grows when the vertex moves, over the area that belongs to
+    it.
+    """
     total, area = np.zeros_like(p), np.zeros(len(p))
     corner = [p[faces[:, k]] for k in range(3)]
     n = np.cross(corner[1] - corner[0], corner[2] - corner[0])

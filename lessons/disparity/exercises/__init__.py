@@ -1,4 +1,6 @@
-"""The exercises of this lesson: depth from disparity, the costs of all shifts, and the shift that wins."""
+"""The exercises of this lesson: depth from disparity, the costs of all shifts, and the shift that
+wins.
+"""
 
 import numpy as np
 
@@ -15,7 +17,9 @@ VOLUME_HINT = "cost[d, y, x] sums |left(y, x) - right(y, x - d)| over the window
 
 
 def textures(seed: int, h: int = 12, w: int = 20, shift: int = 4) -> Pair:
-    """Return two noisy pictures; what the left one shows in column x is in column x - shift of the right one."""
+    """Return two noisy pictures; what the left one shows in column x is in column x - shift of the
+    right one.
+    """
     rng = np.random.default_rng(seed)
     scene = rng.uniform(10.0, 240.0, (h, w + shift))
     return scene[:, :w] + rng.normal(0, 3, (h, w)), scene[:, shift:] + rng.normal(0, 3, (h, w))

@@ -1,5 +1,6 @@
-"""Write what turns a disparity into a depth. The lesson builds the cloud of points with it, from the map of every step;
-what is infinitely far or unknown must stay so, or the cloud shows points that nobody saw.
+"""Write what turns a disparity into a depth. The lesson builds the cloud of points with it, from
+the map of every step; what is infinitely far or unknown must stay so, or the cloud shows points
+that nobody saw.
 """
 
 import numpy as np
@@ -40,18 +41,20 @@ def depth_from_disparity(
 ) -> Float[np.ndarray, "..."]:
     """Return the depth that each disparity stands for, metres along the optical axis.
 
-    Two cameras look along the same direction, the right one `baseline` to the right of the left one. A point at depth Z is
-    d pixels further left in the right picture. Similar triangles give Z / baseline = f / d.
+    Two cameras look along the same direction, the right one `baseline` to the right of the left
+    one. A point at depth Z is d pixels further left in the right picture. Similar triangles give Z
+    / baseline = f / d.
 
     Args:
-        d: Disparities, x in the left picture less x in the right one, pixels; an array of any shape, fractions included.
-            nan is unknown.
+        d: Disparities, x in the left picture less x in the right one, pixels; an array of any
+            shape, fractions included. nan is unknown.
         f: Focal length of both cameras, pixels.
         baseline: Distance between the cameras, metres.
 
     Returns:
-        Depths, metres, in a new array of the same shape. 0 gives inf: the rays are parallel, the point is infinitely far.
-        nan gives nan. A negative disparity gives nan: nothing in front of both cameras causes one.
+        Depths, metres, in a new array of the same shape. 0 gives inf: the rays are parallel, the
+        point is infinitely far. nan gives nan. A negative disparity gives nan: nothing in front of
+        both cameras causes one.
     """
     return stereo.depth_from_disparity(d, f, baseline)
 
@@ -116,7 +119,9 @@ def two_cameras(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def smaller_pictures(candidate: Function) -> Verdict:
-    """In pictures shrunk four times, f and d shrink, and the depth is the same; no disparities give no depths."""
+    """In pictures shrunk four times, f and d shrink, and the depth is the same; no disparities give
+    no depths.
+    """
     d = np.random.default_rng(GRADERS() + 1).uniform(3.0, 80.0, (3, 4, 2))
     if candidate(np.empty(0), 900.0, 0.15).size:
         return fail("No disparities came in, and depths came out; right are 0 of them.")
@@ -127,7 +132,9 @@ def smaller_pictures(candidate: Function) -> Verdict:
 
 @check(3, public=False)
 def infinite_and_unknown(candidate: Function) -> Verdict:
-    """0 is infinitely far, nan stays nan, a negative disparity is nan, and a hundredth of a pixel is far away."""
+    """0 is infinitely far, nan stays nan, a negative disparity is nan, and a hundredth of a pixel
+    is far away.
+    """
     wanted = [
         (0.0, np.inf),
         (np.nan, np.nan),
@@ -156,7 +163,8 @@ def infinite_and_unknown(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "Your depth grows with the disparity. It is the other way round: near things jump further. Z = f B / d."
+    "Your depth grows with the disparity. It is the other way round: near things jump further. Z ="
+    " f B / d."
 )
 def proportional(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Depth grows with the disparity."""
@@ -178,7 +186,8 @@ def baseline_forgotten(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "You returned B / d, metres per pixel. Multiply by the focal length, which is in pixels too: Z = f B / d."
+    "You returned B / d, metres per pixel. Multiply by the focal length, which is in pixels too: Z"
+    " = f B / d."
 )
 def f_forgotten(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Metres over pixels."""
@@ -186,7 +195,8 @@ def f_forgotten(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "You rounded the disparity to whole pixels. Far away that costs metres: at 20 m, 4.2 px instead of 4 is one metre."
+    "You rounded the disparity to whole pixels. Far away that costs metres: at 20 m, 4.2 px instead"
+    " of 4 is one metre."
 )
 def whole_pixels(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Drops what is between the pixels."""
@@ -195,8 +205,8 @@ def whole_pixels(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but d = 0, for which you returned nan. Parallel rays are no missing measurement: the point is "
-    "infinitely far, return inf."
+    "All is right but d = 0, for which you returned nan. Parallel rays are no missing measurement:"
+    " the point is infinitely far, return inf."
 )
 def zero_is_unknown(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Takes 0 for missing."""
@@ -204,8 +214,8 @@ def zero_is_unknown(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "Where d is not positive you returned a depth of 0, which is at the camera. d = 0 is infinitely far (inf); "
-    "nan and negative disparities are unknown (nan)."
+    "Where d is not positive you returned a depth of 0, which is at the camera. d = 0 is infinitely"
+    " far (inf); nan and negative disparities are unknown (nan)."
 )
 def zero_for_all_else(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Gives a depth of 0 to whatever is not positive."""
@@ -213,8 +223,8 @@ def zero_for_all_else(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "You replaced small disparities by a tiny positive number: the depth is then a made-up one. Let d = 0 give "
-    "inf, and negative ones nan."
+    "You replaced small disparities by a tiny positive number: the depth is then a made-up one. Let"
+    " d = 0 give inf, and negative ones nan."
 )
 def zero_made_small(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Keeps the division from its infinity."""
@@ -222,8 +232,8 @@ def zero_made_small(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but negative disparities, which you turned into points behind the cameras. Nothing that both "
-    "see causes one: return nan."
+    "All is right but negative disparities, which you turned into points behind the cameras."
+    " Nothing that both see causes one: return nan."
 )
 def behind_the_cameras(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Divides whatever comes."""
@@ -231,8 +241,8 @@ def behind_the_cameras(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but negative disparities, whose sign you dropped. Nothing in front of both cameras causes "
-    "one, it is a wrong match: return nan."
+    "All is right but negative disparities, whose sign you dropped. Nothing in front of both"
+    " cameras causes one, it is a wrong match: return nan."
 )
 def sign_dropped(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Takes the disparity's size."""
@@ -240,8 +250,8 @@ def sign_dropped(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but unknown disparities (nan), which you took for 0, infinitely far. Unknown stays unknown: "
-    "return nan."
+    "All is right but unknown disparities (nan), which you took for 0, infinitely far. Unknown"
+    " stays unknown: return nan."
 )
 def unknown_made_0(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Gives unknown disparities the value 0."""

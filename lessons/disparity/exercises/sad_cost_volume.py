@@ -1,5 +1,6 @@
-"""Write the cost volume: at every pixel, for every shift, the sum of absolute differences over a window. The lesson
-shows it slice by slice, and everything after it (paths, check, depth) follows from your costs.
+"""Write the cost volume: at every pixel, for every shift, the sum of absolute differences over a
+window. The lesson shows it slice by slice, and everything after it (paths, check, depth) follows
+from your costs.
 """
 
 from collections.abc import Callable
@@ -39,24 +40,26 @@ def sad_cost_volume(
 ) -> Float[np.ndarray, "d h w"]:
     """Return how badly every left pixel matches each of its candidates in the right picture.
 
-    cost[d, y, x] is the sum, over a window around the pixel, of the absolute differences |left(y, x) - right(y, x - d)|.
-    In steps: for each d take the differences of the columns that both have, x = d .. w - 1 of the left and 0 .. w - 1 - d of
-    the right picture. Then sum these over the window. Where that reaches over the border of the slice of differences,
-    the border's cells are repeated, as np.pad(..., mode="edge") does.
+    cost[d, y, x] is the sum, over a window around the pixel, of the absolute differences |left(y,
+    x) - right(y, x - d)|. In steps: for each d take the differences of the columns that both have,
+    x = d .. w - 1 of the left and 0 .. w - 1 - d of the right picture. Then sum these over the
+    window. Where that reaches over the border of the slice of differences, the border's cells are
+    repeated, as np.pad(..., mode="edge") does.
 
     Args:
-        left: Grey picture of the left camera: floats, or bytes (uint8), whose differences wrap round.
+        left: Grey picture of the left camera: floats, or bytes (uint8), whose differences wrap
+            round.
         right: Grey picture of the right camera, of the same size; rows correspond.
         max_disparity: Largest shift that is tried, pixels; d runs from 0 to this, both included.
         window: Side of the square window, pixels, odd; 1 is the pixel alone.
 
     Returns:
-        The costs as floats, (max_disparity + 1, h, w), in a new array. Where x < d the right picture shows nothing to
-        compare with: the cost is inf.
+        The costs as floats, (max_disparity + 1, h, w), in a new array. Where x < d the right
+        picture shows nothing to compare with: the cost is inf.
 
     Raises:
-        ValueError: If the pictures differ in size, the window is not odd and positive, or max_disparity is not below the
-            width.
+        ValueError: If the pictures differ in size, the window is not odd and positive, or
+            max_disparity is not below the width.
     """
     return cost_volume.sad_cost_volume(
         left.astype(float), right.astype(float), max_disparity, window
@@ -96,8 +99,8 @@ def _infinite(cost: np.ndarray) -> Verdict:
         return full(f"All {(x < d).sum()} such costs are inf.")
     k, y, u = (int(i) for i in np.argwhere(finite)[0])
     return fail(
-        f"{finite.sum()} of {(x < d).sum()} of them are not: cost[{k}, {y}, {u}] is {number(cost[k, y, u])}, right is "
-        f"inf: the right picture has no column {u - k}."
+        f"{finite.sum()} of {(x < d).sum()} of them are not: cost[{k}, {y}, {u}] is"
+        f" {number(cost[k, y, u])}, right is inf: the right picture has no column {u - k}."
     )
 
 
@@ -112,7 +115,9 @@ def pictures_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def mirrored(candidate: Function) -> Verdict:
-    """Mirrored and exchanged, the same pairs of pixels have the same costs; one shift, and all that fit, are tried."""
+    """Mirrored and exchanged, the same pairs of pixels have the same costs; one shift, and all that
+    fit, are tried.
+    """
     left, right = textures(GRADERS(), 10, 17)
     cost = candidate(left, right, 5, 3)
     turned = candidate(right[:, ::-1].copy(), left[:, ::-1].copy(), 5, 3)
@@ -153,10 +158,15 @@ def brighter_pictures(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def windows_over_the_border(candidate: Function) -> Verdict:
-    """A window that reaches over the border of its slice repeats the border's cells, also one larger than the picture."""
+    """A window that reaches over the border of its slice repeats the border's cells, also one
+    larger than the picture.
+    """
     left, right = textures(GRADERS() + 2)
     wanted = sad_cost_volume(left, right, 4, 5)
-    hint = "Take the differences of the columns that both have, pad these by repeating their border, then sum."
+    hint = (
+        "Take the differences of the columns that both have, pad these by repeating their border,"
+        " then sum."
+    )
     verdicts = [cells_verdict(candidate(left, right, 4, 5), wanted, ~inner(wanted, 5), hint=hint)]
     for window in (7, 15):
         wanted = sad_cost_volume(left, right, 4, window)
@@ -181,7 +191,9 @@ def byte_pictures(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def what_makes_no_sense(candidate: Function) -> Verdict:
-    """Pictures of two sizes, windows that are even or not positive, and shifts beyond the width are refused."""
+    """Pictures of two sizes, windows that are even or not positive, and shifts beyond the width are
+    refused.
+    """
     left, right = textures(GRADERS() + 4, 8, 12)
     return worst(
         (
@@ -255,8 +267,8 @@ def refuse(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int)
 
 
 @mistake(
-    "You compare left (x) with right (x + d). The right camera stands to the right, so that things are further "
-    "left in its picture: right (x - d)."
+    "You compare left (x) with right (x + d). The right camera stands to the right, so that things"
+    " are further left in its picture: right (x - d)."
 )
 def other_direction(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -266,8 +278,8 @@ def other_direction(
 
 
 @mistake(
-    "Your costs are those of the right picture's pixels: right (x) against left (x + d). cost[d, y, x] belongs "
-    "to left pixel x, against right (x - d)."
+    "Your costs are those of the right picture's pixels: right (x) against left (x + d). cost[d, y,"
+    " x] belongs to left pixel x, against right (x - d)."
 )
 def seen_from_the_right(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -277,8 +289,8 @@ def seen_from_the_right(
 
 
 @mistake(
-    "You rolled the right picture round: its last columns come in again on the left. Where x < d it shows "
-    "nothing to compare with: the cost is inf."
+    "You rolled the right picture round: its last columns come in again on the left. Where x < d it"
+    " shows nothing to compare with: the cost is inf."
 )
 def rolled_round(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -294,8 +306,8 @@ def rolled_round(
 
 
 @mistake(
-    "Your cost is 0 where x < d. There is nothing to compare with, and 0 is the best cost there is: it would "
-    "win. Use inf."
+    "Your cost is 0 where x < d. There is nothing to compare with, and 0 is the best cost there is:"
+    " it would win. Use inf."
 )
 def free_where_unseen(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -311,8 +323,8 @@ def squares(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
 
 
 @mistake(
-    "You summed the differences with their signs: too bright here and too dark there cancel. Take absolute "
-    "values first."
+    "You summed the differences with their signs: too bright here and too dark there cancel. Take"
+    " absolute values first."
 )
 def signed_differences(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -328,7 +340,8 @@ def mean(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -
 
 
 @mistake(
-    "You subtracted bytes: in uint8, 3 - 5 is 254. Convert the pictures to float before you subtract."
+    "You subtracted bytes: in uint8, 3 - 5 is 254. Convert the pictures to float before you"
+    " subtract."
 )
 def bytes_wrap_round(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -340,8 +353,8 @@ def bytes_wrap_round(
 
 
 @mistake(
-    "Your windows count 0 beyond the border, which makes matches there look better than they are. Repeat the "
-    "border's cells (np.pad in mode edge)."
+    "Your windows count 0 beyond the border, which makes matches there look better than they are."
+    " Repeat the border's cells (np.pad in mode edge)."
 )
 def zeros_around(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -356,8 +369,8 @@ def zeros_around(
 
 
 @mistake(
-    "You repeated the border of the pictures, so that a window near x = d compares columns that do not match. "
-    "Take the differences first, then repeat the border of their slice."
+    "You repeated the border of the pictures, so that a window near x = d compares columns that do"
+    " not match. Take the differences first, then repeat the border of their slice."
 )
 def pictures_padded(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -377,7 +390,8 @@ def pictures_padded(
 
 
 @mistake(
-    "You compare single pixels whatever the window. Sum the differences over window x window pixels."
+    "You compare single pixels whatever the window. Sum the differences over window x window"
+    " pixels."
 )
 def window_ignored(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -387,7 +401,8 @@ def window_ignored(
 
 
 @mistake(
-    "Your window is 2 window + 1 wide. `window` is its whole side, not its reach: it reaches window // 2 each way."
+    "Your window is 2 window + 1 wide. `window` is its whole side, not its reach: it reaches window"
+    " // 2 each way."
 )
 def window_for_radius(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -397,7 +412,8 @@ def window_for_radius(
 
 
 @mistake(
-    "Your volume has the disparity as last axis. The contract asks for cost[d, y, x]: np.moveaxis(cost, 2, 0)."
+    "Your volume has the disparity as last axis. The contract asks for cost[d, y, x]:"
+    " np.moveaxis(cost, 2, 0)."
 )
 def disparity_last(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
@@ -407,7 +423,8 @@ def disparity_last(
 
 
 @mistake(
-    "Your volume ends at max_disparity - 1: range(n) stops before n. There are max_disparity + 1 slices, from 0."
+    "Your volume ends at max_disparity - 1: range(n) stops before n. There are max_disparity + 1"
+    " slices, from 0."
 )
 def last_slice_missing(
     left: np.ndarray, right: np.ndarray, max_disparity: int, window: int

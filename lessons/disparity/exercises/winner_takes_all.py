@@ -1,5 +1,5 @@
-"""Write the choice: at every pixel the disparity whose cost is lowest. The lesson chooses with it after every slice and
-every path, for the left picture and, to check, for the right one.
+"""Write the choice: at every pixel the disparity whose cost is lowest. The lesson chooses with it
+after every slice and every path, for the left picture and, to check, for the right one.
 """
 
 import numpy as np
@@ -32,12 +32,14 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
     """Return the disparity of the lowest cost at every pixel.
 
     Args:
-        cost: cost[d, y, x] says how badly left pixel (y, x) matches at disparity d = 0, 1, 2, ...; low is alike. Floats or
-            whole numbers, of any sign; inf where there is nothing to compare with. None is nan.
+        cost: cost[d, y, x] says how badly left pixel (y, x) matches at disparity d = 0, 1, 2, ...;
+            low is alike. Floats or whole numbers, of any sign; inf where there is nothing to
+            compare with. None is nan.
 
     Returns:
-        Disparities, pixels, whole numbers (an integer type), in a new array. Of several equal costs the smallest disparity
-        wins. A pixel whose costs are all inf gets 0. With a single slice all get 0.
+        Disparities, pixels, whole numbers (an integer type), in a new array. Of several equal costs
+        the smallest disparity wins. A pixel whose costs are all inf gets 0. With a single slice all
+        get 0.
     """
     return disparity_map.winner_takes_all(cost)
 
@@ -46,7 +48,9 @@ WINNER_HINT = "At each pixel: the d for which cost[d, y, x] is lowest."
 
 
 def valleys(seed: int, shape: tuple[int, int, int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return rugged costs with one lowest cost per pixel, and the disparities at which these are."""
+    """Return rugged costs with one lowest cost per pixel, and the disparities at which these
+    are.
+    """
     rng = np.random.default_rng(seed)
     d = rng.integers(0, shape[0], shape[1:])
     cost = rng.uniform(5.0, 60.0, shape)
@@ -111,7 +115,9 @@ def two_boards(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def infinite_costs(candidate: Function) -> Verdict:
-    """An infinite cost never wins, not over 10¹², but where all are: there it is 0, in a single slice too."""
+    """An infinite cost never wins, not over 10¹², but where all are: there it is 0, in a single
+    slice too.
+    """
     cost, _ = valleys(GRADERS() + 1, (8, 6, 10))
     d, _, x = np.indices(cost.shape)
     cost[x < d] = np.inf
@@ -144,7 +150,9 @@ def only_the_order_counts(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def whole_numbers_and_one_slice(candidate: Function) -> Verdict:
-    """Whole numbers up to 65,535, negative ones, equal ones, and a volume of a single slice, are fine."""
+    """Whole numbers up to 65,535, negative ones, equal ones, and a volume of a single slice, are
+    fine.
+    """
     cost = np.random.default_rng(GRADERS() + 3).integers(250, 2**16, (20, 6, 4)).astype(np.uint16)
     single = map_verdict(
         candidate(cost[:1].astype(float)), np.zeros((6, 4), int), "A single slice: "
@@ -168,8 +176,8 @@ def highest_wins(cost: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "All is right but ties: of several equal costs you took the largest disparity, the contract asks for the "
-    "smallest. Let a later one win only where it is lower (<, not <=)."
+    "All is right but ties: of several equal costs you took the largest disparity, the contract"
+    " asks for the smallest. Let a later one win only where it is lower (<, not <=)."
 )
 def last_of_several(cost: np.ndarray) -> np.ndarray:
     """The largest disparity of those with the lowest cost."""
@@ -189,7 +197,8 @@ def counted_from_1(cost: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You never choose 0. That is a disparity as good as any, of what is very far away; it does not mean missing."
+    "You never choose 0. That is a disparity as good as any, of what is very far away; it does not"
+    " mean missing."
 )
 def zero_left_out(cost: np.ndarray) -> np.ndarray:
     """Never chooses 0."""
@@ -197,7 +206,8 @@ def zero_left_out(cost: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You replaced infinite costs by 0, so that they win. They mark what the right picture does not show: leave them."
+    "You replaced infinite costs by 0, so that they win. They mark what the right picture does not"
+    " show: leave them."
 )
 def infinity_wins(cost: np.ndarray) -> np.ndarray:
     """Takes what cannot be compared for a perfect match."""
@@ -205,7 +215,8 @@ def infinity_wins(cost: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You stopped where the cost first rises. Curves have many valleys, and a later one may be deeper: look at all."
+    "You stopped where the cost first rises. Curves have many valleys, and a later one may be"
+    " deeper: look at all."
 )
 def first_valley(cost: np.ndarray) -> np.ndarray:
     """Stops where the cost first rises."""
@@ -218,7 +229,8 @@ def first_valley(cost: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You looked for the lowest cost along a row of the picture. The disparity is the first axis: axis=0."
+    "You looked for the lowest cost along a row of the picture. The disparity is the first axis:"
+    " axis=0."
 )
 def along_columns(cost: np.ndarray) -> np.ndarray:
     """The best column of every row of every slice."""
@@ -226,7 +238,8 @@ def along_columns(cost: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You looked for the lowest cost of the whole volume. Each pixel has its own: np.argmin(cost, axis=0)."
+    "You looked for the lowest cost of the whole volume. Each pixel has its own: np.argmin(cost,"
+    " axis=0)."
 )
 def one_for_all_pixels(cost: np.ndarray) -> np.ndarray:
     """The best cell of the whole volume."""

@@ -1,4 +1,6 @@
-"""The exercises of this lesson: Mahalanobis' distance, Dijkstra, and the update of fast marching."""
+"""The exercises of this lesson: Mahalanobis' distance, Dijkstra, and the update of fast
+marching.
+"""
 
 import numpy as np
 
@@ -13,7 +15,8 @@ STUDENTS, GRADERS = (
 def values_verdict(
     got: np.ndarray, right: np.ndarray, hint: str, what: str = "", *, fair: float = 1e-3
 ) -> Verdict:
-    """Judge numbers by the one that is farthest off, relative to its size: all points up to 1e-6, half up to `fair`.
+    """Judge numbers by the one that is farthest off, relative to its size: all points up to 1e-6,
+    half up to `fair`.
 
     Args:
         got: The answer.

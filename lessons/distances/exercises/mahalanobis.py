@@ -1,5 +1,6 @@
-"""Write Mahalanobis' distance: how many standard deviations a point is from the mean, along its own direction. What you
-return decides which points are flagged, and which landmark a measurement is taken for.
+"""Write Mahalanobis' distance: how many standard deviations a point is from the mean, along its own
+direction. What you return decides which points are flagged, and which landmark a measurement is
+taken for.
 """
 
 import numpy as np
@@ -26,7 +27,10 @@ from workbench.geometry.points import metrics
     forbid=("scipy.spatial.distance",),
     examples=(
         (
-            "mahalanobis(np.array([[1.0, -1], [1, 1]]), np.zeros(2), np.array([[1, 0.9], [0.9, 1]]))",
+            (
+                "mahalanobis(np.array([[1.0, -1], [1, 1]]), np.zeros(2), np.array([[1, 0.9], [0.9,"
+                " 1]]))"
+            ),
             "[4.4721, 1.0260]",
         ),
         (
@@ -115,7 +119,8 @@ def one_point_and_many(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You returned the squared distance. Take the root: only then it is a metric, and counts standard deviations."
+    "You returned the squared distance. Take the root: only then it is a metric, and counts"
+    " standard deviations."
 )
 def squared(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """Without the root."""
@@ -123,7 +128,8 @@ def squared(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarr
 
 
 @mistake(
-    "You multiplied by the covariance itself. Its inverse belongs there: a step along a wide direction counts less."
+    "You multiplied by the covariance itself. Its inverse belongs there: a step along a wide"
+    " direction counts less."
 )
 def not_inverted(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """C for its inverse."""
@@ -132,7 +138,8 @@ def not_inverted(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.
 
 
 @mistake(
-    "You used the variances alone, the diagonal of C. The correlations are what makes the ellipse slant."
+    "You used the variances alone, the diagonal of C. The correlations are what makes the ellipse"
+    " slant."
 )
 def diagonal_only(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """Each axis over its own standard deviation."""
@@ -146,7 +153,8 @@ def from_the_origin(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> 
 
 
 @mistake(
-    "You took Euclid's distance; the covariance plays no part in it. Put its inverse between v and v."
+    "You took Euclid's distance; the covariance plays no part in it. Put its inverse between v"
+    " and v."
 )
 def euclid(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """Euclid's."""
@@ -154,7 +162,8 @@ def euclid(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarra
 
 
 @mistake(
-    "You inverted C entry by entry. Its inverse is that of a matrix: np.linalg.inv, or solve C x = v."
+    "You inverted C entry by entry. Its inverse is that of a matrix: np.linalg.inv, or solve C x"
+    " = v."
 )
 def entries_inverted(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """1 / C."""
@@ -165,7 +174,8 @@ def entries_inverted(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) ->
 
 
 @mistake(
-    "You divided by the variances where standard deviations belong, and left out the correlations: use inv(C)."
+    "You divided by the variances where standard deviations belong, and left out the correlations:"
+    " use inv(C)."
 )
 def over_variances(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """Each axis over its variance."""

@@ -1,5 +1,5 @@
-"""Write Dijkstra's algorithm: how long the shortest way along edges is from one node to all. The lesson's fronts on grids,
-surfaces and rolls run on what you return.
+"""Write Dijkstra's algorithm: how long the shortest way along edges is from one node to all. The
+lesson's fronts on grids, surfaces and rolls run on what you return.
 """
 
 import heapq
@@ -31,11 +31,17 @@ Lengths = Float[np.ndarray, " e"]
     forbid=("scipy.sparse.csgraph",),
     examples=(
         (
-            "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 0)",
+            (
+                "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]),"
+                " 4, 0)"
+            ),
             "[0, 1, 2, np.inf]",
         ),
         (
-            "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 2)",
+            (
+                "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]),"
+                " 4, 2)"
+            ),
             "[2, 1, 0, np.inf]",
         ),
     ),
@@ -57,11 +63,16 @@ def shortest_distances(
     return geodesics.shortest_distances(edges, lengths, count, source)
 
 
-HINT = "Take the nearest node that is not done, and see whether a way over it is shorter for its neighbours."
+HINT = (
+    "Take the nearest node that is not done, and see whether a way over it is shorter for its"
+    " neighbours."
+)
 
 
 def network(seed: int, count: int, near: int) -> tuple[np.ndarray, np.ndarray, int, int]:
-    """Return points of a square joined at random to some of the nearest, with lengths of their own, and a source."""
+    """Return points of a square joined at random to some of the nearest, with lengths of their own,
+    and a source.
+    """
     rng = np.random.default_rng(seed)
     p = rng.random((count, 2))
     order = np.argsort(np.linalg.norm(p[:, None] - p, axis=2), axis=1)[:, 1 : near + 1]
@@ -119,7 +130,9 @@ def out_of_reach(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def the_smallest_graphs(candidate: Function) -> Verdict:
-    """A node alone, two nodes, nodes without an edge, a source without one; short and long edges."""
+    """A node alone, two nodes, nodes without an edge, a source without one; short and long
+    edges.
+    """
     alone = (np.empty((0, 2), int), np.empty(0), 1, 0)
     edge = np.array([[1, 0]])
     edges, lengths, count, _ = network(GRADERS() + 310, 12, 3)
@@ -155,7 +168,8 @@ def one_way(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> 
 
 
 @mistake(
-    "You keep the distance of a node's first visit. A later, shorter way must be allowed to lower it."
+    "You keep the distance of a node's first visit. A later, shorter way must be allowed to"
+    " lower it."
 )
 def first_visit(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
     """Breadth first, nothing is lowered."""
@@ -177,7 +191,8 @@ def hops(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.
 
 
 @mistake(
-    "Nodes that cannot be reached have the distance inf, not 0: start with inf everywhere but at the source."
+    "Nodes that cannot be reached have the distance inf, not 0: start with inf everywhere but at"
+    " the source."
 )
 def zero_out_of_reach(
     edges: np.ndarray, lengths: np.ndarray, count: int, source: int
@@ -188,7 +203,8 @@ def zero_out_of_reach(
 
 
 @mistake(
-    "Nodes that cannot be reached have the distance inf, not −1: start with inf everywhere but at the source."
+    "Nodes that cannot be reached have the distance inf, not −1: start with inf everywhere but at"
+    " the source."
 )
 def minus_one_out_of_reach(
     edges: np.ndarray, lengths: np.ndarray, count: int, source: int
@@ -212,7 +228,8 @@ def one_pass(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) ->
 
 
 @mistake(
-    "You compare the next edge alone, as a spanning tree does (Prim). Compare whole ways: d[node] + length."
+    "You compare the next edge alone, as a spanning tree does (Prim). Compare whole ways: d[node] +"
+    " length."
 )
 def next_edge_only(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
     """Prim's order: the shortest edge that leaves what is done."""

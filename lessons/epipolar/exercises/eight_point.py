@@ -1,5 +1,5 @@
-"""Write the normalised eight-point algorithm: from matches to the fundamental matrix. All lines of the lesson and the motion
-after them are made of it.
+"""Write the normalised eight-point algorithm: from matches to the fundamental matrix. All lines of
+the lesson and the motion after them are made of it.
 """
 
 import numpy as np
@@ -29,12 +29,17 @@ from workbench.geometry.two_views import epipolar
     slot="eight_point",
     examples=(
         (
-            "eight_point(np.cos(np.c_[0:9] ** [1, 2]),"
-            " np.cos(np.c_[0:9] ** [1, 2]) + [[k, 0] for k in range(9)])[1] ** 2",
+            (
+                "eight_point(np.cos(np.c_[0:9] ** [1, 2]),"
+                " np.cos(np.c_[0:9] ** [1, 2]) + [[k, 0] for k in range(9)])[1] ** 2"
+            ),
             "[0, 0, 0.5]",
         ),
         (
-            "eight_point(np.cos(np.c_[0:9] ** [1, 2]), np.cos(np.c_[0:9] ** [1, 2]) * [[k] for k in range(9)])[2]",
+            (
+                "eight_point(np.cos(np.c_[0:9] ** [1, 2]), np.cos(np.c_[0:9] ** [1, 2]) * [[k] for"
+                " k in range(9)])[2]"
+            ),
             "[0, 0, 0]",
         ),
     ),
@@ -45,17 +50,17 @@ def eight_point(
 ) -> Float[np.ndarray, "3 3"]:
     """Return the fundamental matrix F of matches, (u', v', 1) F (u, v, 1)^T = 0, of rank two.
 
-    The normalised eight-point algorithm: shift and scale the pixels of each picture to mean 0 and a mean distance of about
-    the square root of 2, take the unit vector that makes the sum of squares of all equations smallest, drop the smallest
-    singular value there, and go back to pixels.
+    The normalised eight-point algorithm: shift and scale the pixels of each picture to mean 0 and a
+    mean distance of about the square root of 2, take the unit vector that makes the sum of squares
+    of all equations smallest, drop the smallest singular value there, and go back to pixels.
 
     Args:
         uv_first: Pixels (column, row) of the first picture.
         uv_second: Their matches in the second, row k for row k.
 
     Returns:
-        F at any scale that keeps its numbers within 1e9; the examples have Frobenius norm one. F33 may be 0: do not
-        divide by it.
+        F at any scale that keeps its numbers within 1e9; the examples have Frobenius norm one. F33
+        may be 0: do not divide by it.
 
     Raises:
         ValueError: If there are fewer than eight matches.
@@ -69,7 +74,9 @@ HINT = (
 
 
 def judged(candidate: Function, pair: Pair, good: float, fair: float) -> Verdict:
-    """Judge F by how far points without noise are from their lines in both pictures, and tell of the farthest."""
+    """Judge F by how far points without noise are from their lines in both pictures, and tell of
+    the farthest.
+    """
     F, x, y = (
         candidate(pair.uv_first, pair.uv_second),
         homogeneous(pair.clean_first),
@@ -84,7 +91,8 @@ def judged(candidate: Function, pair: Pair, good: float, fair: float) -> Verdict
         off = float(np.sqrt(np.square(offs).mean()))
     if not np.isfinite(off):
         return fail(
-            f"F has no lines: it is {number(F[0])} in its first row, right is a matrix of finite numbers. {HINT}"
+            f"F has no lines: it is {number(F[0])} in its first row, right is a matrix of finite"
+            f" numbers. {HINT}"
         )
     k = int(np.abs(offs[1]).argmax())
     told = beside(
@@ -112,7 +120,8 @@ def ranked(candidate: Function, pair: Pair) -> Verdict:
         return full("The third singular value of F is 0.")
     told = beside(np.array([values[2]]), np.zeros(1), HINT, "The third singular value of F")
     return fail(
-        f"F has rank three: its third singular value is {number(1e6 * share, 3)} millionths of the second. {told}"
+        f"F has rank three: its third singular value is {number(1e6 * share, 3)} millionths of the"
+        f" second. {told}"
     )
 
 
@@ -169,7 +178,8 @@ def the_last_entry_is_zero(candidate: Function) -> Verdict:
     unit = F * (np.sign(F[2, 1]) / np.linalg.norm(F))
     if not largest < 1e9:
         return fail(
-            f"F33 is 0 here, and the largest entry of F is {number(largest)}, right is 1 or so: scale F by its norm."
+            f"F33 is 0 here, and the largest entry of F is {number(largest)}, right is 1 or so:"
+            " scale F by its norm."
         )
     told = beside(unit, right, HINT, "F over its norm")
     return band(
@@ -211,7 +221,8 @@ def normalised(
 
 
 @mistake(
-    "You return the transpose: (u, v, 1) F (u', v', 1)^T = 0. The second picture's pixel belongs on the left of F."
+    "You return the transpose: (u, v, 1) F (u', v', 1)^T = 0. The second picture's pixel belongs on"
+    " the left of F."
 )
 def transposed(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Takes the second picture to the first."""
@@ -220,7 +231,8 @@ def transposed(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You solved in raw pixels. Shift and scale both pictures first: u u' is 100,000 times as large as 1 otherwise."
+    "You solved in raw pixels. Shift and scale both pictures first: u u' is 100,000 times as large"
+    " as 1 otherwise."
 )
 def raw_pixels(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Does not normalise."""
@@ -235,7 +247,8 @@ def rank_three(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You went back to pixels with inverses. With x = T u it is y^T F x = u'^T (T'^T F T) u: no inverse is needed."
+    "You went back to pixels with inverses. With x = T u it is y^T F x = u'^T (T'^T F T) u: no"
+    " inverse is needed."
 )
 def denormalised_with_inverses(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Takes T'^-T F T^-1."""
@@ -244,7 +257,8 @@ def denormalised_with_inverses(uv_first: np.ndarray, uv_second: np.ndarray) -> n
 
 
 @mistake(
-    "You swapped the two similarities on the way back: T' of the second picture stands on the left, T on the right."
+    "You swapped the two similarities on the way back: T' of the second picture stands on the left,"
+    " T on the right."
 )
 def similarities_swapped(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Takes T^T F T'."""
@@ -268,7 +282,8 @@ def without_transpose(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray
 
 
 @mistake(
-    "You dropped the smallest singular value in pixels, where that spoils the fit. Drop it before you go back to them."
+    "You dropped the smallest singular value in pixels, where that spoils the fit. Drop it before"
+    " you go back to them."
 )
 def dropped_in_pixels(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Makes rank two last."""

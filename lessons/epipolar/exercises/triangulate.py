@@ -1,5 +1,5 @@
-"""Write the linear triangulation of points from two pixels each. The lesson tries its four motions with it, and shows the
-points that you find.
+"""Write the linear triangulation of points from two pixels each. The lesson tries its four motions
+with it, and shows the points that you find.
 """
 
 import numpy as np
@@ -26,11 +26,17 @@ from workbench.geometry.two_views import triangulation
     slot="triangulate",
     examples=(
         (
-            "triangulate(np.eye(3, 4), np.eye(3, 4) - np.eye(3, 4, 3), array([[0.2, 0.1]]), array([[0., 0.1]]))",
+            (
+                "triangulate(np.eye(3, 4), np.eye(3, 4) - np.eye(3, 4, 3), array([[0.2, 0.1]]),"
+                " array([[0., 0.1]]))"
+            ),
             "[[1, 0.5, 5]]",
         ),
         (
-            "triangulate(np.eye(3, 4), 2 * np.eye(3, 4) - np.eye(3, 4, 3), array([[0.25, -1]]), array([[0.125, -1]]))",
+            (
+                "triangulate(np.eye(3, 4), 2 * np.eye(3, 4) - np.eye(3, 4, 3), array([[0.25, -1]]),"
+                " array([[0.125, -1]]))"
+            ),
             "[[1, -4, 4]]",
         ),
     ),
@@ -41,13 +47,16 @@ def triangulate(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points (x, y, z) that two cameras see at these pixels, metres, in the frame from which both P take them.
+    """Return the points (x, y, z) that two cameras see at these pixels, metres, in the frame from
+    which both P take them.
 
-    Each pixel is two equations in homogeneous coordinates, from (u, v, 1) x P p = 0; the four of both cameras are solved
-    in the sense of least squares. With exact pixels the points are exact; with noise, any weights of the equations will do.
+    Each pixel is two equations in homogeneous coordinates, from (u, v, 1) x P p = 0; the four of
+    both cameras are solved in the sense of least squares. With exact pixels the points are exact;
+    with noise, any weights of the equations will do.
 
     Args:
-        P_first: Camera matrix of the first camera, K [R | t]: takes (x, y, z, 1) to (u, v, 1) up to a factor. At any scale.
+        P_first: Camera matrix of the first camera, K [R | t]: takes (x, y, z, 1) to (u, v, 1) up to
+            a factor. At any scale.
         P_second: That of the second.
         uv_first: Pixels (column, row) of the first picture.
         uv_second: Their matches in the second, row k for row k.
@@ -55,7 +64,10 @@ def triangulate(
     return triangulation.triangulate(P_first, P_second, uv_first, uv_second)
 
 
-HINT = "Rows u P₃ − P₁ and v P₃ − P₂ of both cameras; the last right singular vector, divided by its fourth entry."
+HINT = (
+    "Rows u P₃ − P₁ and v P₃ − P₂ of both cameras; the last right singular vector, divided by its"
+    " fourth entry."
+)
 
 
 def matrices(pair: Pair) -> tuple[np.ndarray, np.ndarray]:
@@ -70,8 +82,14 @@ def judged(
     off = np.linalg.norm(got - right, axis=1) / np.linalg.norm(right, axis=1)
     worst_row = int(np.argmax(np.where(np.isfinite(off), off, np.inf)))
     told = beside(got[worst_row], right[worst_row], hint, "The point")
-    return band("The point farthest off is, of its distance, off by", 100 * float(off[worst_row]), "%",
-                good=100 * good, fair=100 * fair, hint=told)  # fmt: skip
+    return band(
+        "The point farthest off is, of its distance, off by",
+        100 * float(off[worst_row]),
+        "%",
+        good=100 * good,
+        fair=100 * fair,
+        hint=told,
+    )
 
 
 @check(3)
@@ -168,7 +186,8 @@ def not_divided(
 
 
 @mistake(
-    "You swapped u and v. A pixel is (u, v) = (column, row): u belongs to the first row of P, v to the second."
+    "You swapped u and v. A pixel is (u, v) = (column, row): u belongs to the first row of P, v to"
+    " the second."
 )
 def u_and_v_swapped(
     P_first: np.ndarray, P_second: np.ndarray, uv_first: np.ndarray, uv_second: np.ndarray
@@ -188,7 +207,8 @@ def cameras_exchanged(
 
 
 @mistake(
-    "The sign in your equations is wrong: u P₃ + P₁ in place of u P₃ − P₁. It comes from u = P₁ p / P₃ p."
+    "The sign in your equations is wrong: u P₃ + P₁ in place of u P₃ − P₁. It comes from u = P₁ p /"
+    " P₃ p."
 )
 def sign_of_equations(
     P_first: np.ndarray, P_second: np.ndarray, uv_first: np.ndarray, uv_second: np.ndarray
@@ -199,7 +219,8 @@ def sign_of_equations(
 
 
 @mistake(
-    "You took the singular vector of the largest singular value. The equations are to become 0: take the last."
+    "You took the singular vector of the largest singular value. The equations are to become 0:"
+    " take the last."
 )
 def first_vector(
     P_first: np.ndarray, P_second: np.ndarray, uv_first: np.ndarray, uv_second: np.ndarray
@@ -210,7 +231,8 @@ def first_vector(
 
 
 @mistake(
-    "You took a column of V^T, or of U, in place of a row of V^T: numpy's svd returns V^T, whose rows are the vectors."
+    "You took a column of V^T, or of U, in place of a row of V^T: numpy's svd returns V^T, whose"
+    " rows are the vectors."
 )
 def column_of_vt(
     P_first: np.ndarray, P_second: np.ndarray, uv_first: np.ndarray, uv_second: np.ndarray
@@ -221,7 +243,8 @@ def column_of_vt(
 
 
 @mistake(
-    "You divided by the third coordinate, as one does for pixels. Points in space are divided by the fourth."
+    "You divided by the third coordinate, as one does for pixels. Points in space are divided by"
+    " the fourth."
 )
 def divided_by_the_third(
     P_first: np.ndarray, P_second: np.ndarray, uv_first: np.ndarray, uv_second: np.ndarray

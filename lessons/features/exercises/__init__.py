@@ -1,4 +1,6 @@
-"""The exercises of this lesson: the angles of a pair of normals, matches that pass both filters, the corner response."""
+"""The exercises of this lesson: the angles of a pair of normals, matches that pass both filters,
+the corner response.
+"""
 
 from workbench.exercise import HiddenSeed
 

@@ -1,5 +1,5 @@
-"""Write the corner response of a picture. The part "pictures" of the lesson takes its corners from your function:
-`--part pictures --turn 0`.
+"""Write the corner response of a picture. The part "pictures" of the lesson takes its corners from
+your function: `--part pictures --turn 0`.
 """
 
 import numpy as np
@@ -33,9 +33,10 @@ from workbench.geometry.features import keypoints
 def harris_response(image: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
     """Return det(M) - 0.04 trace(M)^2 of every pixel.
 
-    Smooth the picture by a Gaussian of 1 px. Its derivatives g_u (along columns) and g_v (along rows) are Sobel's over 8,
-    in grey levels per pixel. M = [[A, B], [B, C]] holds g_u g_u, g_u g_v and g_v g_v, each of them smoothed by a Gaussian
-    of 1.5 px after multiplying. All of it with scipy.ndimage's gaussian_filter and sobel as they are by default.
+    Smooth the picture by a Gaussian of 1 px. Its derivatives g_u (along columns) and g_v (along
+    rows) are Sobel's over 8, in grey levels per pixel. M = [[A, B], [B, C]] holds g_u g_u, g_u g_v
+    and g_v g_v, each of them smoothed by a Gaussian of 1.5 px after multiplying. All of it with
+    scipy.ndimage's gaussian_filter and sobel as they are by default.
 
     Args:
         image: Grey levels, indexed [v, u].
@@ -111,7 +112,9 @@ def other_pictures(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def brightness_and_contrast(candidate: Function) -> Verdict:
-    """A darker picture of a hundredth of the contrast: its response is smaller by 10⁸; of a ten-thousandth, by 10¹⁶."""
+    """A darker picture of a hundredth of the contrast: its response is smaller by 10⁸; of a
+    ten-thousandth, by 10¹⁶.
+    """
     picture = textured(GRADERS() + 2, 40, 40)
     return worst(
         [judged(candidate, c * picture + 3.0, f"Contrast times {c:g}") for c in (1e-2, 1e-4)]
@@ -131,7 +134,8 @@ def gathered(x: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You left out the window: of a single pixel's derivatives det M is 0. Smooth the three products by 1.5 px."
+    "You left out the window: of a single pixel's derivatives det M is 0. Smooth the three products"
+    " by 1.5 px."
 )
 def no_window(image: np.ndarray) -> np.ndarray:
     """Takes the products of each pixel alone."""
@@ -140,7 +144,8 @@ def no_window(image: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your trace is not squared: det M is of the fourth order in grey levels, so the trace enters as its square."
+    "Your trace is not squared: det M is of the fourth order in grey levels, so the trace enters as"
+    " its square."
 )
 def trace_not_squared(image: np.ndarray) -> np.ndarray:
     """Subtracts 0.04 trace M."""
@@ -149,7 +154,8 @@ def trace_not_squared(image: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You smoothed the derivatives and multiplied then, so det M is 0 everywhere. Multiply first, smooth the products."
+    "You smoothed the derivatives and multiplied then, so det M is 0 everywhere. Multiply first,"
+    " smooth the products."
 )
 def smoothed_before_multiplying(image: np.ndarray) -> np.ndarray:
     """Averages the derivatives."""
@@ -160,7 +166,8 @@ def smoothed_before_multiplying(image: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your derivatives are not Sobel's over 8: its weights sum to 8 on a slope of one grey level per pixel."
+    "Your derivatives are not Sobel's over 8: its weights sum to 8 on a slope of one grey level per"
+    " pixel."
 )
 def not_over_eight(image: np.ndarray) -> np.ndarray:
     """Leaves out the 8."""

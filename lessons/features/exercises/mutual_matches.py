@@ -1,5 +1,6 @@
-"""Write the filter: keep a match only where both descriptors are nearest to each other, and the nearest is much nearer than
-the second nearest. RANSAC draws its samples from what your function keeps.
+"""Write the filter: keep a match only where both descriptors are nearest to each other, and the
+nearest is much nearer than the second nearest. RANSAC draws its samples from what your function
+keeps.
 """
 
 import numpy as np
@@ -29,7 +30,10 @@ from workbench.geometry.features import matching
             "[0, 1, -1]",
         ),
         (
-            "mutual_matches(np.array([[0.0, 0], [4, 0]]), np.array([[4.0, 1], [0, 1], [0, 1.1]]), 0.8)",
+            (
+                "mutual_matches(np.array([[0.0, 0], [4, 0]]), np.array([[4.0, 1], [0, 1], [0,"
+                " 1.1]]), 0.8)"
+            ),
             "[-1, 0]",
         ),
     ),
@@ -39,9 +43,9 @@ def mutual_matches(
 ) -> Int[np.ndarray, " n"]:
     """Return for each row of a the index of its match in b, or -1 where it has none.
 
-    Row i of a matches row j of b where j is the nearest of all rows of b to a[i], i is the nearest of all rows of a to
-    b[j], the first of equally near ones, and the distance of a[i] to b[j] is less than ratio times its distance to the
-    second nearest row of b.
+    Row i of a matches row j of b where j is the nearest of all rows of b to a[i], i is the nearest
+    of all rows of a to b[j], the first of equally near ones, and the distance of a[i] to b[j] is
+    less than ratio times its distance to the second nearest row of b.
 
     Args:
         a: Descriptors, one per row.
@@ -58,7 +62,9 @@ HINT = "Nearest both ways, and d1 < ratio * d2 for the distances to the two near
 
 
 def sets(seed: int, n: int, m: int, d: int, shift: float = 0.6) -> tuple[np.ndarray, np.ndarray]:
-    """Return descriptors that partly belong together, some clearly and some hardly, in another order."""
+    """Return descriptors that partly belong together, some clearly and some hardly, in another
+    order.
+    """
     rng = np.random.default_rng(seed)
     common = rng.normal(size=(min(n, m), d))
     a, b = (
@@ -140,7 +146,9 @@ def like_histograms(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def equal_descriptors(candidate: Function) -> Verdict:
-    """Of equal rows of a the first has the match; equal rows of b are none; a distance of 0 is one; less is not equal."""
+    """Of equal rows of a the first has the match; equal rows of b are none; a distance of 0 is one;
+    less is not equal.
+    """
     rng = np.random.default_rng(GRADERS() + 30)
     b = rng.permutation(np.arange(40.0).reshape(10, 4) ** 2 % 37)
     a = b[[3, 3, 0, 7, 5, 5, 5, 0, 1]] + np.array([1.0, 1, 0, 0, 2, 2, 2, 2, 12])[:, None]
@@ -174,7 +182,8 @@ def kept(D: np.ndarray, passes: np.ndarray, mutual: bool = True) -> np.ndarray:
 
 
 @mistake(
-    "You ask one way only: the match of b[j] must be a[i] too. Several rows of a now share one row of b."
+    "You ask one way only: the match of b[j] must be a[i] too. Several rows of a now share one row"
+    " of b."
 )
 def one_direction(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Only the ratio."""
@@ -184,7 +193,8 @@ def one_direction(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
 
 
 @mistake(
-    "You compare squared distances with the ratio, which lets more pass: take the roots, or square the ratio too."
+    "You compare squared distances with the ratio, which lets more pass: take the roots, or square"
+    " the ratio too."
 )
 def squared_distances(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """d1² < ratio d2²."""
@@ -204,7 +214,8 @@ def test_reversed(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
 
 
 @mistake(
-    "You keep every match that is nearest both ways. The ratio of the two nearest distances has to be asked as well."
+    "You keep every match that is nearest both ways. The ratio of the two nearest distances has to"
+    " be asked as well."
 )
 def no_ratio(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Only mutual."""
@@ -213,7 +224,8 @@ def no_ratio(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
 
 
 @mistake(
-    "Your second nearest is among the rows of a. It is the second nearest row of b to the same a[i]."
+    "Your second nearest is among the rows of a. It is the second nearest row of b to the same"
+    " a[i]."
 )
 def second_of_the_wrong_set(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Asks the ratio down the columns."""

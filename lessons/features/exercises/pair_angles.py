@@ -1,5 +1,5 @@
-"""Write the three angles of pairs of points with normals, all pairs at once. Both scans are described with your function,
-so what it gets wrong shows in the share of matches that are right.
+"""Write the three angles of pairs of points with normals, all pairs at once. Both scans are
+described with your function, so what it gets wrong shows in the share of matches that are right.
 """
 
 import numpy as np
@@ -26,11 +26,17 @@ from workbench.geometry.motions import exp_so3
     slot="pair_angles",
     examples=(
         (
-            "pair_angles(np.zeros((1, 3)), np.array([[0.0, 0, 1]]), np.array([[0.0, 1, 0]]), np.array([[0.0, 0.6, 0.8]]))",
+            (
+                "pair_angles(np.zeros((1, 3)), np.array([[0.0, 0, 1]]), np.array([[0.0, 1, 0]]),"
+                " np.array([[0.0, 0.6, 0.8]]))"
+            ),
             "[[0.6435, 0, -0.6]]",
         ),
         (
-            "pair_angles(np.array([[0.0, 1, 0]]), np.array([[0.0, 0.6, 0.8]]), np.zeros((1, 3)), np.array([[0.0, 0, 1]]))",
+            (
+                "pair_angles(np.array([[0.0, 1, 0]]), np.array([[0.0, 0.6, 0.8]]), np.zeros((1,"
+                " 3)), np.array([[0.0, 0, 1]]))"
+            ),
             "[[0.6435, 0, -0.6]]",
         ),
     ),
@@ -43,9 +49,9 @@ def pair_angles(
 ) -> Float[np.ndarray, "k 3"]:
     """Return (theta, alpha, phi) of each pair of points with normals; row k belongs to row k.
 
-    Let d be the unit line from one point to the other. Of the two normals, u is the one with the larger |u . d|, and d
-    runs from its point to the other, whose normal is n. With v = (d x u) / |d x u| and w = u x v:
-    theta = atan2(w . n, u . n), alpha = v . n, phi = u . d.
+    Let d be the unit line from one point to the other. Of the two normals, u is the one with the
+    larger |u . d|, and d runs from its point to the other, whose normal is n. With v = (d x u) / |d
+    x u| and w = u x v: theta = atan2(w . n, u . n), alpha = v . n, phi = u . d.
 
     Args:
         p_i: The first points, metres.
@@ -54,8 +60,8 @@ def pair_angles(
         n_j: Their unit normals. No line runs along the normal u.
 
     Returns:
-        One row per pair: theta in radians, alpha and phi as they are. Exchanging the two points of a pair changes
-        nothing. The inputs stay as they are.
+        One row per pair: theta in radians, alpha and phi as they are. Exchanging the two points of
+        a pair changes nothing. The inputs stay as they are.
     """
     return fpfh.pair_angles(p_i, n_i, p_j, n_j)
 
@@ -133,7 +139,9 @@ def moved(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def one_pair(candidate: Function) -> Verdict:
-    """A single pair, normals more than a right angle apart, and pairs with equal or opposite normals."""
+    """A single pair, normals more than a right angle apart, and pairs with equal or opposite
+    normals.
+    """
     p_i, n_i, p_j, n_j = pairs(GRADERS() + 2, 1)
     one = judged(candidate, (p_i, n_i, p_j, -n_j), "One pair")
     p_i, n_i, p_j, _ = pairs(GRADERS() + 3, 12)
@@ -177,7 +185,8 @@ def angles_in(
 
 
 @mistake(
-    "Your angles depend on the order of the two points. u is the normal that is nearer to the line, from either point."
+    "Your angles depend on the order of the two points. u is the normal that is nearer to the line,"
+    " from either point."
 )
 def never_swapped(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """Always takes the first point as source."""
@@ -191,7 +200,8 @@ def line_not_unit(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.nda
 
 
 @mistake(
-    "The two arguments of your arctangent are exchanged: theta = atan2(w . n, u . n), the sine comes first."
+    "The two arguments of your arctangent are exchanged: theta = atan2(w . n, u . n), the sine"
+    " comes first."
 )
 def arctangent_exchanged(
     p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
@@ -204,7 +214,8 @@ def arctangent_exchanged(
 
 
 @mistake(
-    "You exchange the normals but keep d: where the second point is the source, the line runs from it to the first."
+    "You exchange the normals but keep d: where the second point is the source, the line runs from"
+    " it to the first."
 )
 def line_not_turned(
     p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
@@ -218,7 +229,8 @@ def line_not_turned(
 
 
 @mistake(
-    "Your v is not of length 1: d and u are not at a right angle, so their cross product has to be divided by its length."
+    "Your v is not of length 1: d and u are not at a right angle, so their cross product has to be"
+    " divided by its length."
 )
 def cross_not_unit(
     p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
@@ -230,7 +242,8 @@ def cross_not_unit(
 
 
 @mistake(
-    "Your v points the other way: it is d x u, in this order. So the signs of alpha and theta are not right."
+    "Your v points the other way: it is d x u, in this order. So the signs of alpha and theta are"
+    " not right."
 )
 def cross_exchanged(
     p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray

@@ -19,7 +19,8 @@ def entries(
     good: float = 1e-6,
     fair: float = 1e-3,
 ) -> Verdict:
-    """Judge numbers by the one that is farthest off, as a share of the largest right one, and say which it is.
+    """Judge numbers by the one that is farthest off, as a share of the largest right one, and say
+    which it is.
 
     Args:
         what: What the numbers are.

@@ -1,5 +1,5 @@
-"""Write the linear problem of a circle: how far each point is from it, and how that changes with its centre and radius. The
-lesson's descent takes both from you at every step.
+"""Write the linear problem of a circle: how far each point is from it, and how that changes with
+its centre and radius. The lesson's descent takes both from you at every step.
 """
 
 import numpy as np
@@ -39,15 +39,18 @@ def circle_linearised(
         p: The points, one row (x, y) each, metres.
 
     Returns:
-        The residuals (n,), each point's distance from the centre less R: positive outside, negative inside. And the Jacobian
-        (n, 3), by how much each residual changes per metre of x, of y and of R. A point at the centre itself has the
-        slopes 0, 0, -1.
+        The residuals (n,), each point's distance from the centre less R: positive outside, negative
+        inside. And the Jacobian (n, 3), by how much each residual changes per metre of x, of y and
+        of R. A point at the centre itself has the slopes 0, 0, -1.
     """
     return linearise_sphere(circle, p)
 
 
 RESIDUAL_HINT = "A residual is the distance from the centre less R: not squared, and with its sign."
-SLOPE_HINT = "Moving the centre towards a point brings it nearer: the row is −(p − c) / |p − c|, and then −1 for R."
+SLOPE_HINT = (
+    "Moving the centre towards a point brings it nearer: the row is −(p − c) / |p − c|, and then −1"
+    " for R."
+)
 
 
 def some_points(seed: int, n: int = 12) -> tuple[np.ndarray, np.ndarray]:
@@ -126,7 +129,9 @@ def other_circles(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def a_point_at_the_centre(candidate: Function) -> Verdict:
-    """A point at the centre has no direction, and slopes 0, 0, −1; a micrometre from it there is one."""
+    """A point at the centre has no direction, and slopes 0, 0, −1; a micrometre from it there is
+    one.
+    """
     circle = np.array([0.5, -0.25, 2.0])
     near = np.array([[0.5 + 1e-6, -0.25], [0.5, -0.25 - 2e-6], [0.5 - 3e-6, -0.25 + 4e-6]])
     here = judged(candidate, circle, np.array([[0.5, -0.25], [2.5, -0.25], [0.5, 3.0]]))
@@ -146,8 +151,8 @@ def minus_ones(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You squared: |p − c|² − R² is the algebraic distance of Kåsa's fit, which makes short arcs too small. Take "
-    "|p − c| − R."
+    "You squared: |p − c|² − R² is the algebraic distance of Kåsa's fit, which makes short arcs too"
+    " small. Take |p − c| − R."
 )
 def squared_distances(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Linearises the algebraic distance."""
@@ -156,7 +161,8 @@ def squared_distances(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np
 
 
 @mistake(
-    "Your Jacobian has the wrong sign: a centre that moves towards a point brings it nearer. Steps with it go uphill."
+    "Your Jacobian has the wrong sign: a centre that moves towards a point brings it nearer. Steps"
+    " with it go uphill."
 )
 def sign_of_the_jacobian(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Returns -J."""
@@ -165,8 +171,8 @@ def sign_of_the_jacobian(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray,
 
 
 @mistake(
-    "Your Jacobian is that of the squared distance, or not divided by |p − c|: the slopes by x and y are those "
-    "of a unit vector."
+    "Your Jacobian is that of the squared distance, or not divided by |p − c|: the slopes by x and"
+    " y are those of a unit vector."
 )
 def not_divided(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Leaves the direction long."""
@@ -175,7 +181,8 @@ def not_divided(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 
 @mistake(
-    "You take R − |p − c|, with its slopes. That fits the same circle, but here outside is positive: |p − c| − R."
+    "You take R − |p − c|, with its slopes. That fits the same circle, but here outside is"
+    " positive: |p − c| − R."
 )
 def turned_round(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Makes inside positive in both."""
@@ -184,7 +191,8 @@ def turned_round(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 @mistake(
-    "Your residuals have the wrong sign for your Jacobian: R − |p − c| with the slopes of |p − c| − R goes uphill."
+    "Your residuals have the wrong sign for your Jacobian: R − |p − c| with the slopes of |p − c| −"
+    " R goes uphill."
 )
 def residuals_turned_round(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Makes inside positive in the residuals alone."""
@@ -193,8 +201,8 @@ def residuals_turned_round(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarra
 
 
 @mistake(
-    "Your residuals have lost their sign. A distance with |...| around it has a kink at the circle: keep inside "
-    "negative."
+    "Your residuals have lost their sign. A distance with |...| around it has a kink at the circle:"
+    " keep inside negative."
 )
 def absolute_distances(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Takes the absolute value of the residuals."""
@@ -203,7 +211,8 @@ def absolute_distances(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, n
 
 
 @mistake(
-    "The column of R has the wrong sign: a larger circle is nearer to a point outside, so its slope is −1."
+    "The column of R has the wrong sign: a larger circle is nearer to a point outside, so its slope"
+    " is −1."
 )
 def sign_of_the_radius(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Has +1 for R."""
@@ -212,8 +221,8 @@ def sign_of_the_radius(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, n
 
 
 @mistake(
-    "Your slopes by x and y have the wrong sign, the one by R is right: a centre that moves towards a point is "
-    "nearer to it."
+    "Your slopes by x and y have the wrong sign, the one by R is right: a centre that moves towards"
+    " a point is nearer to it."
 )
 def sign_of_the_center(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Has +v / |v| for the centre."""
@@ -229,7 +238,8 @@ def radius_forgotten(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.
 
 
 @mistake(
-    "A point at the centre makes your Jacobian divide by 0. It has no direction: give it the slopes 0, 0, −1."
+    "A point at the centre makes your Jacobian divide by 0. It has no direction: give it the slopes"
+    " 0, 0, −1."
 )
 def divided_by_zero(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Divides whatever the distance."""

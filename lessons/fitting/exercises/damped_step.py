@@ -1,5 +1,5 @@
-"""Write the step of Levenberg and Marquardt. The lesson tries yours out at every iteration, keeps it where it lowers the sum
-of squares, and asks for a shorter one where it does not.
+"""Write the step of Levenberg and Marquardt. The lesson tries yours out at every iteration, keeps
+it where it lowers the sum of squares, and asks for a shorter one where it does not.
 """
 
 import numpy as np
@@ -29,13 +29,15 @@ from workbench.exercise import (
 def damped_step(
     residuals: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n k"], damping: float
 ) -> Float[np.ndarray, " k"]:
-    """Return the step that solves (JᵀJ + damping D) step = −Jᵀr, where D is the diagonal of JᵀJ and 0 beside it.
+    """Return the step that solves (JᵀJ + damping D) step = −Jᵀr, where D is the diagonal of JᵀJ and
+    0 beside it.
 
     With damping 0 it is the step of Gauss and Newton, to where the linear problem is least.
 
     Args:
         residuals: r, what should become small.
-        jacobian: J, by how much each of them changes per unit of each unknown. Its columns are independent.
+        jacobian: J, by how much each of them changes per unit of each unknown. Its columns are
+            independent.
         damping: 0 or more.
     """
     return least_squares.damped_step(residuals, jacobian, damping)
@@ -83,7 +85,9 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_units(candidate: Function) -> Verdict:
-    """An unknown counted in millimetres gets a step a thousand times as large, in kilometres a thousandth."""
+    """An unknown counted in millimetres gets a step a thousand times as large, in kilometres a
+    thousandth.
+    """
     residuals, jacobian = problem(GRADERS())
     return worst(
         judged(candidate, residuals, jacobian / [1.0, unit, 1.0], 0.2) for unit in (1000.0, 0.001)
@@ -92,7 +96,9 @@ def other_units(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_sizes(candidate: Function) -> Verdict:
-    """Other numbers of unknowns have their steps too, with little damping and with much; where r is 0 the step is 0."""
+    """Other numbers of unknowns have their steps too, with little damping and with much; where r is
+    0 the step is 0.
+    """
     sizes = ((5, 1, 0.0), (8, 2, 0.3), (40, 5, 2.0), (6, 6, 0.01), (9, 3, 1e-4), (9, 3, 1e5))
     found = [
         judged(candidate, *problem(GRADERS() + k, n, m), damping)
@@ -107,7 +113,8 @@ def normal(jacobian: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You added damping times the identity. Marquardt's matrix has the diagonal of JᵀJ, so that units do not matter."
+    "You added damping times the identity. Marquardt's matrix has the diagonal of JᵀJ, so that"
+    " units do not matter."
 )
 def identity(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Adds damping I."""
@@ -123,7 +130,8 @@ def uphill(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.nd
 
 
 @mistake(
-    "You shortened Gauss and Newton's step by 1 + damping. Damping also turns the step: it goes into the matrix."
+    "You shortened Gauss and Newton's step by 1 + damping. Damping also turns the step: it goes"
+    " into the matrix."
 )
 def shortened(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Divides the step."""
@@ -131,7 +139,8 @@ def shortened(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np
 
 
 @mistake(
-    "Your step does not depend on the damping. It belongs on the diagonal: JᵀJ + damping · diag(JᵀJ)."
+    "Your step does not depend on the damping. It belongs on the diagonal: JᵀJ + damping ·"
+    " diag(JᵀJ)."
 )
 def undamped(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Leaves the damping out."""
@@ -139,7 +148,8 @@ def undamped(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.
 
 
 @mistake(
-    "You replaced the diagonal by damping times itself. It is added to it: the diagonal grows by 1 + damping."
+    "You replaced the diagonal by damping times itself. It is added to it: the diagonal grows by 1"
+    " + damping."
 )
 def replaced(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Writes over the diagonal."""
@@ -168,7 +178,8 @@ def everywhere(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> n
 
 
 @mistake(
-    "You return −Jᵀr, the way down, without the matrix: it has another unit than a step. Solve with JᵀJ."
+    "You return −Jᵀr, the way down, without the matrix: it has another unit than a step. Solve with"
+    " JᵀJ."
 )
 def gradient(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Goes down the gradient."""

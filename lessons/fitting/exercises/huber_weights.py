@@ -1,5 +1,5 @@
-"""Write how much each point counts under Huber's loss. The lesson's robust fits of a plane take their weights from you,
-round by round: choose the preset drift.
+"""Write how much each point counts under Huber's loss. The lesson's robust fits of a plane take
+their weights from you, round by round: choose the preset drift.
 """
 
 import numpy as np
@@ -30,8 +30,8 @@ from workbench.exercise import (
 def huber_weights(residuals: Float[np.ndarray, " n"], corner: float) -> Float[np.ndarray, " n"]:
     """Return the weights with which least squares has the slope of Huber's loss.
 
-    The loss is r² / 2 up to the corner on both sides, and goes straight on from there: corner (|r| − corner / 2). A weight
-    is its slope divided by r, 1 at r = 0.
+    The loss is r² / 2 up to the corner on both sides, and goes straight on from there: corner (|r|
+    − corner / 2). A weight is its slope divided by r, 1 at r = 0.
 
     Args:
         residuals: Signed distances, metres.
@@ -85,7 +85,9 @@ def all_on_one_side(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_corners(candidate: Function) -> Verdict:
-    """Other corners, single points, points at a corner, on the plane and very far off it have their weights too."""
+    """Other corners, single points, points at a corner, on the plane and very far off it have their
+    weights too.
+    """
     cases = [
         (some_residuals(GRADERS() + 1, 4.685, 30), 4.685),
         (np.array([-2.5]), 1.345),
@@ -109,8 +111,8 @@ def no_absolute(residuals: np.ndarray, corner: float) -> np.ndarray:
 
 
 @mistake(
-    "Your weights are squared: corner² / r² falls too fast. The slope of Huber's loss beyond the corner is "
-    "corner, divided by r."
+    "Your weights are squared: corner² / r² falls too fast. The slope of Huber's loss beyond the"
+    " corner is corner, divided by r."
 )
 def squared(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Squares the weights."""
@@ -138,7 +140,8 @@ def cut(residuals: np.ndarray, corner: float) -> np.ndarray:
 
 
 @mistake(
-    "Near points have weights above 1 in your answer. Up to the corner every point counts alike: at most 1."
+    "Near points have weights above 1 in your answer. Up to the corner every point counts alike: at"
+    " most 1."
 )
 def unbounded(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Takes corner / |r| everywhere."""
@@ -152,8 +155,8 @@ def upside_down(residuals: np.ndarray, corner: float) -> np.ndarray:
 
 
 @mistake(
-    "You took the square root of the weights, which multiplies rows of a linear problem. The weights themselves "
-    "are asked for."
+    "You took the square root of the weights, which multiplies rows of a linear problem. The"
+    " weights themselves are asked for."
 )
 def square_root(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Takes the root."""
@@ -161,7 +164,8 @@ def square_root(residuals: np.ndarray, corner: float) -> np.ndarray:
 
 
 @mistake(
-    "Beyond the corner your weight is 1 / |r|. It is corner / |r|, so that it goes on from 1 without a jump."
+    "Beyond the corner your weight is 1 / |r|. It is corner / |r|, so that it goes on from 1"
+    " without a jump."
 )
 def jumps(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Forgets the corner in the numerator."""
@@ -170,7 +174,8 @@ def jumps(residuals: np.ndarray, corner: float) -> np.ndarray:
 
 
 @mistake(
-    "These are the weights of Cauchy's loss, 1 / (1 + (r / corner)²). Huber's are exactly 1 up to the corner."
+    "These are the weights of Cauchy's loss, 1 / (1 + (r / corner)²). Huber's are exactly 1 up to"
+    " the corner."
 )
 def cauchy(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Takes another loss."""
@@ -178,7 +183,8 @@ def cauchy(residuals: np.ndarray, corner: float) -> np.ndarray:
 
 
 @mistake(
-    "These are the weights of Tukey's loss, 0 beyond the corner. Huber's are corner / |r| there, and exactly 1 within."
+    "These are the weights of Tukey's loss, 0 beyond the corner. Huber's are corner / |r| there,"
+    " and exactly 1 within."
 )
 def tukey(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Takes another loss."""

@@ -1,4 +1,6 @@
-"""The exercises of this lesson: the graph of nearest neighbours, its Laplacian, and a layer of a graph network."""
+"""The exercises of this lesson: the graph of nearest neighbours, its Laplacian, and a layer of a
+graph network.
+"""
 
 import numpy as np
 
@@ -11,7 +13,9 @@ STUDENTS, GRADERS = (
 
 
 def weighted(seed: int, count: int, chance: float = 0.5) -> np.ndarray:
-    """Return a symmetric matrix of weights from 0.2 to 3, without loops; some pairs have no edge."""
+    """Return a symmetric matrix of weights from 0.2 to 3, without loops; some pairs have no
+    edge.
+    """
     rng = np.random.default_rng(seed)
     upper = np.triu(
         rng.uniform(0.2, 3.0, (count, count)) * (rng.random((count, count)) < chance), 1
@@ -36,5 +40,8 @@ def matrix_verdict(
         return full(f"{what}all {got.size} entries are right.")
     i, j = (int(at) for at in np.unravel_index(int(np.argmax(off)), off.shape))
     wrong = int((off > 1e-6).sum())
-    said = f"{what}{wrong} of {got.size} entries are wrong: [{i}, {j}] is {against(got[i, j], right[i, j])}."
+    said = (
+        f"{what}{wrong} of {got.size} entries are wrong: [{i}, {j}] is"
+        f" {against(got[i, j], right[i, j])}."
+    )
     return partial(0.5, f"{said} Close. {hint}") if off.max() <= fair else fail(f"{said} {hint}")

@@ -1,5 +1,6 @@
-"""Write one layer of a graph convolutional network: every node gathers from itself and its neighbours, a matrix mixes what
-came, and what is negative becomes 0. The lesson spreads labels and trains networks with your layer.
+"""Write one layer of a graph convolutional network: every node gathers from itself and its
+neighbours, a matrix mixes what came, and what is negative becomes 0. The lesson spreads labels and
+trains networks with your layer.
 """
 
 import numpy as np
@@ -23,7 +24,9 @@ Inputs = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def inputs(seed: int, count: int, a: int = 3, b: int = 4, chance: float = 0.5) -> Inputs:
-    """Return a weighted graph without lone nodes, features of both signs, and weights of both signs."""
+    """Return a weighted graph without lone nodes, features of both signs, and weights of both
+    signs.
+    """
     rng = np.random.default_rng(seed)
     adjacency = weighted(seed, count, chance)
     row = np.arange(count - 1)
@@ -61,7 +64,8 @@ def gcn_layer(
     features: Float[np.ndarray, "n a"],
     weights: Float[np.ndarray, "a b"],
 ) -> Float[np.ndarray, "n b"]:
-    """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W), D being the diagonal matrix of the row sums of A + I.
+    """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W), D being the diagonal matrix of the row sums of A
+    + I.
 
     Args:
         adjacency: A, symmetric, without negative entries, 0 on the diagonal.
@@ -69,13 +73,16 @@ def gcn_layer(
         weights: W, from old features to new ones.
 
     Returns:
-        New features, one row per node, none negative: ReLU keeps what is above 0 and makes the rest 0. A node without edges
-        gathers from itself alone. The inputs stay as they are.
+        New features, one row per node, none negative: ReLU keeps what is above 0 and makes the rest
+        0. A node without edges gathers from itself alone. The inputs stay as they are.
     """
     return graphs.gcn_layer(adjacency, features, weights)
 
 
-HINT = "Add the identity to A, divide by the roots of both row sums, multiply by X and W, and cut off below 0."
+HINT = (
+    "Add the identity to A, divide by the roots of both row sums, multiply by X and W, and cut off"
+    " below 0."
+)
 
 
 def found(candidate: Function, given: Inputs, what: str = "") -> Verdict:
@@ -93,7 +100,9 @@ def two_friends(candidate: Function) -> Verdict:
 
 @check(2)
 def a_star(candidate: Function) -> Verdict:
-    """In a star the middle and the ends have other degrees: an entry is 1 over the root of their product."""
+    """In a star the middle and the ends have other degrees: an entry is 1 over the root of their
+    product.
+    """
     star = np.zeros((5, 5))
     star[0, 1:] = star[1:, 0] = 1.0
     rng = np.random.default_rng(STUDENTS)
@@ -123,17 +132,23 @@ def weighted_graphs(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def nodes_without_edges(candidate: Function) -> Verdict:
-    """A node without edges, or all there is, keeps its own features, through W and ReLU; small and large weights count."""
+    """A node without edges, or all there is, keeps its own features, through W and ReLU; small and
+    large weights count.
+    """
     adjacency, x, w = inputs(GRADERS() + 20, 9)
     adjacency[:, [0, 4]] = adjacency[[0, 4]] = 0.0
     alone = np.zeros((3, 3))
     wide = inputs(GRADERS() + 21, 12)[0] * np.exp(
         np.random.default_rng(GRADERS()).normal(-3, 3, (12, 12))
     )
-    return worst((found(candidate, (alone[:1, :1], x[:1], w), "One node: "),
-                  found(candidate, (wide + wide.T, np.vstack([x, x[:3]]), w), "Weights of all sizes: "),
-                  found(candidate, (adjacency, x, w), "Two lone nodes: "),
-                  found(candidate, (alone, x[:3], w), "No edges at all: ")))  # fmt: skip
+    return worst(
+        (
+            found(candidate, (alone[:1, :1], x[:1], w), "One node: "),
+            found(candidate, (wide + wide.T, np.vstack([x, x[:3]]), w), "Weights of all sizes: "),
+            found(candidate, (adjacency, x, w), "Two lone nodes: "),
+            found(candidate, (alone, x[:3], w), "No edges at all: "),
+        )
+    )
 
 
 def layer(gathers: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -142,7 +157,8 @@ def layer(gathers: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.
 
 
 @mistake(
-    "You left out the self-loops: a node does not hear itself, and one without edges divides by 0. Take A + I."
+    "You left out the self-loops: a node does not hear itself, and one without edges divides by 0."
+    " Take A + I."
 )
 def no_self_loops(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """D^(-1/2) A D^(-1/2)."""
@@ -151,7 +167,8 @@ def no_self_loops(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarr
 
 
 @mistake(
-    "You divided each row by its sum, a mean over neighbours. Asked for is symmetric: D^(-1/2) on both sides."
+    "You divided each row by its sum, a mean over neighbours. Asked for is symmetric: D^(-1/2) on"
+    " both sides."
 )
 def row_mean(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """D^(-1) (A + I)."""
@@ -177,7 +194,8 @@ def degrees_without_loops(
 
 
 @mistake(
-    "You added up A + I without dividing: nodes with many neighbours grow large. Divide by the roots of both degrees."
+    "You added up A + I without dividing: nodes with many neighbours grow large. Divide by the"
+    " roots of both degrees."
 )
 def not_normalised(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """(A + I) X W."""
@@ -185,7 +203,8 @@ def not_normalised(adjacency: np.ndarray, features: np.ndarray, weights: np.ndar
 
 
 @mistake(
-    "You divided by the whole degrees on both sides. The exponent is -1/2 on each: divide by their square roots."
+    "You divided by the whole degrees on both sides. The exponent is -1/2 on each: divide by their"
+    " square roots."
 )
 def whole_degrees(adjacency: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """D^(-1) (A + I) D^(-1)."""

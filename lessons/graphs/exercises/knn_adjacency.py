@@ -1,5 +1,6 @@
-"""Write the graph of nearest neighbours of a cloud: an edge wherever one point is among the k nearest others of the other.
-The lesson grows its graphs with your function, colours their pieces, and cuts them.
+"""Write the graph of nearest neighbours of a cloud: an edge wherever one point is among the k
+nearest others of the other. The lesson grows its graphs with your function, colours their pieces,
+and cuts them.
 """
 
 import numpy as np
@@ -50,15 +51,18 @@ def with_a_pair(seed: int) -> np.ndarray:
 def knn_adjacency(p: Float[np.ndarray, "n d"], k: int) -> Float[np.ndarray, "n n"]:
     """Return the symmetric adjacency matrix of the k-nearest-neighbour graph, entries 0 or 1.
 
-    There is an edge between two points where either of them is among the k nearest others of the other.
+    There is an edge between two points where either of them is among the k nearest others of the
+    other.
 
     Args:
-        p: Points, one row each, metres. Distances that would compete for the last place are never equal.
+        p: Points, one row each, metres. Distances that would compete for the last place are never
+            equal.
         k: How many neighbours each point names, 0 < k < n.
 
     Returns:
-        A[i, j] = A[j, i] = 1 for an edge, else 0. The diagonal is 0: a point is not its own neighbour, also where another
-        lies at its place. Every row has k ones or more. The input stays as it is.
+        A[i, j] = A[j, i] = 1 for an edge, else 0. The diagonal is 0: a point is not its own
+        neighbour, also where another lies at its place. Every row has k ones or more. The input
+        stays as it is.
     """
     return graphs.knn_adjacency(p, k)
 
@@ -86,7 +90,9 @@ def four_on_a_line(candidate: Function) -> Verdict:
 
 @check(2)
 def two_lumps(candidate: Function) -> Verdict:
-    """40 points of two densities with four neighbours each: a naming that is not returned is an edge too."""
+    """40 points of two densities with four neighbours each: a naming that is not returned is an
+    edge too.
+    """
     return found(candidate, cloud(STUDENTS, 40), 4)
 
 
@@ -107,7 +113,9 @@ def other_counts(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def moved_clouds(candidate: Function) -> Verdict:
-    """Turned, moved a kilometre, enlarged, made tiny or in another order it is the same; points may have 1 or 5 numbers."""
+    """Turned, moved a kilometre, enlarged, made tiny or in another order it is the same; points may
+    have 1 or 5 numbers.
+    """
     rng = np.random.default_rng(GRADERS())
     p = cloud(GRADERS() + 1, 50)
     away = 3.0 * p @ exp_so3(rng.normal(size=3)).T + 1000.0 * rng.normal(size=3)
@@ -132,7 +140,9 @@ def two_at_one_place(candidate: Function) -> Verdict:
 
 
 def ranks(p: np.ndarray) -> np.ndarray:
-    """Return for every point all points in the order of their distance, itself among them, ties by number."""
+    """Return for every point all points in the order of their distance, itself among them, ties by
+    number.
+    """
     return np.argsort(np.linalg.norm(p[:, None] - p, axis=2), axis=1, kind="stable")
 
 
@@ -144,7 +154,8 @@ def joined(rows: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Each point found itself first and used up one of its k neighbours. Ask for k + 1 and leave the point itself out."
+    "Each point found itself first and used up one of its k neighbours. Ask for k + 1 and leave the"
+    " point itself out."
 )
 def itself_counted(p: np.ndarray, k: int) -> np.ndarray:
     """The k nearest, of which the point is one; the diagonal is cleared."""
@@ -154,7 +165,8 @@ def itself_counted(p: np.ndarray, k: int) -> np.ndarray:
 
 
 @mistake(
-    "Each point is its own neighbour and takes one of the k places: the diagonal is 1. Nobody names itself here."
+    "Each point is its own neighbour and takes one of the k places: the diagonal is 1. Nobody names"
+    " itself here."
 )
 def loops_that_take_a_place(p: np.ndarray, k: int) -> np.ndarray:
     """The k nearest, of which the point is one."""
@@ -170,7 +182,8 @@ def loops_kept(p: np.ndarray, k: int) -> np.ndarray:
 
 
 @mistake(
-    "Your matrix is not symmetric: you kept who names whom. An edge has no direction: take the maximum with A.T."
+    "Your matrix is not symmetric: you kept who names whom. An edge has no direction: take the"
+    " maximum with A.T."
 )
 def one_way(p: np.ndarray, k: int) -> np.ndarray:
     """Who names whom."""
@@ -178,7 +191,8 @@ def one_way(p: np.ndarray, k: int) -> np.ndarray:
 
 
 @mistake(
-    "You kept an edge only where both points name each other. Asked for is an edge where either does: `or`, not `and`."
+    "You kept an edge only where both points name each other. Asked for is an edge where either"
+    " does: `or`, not `and`."
 )
 def mutual(p: np.ndarray, k: int) -> np.ndarray:
     """The mutual graph: some points keep fewer than k."""
@@ -187,7 +201,8 @@ def mutual(p: np.ndarray, k: int) -> np.ndarray:
 
 
 @mistake(
-    "You added A and A.T: where both name each other the entry is 2. Entries are 0 or 1: take the maximum."
+    "You added A and A.T: where both name each other the entry is 2. Entries are 0 or 1: take the"
+    " maximum."
 )
 def added_up(p: np.ndarray, k: int) -> np.ndarray:
     """A + A.T."""
@@ -208,7 +223,8 @@ def farthest(p: np.ndarray, k: int) -> np.ndarray:
 
 
 @mistake(
-    "You average the two directions: an edge that one end names is 0.5. Either naming makes a whole edge, 1."
+    "You average the two directions: an edge that one end names is 0.5. Either naming makes a whole"
+    " edge, 1."
 )
 def averaged(p: np.ndarray, k: int) -> np.ndarray:
     """(A + A.T) / 2."""
@@ -216,8 +232,8 @@ def averaged(p: np.ndarray, k: int) -> np.ndarray:
 
 
 @mistake(
-    "All is right but where two points lie at one place: the first column of a search is then not always the point itself."
-    " Leave it out by its number, not by its place."
+    "All is right but where two points lie at one place: the first column of a search is then not"
+    " always the point itself. Leave it out by its number, not by its place."
 )
 def first_column_dropped(p: np.ndarray, k: int) -> np.ndarray:
     """Takes the first of the order for the point itself."""

@@ -1,5 +1,6 @@
-"""Write the Laplacian of a weighted graph from its adjacency matrix. What you return is what the lesson's spectra, cuts and
-heat are computed from: watch the eigenvalues, and whether a constant still costs nothing.
+"""Write the Laplacian of a weighted graph from its adjacency matrix. What you return is what the
+lesson's spectra, cuts and heat are computed from: watch the eigenvalues, and whether a constant
+still costs nothing.
 """
 
 import numpy as np
@@ -33,15 +34,17 @@ from workbench.geometry.graphs import adjacency as graphs
     ),
 )
 def laplacian(adjacency: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n n"]:
-    """Return L = D - A, D being the diagonal matrix of the degrees, the sums of weights at each node.
+    """Return L = D - A, D being the diagonal matrix of the degrees, the sums of weights at each
+    node.
 
     Args:
-        adjacency: A, symmetric, without negative entries, 0 on the diagonal. A[i, j] is the weight of the edge between
-            nodes i and j, 0 where there is none; weights are any positive numbers.
+        adjacency: A, symmetric, without negative entries, 0 on the diagonal. A[i, j] is the weight
+            of the edge between nodes i and j, 0 where there is none; weights are any positive
+            numbers.
 
     Returns:
-        (L u)[i] is the sum over j of A[i, j] (u[i] - u[j]). Every row adds up to 0; the row of a node without edges is 0.
-        Nothing is divided by the degrees. The input stays as it is.
+        (L u)[i] is the sum over j of A[i, j] (u[i] - u[j]). Every row adds up to 0; the row of a
+        node without edges is 0. Nothing is divided by the degrees. The input stays as it is.
     """
     return graphs.laplacian(adjacency)
 
@@ -99,7 +102,9 @@ def graphs_of_all_sizes(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def nodes_without_edges(candidate: Function) -> Verdict:
-    """A node without edges has a row of zeros, a graph of one node is 0; weights of a millionth and of a million count."""
+    """A node without edges has a row of zeros, a graph of one node is 0; weights of a millionth and
+    of a million count.
+    """
     lonely = weighted(GRADERS() + 20, 7)
     lonely[:, [2, 5]] = lonely[[2, 5]] = 0.0
     none = [
@@ -116,7 +121,8 @@ def nodes_without_edges(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You returned A - D. The Laplacian is D - A: degrees on the diagonal are positive, its eigenvalues not negative."
+    "You returned A - D. The Laplacian is D - A: degrees on the diagonal are positive, its"
+    " eigenvalues not negative."
 )
 def sign(adjacency: np.ndarray) -> np.ndarray:
     """A - D."""
@@ -124,7 +130,8 @@ def sign(adjacency: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You counted neighbours on the diagonal. Where edges have weights, a degree is their sum: adjacency.sum(axis=1)."
+    "You counted neighbours on the diagonal. Where edges have weights, a degree is their sum:"
+    " adjacency.sum(axis=1)."
 )
 def neighbours_counted(adjacency: np.ndarray) -> np.ndarray:
     """The number of neighbours for the sum of their weights."""
@@ -140,7 +147,8 @@ def signless(adjacency: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You divided each row by its degree: that is the random-walk Laplacian. Asked for is D - A itself."
+    "You divided each row by its degree: that is the random-walk Laplacian. Asked for is D - A"
+    " itself."
 )
 def divided_by_degrees(adjacency: np.ndarray) -> np.ndarray:
     """I - D^(-1) A."""

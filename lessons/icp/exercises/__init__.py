@@ -1,4 +1,6 @@
-"""The exercises of this lesson: find partners, align pairs, step towards planes. All judged in degrees and metres."""
+"""The exercises of this lesson: find partners, align pairs, step towards planes. All judged in
+degrees and metres.
+"""
 
 import numpy as np
 

@@ -1,5 +1,5 @@
-"""Write the rigid alignment of paired points (Kabsch), with the mirror image ruled out. The lesson's fit steps are made
-by it; it is judged in degrees and metres, never by its residual.
+"""Write the rigid alignment of paired points (Kabsch), with the mirror image ruled out. The
+lesson's fit steps are made by it; it is judged in degrees and metres, never by its residual.
 """
 
 import numpy as np
@@ -28,11 +28,17 @@ from workbench.geometry.motions import alignment, apply, exp_so3, inverse, motio
     forbid=("scipy.spatial.transform",),
     examples=(
         (
-            "align_rigid(np.array([[2.0, 0, 0], [3, 0, 0], [2, 1, 0]]), np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]))",
+            (
+                "align_rigid(np.array([[2.0, 0, 0], [3, 0, 0], [2, 1, 0]]), np.array([[0.0, 0, 0],"
+                " [1, 0, 0], [0, 1, 0]]))"
+            ),
             "[[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
         (
-            "align_rigid(np.array([[0.0, 0, 0], [0, 1, 0], [-1, 0, 0]]), np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]))",
+            (
+                "align_rigid(np.array([[0.0, 0, 0], [0, 1, 0], [-1, 0, 0]]), np.array([[0.0, 0, 0],"
+                " [1, 0, 0], [0, 1, 0]]))"
+            ),
             "[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
     ),
@@ -42,16 +48,18 @@ def align_rigid(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the rigid motion T_target_source that brings paired points closest together.
 
-    It minimises the sum of the squared distances |p_target - (R p_source + t)| over all rotations R and translations t.
+    It minimises the sum of the squared distances |p_target - (R p_source + t)| over all rotations R
+    and translations t.
 
     Args:
         p_target: Points in the target frame, metres.
         p_source: Their partners in the source frame, metres: row k belongs to row k.
 
     Returns:
-        The 4x4 motion with R in the upper left, t in the last column and (0, 0, 0, 1) as last row. R is always a rotation
-        with determinant 1, also where a mirror image would fit better: flat clouds with noise, mirrored clouds. Points on
-        one line, or a single pair, leave a part of the turn open; any one of the best motions is right then.
+        The 4x4 motion with R in the upper left, t in the last column and (0, 0, 0, 1) as last row.
+        R is always a rotation with determinant 1, also where a mirror image would fit better: flat
+        clouds with noise, mirrored clouds. Points on one line, or a single pair, leave a part of
+        the turn open; any one of the best motions is right then.
 
     Raises:
         ValueError: If there are no pairs (n = 0).
@@ -94,7 +102,9 @@ def exact_pairs(candidate: Function) -> Verdict:
 
 @check(2)
 def turned_rod(candidate: Function) -> Verdict:
-    """A rod turned by up to 170 degrees is turned back, though its ends look alike: half a turn leaves a small residual."""
+    """A rod turned by up to 170 degrees is turned back, though its ends look alike: half a turn
+    leaves a small residual.
+    """
     rng, verdicts = np.random.default_rng(STUDENTS + 5), []
     for degrees in (170.0, 120.0, -170.0):
         p_source = rng.normal(size=(80, 3)) * [0.6, 0.012, 0.01]
@@ -148,7 +158,9 @@ def no_mirror_image(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def far_away(candidate: Function) -> Verdict:
-    """Clouds ten kilometres from the origin, of a centimetre, and half a turn apart are aligned as well."""
+    """Clouds ten kilometres from the origin, of a centimetre, and half a turn apart are aligned as
+    well.
+    """
     rng = np.random.default_rng(GRADERS() + 30)
     p_source = a_cloud(rng) + np.array([10_000.0, -4_000.0, 300.0])
     p_target = apply(a_motion(rng, 75.0), p_source - p_source.mean(0)) + np.array(
@@ -174,14 +186,21 @@ def far_away(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def points_on_a_line(candidate: Function) -> Verdict:
-    """Points on one line, at one place, and one pair to three get one of their best motions; no pairs are refused."""
+    """Points on one line, at one place, and one pair to three get one of their best motions; no
+    pairs are refused.
+    """
     rng = np.random.default_rng(GRADERS() + 40)
     line = np.outer(np.linspace(-1, 1, 9), [0.6, 0.0, 0.8]) + 0.3
     T = a_motion(rng, 65.0)
     verdicts = [refused(candidate, np.empty((0, 3)), np.empty((0, 3)), what="A call without pairs")]
     few = a_cloud(rng, 3)
-    cases = (("Points on a line", line), ("A single pair", line[:1]), ("Two pairs", few[:2]), ("Three pairs", few),
-             ("Points at one place", np.tile(few[0], (4, 1))))  # fmt: skip
+    cases = (
+        ("Points on a line", line),
+        ("A single pair", line[:1]),
+        ("Two pairs", few[:2]),
+        ("Three pairs", few),
+        ("Points at one place", np.tile(few[0], (4, 1))),
+    )
     for what, p_source in cases:
         got, p_target = candidate(apply(T, p_source), p_source), apply(T, p_source)
         moved = apply(got, p_source)
@@ -195,7 +214,8 @@ def points_on_a_line(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You moved the centroids onto each other and did not rotate. Find R from the covariance of the centred pairs."
+    "You moved the centroids onto each other and did not rotate. Find R from the covariance of the"
+    " centred pairs."
 )
 def centroids_only(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Matches the centroids and does not rotate."""
@@ -203,8 +223,8 @@ def centroids_only(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your R equals the transpose of the right one. From the SVD U D V^T of sum(target source^T) it is U V^T, "
-    "from that of sum(source target^T) it is V U^T."
+    "Your R equals the transpose of the right one. From the SVD U D V^T of sum(target source^T) it"
+    " is U V^T, from that of sum(source target^T) it is V U^T."
 )
 def rotation_transposed(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Uses R^T, with the translation that goes with it."""
@@ -213,8 +233,8 @@ def rotation_transposed(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarra
 
 
 @mistake(
-    "Your R is right but where it is a mirror image (determinant -1), as on flat, noisy clouds. Flip the "
-    "direction with the smallest singular value then."
+    "Your R is right but where it is a mirror image (determinant -1), as on flat, noisy clouds."
+    " Flip the direction with the smallest singular value then."
 )
 def reflection_kept(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Leaves the determinant as it comes from the SVD."""
@@ -223,8 +243,8 @@ def reflection_kept(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Where the SVD gives a mirror image you negate all of R. Only the direction with the smallest singular "
-    "value changes its sign: it costs least."
+    "Where the SVD gives a mirror image you negate all of R. Only the direction with the smallest"
+    " singular value changes its sign: it costs least."
 )
 def whole_matrix_negated(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Negates R where its determinant is -1."""
@@ -234,8 +254,8 @@ def whole_matrix_negated(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarr
 
 
 @mistake(
-    "You returned the motion from target to source: the inverse of the right one. T_target_source takes source "
-    "points to the target."
+    "You returned the motion from target to source: the inverse of the right one. T_target_source"
+    " takes source points to the target."
 )
 def target_to_source(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Returns T_source_target."""
@@ -243,7 +263,8 @@ def target_to_source(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your rotation is right, your translation is not: the source's centroid turns too, t = mean_target - R mean_source."
+    "Your rotation is right, your translation is not: the source's centroid turns too, t ="
+    " mean_target - R mean_source."
 )
 def centroid_not_turned(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Uses t = mean_target - mean_source with any R."""
@@ -252,7 +273,8 @@ def centroid_not_turned(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarra
 
 
 @mistake(
-    "You built the covariance from points that are not centred. Subtract each cloud's centroid first."
+    "You built the covariance from points that are not centred. Subtract each cloud's centroid"
+    " first."
 )
 def not_centred(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Takes the products of the points themselves."""
@@ -261,8 +283,8 @@ def not_centred(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You laid the principal axes over each other. Their signs are open, so you may be half a turn off with a "
-    "small residual. The rows are pairs: use them."
+    "You laid the principal axes over each other. Their signs are open, so you may be half a turn"
+    " off with a small residual. The rows are pairs: use them."
 )
 def principal_axes(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Lays the principal axes over each other, whose signs nobody knows."""

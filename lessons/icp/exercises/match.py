@@ -1,5 +1,5 @@
-"""Write ICP's first half: for every source point the index of its nearest target point. The lesson draws your
-correspondences, and fits the motion to them.
+"""Write ICP's first half: for every source point the index of its nearest target point. The lesson
+draws your correspondences, and fits the motion to them.
 """
 
 import numpy as np
@@ -30,7 +30,10 @@ from workbench.geometry.motions import apply
     forbid=("scipy.spatial",),
     examples=(
         (
-            "match(np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0.9, 0, 0], [0.2, 0, 0], [5, 0, 0]]))",
+            (
+                "match(np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0.9, 0, 0], [0.2, 0, 0], [5,"
+                " 0, 0]]))"
+            ),
             "[1, 0, 1]",
         ),
         ("match(np.array([[0.0, 0, 0], [0, 0, 1]]), np.array([[0.0, 0, 0.7]]))", "[1]"),
@@ -43,11 +46,13 @@ def match(
 
     Args:
         p_target: The cloud to find partners in, metres.
-        p_source: The points that want a partner, metres; in the target frame, as ICP has moved them so far.
+        p_source: The points that want a partner, metres; in the target frame, as ICP has moved them
+            so far.
 
     Returns:
-        n whole numbers from 0 to m - 1, Euclidean distances deciding. Several source points may share a partner, and target
-        points may stay without one. Where two target points are equally near, either is right.
+        n whole numbers from 0 to m - 1, Euclidean distances deciding. Several source points may
+        share a partner, and target points may stay without one. Where two target points are equally
+        near, either is right.
 
     Raises:
         ValueError: If there is no target point (m = 0).
@@ -63,7 +68,9 @@ MATCH_HINT = (
 def nearest_found(
     candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = MATCH_HINT
 ) -> Verdict:
-    """Judge partners by their distance: all for the nearest everywhere, half where 19 of 20 have it."""
+    """Judge partners by their distance: all for the nearest everywhere, half where 19 of 20 have
+    it.
+    """
     indices, wanted = candidate(p_target, p_source), nearest(p_target, p_source)
     outside = int(((indices < 0) | (indices >= len(p_target))).sum())
     if outside:
@@ -76,7 +83,10 @@ def nearest_found(
     if wrong == 0:
         return full(f"All {len(indices)} partners are the nearest.")
     k = int(np.argmax(more))
-    said = f"{wrong} of {len(indices)} partners are not the nearest. [{k}] is {indices[k]}, right is {wanted[k]}: "
+    said = (
+        f"{wrong} of {len(indices)} partners are not the nearest. [{k}] is {indices[k]}, right is"
+        f" {wanted[k]}: "
+    )
     said += f"{number(more[k], 2)} m nearer."
     return (
         partial(0.5, f"{said} {hint}") if wrong <= 0.05 * len(indices) else fail(f"{said} {hint}")
@@ -113,7 +123,9 @@ def clouds_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def uneven_clouds(candidate: Function) -> Verdict:
-    """Few targets for many points, many for few, and single ones are all served, in a room and in a town."""
+    """Few targets for many points, many for few, and single ones are all served, in a room and in a
+    town.
+    """
     sizes = ((7, 300), (300, 7), (1, 20), (90, 90), (30, 1))
     clouds = [two_clouds(GRADERS() + k, m, n) for k, (m, n) in enumerate(sizes)]
     p_target, p_source = two_clouds(GRADERS() + 9, 60, 60)
@@ -158,8 +170,8 @@ def no_target(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You returned the nearest source point of each target point. Nearest neighbour is not symmetric: it must be "
-    "one target index for each source point."
+    "You returned the nearest source point of each target point. Nearest neighbour is not"
+    " symmetric: it must be one target index for each source point."
 )
 def matched_backwards(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Finds the source point nearest to each target point."""
@@ -167,8 +179,8 @@ def matched_backwards(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You paired points with the same row number. The rows of two scans have nothing to do with each other: "
-    "compare distances."
+    "You paired points with the same row number. The rows of two scans have nothing to do with each"
+    " other: compare distances."
 )
 def paired_by_row(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Pairs points with the same row number."""
@@ -176,8 +188,8 @@ def paired_by_row(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You give every target point away only once. In ICP several source points may share a partner: each takes "
-    "its nearest, on its own."
+    "You give every target point away only once. In ICP several source points may share a partner:"
+    " each takes its nearest, on its own."
 )
 def one_to_one(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Gives every target point away once, first come first served, as long as there are any."""
@@ -196,7 +208,8 @@ def height_ignored(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You sum absolute differences. That is the Manhattan distance; sum their squares for the Euclidean one."
+    "You sum absolute differences. That is the Manhattan distance; sum their squares for the"
+    " Euclidean one."
 )
 def manhattan_distance(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Sums absolute differences."""
@@ -210,7 +223,8 @@ def farthest(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You use |a|^2 + |b|^2 - 2 a·b. Far from the origin these cancel and leave no digits: subtract the points first."
+    "You use |a|^2 + |b|^2 - 2 a·b. Far from the origin these cancel and leave no digits: subtract"
+    " the points first."
 )
 def squares_expanded(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Uses |a|^2 + |b|^2 - 2 a b, where far from the origin all digits cancel."""

@@ -1,5 +1,6 @@
-"""Write one linear point-to-plane step: the small motion that brings points closest to the tangent planes at their
-partners. The lesson uses it where its fit is point-to-plane: choose the preset plane to watch yours.
+"""Write one linear point-to-plane step: the small motion that brings points closest to the tangent
+planes at their partners. The lesson uses it where its fit is point-to-plane: choose the preset
+plane to watch yours.
 """
 
 import numpy as np
@@ -27,11 +28,17 @@ from workbench.geometry.motions import alignment, apply, exp_so3, motion, skew
     preset="plane",
     examples=(
         (
-            "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0]]), np.array([[0.0, 0, 1]]))",
+            (
+                "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0]]),"
+                " np.array([[0.0, 0, 1]]))"
+            ),
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
         (
-            "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0.5]]), np.array([[0.0, 0, 1]]))",
+            (
+                "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0.5]]),"
+                " np.array([[0.0, 0, 1]]))"
+            ),
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, -0.5], [0, 0, 0, 1]]",
         ),
     ),
@@ -41,23 +48,29 @@ def point_to_plane_step(
     p_source: Float[np.ndarray, "n 3"],
     n_target: Float[np.ndarray, "n 3"],
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the small rigid motion that brings points closest to the tangent planes at their partners.
+    """Return the small rigid motion that brings points closest to the tangent planes at their
+    partners.
 
-    Solve the linear least-squares problem in the rotation vector w (radians) and the translation v (metres),
+    Solve the linear least-squares problem in the rotation vector w (radians) and the translation v
+    (metres),
 
         sum of ((p_source + w x p_source + v - p_target) . n_target)^2,
 
-    and return the motion that turns by |w| about w and shifts by v. You may count w from the origin or from the centroid
-    of p_source, as long as the motion that you return is that of the points: near the solution both are the same.
+    and return the motion that turns by |w| about w and shifts by v. You may count w from the origin
+    or from the centroid of p_source, as long as the motion that you return is that of the points:
+    near the solution both are the same.
 
     Args:
         p_target: A point on each plane, target frame, metres.
-        p_source: The points to move, row k towards plane k; in the target frame too, moved by the motion so far.
-        n_target: Unit normals of the planes, target frame. Either sign is right: n and -n are one plane.
+        p_source: The points to move, row k towards plane k; in the target frame too, moved by the
+            motion so far.
+        n_target: Unit normals of the planes, target frame. Either sign is right: n and -n are one
+            plane.
 
     Returns:
-        The 4x4 motion to be composed on the left, T_target_source = step @ T_target_source, with a proper rotation.
-        Directions that the planes leave open (sliding along a single plane) get the smallest motion, none.
+        The 4x4 motion to be composed on the left, T_target_source = step @ T_target_source, with a
+        proper rotation. Directions that the planes leave open (sliding along a single plane) get
+        the smallest motion, none.
     """
     return alignment.point_to_plane_step(p_target, p_source, n_target)
 
@@ -66,7 +79,9 @@ STEP_HINT = "Each pair gives one row: (p_source x n, n) times (w, v) is (p_targe
 
 
 def planes(rng: np.random.Generator, n: int = 80) -> tuple[np.ndarray, np.ndarray]:
-    """Return points and unit normals of a closed, uneven surface half a metre in size, aside from the origin."""
+    """Return points and unit normals of a closed, uneven surface half a metre in size, aside from
+    the origin.
+    """
     n_target = rng.normal(size=(n, 3))
     n_target /= np.linalg.norm(n_target, axis=1, keepdims=True)
     return n_target * [0.6, 0.4, 0.25] + [0.2, -0.1, 0.3], n_target
@@ -94,7 +109,8 @@ def arrived(
         if not np.abs(T).max() < 1e9:
             most = number(np.abs(T).max(), 2)
             return fail(
-                f"The steps run away: the largest number of T is {most}, right is below 10. {STEP_HINT}"
+                f"The steps run away: the largest number of T is {most}, right is below 10."
+                f" {STEP_HINT}"
             )
     away = motion(off[:3, :3], c + off[:3, 3] - off[:3, :3] @ c)
     said = f"T_left is the motion that is left after six steps. {STEP_HINT}"
@@ -103,7 +119,9 @@ def arrived(
 
 @check(1)
 def shift_only(candidate: Function) -> Verdict:
-    """Points that are only shifted come back in one step, though their partners lie elsewhere on the planes."""
+    """Points that are only shifted come back in one step, though their partners lie elsewhere on
+    the planes.
+    """
     rng = np.random.default_rng(STUDENTS)
     p_true, n_target = planes(rng)
     right = motion(np.eye(3), np.array([0.03, -0.05, 0.08]))
@@ -163,7 +181,9 @@ def steps_arrive_elsewhere(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def sliding(candidate: Function) -> Verdict:
-    """One plane, or two, pull points onto themselves and do not slide or spin them; one pair is enough for that."""
+    """One plane, or two, pull points onto themselves and do not slide or spin them; one pair is
+    enough for that.
+    """
     rng = np.random.default_rng(GRADERS() + 20)
     flat = rng.uniform(-1, 1, (40, 3)) * [1.0, 1.0, 0.0]
     flat -= flat.mean(0)
@@ -208,7 +228,8 @@ def gaps(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np
 
 
 @mistake(
-    "Your step goes away from the planes: the right side has the wrong sign. It is (p_target - p_source) · n."
+    "Your step goes away from the planes: the right side has the wrong sign. It is (p_target -"
+    " p_source) · n."
 )
 def sign_of_the_gap(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
     """Moves away from the planes."""
@@ -217,8 +238,8 @@ def sign_of_the_gap(p_target: np.ndarray, p_source: np.ndarray, n_target: np.nda
 
 
 @mistake(
-    "Your translation is right and your rotation turns backwards. (w x p) · n = w · (p x n), so the rows hold p x n and "
-    "not n x p; and R turns by w, its transpose by -w."
+    "Your translation is right and your rotation turns backwards. (w x p) · n = w · (p x n), so the"
+    " rows hold p x n and not n x p; and R turns by w, its transpose by -w."
 )
 def cross_product_turned_round(
     p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
@@ -229,7 +250,8 @@ def cross_product_turned_round(
 
 
 @mistake(
-    "You aligned the points themselves. Only the distance along the normal counts: sliding along a plane costs nothing."
+    "You aligned the points themselves. Only the distance along the normal counts: sliding along a"
+    " plane costs nothing."
 )
 def point_to_point(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
     """Does not use the normals."""
@@ -237,7 +259,8 @@ def point_to_point(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndar
 
 
 @mistake(
-    "You returned I + [w]x, which stretches the cloud at every step. Return the rotation by |w| about w."
+    "You returned I + [w]x, which stretches the cloud at every step. Return the rotation by |w|"
+    " about w."
 )
 def no_proper_rotation(
     p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
@@ -248,7 +271,8 @@ def no_proper_rotation(
 
 
 @mistake(
-    "You left the rotation out. There are six unknowns: three of rotation, w, and three of translation, v."
+    "You left the rotation out. There are six unknowns: three of rotation, w, and three of"
+    " translation, v."
 )
 def translation_only(
     p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
@@ -259,8 +283,8 @@ def translation_only(
 
 
 @mistake(
-    "All is right but where the planes leave a direction open: your 6×6 system is singular there. Use least "
-    "squares with the smallest norm (np.linalg.lstsq)."
+    "All is right but where the planes leave a direction open: your 6×6 system is singular there."
+    " Use least squares with the smallest norm (np.linalg.lstsq)."
 )
 def singular(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
     """Solves the normal equations as if the planes held everything."""
@@ -270,7 +294,8 @@ def singular(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -
 
 
 @mistake(
-    "You turn about the centroid, but your motion turns about the origin. Add c - R c to the translation."
+    "You turn about the centroid, but your motion turns about the origin. Add c - R c to the"
+    " translation."
 )
 def centroid_forgotten(
     p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
@@ -300,7 +325,9 @@ def step_about_the_origin(
 def step_by_pseudo_inverse(
     p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
 ) -> np.ndarray:
-    """Normal equations about the centroid, pseudo-inverse, and the rotation from the SVD of I + [w]x."""
+    """Normal equations about the centroid, pseudo-inverse, and the rotation from the SVD of I +
+    [w]x.
+    """
     c = p_source.mean(axis=0)
     A = np.hstack([np.cross(p_source - c, n_target), n_target])
     x = np.linalg.pinv(A.T @ A, rcond=1e-10, hermitian=True) @ (

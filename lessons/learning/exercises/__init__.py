@@ -1,4 +1,6 @@
-"""The exercises of this lesson: a rotation of six numbers, the gradient of Chamfer, and how much samples of a ray count."""
+"""The exercises of this lesson: a rotation of six numbers, the gradient of Chamfer, and how much
+samples of a ray count.
+"""
 
 import numpy as np
 
@@ -11,7 +13,8 @@ STUDENTS, GRADERS = (
 
 
 def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "") -> Verdict:
-    """Judge numbers by the farthest off, relative to the largest: all points up to 1e-6, half up to 1e-3.
+    """Judge numbers by the farthest off, relative to the largest: all points up to 1e-6, half up to
+    1e-3.
 
     Args:
         got: The answer.

@@ -1,5 +1,6 @@
-"""Write the gradient of the Chamfer distance by the points of the first cloud. Sets of points and meshes of the lesson then
-learn by it: a wrong sign shows at once, a missing side only where points are missing.
+"""Write the gradient of the Chamfer distance by the points of the first cloud. Sets of points and
+meshes of the lesson then learn by it: a wrong sign shows at once, a missing side only where points
+are missing.
 """
 
 import numpy as np
@@ -38,8 +39,8 @@ def chamfer_gradient(
 ) -> Float[np.ndarray, "n 3"]:
     """Return the gradient of the Chamfer distance by the points of p.
 
-    The distance is (1 / n) sum_i min_j |p_i - q_j|^2 + (1 / m) sum_j min_i |p_i - q_j|^2. Each minimum is taken by one pair,
-    and only the pairs count: several q may have the same nearest p.
+    The distance is (1 / n) sum_i min_j |p_i - q_j|^2 + (1 / m) sum_j min_i |p_i - q_j|^2. Each
+    minimum is taken by one pair, and only the pairs count: several q may have the same nearest p.
 
     Args:
         p: n points, metres.
@@ -133,7 +134,8 @@ def _back(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You have the side from p to q alone. Points of q that no p is nearest to pull as well: add the other side."
+    "You have the side from p to q alone. Points of q that no p is nearest to pull as well: add the"
+    " other side."
 )
 def one_sided(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Only from p to q."""
@@ -141,7 +143,8 @@ def one_sided(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You have the side from q to p alone. Every point of p is also drawn to its own nearest q: add that side."
+    "You have the side from q to p alone. Every point of p is also drawn to its own nearest q: add"
+    " that side."
 )
 def only_back(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Only from q to p."""
@@ -149,7 +152,8 @@ def only_back(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "g[j] += ... keeps only the last of several equal indices. np.add.at, or np.bincount, adds all of them."
+    "g[j] += ... keeps only the last of several equal indices. np.add.at, or np.bincount, adds all"
+    " of them."
 )
 def duplicates_lost(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Adds through an index with repeats."""
@@ -159,7 +163,8 @@ def duplicates_lost(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your sign is the other way round: a gradient points to where the distance grows, away from the partners."
+    "Your sign is the other way round: a gradient points to where the distance grows, away from the"
+    " partners."
 )
 def sign_reversed(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """The way down."""
@@ -179,7 +184,8 @@ def sums_for_means(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You divided each side by the count of the other cloud. The side from p has n terms, that from q has m."
+    "You divided each side by the count of the other cloud. The side from p has n terms, that from"
+    " q has m."
 )
 def counts_swapped(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Divides by m for n."""

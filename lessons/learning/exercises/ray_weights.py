@@ -1,5 +1,5 @@
-"""Write how much each sample of a ray counts in the colour that its pixel sees. The radiance field of the lesson learns
-through your weights; the gradient is ours.
+"""Write how much each sample of a ray counts in the colour that its pixel sees. The radiance field
+of the lesson learns through your weights; the gradient is ours.
 """
 
 import numpy as np
@@ -18,7 +18,10 @@ from workbench.exercise import (
 )
 from workbench.geometry.cameras import volume_rendering
 
-HINT = "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all samples before i, and not i itself."
+HINT = (
+    "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all samples before i, and not i"
+    " itself."
+)
 
 
 @contract(
@@ -32,8 +35,9 @@ HINT = "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all s
 def ray_weights(density: Float[np.ndarray, "r s"], spacing: float) -> Float[np.ndarray, "r s"]:
     """Return how much each sample counts in what its ray sees.
 
-    A sample stops the share 1 - exp(-density * spacing) of the light that reaches it; what reaches it is what all samples
-    before it let through. The weight is the product: the share of the pixel's colour that comes from there.
+    A sample stops the share 1 - exp(-density * spacing) of the light that reaches it; what reaches
+    it is what all samples before it let through. The weight is the product: the share of the
+    pixel's colour that comes from there.
 
     Args:
         density: One row for each of r rays, s samples from near to far, 1/m, not negative.
@@ -115,7 +119,8 @@ def _before(passed: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your T_i already has sample i in it. Light reaches sample i through those before it: begin with 1."
+    "Your T_i already has sample i in it. Light reaches sample i through those before it: begin"
+    " with 1."
 )
 def own_sample_included(density: np.ndarray, spacing: float) -> np.ndarray:
     """Product up to i."""
@@ -132,7 +137,8 @@ def no_spacing(density: np.ndarray, spacing: float) -> np.ndarray:
 
 
 @mistake(
-    "You took density · spacing as the share that is stopped: that may exceed 1. It is 1 − exp(−density · spacing)."
+    "You took density · spacing as the share that is stopped: that may exceed 1. It is 1 −"
+    " exp(−density · spacing)."
 )
 def linear_share(density: np.ndarray, spacing: float) -> np.ndarray:
     """Linear alpha."""
@@ -141,7 +147,8 @@ def linear_share(density: np.ndarray, spacing: float) -> np.ndarray:
 
 
 @mistake(
-    "T_i is exp(−…) in your function, but the share that is stopped is density · spacing: it is 1 − exp(−…) as well."
+    "T_i is exp(−…) in your function, but the share that is stopped is density · spacing: it is 1 −"
+    " exp(−…) as well."
 )
 def linear_share_behind_exponentials(density: np.ndarray, spacing: float) -> np.ndarray:
     """Linear in one of the two factors."""
@@ -149,7 +156,8 @@ def linear_share_behind_exponentials(density: np.ndarray, spacing: float) -> np.
 
 
 @mistake(
-    "You left out T_i: what stands behind a wall is not seen. Multiply by what all samples before let through."
+    "You left out T_i: what stands behind a wall is not seen. Multiply by what all samples before"
+    " let through."
 )
 def nothing_hides(density: np.ndarray, spacing: float) -> np.ndarray:
     """Only what is stopped."""
@@ -163,7 +171,8 @@ def far_to_near(density: np.ndarray, spacing: float) -> np.ndarray:
 
 
 @mistake(
-    "You divided by the sum. The weights of a ray need not add up to 1: the rest sees what lies behind."
+    "You divided by the sum. The weights of a ray need not add up to 1: the rest sees what lies"
+    " behind."
 )
 def normalised(density: np.ndarray, spacing: float) -> np.ndarray:
     """Adds up to 1."""
@@ -172,7 +181,8 @@ def normalised(density: np.ndarray, spacing: float) -> np.ndarray:
 
 
 @mistake(
-    "You return what reaches each sample. Its weight is the share of that which it stops: times 1 − exp(−…)."
+    "You return what reaches each sample. Its weight is the share of that which it stops: times 1 −"
+    " exp(−…)."
 )
 def only_what_arrives(density: np.ndarray, spacing: float) -> np.ndarray:
     """T alone."""

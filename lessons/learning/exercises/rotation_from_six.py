@@ -1,5 +1,5 @@
-"""Write what makes rotations of six numbers each: two columns made orthonormal, and a third. The task `rotation` learns
-through your function; its gradient is ours.
+"""Write what makes rotations of six numbers each: two columns made orthonormal, and a third. The
+task `rotation` learns through your function; its gradient is ours.
 """
 
 import numpy as np
@@ -38,8 +38,8 @@ HINT = "u = a / |a|; v is b without its part along u, normalised; the third colu
 def rotation_from_six(y: Float[np.ndarray, "n 6"]) -> Float[np.ndarray, "n 3 3"]:
     """Return one rotation for each row of six numbers.
 
-    The first three numbers, a, and the last three, b, become the first two columns: a normalised is u; b without its part
-    along u, normalised, is v. The third column is u × v.
+    The first three numbers, a, and the last three, b, become the first two columns: a normalised is
+    u; b without its part along u, normalised, is v. The third column is u × v.
 
     Args:
         y: n rows; a and b are never zero, nor parallel.
@@ -129,7 +129,8 @@ def crossed_the_wrong_way(y: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You normalised b, but left in its part along u: the columns are not at right angles. Take (u · b) u off first."
+    "You normalised b, but left in its part along u: the columns are not at right angles. Take (u ·"
+    " b) u off first."
 )
 def without_gram_and_schmidt(y: np.ndarray) -> np.ndarray:
     """Only normalises."""
@@ -137,7 +138,8 @@ def without_gram_and_schmidt(y: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You put u, v and u × v into rows. They are columns: what you return is the inverse of the rotation."
+    "You put u, v and u × v into rows. They are columns: what you return is the inverse of the"
+    " rotation."
 )
 def rows_for_columns(y: np.ndarray) -> np.ndarray:
     """Transposed."""

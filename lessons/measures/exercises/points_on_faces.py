@@ -1,5 +1,5 @@
-"""Write what spreads points evenly over a mesh: each row of three random numbers becomes one point. The lesson fills a
-triangle with it, then the whole surface, and looks where the points' mean lies.
+"""Write what spreads points evenly over a mesh: each row of three random numbers becomes one point.
+The lesson fills a triangle with it, then the whole surface, and looks where the points' mean lies.
 """
 
 import numpy as np
@@ -37,16 +37,18 @@ CORNERS = "np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0]]), np.array([[0, 1, 2]])"
 def points_on_faces(
     p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], u: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return a point on the mesh for each row of numbers: evenly spread, as the rows are over the unit cube.
+    """Return a point on the mesh for each row of numbers: evenly spread, as the rows are over the
+    unit cube.
 
-    The first number picks the face, each as likely as it is large. The second and the third place the point in it: with s
-    the square root of the second and t the third it is (1 - s) a + s (1 - t) b + s t c. (Another way to place it that is
-    as even earns as much.)
+    The first number picks the face, each as likely as it is large. The second and the third place
+    the point in it: with s the square root of the second and t the third it is (1 - s) a + s (1 -
+    t) b + s t c. (Another way to place it that is as even earns as much.)
 
     Args:
         p: Vertices, metres, one row each.
         faces: Three vertex numbers per triangle, corners a, b, c. Some may have no area.
-        u: n rows of three numbers, 0 <= u < 1. They are all the chance there is: the same row gives the same point.
+        u: n rows of three numbers, 0 <= u < 1. They are all the chance there is: the same row gives
+            the same point.
 
     Returns:
         n points, metres, in the order of the rows. The inputs stay as they are.
@@ -54,12 +56,17 @@ def points_on_faces(
     return sampling.points_on_faces(p, faces, u)
 
 
-AREA_HINT = "Pick a face by where the first number falls among the running sums of the areas, over their total."
+AREA_HINT = (
+    "Pick a face by where the first number falls among the running sums of the areas, over their"
+    " total."
+)
 PLACE_HINT = "Near a corner there is less room: take the square root of the second number."
 
 
 def even(count: int, seed: int) -> np.ndarray:
-    """Return rows that fill the unit cube evenly, count x count x count, each somewhere in its cell."""
+    """Return rows that fill the unit cube evenly, count x count x count, each somewhere in its
+    cell.
+    """
     rng = np.random.default_rng(seed)
     cell = np.stack(np.meshgrid(*[np.arange(count)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     return rng.permutation((cell + rng.random(cell.shape)) / count)
@@ -82,7 +89,10 @@ def share_verdict(
 ) -> Verdict:
     """Judge shares of points by the largest difference, in per cent of all."""
     k = int(np.abs(got - right).argmax())
-    said = f"{what}: {100 * got[k]:.1f} % of the points lie in one of the parts, right is {100 * right[k]:.1f} %"
+    said = (
+        f"{what}: {100 * got[k]:.1f} % of the points lie in one of the parts, right is"
+        f" {100 * right[k]:.1f} %"
+    )
     off = 100 * abs(got[k] - right[k])
     if off <= good:
         return full(f"{said}.")
@@ -118,7 +128,9 @@ def filled(candidate: Function, triangle: np.ndarray, seed: int) -> Verdict:
 
 @check(2)
 def large_faces_get_more(candidate: Function) -> Verdict:
-    """Of two faces the three times larger one gets three times as many points, a face without area none."""
+    """Of two faces the three times larger one gets three times as many points, a face without area
+    none.
+    """
     p = np.array(
         [
             [0.0, 0, 0],
@@ -151,7 +163,9 @@ def what_comes_in_is_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def a_whole_surface(candidate: Function) -> Verdict:
-    """On a mesh of faces of many sizes every part gets its share, face by face, and on one a thousandth as large."""
+    """On a mesh of faces of many sizes every part gets its share, face by face, and on one a
+    thousandth as large.
+    """
     p, faces = with_small_half(*blob(GRADERS()))
     q = candidate(p, faces, even(16, GRADERS()))
     areas = face_areas(p, faces)
@@ -190,7 +204,9 @@ def other_triangles(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def the_same_row_gives_the_same_point(candidate: Function) -> Verdict:
-    """Rows do not know of each other: in another order they give the same points, and so they do again."""
+    """Rows do not know of each other: in another order they give the same points, and so they do
+    again.
+    """
     p, faces = blob(GRADERS() + 1)
     u = even(7, GRADERS() + 3)
     q, again = candidate(p, faces, u), candidate(p, faces, u[::-1].copy())
@@ -202,7 +218,9 @@ def the_same_row_gives_the_same_point(candidate: Function) -> Verdict:
 
 
 def each_number_counts(candidate: Function) -> Verdict:
-    """Judge whether the second number and the third each move the point in its face, and the first does not."""
+    """Judge whether the second number and the third each move the point in its face, and the first
+    does not.
+    """
     triangle, one = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]]), np.array([[0, 1, 2]])
     u = np.array([[0.3, 0.4, 0.2], [0.6, 0.4, 0.2], [0.3, 0.7, 0.2], [0.3, 0.4, 0.6]])
     q = candidate(triangle, one, u)
@@ -210,7 +228,8 @@ def each_number_counts(candidate: Function) -> Verdict:
     for k, name in ((1, "second"), (2, "third")):
         if moved[k] < 1e-3:
             return fail(
-                f"Another {name} number moves the point by {moved[k]:.3g} m, right is more than 0. {PLACE_HINT}"
+                f"Another {name} number moves the point by {moved[k]:.3g} m, right is more than 0."
+                f" {PLACE_HINT}"
             )
     hint = (
         "With a single face the first number has nothing to pick, and it does not place the point."
@@ -222,7 +241,9 @@ def each_number_counts(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def numbers_at_the_ends(candidate: Function) -> Verdict:
-    """0 and what is next to 1 give points of the mesh as well, one row one point, and no rows no points."""
+    """0 and what is next to 1 give points of the mesh as well, one row one point, and no rows no
+    points.
+    """
     triangle, one = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]]), np.array([[0, 1, 2]])
     if len(candidate(triangle, one, np.empty((0, 3)))):
         return fail("No rows came in, and points went out.")
@@ -254,7 +275,8 @@ def _by_area(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You pick all faces alike. Small faces then get as many points as large ones: weigh them by their areas."
+    "You pick all faces alike. Small faces then get as many points as large ones: weigh them by"
+    " their areas."
 )
 def faces_alike(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Picks by number."""
@@ -281,7 +303,8 @@ def normalised(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You filled the parallelogram on two edges: half of your points lie beyond the third. Fold them back, or take the root."
+    "You filled the parallelogram on two edges: half of your points lie beyond the third. Fold them"
+    " back, or take the root."
 )
 def parallelogram(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Does not fold."""
@@ -290,7 +313,8 @@ def parallelogram(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray
 
 
 @mistake(
-    "You picked the faces by area and then took their middles: a point belongs anywhere in its face."
+    "You picked the faces by area and then took their middles: a point belongs anywhere in its"
+    " face."
 )
 def middles(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Only middles."""

@@ -1,5 +1,6 @@
-"""Write the volume inside a mesh: the sum of the signed tetrahedra between the origin of coordinates and all faces. The
-lesson adds up its faces with it, the near ones first, from wherever its origin was dragged to.
+"""Write the volume inside a mesh: the sum of the signed tetrahedra between the origin of
+coordinates and all faces. The lesson adds up its faces with it, the near ones first, from wherever
+its origin was dragged to.
 """
 
 import numpy as np
@@ -40,16 +41,18 @@ from workbench.geometry.meshes.measures import tetrahedra, volume_about
 def signed_volume(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> float:
     """Return the sum of the signed tetrahedra between the origin of coordinates and all faces, m^3.
 
-    The tetrahedron of a face with corners a, b, c has the volume |a . (b x c)| / 6. It counts plus where the origin lies
-    behind the face, on the side from which a, b, c run clockwise, and minus where it lies before it.
+    The tetrahedron of a face with corners a, b, c has the volume |a . (b x c)| / 6. It counts plus
+    where the origin lies behind the face, on the side from which a, b, c run clockwise, and minus
+    where it lies before it.
 
     Args:
         p: Vertices, metres, one row each.
         faces: Three vertex numbers per triangle, counterclockwise seen from outside.
 
     Returns:
-        The sum: of a closed mesh its volume, negative where it is turned inside out. Of an open mesh it is the sum all the
-        same, about the origin (0, 0, 0), and 0 where there are no faces. The inputs stay as they are.
+        The sum: of a closed mesh its volume, negative where it is turned inside out. Of an open
+        mesh it is the sum all the same, about the origin (0, 0, 0), and 0 where there are no faces.
+        The inputs stay as they are.
     """
     return volume_about(p, faces, np.zeros(3))
 
@@ -109,7 +112,10 @@ def inside_out(candidate: Function) -> Verdict:
 def open_meshes(candidate: Function) -> Verdict:
     """An open mesh gives the sum about the origin of coordinates."""
     mesh = without_a_side(*blob(GRADERS() + 1, (0.5, 1.0, 0.4)))
-    hint = "The tip of all tetrahedra is (0, 0, 0), not the middle of the vertices, and no hole is closed."
+    hint = (
+        "The tip of all tetrahedra is (0, 0, 0), not the middle of the vertices, and no hole is"
+        " closed."
+    )
     return worst(
         (
             volume_verdict(candidate, mesh, "A ring without its side", hint),
@@ -139,7 +145,8 @@ def unsigned(p: np.ndarray, faces: np.ndarray) -> float:
 
 
 @mistake(
-    "You took the absolute value of the sum. A mesh that is turned inside out has a negative volume."
+    "You took the absolute value of the sum. A mesh that is turned inside out has a negative"
+    " volume."
 )
 def size_only(p: np.ndarray, faces: np.ndarray) -> float:
     """Drops the sign at the end."""
@@ -153,7 +160,8 @@ def a_third(p: np.ndarray, faces: np.ndarray) -> float:
 
 
 @mistake(
-    "Your sum is three times as large: half of a . (b x c) is no volume. A tetrahedron is a sixth of it."
+    "Your sum is three times as large: half of a . (b x c) is no volume. A tetrahedron is a sixth"
+    " of it."
 )
 def a_half(p: np.ndarray, faces: np.ndarray) -> float:
     """Divides by 2, as for areas."""
@@ -177,8 +185,8 @@ def turned_round(p: np.ndarray, faces: np.ndarray) -> float:
 
 
 @mistake(
-    "Your tetrahedra have their tip in the middle of the vertices. Closed meshes do not mind; of an open one the contract"
-    " asks for the sum about (0, 0, 0)."
+    "Your tetrahedra have their tip in the middle of the vertices. Closed meshes do not mind; of an"
+    " open one the contract asks for the sum about (0, 0, 0)."
 )
 def about_the_middle(p: np.ndarray, faces: np.ndarray) -> float:
     """Moves the origin."""
@@ -186,7 +194,8 @@ def about_the_middle(p: np.ndarray, faces: np.ndarray) -> float:
 
 
 @mistake(
-    "You returned the volume of the convex hull. It fills every dent and hole: add up the faces instead."
+    "You returned the volume of the convex hull. It fills every dent and hole: add up the faces"
+    " instead."
 )
 def convex_hull(p: np.ndarray, faces: np.ndarray) -> float:
     """Volume of the hull of the vertices."""

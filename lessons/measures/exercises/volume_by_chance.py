@@ -1,5 +1,5 @@
-"""Write what a share of hits tells: the volume, and how far off it is likely to be. The lesson throws points into a box
-and draws your interval around your estimate.
+"""Write what a share of hits tells: the volume, and how far off it is likely to be. The lesson
+throws points into a box and draws your interval around your estimate.
 """
 
 import numpy as np
@@ -29,7 +29,8 @@ from workbench.geometry.points import sampling
     ),
 )
 def volume_by_chance(inside: Bool[np.ndarray, " n"], box_volume: float) -> tuple[float, float]:
-    """Return the volume that hits among random points of a box tell, and the standard error of that, both in m^3.
+    """Return the volume that hits among random points of a box tell, and the standard error of
+    that, both in m^3.
 
     Of n points a share lies inside; it is binomial, with the variance share (1 - share) / n.
 
@@ -38,7 +39,8 @@ def volume_by_chance(inside: Bool[np.ndarray, " n"], box_volume: float) -> tuple
         box_volume: The volume of the box, m^3.
 
     Returns:
-        The estimate and its standard error (one standard deviation of the estimate): (estimate, error).
+        The estimate and its standard error (one standard deviation of the estimate): (estimate,
+        error).
 
     Raises:
         ValueError: If there are no points.
@@ -141,7 +143,8 @@ def _share(inside: np.ndarray) -> float:
 
 
 @mistake(
-    "Your error does not fall with the number of throws: divide share (1 - share) by n before you take the root."
+    "Your error does not fall with the number of throws: divide share (1 - share) by n before you"
+    " take the root."
 )
 def no_root_of_n(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """The deviation of one throw."""
@@ -159,7 +162,8 @@ def error_without_the_box(inside: np.ndarray, box_volume: float) -> tuple[float,
 
 
 @mistake(
-    "You returned the share of hits and its error, without a unit: multiply both by the volume of the box."
+    "You returned the share of hits and its error, without a unit: multiply both by the volume of"
+    " the box."
 )
 def share_alone(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """Forgets the box."""
@@ -168,7 +172,8 @@ def share_alone(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
 
 
 @mistake(
-    "You returned a variance. The standard error is its root: box_volume * sqrt(share * (1 - share) / n)."
+    "You returned a variance. The standard error is its root: box_volume * sqrt(share * (1 - share)"
+    " / n)."
 )
 def variance(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """Forgets the root."""
@@ -177,7 +182,8 @@ def variance(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
 
 
 @mistake(
-    "You returned the half width of a 95 % interval. The contract asks for one standard error, without 1.96."
+    "You returned the half width of a 95 % interval. The contract asks for one standard error,"
+    " without 1.96."
 )
 def interval(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """Multiplies by 1.96."""

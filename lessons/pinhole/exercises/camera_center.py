@@ -1,5 +1,5 @@
-"""Write where a camera is in the world, given the motion from world to camera. The lesson's last step sends the rays
-back into the scene from there.
+"""Write where a camera is in the world, given the motion from world to camera. The lesson's last
+step sends the rays back into the scene from there.
 """
 
 from collections.abc import Iterator
@@ -44,8 +44,8 @@ def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray,
     """Return where the camera is in the world, metres.
 
     Args:
-        T_camera_world: The rigid motion that takes world points into the camera frame: p_camera = R p_world + t, metres.
-            It may be the identity.
+        T_camera_world: The rigid motion that takes world points into the camera frame: p_camera = R
+            p_world + t, metres. It may be the identity.
 
     Returns:
         The one world point that the motion takes to the camera's own origin, in a new array.
@@ -118,7 +118,9 @@ def moves_with_the_world(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def special_cameras(candidate: Function) -> Verdict:
-    """The identity, a camera that is not turned, half a turn, and one a kilometre away are found."""
+    """The identity, a camera that is not turned, half a turn, and one a kilometre away are
+    found.
+    """
     far = np.array([900.0, -300.0, 400.0])
     T_turned = motion(exp_so3(np.array([0.3, 1.0, -0.6])), far)
     cases = (np.eye(4), motion(np.eye(3), far), motion(np.diag([-1.0, -1.0, 1.0]), far), T_turned)
@@ -131,8 +133,8 @@ def special_cameras(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You returned t. That is where the world's origin is in the camera frame, not where the camera is in the "
-    "world: C = -R^T t."
+    "You returned t. That is where the world's origin is in the camera frame, not where the camera"
+    " is in the world: C = -R^T t."
 )
 def t_for_the_centre(T_camera_world: np.ndarray) -> np.ndarray:
     """Takes t for the centre."""
@@ -146,7 +148,8 @@ def minus_t_for_the_centre(T_camera_world: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You returned -R t. R takes world axes to camera axes; t is in camera axes and must go back: use R^T."
+    "You returned -R t. R takes world axes to camera axes; t is in camera axes and must go back:"
+    " use R^T."
 )
 def turned_forwards(T_camera_world: np.ndarray) -> np.ndarray:
     """Returns -R t."""

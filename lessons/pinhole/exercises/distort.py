@@ -1,5 +1,6 @@
-"""Write the lens: where radial and tangential distortion move ideal image points. The lesson bends the street's
-outlines with it; choose the presets barrel, pincushion and tangential to see it at work.
+"""Write the lens: where radial and tangential distortion move ideal image points. The lesson bends
+the street's outlines with it; choose the presets barrel, pincushion and tangential to see it at
+work.
 """
 
 import numpy as np
@@ -42,8 +43,8 @@ def distort(
         y' = y (1 + k1 r^2 + k2 r^4) + p1 (r^2 + 2 y^2) + 2 p2 x y
 
     Args:
-        xy_camera: Ideal normalised coordinates (X/Z, Y/Z) in the camera frame, without unit: not pixels, and not yet
-            multiplied by K. One point per row; there may be none (n = 0).
+        xy_camera: Ideal normalised coordinates (X/Z, Y/Z) in the camera frame, without unit: not
+            pixels, and not yet multiplied by K. One point per row; there may be none (n = 0).
         k1: Radial coefficient of r^2; negative is barrel, positive pincushion distortion.
         k2: Radial coefficient of r^4.
         p1: Tangential coefficient that acts along y.
@@ -123,7 +124,9 @@ def rays_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def whole_lens(candidate: Function) -> Verdict:
-    """All four terms together are right, also at the rim of a wide picture, for one point, and for none at all."""
+    """All four terms together are right, also at the rim of a wide picture, for one point, and for
+    none at all.
+    """
     lenses = ((-0.28, 0.09, 0.012, -0.007), (0.15, -0.2, -0.02, 0.015))
     verdicts = [_bent(candidate, some_rays(GRADERS() + k), *lens) for k, lens in enumerate(lenses)]
     others = (2.5 * some_rays(GRADERS() + 4), some_rays(GRADERS() + 5, 1), np.empty((0, 2)))
@@ -150,7 +153,8 @@ def twice_the_lens(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You took p1 for p2. With p1 alone, x moves by 2 p1 x y and y by p1 (r^2 + 2 y^2): p1 acts along y."
+    "You took p1 for p2. With p1 alone, x moves by 2 p1 x y and y by p1 (r^2 + 2 y^2): p1 acts"
+    " along y."
 )
 def p1_and_p2_swapped(
     xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
@@ -178,8 +182,8 @@ def tangential_forgotten(
 
 
 @mistake(
-    "You divide by the radial factor, as if you took the lens off. `distort` goes from ideal to distorted "
-    "points: multiply."
+    "You divide by the radial factor, as if you took the lens off. `distort` goes from ideal to"
+    " distorted points: multiply."
 )
 def the_lens_taken_off(
     xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
@@ -192,8 +196,8 @@ def the_lens_taken_off(
 
 
 @mistake(
-    "You compute the tangential terms from points that are bent already. All terms use the x, y and r of the "
-    "ideal point."
+    "You compute the tangential terms from points that are bent already. All terms use the x, y and"
+    " r of the ideal point."
 )
 def one_after_the_other(
     xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
@@ -203,7 +207,8 @@ def one_after_the_other(
 
 
 @mistake(
-    "You returned by how much the points move. Return where they are afterwards: add the points themselves."
+    "You returned by how much the points move. Return where they are afterwards: add the points"
+    " themselves."
 )
 def displacement_only(
     xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float

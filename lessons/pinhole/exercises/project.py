@@ -1,5 +1,5 @@
-"""Write the pinhole camera without a lens: from points in the world to pixels. The lesson lays your pixels in orange
-over the true photograph, so a mistake is seen where it is made.
+"""Write the pinhole camera without a lens: from points in the world to pixels. The lesson lays your
+pixels in orange over the true photograph, so a mistake is seen where it is made.
 """
 
 from collections.abc import Iterator
@@ -31,11 +31,17 @@ from workbench.geometry.motions import apply, exp_so3, inverse, motion
     slot="project",
     examples=(
         (
-            "project(np.array([[1.0, 0.5, 2]]), np.eye(4), np.array([[500.0, 0, 320], [0, 500, 240], [0, 0, 1]]))",
+            (
+                "project(np.array([[1.0, 0.5, 2]]), np.eye(4), np.array([[500.0, 0, 320], [0, 500,"
+                " 240], [0, 0, 1]]))"
+            ),
             "[[570, 365]]",
         ),
         (
-            "project(np.array([[1.0, 0, -2]]), np.eye(4), np.array([[500.0, 0, 320], [0, 500, 240], [0, 0, 1]]))",
+            (
+                "project(np.array([[1.0, 0, -2]]), np.eye(4), np.array([[500.0, 0, 320], [0, 500,"
+                " 240], [0, 0, 1]]))"
+            ),
             "[[nan, nan]]",
         ),
     ),
@@ -55,8 +61,9 @@ def project(
         K: Intrinsics in pixels, [[fx, skew, cx], [0, fy, cy], [0, 0, 1]].
 
     Returns:
-        One row per point, in the same order, also outside the picture. A row is NaN where the point's depth Z in the
-        camera frame is zero or negative: the camera does not see what lies beside or behind it.
+        One row per point, in the same order, also outside the picture. A row is NaN where the
+        point's depth Z in the camera frame is zero or negative: the camera does not see what lies
+        beside or behind it.
     """
     return cameras.project(p_world, T_camera_world, K)
 
@@ -67,7 +74,9 @@ PROJECT_HINT = "World to camera frame, divide by the depth Z, then K."
 def some_scenes(
     seed: int, n: int = 4, size: int = 40
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Yield points, a camera that looks at them from 4 to 7 m, and its K with a principal point off the middle."""
+    """Yield points, a camera that looks at them from 4 to 7 m, and its K with a principal point off
+    the middle.
+    """
     rng = np.random.default_rng(seed)
     for _ in range(n):
         eye = rng.normal(size=3)
@@ -79,7 +88,9 @@ def some_scenes(
 
 
 def in_pixels(uv: np.ndarray, right: np.ndarray, hint: str) -> Verdict:
-    """Judge pixels by the largest distance to the right ones; a row that should be NaN and is not, or the reverse, fails."""
+    """Judge pixels by the largest distance to the right ones; a row that should be NaN and is not,
+    or the reverse, fails.
+    """
     seen, given, unknown = (
         np.isfinite(right).all(axis=1),
         np.isfinite(uv).all(axis=1),
@@ -92,7 +103,10 @@ def in_pixels(uv: np.ndarray, right: np.ndarray, hint: str) -> Verdict:
             f"{lost.size} of {seen.sum()} points in front of the camera got no pixel. {told}"
         )
     if (false := np.flatnonzero(~seen & ~unknown)).size:
-        said = f"{false.size} of {(~seen).sum()} points at or behind the camera got a row that is not NaN."
+        said = (
+            f"{false.size} of {(~seen).sum()} points at or behind the camera got a row that is not"
+            " NaN."
+        )
         return fail(f"{said} Row {false[0]} is {number(uv[false[0]])}, right is (nan, nan). {hint}")
     error = float(np.linalg.norm(uv[seen] - right[seen], axis=1).max(initial=0.0))
     return band(
@@ -139,7 +153,9 @@ def scene_is_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def whole_k(candidate: Function) -> Verdict:
-    """All of K counts: two focal lengths, skew, and a principal point outside the picture, as after a crop."""
+    """All of K counts: two focal lengths, skew, and a principal point outside the picture, as after
+    a crop.
+    """
     verdicts = []
     for p_world, T_camera_world, _ in some_scenes(GRADERS()):
         K = cameras.crop_intrinsics(
@@ -168,7 +184,9 @@ def moves_together(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def camera_amid_points(candidate: Function) -> Verdict:
-    """A camera amid its points, no point, a single one, all behind it, and one a hundredth of a millimetre before it."""
+    """A camera amid its points, no point, a single one, all behind it, and one a hundredth of a
+    millimetre before it.
+    """
     (p_world, T_camera_world, K), *_ = some_scenes(GRADERS() + 2, size=200)
     amid = motion(T_camera_world[:3, :3], np.array([0.1, -0.2, 0.3]))
     behind = motion(np.eye(3), np.array([0.0, 0.0, -50.0]))
@@ -189,7 +207,8 @@ def camera_amid_points(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You used the inverse of T_camera_world. It takes world points into the camera frame already: apply it as it is."
+    "You used the inverse of T_camera_world. It takes world points into the camera frame already:"
+    " apply it as it is."
 )
 def motion_inverted(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
     """Takes camera-to-world for world-to-camera."""
@@ -197,8 +216,8 @@ def motion_inverted(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarr
 
 
 @mistake(
-    "You divide by depths that are negative or zero. A point behind the camera then gets a pixel that looks "
-    "valid, upside down; its row must be NaN."
+    "You divide by depths that are negative or zero. A point behind the camera then gets a pixel"
+    " that looks valid, upside down; its row must be NaN."
 )
 def divides_behind_too(
     p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
@@ -215,7 +234,8 @@ def row_before_column(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.nda
 
 
 @mistake(
-    "You did not divide by the depth Z. That is a parallel projection: far things do not get smaller."
+    "You did not divide by the depth Z. That is a parallel projection: far things do not get"
+    " smaller."
 )
 def never_divides(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
     """Leaves the depth out."""
@@ -226,8 +246,8 @@ def never_divides(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
 
 
 @mistake(
-    "You divided by the distance from the camera. Depth is Z in the camera frame, not the length of the ray; "
-    "towards the border of the picture they differ."
+    "You divided by the distance from the camera. Depth is Z in the camera frame, not the length of"
+    " the ray; towards the border of the picture they differ."
 )
 def ray_length_for_depth(
     p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
@@ -240,7 +260,8 @@ def ray_length_for_depth(
 
 
 @mistake(
-    "Your camera looks along -Z with +Y up, as OpenGL's does. Ours has +Z forward and +Y down (OpenCV)."
+    "Your camera looks along -Z with +Y up, as OpenGL's does. Ours has +Z forward and +Y down"
+    " (OpenCV)."
 )
 def opengl_axes(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
     """Takes the camera to look along -Z with +Y up."""
@@ -266,8 +287,8 @@ def skew_forgotten(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarra
 
 
 @mistake(
-    "You left the points behind the camera out. One row for every point: theirs is NaN, so that rows still "
-    "belong together."
+    "You left the points behind the camera out. One row for every point: theirs is NaN, so that"
+    " rows still belong together."
 )
 def rows_dropped(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
     """Leaves the points behind the camera out of the answer."""

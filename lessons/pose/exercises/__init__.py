@@ -1,4 +1,6 @@
-"""The exercises of this lesson: a pose from three lengths, the choice among poses, and a step that refines one."""
+"""The exercises of this lesson: a pose from three lengths, the choice among poses, and a step that
+refines one.
+"""
 
 import numpy as np
 
@@ -14,7 +16,9 @@ STUDENTS, GRADERS = (
 def a_view(
     rng: np.random.Generator, n: int, *, aside: float = 0.0, flat: bool = False
 ) -> tuple[np.ndarray, ...]:
-    """Return T_camera_world, n points before that camera and where it sees them; `aside`: how far off the origin is."""
+    """Return T_camera_world, n points before that camera and where it sees them; `aside`: how far
+    off the origin is.
+    """
     p_camera = rng.uniform([-1.5, -1.2, 4.0], [1.5, 1.2, 7.0], (n, 3))
     if flat:
         p = rng.uniform(-1.0, 1.0, (n, 3)) * [1.0, 1.0, 0.0]

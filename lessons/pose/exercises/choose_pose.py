@@ -1,5 +1,5 @@
-"""Write the choice among possible poses: which one sees the points where they were seen? The lesson asks you where
-three points left up to four cameras, and where a plane left two.
+"""Write the choice among possible poses: which one sees the points where they were seen? The lesson
+asks you where three points left up to four cameras, and where a plane left two.
 """
 
 import numpy as np
@@ -33,7 +33,10 @@ from workbench.numerals import brief
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
         (
-            "choose_pose(np.stack([np.diag([-1., 1, -1, 1]), np.eye(4)]), array([[0., 0, 2]]), array([[0., 0]]))",
+            (
+                "choose_pose(np.stack([np.diag([-1., 1, -1, 1]), np.eye(4)]), array([[0., 0, 2]]),"
+                " array([[0., 0]]))"
+            ),
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
     ),
@@ -43,9 +46,11 @@ def choose_pose(
     p_world: Float[np.ndarray, "n 3"],
     xy: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the candidate that has all points in front and sees them nearest to where they were seen.
+    """Return the candidate that has all points in front and sees them nearest to where they were
+    seen.
 
-    Nearest is by the root mean square, over all points, of the distances between (X/Z, Y/Z) of the camera and xy.
+    Nearest is by the root mean square, over all points, of the distances between (X/Z, Y/Z) of the
+    camera and xy.
 
     Args:
         candidates: One T_camera_world or more; p_camera = R p_world + t.
@@ -58,7 +63,10 @@ def choose_pose(
     return camera_search.choose_pose(candidates, p_world, xy)
 
 
-HINT = "Move the points into each camera, refuse it if a Z is not positive, divide by Z, and compare with xy."
+HINT = (
+    "Move the points into each camera, refuse it if a Z is not positive, divide by Z, and compare"
+    " with xy."
+)
 
 
 def judged(
@@ -90,14 +98,17 @@ def judged(
         else f"its error is {rms[0]}"
     )
     return fail(
-        f"Of {len(candidates)} poses you {which}: {why}; right is number {wanted}, error {rms[1]}. {hint}"
+        f"Of {len(candidates)} poses you {which}: {why}; right is number {wanted}, error {rms[1]}."
+        f" {hint}"
     )
 
 
 def several(
     seed: int, n: int = 8, sigma: float = 1e-3
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the solutions of the first three of n points, at least two, and all points with noise."""
+    """Return the solutions of the first three of n points, at least two, and all points with
+    noise.
+    """
     rng = np.random.default_rng(seed)
     while True:
         _, p_world, xy = a_view(rng, n)
@@ -111,7 +122,9 @@ def several(
 
 
 def with_twin(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return two poses of a plane that project alike, one of them with the plane behind, which comes first."""
+    """Return two poses of a plane that project alike, one of them with the plane behind, which
+    comes first.
+    """
     T, p_world, xy = a_view(np.random.default_rng(seed), 8, flat=True)
     p_mean = p_world.mean(axis=0)
     n = np.linalg.svd(p_world - p_mean)[2][2]
@@ -125,7 +138,9 @@ def with_twin(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def half_behind(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return a pose amid the points, which fits most of them, and one that is somewhat off and has all in front."""
+    """Return a pose amid the points, which fits most of them, and one that is somewhat off and has
+    all in front.
+    """
     T, p_world, _ = a_view(np.random.default_rng(seed), 12)
     amid, off = T.copy(), T.copy()
     amid[2, 3] -= 0.5 * (apply(T, p_world)[:, 2].min() + np.median(apply(T, p_world)[:, 2]))
@@ -135,7 +150,9 @@ def half_behind(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def told_apart(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return poses of which the least root mean square chooses another one than each of four sums like it."""
+    """Return poses of which the least root mean square chooses another one than each of four sums
+    like it.
+    """
     rng = np.random.default_rng(seed)
     while True:
         T, p_world, xy = a_view(rng, 7)
@@ -208,14 +225,18 @@ def of_other_points(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def the_root_mean_square_decides(candidate: Function) -> Verdict:
-    """It is the root mean square that is least, not the mean, the median, the sum of |dx| + |dy| or the largest."""
+    """It is the root mean square that is least, not the mean, the median, the sum of |dx| + |dy| or
+    the largest.
+    """
     hint = "Square the distances, both coordinates of all points, and take their mean."
     return worst(judged(candidate, *told_apart(GRADERS() + 50 + k), hint) for k in range(3))
 
 
 @check(1, public=False)
 def of_small_things(candidate: Function) -> Verdict:
-    """Points some millimetres before the camera are in front too, and those beside it, at Z = 0, are not."""
+    """Points some millimetres before the camera are in front too, and those beside it, at Z = 0,
+    are not.
+    """
     Ts, p_world, xy = several(GRADERS() + 60)
     near = Ts[
         np.argsort(np.abs(Ts - camera_search.choose_pose(Ts, p_world, xy)).sum(axis=(1, 2)))[::-1]
@@ -239,7 +260,9 @@ def of_small_things(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def none_in_front(candidate: Function) -> Verdict:
-    """Where none has all points in front, it is the first, however many there are and whatever the others see."""
+    """Where none has all points in front, it is the first, however many there are and whatever the
+    others see.
+    """
     Ts, p_world, xy = with_twin(GRADERS() + 40)
     behind = np.stack([Ts[0], np.diag([-1.0, 1.0, -1.0, 1.0]) @ Ts[1]])
     amid = half_behind(GRADERS() + 41)
@@ -261,7 +284,8 @@ def seen(Ts: np.ndarray, p_world: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 @mistake(
-    "You did not look at the depths: a pose with the points behind it can project them exactly. Refuse where a Z ≤ 0."
+    "You did not look at the depths: a pose with the points behind it can project them exactly."
+    " Refuse where a Z ≤ 0."
 )
 def without_depths(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Compares the errors alone."""
@@ -270,7 +294,8 @@ def without_depths(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) 
 
 
 @mistake(
-    "You judged by the first three points alone. These fit all the candidates: it takes the others to choose."
+    "You judged by the first three points alone. These fit all the candidates: it takes the others"
+    " to choose."
 )
 def by_three(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Leaves out all points but three."""
@@ -278,7 +303,8 @@ def by_three(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.
 
 
 @mistake(
-    "You judged by the last point alone. A single point may be seen well by a wrong pose: use all of them."
+    "You judged by the last point alone. A single point may be seen well by a wrong pose: use all"
+    " of them."
 )
 def by_the_last(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Leaves out all points but one."""
@@ -292,7 +318,8 @@ def the_first(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np
 
 
 @mistake(
-    "You counted the points in front, and did not compare the errors of those poses that have all in front."
+    "You counted the points in front, and did not compare the errors of those poses that have all"
+    " in front."
 )
 def most_in_front(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Takes the pose with most points in front."""
@@ -307,7 +334,8 @@ def inverted(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.
 
 
 @mistake(
-    "You took the candidates for camera-to-world. They are T_camera_world: p_camera = R p_world + t, nothing inverted."
+    "You took the candidates for camera-to-world. They are T_camera_world: p_camera = R p_world +"
+    " t, nothing inverted."
 )
 def read_inverted(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Moves the points by the inverses."""
@@ -324,7 +352,8 @@ def the_worst(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np
 
 
 @mistake(
-    "You averaged the depths: their mean is positive though some points are behind. All of them have to be in front."
+    "You averaged the depths: their mean is positive though some points are behind. All of them"
+    " have to be in front."
 )
 def mean_depth(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Asks for a positive mean depth."""
@@ -334,7 +363,8 @@ def mean_depth(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> n
 
 
 @mistake(
-    "You refuse poses with the points in front and take those with the points behind. In front is where Z > 0."
+    "You refuse poses with the points in front and take those with the points behind. In front is"
+    " where Z > 0."
 )
 def only_behind(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Has the sign of the depth wrong."""
@@ -344,7 +374,8 @@ def only_behind(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> 
 
 
 @mistake(
-    "You compared X and Y in metres with xy, without the division by Z. Image coordinates are X/Z and Y/Z."
+    "You compared X and Y in metres with xy, without the division by Z. Image coordinates are X/Z"
+    " and Y/Z."
 )
 def without_division(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Forgets to divide."""

@@ -1,5 +1,6 @@
-"""Write the pose of a camera from the lengths of three rays. The lesson solves a quartic for the lengths and takes each
-possible camera from you: watch where yours stand, and whether they see the three points where they were seen.
+"""Write the pose of a camera from the lengths of three rays. The lesson solves a quartic for the
+lengths and takes each possible camera from you: watch where yours stand, and whether they see the
+three points where they were seen.
 """
 
 import numpy as np
@@ -47,8 +48,8 @@ def pose_from_distances(
     Args:
         p_world: The points, one a row, metres; not on one line.
         rays: The unit vectors, in the camera's frame, on which they are seen, row by row.
-        distances: How far along its ray each point is, metres. They fit: the ends of the rays are as far apart as the
-            points are.
+        distances: How far along its ray each point is, metres. They fit: the ends of the rays are
+            as far apart as the points are.
 
     Returns:
         A rotation and a translation, 4x4, with determinant +1.
@@ -56,7 +57,10 @@ def pose_from_distances(
     return camera_search.pose_from_distances(p_world, rays, distances)
 
 
-HINT = "The ends of the rays are distances times rays. Find R, t with R p_world + t = ends, and det R = +1."
+HINT = (
+    "The ends of the rays are distances times rays. Find R, t with R p_world + t = ends, and det R"
+    " = +1."
+)
 
 
 def judged(candidate: Function, seeds: range, aside: float = 0.0) -> Verdict:
@@ -90,7 +94,9 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_cameras(candidate: Function) -> Verdict:
-    """Cameras at other places are found too, half a turn away, with wide views, equal distances and small triangles."""
+    """Cameras at other places are found too, half a turn away, with wide views, equal distances and
+    small triangles.
+    """
     verdicts = [judged(candidate, range(GRADERS(), GRADERS() + 20))]
     wide = unit_rays(np.array([[9.0, 0.5], [-6.0, 7.0], [0.2, -8.0]]))
     ends = (wide * [[2.0], [3.0], [2.5]], 4.0 * wide, 0.004 * wide, wide * [[2.0], [3.0], [-2.5]])
@@ -116,7 +122,8 @@ def kabsch(p: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nda
 
 
 @mistake(
-    "Your camera is mirrored in about half of the cases. Three points are flat, so the SVD may reflect: fix det R = +1."
+    "Your camera is mirrored in about half of the cases. Three points are flat, so the SVD may"
+    " reflect: fix det R = +1."
 )
 def without_determinant(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Leaves the sign to chance."""
@@ -126,7 +133,8 @@ def without_determinant(p_world: np.ndarray, rays: np.ndarray, distances: np.nda
 
 
 @mistake(
-    "You returned camera-to-world, T_world_camera. Asked for is T_camera_world, which takes world points to the camera."
+    "You returned camera-to-world, T_world_camera. Asked for is T_camera_world, which takes world"
+    " points to the camera."
 )
 def inverted(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Aligns the other way round."""
@@ -134,7 +142,8 @@ def inverted(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np
 
 
 @mistake(
-    "You took the distances for depths Z. They are measured along the rays: the points are distances times unit rays."
+    "You took the distances for depths Z. They are measured along the rays: the points are"
+    " distances times unit rays."
 )
 def lengths_as_depths(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Divides the rays by their z."""
@@ -142,7 +151,8 @@ def lengths_as_depths(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarr
 
 
 @mistake(
-    "You left the distances out: the rays' unit vectors are not yet the points. Multiply each by its distance."
+    "You left the distances out: the rays' unit vectors are not yet the points. Multiply each by"
+    " its distance."
 )
 def without_distances(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Aligns with the unit vectors."""
@@ -150,7 +160,8 @@ def without_distances(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarr
 
 
 @mistake(
-    "Your rotation is right, your translation is not: t = mean of the ends − R (mean of p_world), and you left out R."
+    "Your rotation is right, your translation is not: t = mean of the ends − R (mean of p_world),"
+    " and you left out R."
 )
 def translation_not_turned(
     p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray
@@ -162,7 +173,8 @@ def translation_not_turned(
 
 
 @mistake(
-    "Your rotation is the inverse of the right one, though the translation uses it as if it were not. Mind UVᵀ and VUᵀ."
+    "Your rotation is the inverse of the right one, though the translation uses it as if it were"
+    " not. Mind UVᵀ and VUᵀ."
 )
 def rotation_transposed(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Transposes the rotation, and puts the middle where it belongs."""

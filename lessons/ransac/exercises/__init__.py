@@ -1,4 +1,6 @@
-"""The exercises of this lesson: a plane through three points, the points near it, and how many samples to draw."""
+"""The exercises of this lesson: a plane through three points, the points near it, and how many
+samples to draw.
+"""
 
 from workbench.exercise import HiddenSeed
 

@@ -1,4 +1,6 @@
-"""The exercises of this lesson: the distance to a box, a Bézier patch, and where a field changes sign."""
+"""The exercises of this lesson: the distance to a box, a Bézier patch, and where a field changes
+sign.
+"""
 
 from collections.abc import Callable
 
@@ -21,7 +23,8 @@ def rows_verdict(
     good: float = 1e-6,
     fair: float = 1e-3,
 ) -> Verdict:
-    """Judge numbers or points row by row, by the one that is farthest off, m, and say what came and what is right.
+    """Judge numbers or points row by row, by the one that is farthest off, m, and say what came and
+    what is right.
 
     Args:
         got: The answer.

@@ -1,5 +1,5 @@
-"""Write what evaluates a bicubic Bézier patch. The lesson makes a torus of 16 patches with it, polynomial or with weights:
-see the presets 'A torus of Bézier patches' and 'With weights'.
+"""Write what evaluates a bicubic Bézier patch. The lesson makes a torus of 16 patches with it,
+polynomial or with weights: see the presets 'A torus of Bézier patches' and 'With weights'.
 """
 
 import numpy as np
@@ -35,8 +35,8 @@ def bezier_patch(
 ) -> Float[np.ndarray, "n 3"]:
     """Return points of a bicubic patch: the sum over i and j of B_i(u) B_j(v) control[i, j].
 
-    B_k(t) = binomial(3, k) t^k (1 - t)^(3 - k), so that the patch begins in control[0, 0] at u = v = 0, and ends in
-    control[3, 0] along u and in control[0, 3] along v.
+    B_k(t) = binomial(3, k) t^k (1 - t)^(3 - k), so that the patch begins in control[0, 0] at u = v
+    = 0, and ends in control[3, 0] along u and in control[0, 3] along v.
 
     Args:
         control: The control net, metres: the first index goes along u, the second along v.
@@ -48,7 +48,10 @@ def bezier_patch(
     return bezier.bezier_patch(control, uv)
 
 
-HINT = "Weights B_i(u) B_j(v) with B = (1−t)³, 3t(1−t)², 3t²(1−t), t³; they add up to 1. The first index goes along u."
+HINT = (
+    "Weights B_i(u) B_j(v) with B = (1−t)³, 3t(1−t)², 3t²(1−t), t³; they add up to 1. The first"
+    " index goes along u."
+)
 
 
 def a_net(rng: np.random.Generator) -> np.ndarray:
@@ -114,7 +117,9 @@ def a_patch_of_a_torus(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def none_and_edges(candidate: Function) -> Verdict:
-    """No places give no points, one gives one; along each edge only the four control points of that edge count."""
+    """No places give no points, one gives one; along each edge only the four control points of that
+    edge count.
+    """
     rng = np.random.default_rng(GRADERS() + 2)
     if len(candidate(a_net(rng), np.empty((0, 2)))):
         return rows_verdict(np.ones(1), np.zeros(1), lambda k: "No places came in, points", HINT)
@@ -139,7 +144,8 @@ def swapped(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You left out the binomials 1, 3, 3, 1: your weights do not add up to 1, and in the middle the patch sinks."
+    "You left out the binomials 1, 3, 3, 1: your weights do not add up to 1, and in the middle the"
+    " patch sinks."
 )
 def without_binomials(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Only powers."""
@@ -168,7 +174,8 @@ def one_parameter(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your binomials are 1, 2, 2, 1. Those of degree 3 are 1, 3, 3, 1, so that the weights add up to 1."
+    "Your binomials are 1, 2, 2, 1. Those of degree 3 are 1, 3, 3, 1, so that the weights add up"
+    " to 1."
 )
 def wrong_binomials(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Twice for three times."""
@@ -178,7 +185,8 @@ def wrong_binomials(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You pass through all control points. A Bézier patch passes through the corners, the others only pull."
+    "You pass through all control points. A Bézier patch passes through the corners, the others"
+    " only pull."
 )
 def through_all(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Lagrange's interpolation."""

@@ -1,5 +1,6 @@
-"""Write the signed distance to a box: negative inside. The lesson stores boxes and a plate with it, as a grid of distances,
-an octree or a network: see the presets 'Sharp edges' and 'The smaller of two distances'.
+"""Write the signed distance to a box: negative inside. The lesson stores boxes and a plate with it,
+as a grid of distances, an octree or a network: see the presets 'Sharp edges' and 'The smaller of
+two distances'.
 """
 
 import numpy as np
@@ -30,9 +31,11 @@ from workbench.geometry.fields import signed_distances
 def box_sdf(
     p: Float[np.ndarray, "n 3"], half_size: Float[np.ndarray, "3"]
 ) -> Float[np.ndarray, " n"]:
-    """Return how far points are from the surface of a box about the origin, its edges along the axes: negative inside.
+    """Return how far points are from the surface of a box about the origin, its edges along the
+    axes: negative inside.
 
-    Outside, the nearest point of the box is on a face, on an edge or at a corner. Inside, the nearest face decides.
+    Outside, the nearest point of the box is on a face, on an edge or at a corner. Inside, the
+    nearest face decides.
 
     Args:
         p: Points, metres, one row each.
@@ -61,7 +64,9 @@ def verdict(
 
 
 def outside(half: np.ndarray, beyond: int, rng: np.random.Generator, n: int = 12) -> np.ndarray:
-    """Return points that lie beyond the box along so many axes: before a face, an edge or a corner."""
+    """Return points that lie beyond the box along so many axes: before a face, an edge or a
+    corner.
+    """
     p = rng.uniform(-0.9, 0.9, (n, 3)) * half
     for row in p:
         axes = rng.permutation(3)[:beyond]
@@ -110,7 +115,9 @@ def other_boxes(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def on_the_surface(candidate: Function) -> Verdict:
-    """On faces, edges and corners it is 0, a millimetre off it is one, and in the middle minus the smallest half edge."""
+    """On faces, edges and corners it is 0, a millimetre off it is one, and in the middle minus the
+    smallest half edge.
+    """
     box = np.array([0.7, 0.2, 0.4])
     signs = np.stack(np.meshgrid(*[[-1, 0, 1]] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     p = np.concatenate([signs * box, signs * (box + 1e-3), signs * (box - 1e-3)])
@@ -126,7 +133,8 @@ def none_or_one(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You left out the inside: your distance is 0 there. Add the largest of |p| − half_size where all are negative."
+    "You left out the inside: your distance is 0 there. Add the largest of |p| − half_size where"
+    " all are negative."
 )
 def nothing_inside(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Only the outside."""
@@ -134,8 +142,8 @@ def nothing_inside(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You take the largest coordinate outside as well. Before edges and corners the distance is the length of all that is"
-    " beyond."
+    "You take the largest coordinate outside as well. Before edges and corners the distance is the"
+    " length of all that is beyond."
 )
 def largest_outside(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Chebyshev everywhere."""
@@ -155,7 +163,8 @@ def turned_round(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You take half_size for the whole edge, so that your box is half as large. It reaches from −half_size to half_size."
+    "You take half_size for the whole edge, so that your box is half as large. It reaches from"
+    " −half_size to half_size."
 )
 def halved_again(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Halves what is half."""
@@ -163,7 +172,8 @@ def halved_again(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You left out the absolute value of p: only the side of positive coordinates is right. The box is symmetric."
+    "You left out the absolute value of p: only the side of positive coordinates is right. The box"
+    " is symmetric."
 )
 def one_side(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Forgets the other side."""
@@ -172,7 +182,8 @@ def one_side(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You add up what is beyond along the axes. The distance is the length of that vector, not the sum of its parts."
+    "You add up what is beyond along the axes. The distance is the length of that vector, not the"
+    " sum of its parts."
 )
 def added_up(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Manhattan outside."""

@@ -1,5 +1,6 @@
-"""Write what places the vertices of marching cubes: where the field is zero on an edge, given its values at both ends. The
-lesson's surfaces from grids of distances, and from networks, have their vertices from it.
+"""Write what places the vertices of marching cubes: where the field is zero on an edge, given its
+values at both ends. The lesson's surfaces from grids of distances, and from networks, have their
+vertices from it.
 """
 
 import numpy as np
@@ -40,7 +41,8 @@ def edge_crossings(
         p_a: One end of each edge, metres.
         p_b: The other end, metres.
         f_a: The field at `p_a`.
-        f_b: The field at `p_b`, never of the same sign; either may be the positive one, and one of both may be 0.
+        f_b: The field at `p_b`, never of the same sign; either may be the positive one, and one of
+            both may be 0.
 
     Returns:
         One point per edge, metres, between its ends. The inputs stay as they are.
@@ -67,7 +69,10 @@ def verdict(
     right = level_sets.edge_crossings(*given)
 
     def what(k: int) -> str:
-        return f"{where}, from {written(p_a[k])} with {written(f_a[k])} to {written(p_b[k])} with {written(f_b[k])}"
+        return (
+            f"{where}, from {written(p_a[k])} with {written(f_a[k])} to {written(p_b[k])} with"
+            f" {written(f_b[k])}"
+        )
 
     return rows_verdict(candidate(*given), right, what, hint)
 
@@ -113,7 +118,9 @@ def other_edges(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def zero_at_an_end(candidate: Function) -> Verdict:
-    """Where the field is zero at an end, the place is that end; where it is nearly zero, the place is near it."""
+    """Where the field is zero at an end, the place is that end; where it is nearly zero, the place
+    is near it.
+    """
     rng = np.random.default_rng(GRADERS() + 1)
     p_a, p_b, f_a, f_b = edges(rng, 8)
     f_a, f_b = np.where(np.arange(8) < 4, 0.0, f_a), np.where(np.arange(8) < 4, f_b, 0.0)
@@ -143,7 +150,8 @@ def at(p_a: np.ndarray, p_b: np.ndarray, t: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You return the middle of each edge, whatever the values: that is what bits would give. Use f_a and f_b."
+    "You return the middle of each edge, whatever the values: that is what bits would give. Use f_a"
+    " and f_b."
 )
 def middles(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
     """Ignores the values."""
@@ -151,7 +159,8 @@ def middles(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) 
 
 
 @mistake(
-    "Your weights are swapped: the place lies near the end whose value is small, yours near the other."
+    "Your weights are swapped: the place lies near the end whose value is small, yours near the"
+    " other."
 )
 def swapped(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
     """Measures from the wrong end."""
@@ -159,7 +168,8 @@ def swapped(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) 
 
 
 @mistake(
-    "You divide by f_a + f_b, which has no meaning for values of different sign: divide by f_a − f_b."
+    "You divide by f_a + f_b, which has no meaning for values of different sign: divide by f_a −"
+    " f_b."
 )
 def divided_by_the_sum(
     p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray
@@ -170,7 +180,8 @@ def divided_by_the_sum(
 
 
 @mistake(
-    "You walk |f_a| metres along the edge. The surface may cross it at a slant: only the share of both values tells."
+    "You walk |f_a| metres along the edge. The surface may cross it at a slant: only the share of"
+    " both values tells."
 )
 def walked(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
     """Takes the value for a way."""
@@ -185,7 +196,8 @@ def outwards(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray)
 
 
 @mistake(
-    "You weigh with the squares of the values. The field is linear along the edge: take them as they are."
+    "You weigh with the squares of the values. The field is linear along the edge: take them as"
+    " they are."
 )
 def squared(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
     """Squares."""

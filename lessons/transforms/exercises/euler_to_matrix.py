@@ -1,5 +1,5 @@
-"""Write the rotation that three Euler angles stand for, in all 24 orders. The lesson turns the body by it, one angle
-after the other.
+"""Write the rotation that three Euler angles stand for, in all 24 orders. The lesson turns the body
+by it, one angle after the other.
 """
 
 import numpy as np
@@ -45,17 +45,18 @@ def euler_to_matrix(angles: Float[np.ndarray, "3"], order: str) -> Float[np.ndar
     R turns vectors actively, v_turned = R @ v. Each turn follows the right-hand rule.
 
     Args:
-        angles: Radians, one for each letter, in the order of the letters: the first letter's turn is made first.
-        order: Three letters. Lower case turns about the fixed axes of the world, so that "xyz" with angles (a, b, c) is
-            Rz(c) @ Ry(b) @ Rx(a). Upper case turns about the body's own axes, which the earlier turns have carried
-            along: "XYZ" is Rx(a) @ Ry(b) @ Rz(c).
+        angles: Radians, one for each letter, in the order of the letters: the first letter's turn
+            is made first.
+        order: Three letters. Lower case turns about the fixed axes of the world, so that "xyz" with
+            angles (a, b, c) is Rz(c) @ Ry(b) @ Rx(a). Upper case turns about the body's own axes,
+            which the earlier turns have carried along: "XYZ" is Rx(a) @ Ry(b) @ Rz(c).
 
     Returns:
         R, also in gimbal lock, where it is as good a rotation as any.
 
     Raises:
-        ValueError: If the order is none of the 24: three letters of x, y and z in one case, no letter twice in a row
-            ("xyx" is one, "xxy" and "xYz" are none).
+        ValueError: If the order is none of the 24: three letters of x, y and z in one case, no
+            letter twice in a row ("xyx" is one, "xxy" and "xYz" are none).
     """
     if order not in EULER_ORDERS:
         raise ValueError(f"{order!r} is none of the 24 orders")
@@ -113,7 +114,9 @@ def all_orders(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def gimbal_lock(candidate: Function) -> Verdict:
-    """At a pitch of 90 degrees only the sum of the first and the third angle counts; more than half a turn is a turn too."""
+    """At a pitch of 90 degrees only the sum of the first and the third angle counts; more than half
+    a turn is a turn too.
+    """
     a, c, more = 0.4, -0.9, 0.7
     R, other = (candidate(np.array([a + d, np.pi / 2, c - d]), "XYZ") for d in (0.0, more))
     right = rotations.euler_to_matrix(np.array([a, np.pi / 2, c]), "XYZ")
@@ -140,8 +143,9 @@ def unknown_orders(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "Your product is the wrong way round: you turn about the body's own axes for lower case, and about fixed "
-    "ones for upper case. “xyz” is Rz Ry Rx: each new turn about a fixed axis is multiplied on the left."
+    "Your product is the wrong way round: you turn about the body's own axes for lower case, and"
+    " about fixed ones for upper case. “xyz” is Rz Ry Rx: each new turn about a fixed axis is"
+    " multiplied on the left."
 )
 def product_turned_round(angles: np.ndarray, order: str) -> np.ndarray:
     """Lower and upper case swapped."""
@@ -149,8 +153,8 @@ def product_turned_round(angles: np.ndarray, order: str) -> np.ndarray:
 
 
 @mistake(
-    "You always turn about fixed axes. Upper case means the body's own axes, which earlier turns have carried "
-    "along: “XYZ” is Rx Ry Rz."
+    "You always turn about fixed axes. Upper case means the body's own axes, which earlier turns"
+    " have carried along: “XYZ” is Rx Ry Rz."
 )
 def case_ignored(angles: np.ndarray, order: str) -> np.ndarray:
     """Always about fixed axes."""
@@ -158,7 +162,8 @@ def case_ignored(angles: np.ndarray, order: str) -> np.ndarray:
 
 
 @mistake(
-    "You always turn about the body's own axes. Lower case means the fixed axes of the world: “xyz” is Rz Ry Rx."
+    "You always turn about the body's own axes. Lower case means the fixed axes of the world: “xyz”"
+    " is Rz Ry Rx."
 )
 def always_carried(angles: np.ndarray, order: str) -> np.ndarray:
     """Always about the body's own axes."""
@@ -166,8 +171,8 @@ def always_carried(angles: np.ndarray, order: str) -> np.ndarray:
 
 
 @mistake(
-    "Each of your three turns is the transpose of the right one: it turns clockwise. About z, the right-hand "
-    "rule takes x to y."
+    "Each of your three turns is the transpose of the right one: it turns clockwise. About z, the"
+    " right-hand rule takes x to y."
 )
 def clockwise(angles: np.ndarray, order: str) -> np.ndarray:
     """Every elementary turn transposed."""
@@ -181,8 +186,8 @@ def degrees_taken(angles: np.ndarray, order: str) -> np.ndarray:
 
 
 @mistake(
-    "You read the angles as those about x, y and z. They come in the order of the letters: in “zyx” the first "
-    "one is about z."
+    "You read the angles as those about x, y and z. They come in the order of the letters: in “zyx”"
+    " the first one is about z."
 )
 def angles_of_axes(angles: np.ndarray, order: str) -> np.ndarray:
     """Reads the angles as those about x, y and z, whatever the order of the letters."""
@@ -198,8 +203,8 @@ def order_ignored(angles: np.ndarray, order: str) -> np.ndarray:
 
 
 @mistake(
-    "All is right but that you accept any letters. Two equal letters in a row, other letters or mixed cases are "
-    "none of the 24 orders: raise a ValueError."
+    "All is right but that you accept any letters. Two equal letters in a row, other letters or"
+    " mixed cases are none of the 24 orders: raise a ValueError."
 )
 def any_order_taken(angles: np.ndarray, order: str) -> np.ndarray:
     """Multiplies whatever letters come."""

@@ -1,5 +1,5 @@
-"""Write the inverse of a rigid motion. The lesson takes the body back with it at the last step: with the right inverse
-it stands on its ghost again, with (R^T, -t) it does not.
+"""Write the inverse of a rigid motion. The lesson takes the body back with it at the last step:
+with the right inverse it stands on its ghost again, with (R^T, -t) it does not.
 """
 
 import numpy as np
@@ -36,11 +36,13 @@ from workbench.geometry.motions import exp_so3, inverse, motion
 def invert_rigid(T_a_b: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
     """Return the motion T_b_a that takes points back from frame a to frame b.
 
-    With T_a_b = (R, t) a point goes p_a = R p_b + t, metres. The inverse undoes that for every point.
+    With T_a_b = (R, t) a point goes p_a = R p_b + t, metres. The inverse undoes that for every
+    point.
 
     Args:
-        T_a_b: A rigid motion: rotation R in the upper left 3x3, translation t (metres) in the last column, and
-            (0, 0, 0, 1) as last row. It may be the identity. Nobody gives you a motion that scales or shears.
+        T_a_b: A rigid motion: rotation R in the upper left 3x3, translation t (metres) in the last
+            column, and (0, 0, 0, 1) as last row. It may be the identity. Nobody gives you a motion
+            that scales or shears.
 
     Returns:
         T_b_a, again a rigid motion, in a new array: the input stays as it is.
@@ -101,7 +103,9 @@ def products_turn_round(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def special_motions(candidate: Function) -> Verdict:
-    """The identity, a pure translation, half a turn, a motion a kilometre long and a very small one are inverted."""
+    """The identity, a pure translation, half a turn, a motion a kilometre long and a very small one
+    are inverted.
+    """
     far = np.array([800.0, -500.0, 300.0])
     cases = (np.eye(4), motion(np.eye(3), far), motion(np.diag([-1.0, 1.0, -1.0]), far))
     turns = (motion(exp_so3(np.array(w)), far) for w in ([0.0, 0.0, 1.0], [0.0, 0.01, 0.0]))
@@ -116,7 +120,8 @@ def _right(T: np.ndarray, T_back: np.ndarray) -> Verdict:
 
 
 @mistake(
-    "You returned (R^T, -t). The translation is undone in frame a, but R^T turns it first: it must be -R^T t."
+    "You returned (R^T, -t). The translation is undone in frame a, but R^T turns it first: it must"
+    " be -R^T t."
 )
 def negated_translation(T_a_b: np.ndarray) -> np.ndarray:
     """(R^T, -t)."""
@@ -124,7 +129,8 @@ def negated_translation(T_a_b: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You returned (R, -t): the translation is negated, but the rotation still turns from b to a. Its inverse is R^T."
+    "You returned (R, -t): the translation is negated, but the rotation still turns from b to a."
+    " Its inverse is R^T."
 )
 def rotation_kept(T_a_b: np.ndarray) -> np.ndarray:
     """(R, -t)."""
@@ -132,7 +138,8 @@ def rotation_kept(T_a_b: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your rotation is R^T, but your translation is -R t. The inverse has -R^T t: solve p_a = R p_b + t for p_b."
+    "Your rotation is R^T, but your translation is -R t. The inverse has -R^T t: solve p_a = R p_b"
+    " + t for p_b."
 )
 def translation_turned_forwards(T_a_b: np.ndarray) -> np.ndarray:
     """(R^T, -R t)."""
@@ -140,7 +147,8 @@ def translation_turned_forwards(T_a_b: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your translation is R^T t; it has the wrong sign. Solve p_a = R p_b + t for p_b: p_b = R^T p_a - R^T t."
+    "Your translation is R^T t; it has the wrong sign. Solve p_a = R p_b + t for p_b: p_b = R^T p_a"
+    " - R^T t."
 )
 def sign_forgotten(T_a_b: np.ndarray) -> np.ndarray:
     """(R^T, R^T t)."""
@@ -148,7 +156,8 @@ def sign_forgotten(T_a_b: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You transposed the whole 4×4, so that t lies in the last row. Only its 3×3 rotation is orthogonal."
+    "You transposed the whole 4×4, so that t lies in the last row. Only its 3×3 rotation is"
+    " orthogonal."
 )
 def all_transposed(T_a_b: np.ndarray) -> np.ndarray:
     """The transpose of the 4x4."""

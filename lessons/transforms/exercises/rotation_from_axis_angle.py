@@ -1,5 +1,6 @@
-"""Write Rodrigues' formula: the rotation by an angle about an axis. Set the lesson's knob half to 'move between two
-poses' and it turns the body from one pose to the other about one axis, at constant speed.
+"""Write Rodrigues' formula: the rotation by an angle about an axis. Set the lesson's knob half to
+'move between two poses' and it turns the body from one pose to the other about one axis, at
+constant speed.
 """
 
 from collections.abc import Iterator
@@ -46,8 +47,8 @@ def rotation_from_axis_angle(
 ) -> Float[np.ndarray, "3 3"]:
     """Return the rotation matrix R that turns by an angle about an axis through the origin.
 
-    R turns vectors actively, v_turned = R @ v, counter-clockwise where the axis points at you (right-hand rule): a
-    quarter turn about z takes x to y.
+    R turns vectors actively, v_turned = R @ v, counter-clockwise where the axis points at you
+    (right-hand rule): a quarter turn about z takes x to y.
 
     Args:
         axis: Direction of the axis. Its length has no meaning and need not be 1; it is not zero.
@@ -62,7 +63,10 @@ def rotation_from_axis_angle(
     return rotations.rotation_from_axis_angle(axis, float(angle))
 
 
-TURN_HINT = "What lies along the axis stays, what lies across it turns; the length of the axis must not matter."
+TURN_HINT = (
+    "What lies along the axis stays, what lies across it turns; the length of the axis must not"
+    " matter."
+)
 
 
 def some_turns(seed: int, n: int = 6) -> Iterator[tuple[np.ndarray, float]]:
@@ -113,7 +117,9 @@ def turned_axis(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def special_angles(candidate: Function) -> Verdict:
-    """No turn, half a turn and turns and turns either way are rotations, and an angle of 1e-6 is not lost."""
+    """No turn, half a turn and turns and turns either way are rotations, and an angle of 1e-6 is
+    not lost.
+    """
     axis = np.array([0.3, -0.4, 1.2])
     verdicts = [
         rotation_verdict(
@@ -147,8 +153,8 @@ def zero_axis(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "Your R is the transpose of the right one: it turns clockwise. Look along the axis towards you: a positive "
-    "angle turns counter-clockwise (right-hand rule)."
+    "Your R is the transpose of the right one: it turns clockwise. Look along the axis towards you:"
+    " a positive angle turns counter-clockwise (right-hand rule)."
 )
 def clockwise(axis: np.ndarray, angle: float) -> np.ndarray:
     """R^T."""
@@ -162,7 +168,8 @@ def degrees_taken(axis: np.ndarray, angle: float) -> np.ndarray:
 
 
 @mistake(
-    "Your formula uses the axis as it comes; it holds for a unit axis only. Divide by its length first."
+    "Your formula uses the axis as it comes; it holds for a unit axis only. Divide by its length"
+    " first."
 )
 def axis_not_of_unit_length(axis: np.ndarray, angle: float) -> np.ndarray:
     """Rodrigues' formula with the axis as it comes."""
@@ -171,7 +178,8 @@ def axis_not_of_unit_length(axis: np.ndarray, angle: float) -> np.ndarray:
 
 
 @mistake(
-    "You returned I + sin(angle) K. That holds for small angles; the term (1 - cos(angle)) K K is missing."
+    "You returned I + sin(angle) K. That holds for small angles; the term (1 - cos(angle)) K K is"
+    " missing."
 )
 def square_forgotten(axis: np.ndarray, angle: float) -> np.ndarray:
     """I + sin(angle) K, the formula for small angles."""
@@ -179,7 +187,8 @@ def square_forgotten(axis: np.ndarray, angle: float) -> np.ndarray:
 
 
 @mistake(
-    "You returned cos(angle) I + sin(angle) K. The part along the axis must stay: add (1 - cos(angle)) a a^T."
+    "You returned cos(angle) I + sin(angle) K. The part along the axis must stay: add (1 -"
+    " cos(angle)) a a^T."
 )
 def projection_forgotten(axis: np.ndarray, angle: float) -> np.ndarray:
     """cos(angle) I + sin(angle) K, without (1 - cos) a a^T."""
@@ -187,7 +196,8 @@ def projection_forgotten(axis: np.ndarray, angle: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but the axis of length zero, by which you divide: it names no direction. Raise a ValueError."
+    "All is right but the axis of length zero, by which you divide: it names no direction. Raise a"
+    " ValueError."
 )
 def zero_axis_divides(axis: np.ndarray, angle: float) -> np.ndarray:
     """Divides by a length of zero."""
@@ -196,8 +206,8 @@ def zero_axis_divides(axis: np.ndarray, angle: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but the axis of length zero, for which you return the identity. The contract asks for a "
-    "ValueError: an answer made up hides the error of whoever calls you."
+    "All is right but the axis of length zero, for which you return the identity. The contract asks"
+    " for a ValueError: an answer made up hides the error of whoever calls you."
 )
 def zero_axis_is_the_identity(axis: np.ndarray, angle: float) -> np.ndarray:
     """Makes an answer up."""

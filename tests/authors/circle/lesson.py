@@ -1,7 +1,8 @@
 """A circle through points that are not quite on it.
 
-What it teaches: the fit that one linear system solves is not the one that makes the distances smallest; on a short arc it
-gives circles that are far too small, and a few Gauss-Newton steps mend that.
+What it teaches: the fit that one linear system solves is not the one that makes the distances
+smallest; on a short arc it gives circles that are far too small, and a few Gauss-Newton steps mend
+that.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,7 +21,9 @@ from .state import TRUE, Params, State
 
 @traced
 def refine(p: np.ndarray, circle: np.ndarray) -> Iterator[State]:
-    """Yield the circle, and circles whose squared distances to the points get smaller: Gauss-Newton."""
+    """Yield the circle, and circles whose squared distances to the points get smaller:
+    Gauss-Newton.
+    """
     yield State(0, p, circle)
     for k in range(1, 40):
         r = np.linalg.norm(p - circle[:2], axis=1)
@@ -48,7 +51,9 @@ def run(
 lesson = Lesson(
     name="circle",
     title="A circle through points",
-    summary="One linear system gives a circle, but not the nearest one: watch it grow on a short arc.",
+    summary=(
+        "One linear system gives a circle, but not the nearest one: watch it grow on a short arc."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

@@ -29,7 +29,10 @@ PRESETS = (
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         name="radius",
-        text="The points cover 60° of a circle of radius 1 m. What radius does the algebraic fit give?",
+        text=(
+            "The points cover 60° of a circle of radius 1 m. What radius does the algebraic fit"
+            " give?"
+        ),
         answer=lambda states: states[0].circle[2],
         why=lambda states: (
             f"It gives {states[0].circle[2]:.2f} m: far from the arc it trades distance for size."

@@ -1,6 +1,8 @@
-"""Calibrates a camera from pictures of a flat board: a homography each, K and poses in closed form, then all together.
+"""Calibrates a camera from pictures of a flat board: a homography each, K and poses in closed form,
+then all together.
 
-Reference: Zhang, A Flexible New Technique for Camera Calibration, PAMI 2000, section 3.4 (the summary of the method).
+Reference: Zhang, A Flexible New Technique for Camera Calibration, PAMI 2000, section 3.4 (the
+summary of the method).
 """
 
 from collections.abc import Callable, Iterator
@@ -28,16 +30,18 @@ class State:
     """What is known after a step.
 
     Attributes:
-        phase: "homography" of the first view; "constraints" of one view more; "poses" of all views; a linear "lens"; and
-            the joint refinement.
+        phase: "homography" of the first view; "constraints" of one view more; "poses" of all views;
+            a linear "lens"; and the joint refinement.
         Hs_image_board: Homographies of the views so far, metres of the board to pixels.
-        rows: Their constraints, in coordinates in which the picture is one wide and has 0 in its middle.
+        rows: Their constraints, in coordinates in which the picture is one wide and has 0 in its
+            middle.
         singular_values: Of these rows, without the column of the skew.
         K: The camera so far; None where the rows determine none.
         guessed: Whether K is a guess, because the closed form found no camera.
         lens: The lens so far.
         Ts_camera_board: Poses of the board in all views; none before the poses.
-        residuals: Projected minus measured, pixels, of the views so far: by each view's own homography before the poses.
+        residuals: Projected minus measured, pixels, of the views so far: by each view's own
+            homography before the poses.
         adjustment: What the refinement yielded, or None before it.
     """
 
@@ -83,8 +87,9 @@ def calibrate(
         ValueError: If there are fewer than two views, or fewer than four points.
 
     Note:
-        Where no camera has these constraints (boards all alike, or too much noise), or one with its principal point outside
-        the picture or with a focal length below a third of its width, f is guessed as the picture's width.
+        Where no camera has these constraints (boards all alike, or too much noise), or one with its
+        principal point outside the picture or with a focal length below a third of its width, f is
+        guessed as the picture's width.
     """
     if len(uv) < 2:
         raise ValueError(f"two views at least are needed, not {len(uv)}")
@@ -139,9 +144,16 @@ def calibrate(
             residuals=bent,
         )
     refinement = adjust(
-        K, lens, Ts_begin, p_board, uv,
-        coefficients=coefficients, corner=corner, max_iterations=max_iterations, tolerance=tolerance,
-    )  # fmt: skip
+        K,
+        lens,
+        Ts_begin,
+        p_board,
+        uv,
+        coefficients=coefficients,
+        corner=corner,
+        max_iterations=max_iterations,
+        tolerance=tolerance,
+    )
     for now in refinement:
         if now.iteration:
             yield State(

@@ -1,10 +1,12 @@
-"""Where was the camera, step by step: three points and a fourth, a plane's two answers, and Gauss-Newton downhill.
+"""Where was the camera, step by step: three points and a fourth, a plane's two answers, and
+Gauss-Newton downhill.
 
 Image coordinates are normalised, so errors are too: times the focal length they are pixels.
 
-Reference: Haralick et al., Review and Analysis of Solutions of the Three Point Perspective Pose Estimation Problem,
-1994 (three points); Collins and Bartoli, Infinitesimal Plane-Based Pose Estimation, 2014 (planes); Nocedal and Wright,
-Numerical Optimization, 2nd ed., 3.1 and 10.3 (a step that is halved, Gauss-Newton).
+Reference: Haralick et al., Review and Analysis of Solutions of the Three Point Perspective Pose
+Estimation Problem, 1994 (three points); Collins and Bartoli, Infinitesimal Plane-Based Pose
+Estimation, 2014 (planes); Nocedal and Wright, Numerical Optimization, 2nd ed., 3.1 and 10.3 (a step
+that is halved, Gauss-Newton).
 """
 
 from collections.abc import Callable, Iterator
@@ -51,13 +53,15 @@ class Searched:
     """What is known of the camera after one step.
 
     Attributes:
-        phase: Three rays are chosen; their quartic is known; one of its roots became a motion; a plane's two motions
-            are known; one motion of several was chosen; all points gave one; it was refined by a step; it is over.
+        phase: Three rays are chosen; their quartic is known; one of its roots became a motion; a
+            plane's two motions are known; one motion of several was chosen; all points gave one; it
+            was refined by a step; it is over.
         T: The motion now, T_camera_world, or None.
         candidates: All motions that were found, in the order in which they were.
         lengths: Of the three rays, metres, one row for each root that has become a motion or will.
         quartic: Its coefficients, the highest power first.
-        error: Root mean square reprojection error of T over all points, infinite if one is behind it.
+        error: Root mean square reprojection error of T over all points, infinite if one is behind
+            it.
         share: Of a Gauss-Newton step that was taken; 1 if not halved.
         steps: Taken so far.
         stop: Why this is the last state, or None.
@@ -94,7 +98,8 @@ def choose_pose(
     p_world: Float[np.ndarray, "n 3"],
     xy: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the candidate with the least reprojection error among those that have all points in front.
+    """Return the candidate with the least reprojection error among those that have all points in
+    front.
 
     Args:
         candidates: Motions T_camera_world, one at least.
@@ -114,7 +119,8 @@ def by_three_points(
     pose_from_distances: PoseFromDistances = pose_from_distances,
     choose_pose: ChoosePose = choose_pose,
 ) -> Iterator[Searched]:
-    """Yield how the first three points leave some motions open, and how the fourth chooses among them.
+    """Yield how the first three points leave some motions open, and how the fourth chooses among
+    them.
 
     Args:
         p_world: Four points or more, metres, of which four are used.
@@ -141,7 +147,8 @@ def by_three_points(
 def by_fourth_points(
     p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "k n 2"]
 ) -> tuple[Float[np.ndarray, "m 4 4"], Int[np.ndarray, " m"]]:
-    """Return the ends of `by_three_points` in many pictures, and of which picture each is: some have no solution.
+    """Return the ends of `by_three_points` in many pictures, and of which picture each is: some
+    have no solution.
 
     Args:
         p_world: Four points or more, metres.
@@ -174,7 +181,8 @@ def by_plane(
     xy: Float[np.ndarray, "n 2"],
     choose_pose: ChoosePose = choose_pose,
 ) -> Iterator[Searched]:
-    """Yield the two motions that a plane's picture leaves open, both refined, and the one that fits better.
+    """Yield the two motions that a plane's picture leaves open, both refined, and the one that fits
+    better.
 
     Args:
         p_world: Four points or more of one plane, metres.
@@ -198,7 +206,8 @@ def downhill(
     most: int = 12,
     tolerance: float = 1e-5,
 ) -> Iterator[Searched]:
-    """Yield the motions after each step on the squared reprojection errors; a step that raises them is halved.
+    """Yield the motions after each step on the squared reprojection errors; a step that raises them
+    is halved.
 
     Args:
         T: Where to begin, T_camera_world; None where nothing was found.

@@ -1,6 +1,8 @@
-"""What a Laplacian does when it is applied again and again: heat flows, surfaces grow smooth and shrink.
+"""What a Laplacian does when it is applied again and again: heat flows, surfaces grow smooth and
+shrink.
 
-Reference: Taubin, A signal processing approach to fair surface design, SIGGRAPH 1995, sections 2 and 3.
+Reference: Taubin, A signal processing approach to fair surface design, SIGGRAPH 1995, sections 2
+and 3.
 """
 
 from collections.abc import Iterator
@@ -40,7 +42,8 @@ class Heat:
 
 @traced
 def heat(u: Float[np.ndarray, " n"], laplacian: Laplacian, dt: float, steps: int) -> Iterator[Heat]:
-    """Yield heat that flows along the edges by explicit (forward Euler) steps of du/dt = -L u, beside the exact solution.
+    """Yield heat that flows along the edges by explicit (forward Euler) steps of du/dt = -L u,
+    beside the exact solution.
 
     Steps longer than 2 over the largest eigenvalue make some part of u grow at every step.
 
@@ -77,14 +80,16 @@ def smooth(
     inward: float = 0.5,
     outward: float = 0.0,
 ) -> Iterator[Smoothed]:
-    """Yield vertices that move towards the mean of their neighbours, and after each such move a little back.
+    """Yield vertices that move towards the mean of their neighbours, and after each such move a
+    little back.
 
     Args:
         p: Vertices, metres.
         adjacency: Which vertices share an edge; each has one at least.
         steps: How many rounds.
         inward: The share of the way to the mean that a vertex goes (lambda).
-        outward: The share that it then goes away from it (-mu, Taubin); 0 is Laplacian smoothing, which shrinks.
+        outward: The share that it then goes away from it (-mu, Taubin); 0 is Laplacian smoothing,
+            which shrinks.
     """
     mean = scipy.sparse.diags_array(1 / degrees(adjacency)) @ adjacency
     yield Smoothed(0, p)

@@ -1,7 +1,8 @@
-"""Spectral clustering of a graph into two: the Fiedler vector, the cut by its sign, and the best of all cuts along it.
+"""Spectral clustering of a graph into two: the Fiedler vector, the cut by its sign, and the best of
+all cuts along it.
 
-Reference: von Luxburg, A tutorial on spectral clustering, 2007, sections 4 and 5; Spielman, Spectral and algebraic graph
-theory, 2019, chapter 21 (sweep cuts).
+Reference: von Luxburg, A tutorial on spectral clustering, 2007, sections 4 and 5; Spielman,
+Spectral and algebraic graph theory, 2019, chapter 21 (sweep cuts).
 """
 
 from collections.abc import Iterator
@@ -53,7 +54,8 @@ class Cut:
 
 @traced
 def spectral_cut(adjacency: Sparse, laplacian: Laplacian, shown: int = 6) -> Iterator[Cut]:
-    """Yield the graph, its Fiedler vector, the cut by sign, some of the cuts along the vector, and the best of all.
+    """Yield the graph, its Fiedler vector, the cut by sign, some of the cuts along the vector, and
+    the best of all.
 
     Args:
         adjacency: A of a symmetric graph with two nodes or more.

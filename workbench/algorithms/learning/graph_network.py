@@ -1,6 +1,8 @@
-"""Graph convolutional networks: one layer in its parts, many layers in a row, and training by gradient descent.
+"""Graph convolutional networks: one layer in its parts, many layers in a row, and training by
+gradient descent.
 
-Reference: Kipf and Welling, Semi-supervised classification with graph convolutional networks, ICLR 2017.
+Reference: Kipf and Welling, Semi-supervised classification with graph convolutional networks, ICLR
+2017.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -91,7 +93,8 @@ def train(
     rate: float = 0.05,
     gcn_layer: GcnLayer = graphs.gcn_layer,
 ) -> Iterator[Trained]:
-    """Yield a network before and after every step of Adam on the labels that are known; the last layer has no ReLU.
+    """Yield a network before and after every step of Adam on the labels that are known; the last
+    layer has no ReLU.
 
     Args:
         adjacency: A, dense, symmetric, without loops.

@@ -1,7 +1,8 @@
-"""A mesh whose vertices move until points on it lie where given points lie, held together by terms that know no data.
+"""A mesh whose vertices move until points on it lie where given points lie, held together by terms
+that know no data.
 
-Reference: Wang et al., Pixel2Mesh, ECCV 2018, section 3.4. Ravi et al., Accelerating 3D deep learning with PyTorch3D, 2020,
-tutorial "Deform a source mesh to form a target mesh".
+Reference: Wang et al., Pixel2Mesh, ECCV 2018, section 3.4. Ravi et al., Accelerating 3D deep
+learning with PyTorch3D, 2020, tutorial "Deform a source mesh to form a target mesh".
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -40,11 +41,13 @@ class MeshFitted:
 
     Attributes:
         updates: How many.
-        loss: Chamfer distance of points on it to the given points, m², the mean since the last state.
+        loss: Chamfer distance of points on it to the given points, m², the mean since the last
+            state.
         p: Its vertices.
         to_given: Chamfer distance of many points on it to the given points, m².
         to_truth: The same to points on the true surface; NaN where none are known.
-        farthest: How far the true surface is from the mesh where it is farthest, m; NaN where it is not known.
+        farthest: How far the true surface is from the mesh where it is farthest, m; NaN where it is
+            not known.
         folded: The share of its edges that are folded by more than a right angle.
     """
 
@@ -69,7 +72,8 @@ def fit_mesh(
     rng: np.random.Generator,
     chamfer_gradient: ChamferGradient = chamfer_gradient,
 ) -> Iterator[MeshFitted]:
-    """Yield a mesh as its vertices move down the Chamfer distance to given points, plus weighted energies.
+    """Yield a mesh as its vertices move down the Chamfer distance to given points, plus weighted
+    energies.
 
     Args:
         p: Vertices at the start, m.

@@ -1,7 +1,9 @@
-"""A neural field: a small network that is trained to give the signed distance of any point, gradients written by hand.
+"""A neural field: a small network that is trained to give the signed distance of any point,
+gradients written by hand.
 
-Reference: Park et al., DeepSDF, CVPR 2019 (the clamped loss, eq. 4). Mescheder et al., Occupancy networks, CVPR 2019.
-Tancik et al., Fourier features, NeurIPS 2020. Kingma and Ba, Adam, ICLR 2015, algorithm 1.
+Reference: Park et al., DeepSDF, CVPR 2019 (the clamped loss, eq. 4). Mescheder et al., Occupancy
+networks, CVPR 2019. Tancik et al., Fourier features, NeurIPS 2020. Kingma and Ba, Adam, ICLR 2015,
+algorithm 1.
 """
 
 from collections.abc import Iterator, Sequence
@@ -33,7 +35,8 @@ class Network:
     Attributes:
         values: All weights and biases in a row, float32.
         sizes: How many numbers go into each layer, and 1 at the end.
-        frequencies: How many octaves of sine and cosine of each coordinate go in beside the coordinates.
+        frequencies: How many octaves of sine and cosine of each coordinate go in beside the
+            coordinates.
         activation: What follows every layer but the last.
     """
 
@@ -71,7 +74,9 @@ class Trained:
 
 
 def encoded(p: Float[np.ndarray, "n 3"], frequencies: int) -> Float[np.ndarray, "n k"]:
-    """Return the coordinates, and the sine and cosine of pi 2^k times each of them, k below `frequencies`; float32."""
+    """Return the coordinates, and the sine and cosine of pi 2^k times each of them, k below
+    `frequencies`; float32.
+    """
     p = p.astype(np.float32)
     waves = [
         wave(np.float32(np.pi * 2**k) * p) for k in range(frequencies) for wave in (np.sin, np.cos)
@@ -82,7 +87,8 @@ def encoded(p: Float[np.ndarray, "n 3"], frequencies: int) -> Float[np.ndarray, 
 def new_network(
     width: int, frequencies: int, activation: Activation, rng: np.random.Generator, hidden: int = 2
 ) -> Network:
-    """Return a network whose weights were drawn: normal, of variance 1 over the inputs, twice that for ReLU.
+    """Return a network whose weights were drawn: normal, of variance 1 over the inputs, twice that
+    for ReLU.
 
     Args:
         width: Numbers in a hidden layer.
@@ -113,15 +119,16 @@ def train_field(
     target: Target,
     rng: np.random.Generator,
 ) -> Iterator[Trained]:
-    """Yield the network after so many iterations of Adam, each on a batch of the samples; the step size falls to near 0.
+    """Yield the network after so many iterations of Adam, each on a batch of the samples; the step
+    size falls to near 0.
 
     Args:
         network: Where it begins.
         p: Samples, m.
         distances: Their signed distance to the surface, m.
         counts: After how many iterations, from 0 on; the last is the end.
-        target: What is asked for: the distance (squared error), the distance clamped to 0.1 m (absolute error), or inside
-            (cross-entropy, the output being the logit of outside).
+        target: What is asked for: the distance (squared error), the distance clamped to 0.1 m
+            (absolute error), or inside (cross-entropy, the output being the logit of outside).
         rng: Draws the batches.
     """
     values = network.values.copy()

@@ -1,7 +1,9 @@
-"""A multilayer perceptron and Adam: forward, backward and the step, written out, with all numbers of a network in one row.
+"""A multilayer perceptron and Adam: forward, backward and the step, written out, with all numbers
+of a network in one row.
 
-Reference: Goodfellow, Bengio and Courville, Deep Learning, 2016, algorithms 6.3 and 6.4. Kingma and Ba, Adam, ICLR 2015,
-algorithm 1. He et al., Delving deep into rectifiers, ICCV 2015 (the first weights).
+Reference: Goodfellow, Bengio and Courville, Deep Learning, 2016, algorithms 6.3 and 6.4. Kingma and
+Ba, Adam, ICLR 2015, algorithm 1. He et al., Delving deep into rectifiers, ICCV 2015 (the first
+weights).
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -20,7 +22,9 @@ _B1, _B2, _TINY = 0.9, 0.999, 1e-8
 
 
 def new_values(sizes: Sequence[int], rng: np.random.Generator) -> Float[np.ndarray, " w"]:
-    """Return first weights, normal of variance 2 over the inputs, and biases of 0, for layers of these sizes with ReLU."""
+    """Return first weights, normal of variance 2 over the inputs, and biases of 0, for layers of
+    these sizes with ReLU.
+    """
     parts = []
     for into, out in pairwise(sizes):
         parts += [rng.normal(size=into * out) * np.sqrt(2 / into), np.zeros(out)]
@@ -91,12 +95,14 @@ def backward(
 def descend(
     values: np.ndarray, gradient: Gradient, counts: Sequence[int], rate: float
 ) -> Iterator[tuple[int, float]]:
-    """Yield how many steps Adam has taken, and the mean loss since the last yield, while the values are moved in place.
+    """Yield how many steps Adam has taken, and the mean loss since the last yield, while the values
+    are moved in place.
 
     Args:
         values: What is learned, of any shape; written to.
         gradient: Makes a batch, and returns its loss and the gradient, shaped as the values.
-        counts: After how many steps, from 0 on (the loss of one batch before any); the last is the end.
+        counts: After how many steps, from 0 on (the loss of one batch before any); the last is the
+            end.
         rate: The step size at the start; it falls evenly to a fifteenth at the end.
 
     Reference: Kingma and Ba 2015, algorithm 1.

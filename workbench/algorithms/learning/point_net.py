@@ -1,7 +1,7 @@
 """PointNet: a network for each point, one pooling over all points, a network for what is pooled.
 
-Reference: Qi et al., PointNet: Deep learning on point sets for 3D classification and segmentation, CVPR 2017, section 4
-(eq. 1; theorem 2 on critical points), without its transforming networks.
+Reference: Qi et al., PointNet: Deep learning on point sets for 3D classification and segmentation,
+CVPR 2017, section 4 (eq. 1; theorem 2 on critical points), without its transforming networks.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -50,7 +50,9 @@ class PointNet:
         return self.run(clouds).head[-1]
 
     def critical(self, clouds: Clouds) -> list[Int[np.ndarray, " k"]]:
-        """Return for each cloud which points decide under max pooling: those with the largest of some feature."""
+        """Return for each cloud which points decide under max pooling: those with the largest of
+        some feature.
+        """
         return [np.unique(row) for row in self.run(clouds).winners]
 
     def run(self, clouds: Clouds) -> "Pass":

@@ -1,7 +1,8 @@
-"""A radiance field on a grid in the plane: density and colour that are learned from photographs alone.
+"""A radiance field on a grid in the plane: density and colour that are learned from photographs
+alone.
 
-Reference: Mildenhall et al., NeRF, ECCV 2020, section 4; Sun, Sun and Chen, Direct voxel grid optimization, CVPR 2022,
-section 3 (a grid in place of the network).
+Reference: Mildenhall et al., NeRF, ECCV 2020, section 4; Sun, Sun and Chen, Direct voxel grid
+optimization, CVPR 2022, section 3 (a grid in place of the network).
 """
 
 from collections.abc import Iterator, Sequence
@@ -51,7 +52,9 @@ class RadianceField:
         return _logistic(self.raw[:, 1:]).reshape(CELLS, CELLS, 3)
 
     def at(self, p: Float[np.ndarray, "r s 2"]) -> tuple[np.ndarray, np.ndarray]:
-        """Return density and colour at points, linear between nodes before they are made positive."""
+        """Return density and colour at points, linear between nodes before they are made
+        positive.
+        """
         return _at(self.raw, *_between(p))[:2]
 
     def along(
@@ -134,7 +137,9 @@ def reconstruct(
 
 
 def _between(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the four nodes about each point, and their shares; none where it lies beyond the grid."""
+    """Return the four nodes about each point, and their shares; none where it lies beyond the
+    grid.
+    """
     at = (p + 1) / 2 * (CELLS - 1)
     inside = np.all((at >= 0) & (at <= CELLS - 1), axis=-1)
     at = np.clip(at, 0, CELLS - 1 - 1e-6)

@@ -1,6 +1,8 @@
-"""A network that tells by how much its input is turned, trained with one representation of rotations or another.
+"""A network that tells by how much its input is turned, trained with one representation of
+rotations or another.
 
-Reference: Zhou et al., On the continuity of rotation representations in neural networks, CVPR 2019, sections 4 and 5.
+Reference: Zhou et al., On the continuity of rotation representations in neural networks, CVPR 2019,
+sections 4 and 5.
 """
 
 from collections.abc import Iterator, Sequence

@@ -1,6 +1,8 @@
-"""A set of points that is to be like every one of many targets at once: what remains is what the loss calls the mean.
+"""A set of points that is to be like every one of many targets at once: what remains is what the
+loss calls the mean.
 
-Reference: Fan, Su and Guibas, A point set generation network, CVPR 2017, section 3.3 and figure 4 (mean shapes).
+Reference: Fan, Su and Guibas, A point set generation network, CVPR 2017, section 3.3 and figure 4
+(mean shapes).
 """
 
 from collections.abc import Callable, Iterator, Sequence

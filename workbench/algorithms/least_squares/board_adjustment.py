@@ -1,10 +1,13 @@
-"""Refines a camera, its lens and the poses of a board together: Levenberg-Marquardt with the poses eliminated.
+"""Refines a camera, its lens and the poses of a board together: Levenberg-Marquardt with the poses
+eliminated.
 
-The normal equations have 4 to 9 unknowns that all views share and 6 of each view alone. The pose blocks are 6 by 6 and
-independent, so they are solved for first (Schur's complement), and what is left is as large as the camera.
+The normal equations have 4 to 9 unknowns that all views share and 6 of each view alone. The pose
+blocks are 6 by 6 and independent, so they are solved for first (Schur's complement), and what is
+left is as large as the camera.
 
-Reference: Zhang, A Flexible New Technique for Camera Calibration, PAMI 2000, 3.2 and 3.3 (what is minimised); Triggs et al.,
-Bundle Adjustment: A Modern Synthesis, 2000, sections 3.2 (residual weights) and 6.1 (Schur's complement).
+Reference: Zhang, A Flexible New Technique for Camera Calibration, PAMI 2000, 3.2 and 3.3 (what is
+minimised); Triggs et al., Bundle Adjustment: A Modern Synthesis, 2000, sections 3.2 (residual
+weights) and 6.1 (Schur's complement).
 """
 
 from collections.abc import Iterator
@@ -53,11 +56,13 @@ class Adjustment:
         Ts_camera_board: Poses of the board, one per view.
         residuals: Projected minus measured, pixels.
         weights: How much each corner's squared residual counts.
-        cost: The sum of the loss over all corners, px²; of squares where no corner of the loss is given.
+        cost: The sum of the loss over all corners, px²; of squares where no corner of the loss is
+            given.
         damping: With which the next system is solved.
-        accepted: Whether this iteration's step lowered the cost; a rejected one changes nothing but the damping.
-        covariance: Of those of `SHARED` that are free, in their order; None before the end, and where the views do not
-            determine them.
+        accepted: Whether this iteration's step lowered the cost; a rejected one changes nothing but
+            the damping.
+        covariance: Of those of `SHARED` that are free, in their order; None before the end, and
+            where the views do not determine them.
         free: Which of `SHARED` are free.
         stop: Why this is the last, or None.
     """
@@ -77,7 +82,9 @@ class Adjustment:
 
     @property
     def deviations(self) -> Float[np.ndarray, "9"]:
-        """Predicted standard deviations of `SHARED`; 0 for what is fixed, NaN where nothing is known."""
+        """Predicted standard deviations of `SHARED`; 0 for what is fixed, NaN where nothing is
+        known.
+        """
         found = np.zeros(9)
         found[self.free] = np.nan if self.covariance is None else np.sqrt(np.diag(self.covariance))
         return found
@@ -105,13 +112,14 @@ def adjust(
         p_board: Points of the board, metres.
         uv: Their pixels in every view.
         coefficients: How many of k1, k2, p1, p2, k3 are free; the others stay as they are.
-        corner: Residuals well beyond it, in pixels, hardly count (Cauchy's loss); plain squares if None.
+        corner: Residuals well beyond it, in pixels, hardly count (Cauchy's loss); plain squares if
+            None.
         max_iterations: Linear systems solved at most.
         tolerance: Converged when a step lowers the cost by less than this share.
 
     Note:
-        The cost never rises. The predicted covariance takes errors of all corners for independent and alike, and the board
-        for flat and as large as `p_board` says.
+        The cost never rises. The predicted covariance takes errors of all corners for independent
+        and alike, and the board for flat and as large as `p_board` says.
     """
     free = np.arange(9) < 4 + coefficients
     shared = shared_numbers(K, lens)
@@ -162,7 +170,9 @@ def adjust(
 
 
 _QUIETLY = np.errstate(all="ignore")
-"""A point at depth 0 or beyond all numbers gives a cost that is not finite: such a step is rejected."""
+"""A point at depth 0 or beyond all numbers gives a cost that is not finite: such a step is
+rejected.
+"""
 
 
 @_QUIETLY
@@ -173,9 +183,11 @@ def linearised(
     p_board: Float[np.ndarray, "n 3"],
     uv: Float[np.ndarray, "k n 2"],
 ) -> Float[np.ndarray, "k 16 m"]:
-    """Return of every view the derivatives of its 2n residuals, all u and then all v, and in the last row these themselves.
+    """Return of every view the derivatives of its 2n residuals, all u and then all v, and in the
+    last row these themselves.
 
-    Rows 0 to 8 belong to `SHARED`, 9 to 11 to a turn of the board about its origin (R becomes exp(w) R), 12 to 14 to t.
+    Rows 0 to 8 belong to `SHARED`, 9 to 11 to a turn of the board about its origin (R becomes
+    exp(w) R), 12 to 14 to t.
 
     Args:
         shared: Values of `SHARED`.
@@ -226,7 +238,8 @@ def linearised(
 def loss(
     block: Float[np.ndarray, "k 16 m"], corner: float | None
 ) -> tuple[float, Float[np.ndarray, "k n"]]:
-    """Return the sum of the loss of all residuals, and the weight of each corner: squares, or Cauchy's loss.
+    """Return the sum of the loss of all residuals, and the weight of each corner: squares, or
+    Cauchy's loss.
 
     Cauchy's loss is c² log(1 + e²/c²), whose slope is that of the weighted square e² / (1 + e²/c²).
     """
@@ -243,7 +256,8 @@ def loss(
 def solved(
     normal: Float[np.ndarray, "k 16 16"], free: Bool[np.ndarray, "9"], damping: float
 ) -> tuple[Float[np.ndarray, "9"], Float[np.ndarray, "k 6"]] | None:
-    """Return the damped step of the shared unknowns and of every pose, or None where the system has no solution.
+    """Return the damped step of the shared unknowns and of every pose, or None where the system has
+    no solution.
 
     Args:
         normal: Products of the rows of every view's block.
@@ -271,7 +285,9 @@ def solved(
 def shared_information(
     block: Float[np.ndarray, "k 16 m"], free: Bool[np.ndarray, "9"]
 ) -> Float[np.ndarray, "f f"]:
-    """Return what is left of the normal matrix for the free shared unknowns once the poses are eliminated."""
+    """Return what is left of the normal matrix for the free shared unknowns once the poses are
+    eliminated.
+    """
     return _information(block @ np.swapaxes(block, 1, 2), free)
 
 
@@ -300,7 +316,9 @@ def _information(normal: np.ndarray, free: np.ndarray) -> np.ndarray:
 
 @_QUIETLY
 def _covariance(block: np.ndarray, weights: np.ndarray, free: np.ndarray) -> np.ndarray | None:
-    """Return the covariance of the free shared unknowns, or None where the views do not determine them."""
+    """Return the covariance of the free shared unknowns, or None where the views do not determine
+    them.
+    """
     normal = _normal(block, weights)
     spare = 2 * weights.size - int(free.sum()) - 6 * len(block)
     try:

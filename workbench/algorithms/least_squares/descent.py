@@ -1,4 +1,6 @@
-"""Nonlinear least squares in small steps: Gauss and Newton's, and Levenberg and Marquardt's that can be taken back."""
+"""Nonlinear least squares in small steps: Gauss and Newton's, and Levenberg and Marquardt's that
+can be taken back.
+"""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -37,7 +39,8 @@ class Descent:
     """One moment of an iteration.
 
     Attributes:
-        phase: The start; the linear problem around the current unknown; its solution tried out; kept, or taken back.
+        phase: The start; the linear problem around the current unknown; its solution tried out;
+            kept, or taken back.
         iteration: From 1, 0 at the start.
         unknown: Where it is.
         residuals: There.
@@ -68,26 +71,30 @@ class Descent:
 
     @property
     def gain(self) -> float:
-        """How much the step lowers the sum of squares, as a share of what the linear problem predicted."""
+        """How much the step lowers the sum of squares, as a share of what the linear problem
+        predicted.
+        """
         return (self.before - self.trial_cost) / self.predicted if self.predicted > 0.0 else np.nan
 
 
 def damped_step(
     residuals: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n k"], damping: float
 ) -> Float[np.ndarray, " k"]:
-    """Return the step that solves (JᵀJ + damping diag(JᵀJ)) step = -Jᵀr; without damping it is Gauss and Newton's.
+    """Return the step that solves (JᵀJ + damping diag(JᵀJ)) step = -Jᵀr; without damping it is
+    Gauss and Newton's.
 
     Args:
         residuals: r, what should become small.
         jacobian: J, their slopes by a small step.
-        damping: 0 or more; large values give short steps down the slope, each entry in its own unit.
+        damping: 0 or more; large values give short steps down the slope, each entry in its own
+            unit.
 
     Raises:
         LinAlgError: If the matrix is singular: some step changes no residual.
 
     Note:
-        It is solved as least squares of J and of damped rows below it. JᵀJ itself would square the condition, and far from
-        the answer half of the digits with it.
+        It is solved as least squares of J and of damped rows below it. JᵀJ itself would square the
+        condition, and far from the answer half of the digits with it.
     Reference: Marquardt, An algorithm for least-squares estimation of nonlinear parameters, 1963.
     """
     size, k = np.linalg.norm(jacobian, axis=0), jacobian.shape[1]
@@ -114,26 +121,34 @@ def descend(
     iterations: int = 100,
     tolerance: float = 1e-6,
 ) -> Iterator[Descent]:
-    """Yield the moments of Levenberg-Marquardt, or of Gauss-Newton, which accepts every step, where the damping is 0.
+    """Yield the moments of Levenberg-Marquardt, or of Gauss-Newton, which accepts every step, where
+    the damping is 0.
 
     Args:
-        linearise: Gives the residuals (n,) at an unknown, and their Jacobian (n, k) with respect to a small step.
+        linearise: Gives the residuals (n,) at an unknown, and their Jacobian (n, k) with respect to
+            a small step.
         retract: Gives the unknown that a small step (k,) leads to.
         start: The first unknown.
         damped_step: Solves the linear problem.
         damping: At the start; 0 for none at all.
         iterations: Linear problems solved at most.
-        tolerance: Converged when a step changes the sum of squares by no more than this share of it, or promises to.
+        tolerance: Converged when a step changes the sum of squares by no more than this share of
+            it, or promises to.
 
-    Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 10.3; Madsen, Nielsen and Tingleff, Methods for
-        non-linear least squares problems, 2004, section 3.2 (the gain ratio).
+    Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 10.3; Madsen, Nielsen and
+        Tingleff, Methods for non-linear least squares problems, 2004, section 3.2 (the gain ratio).
     """
     unknown, is_damped = start, damping > 0.0
     residuals, jacobian = linearise(unknown)
     now = Descent(
-        phase="start", iteration=0, unknown=unknown, residuals=residuals, jacobian=jacobian,
-        cost=float(residuals @ residuals), damping=damping,
-    )  # fmt: skip
+        phase="start",
+        iteration=0,
+        unknown=unknown,
+        residuals=residuals,
+        jacobian=jacobian,
+        cost=float(residuals @ residuals),
+        damping=damping,
+    )
     yield now
     for iteration in range(1, iterations + 1):
         now = replace(
@@ -152,8 +167,15 @@ def descend(
             trial_residuals, trial_jacobian = linearise(trial)
             trial_cost = float(trial_residuals @ trial_residuals)
             predicted = now.cost - float(np.square(now.residuals + now.jacobian @ step).sum())
-        now = replace(now, phase="tried", step=step, trial=trial, trial_cost=trial_cost, before=now.cost,
-                      predicted=predicted)  # fmt: skip
+        now = replace(
+            now,
+            phase="tried",
+            step=step,
+            trial=trial,
+            trial_cost=trial_cost,
+            before=now.cost,
+            predicted=predicted,
+        )
         yield now
 
         stop = Stop.MAX_ITERATIONS if iteration == iterations else None
@@ -163,8 +185,16 @@ def descend(
             stop = Stop.CONVERGED
         if trial_cost < now.cost or (not is_damped and stop is not Stop.DIVERGED):
             lower = max(now.damping / CHANGE, LEAST_DAMPING) if is_damped else 0.0
-            now = replace(now, phase="accepted", unknown=trial, residuals=trial_residuals, jacobian=trial_jacobian,
-                          cost=trial_cost, damping=lower, stop=stop)  # fmt: skip
+            now = replace(
+                now,
+                phase="accepted",
+                unknown=trial,
+                residuals=trial_residuals,
+                jacobian=trial_jacobian,
+                cost=trial_cost,
+                damping=lower,
+                stop=stop,
+            )
         else:
             now = replace(now, phase="rejected", damping=now.damping * CHANGE, stop=stop)
         yield now
@@ -174,7 +204,9 @@ def descend(
 
 @dataclass(frozen=True, eq=False)
 class Along:
-    """Sums of squares along a step: at which shares of it, what they are, and what the linear problem says of them."""
+    """Sums of squares along a step: at which shares of it, what they are, and what the linear
+    problem says of them.
+    """
 
     shares: Float[np.ndarray, " k"]
     costs: Float[np.ndarray, " k"]
@@ -194,7 +226,8 @@ def along_step(
 
     Raises:
         ValueError: If there is no step.
-    Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 4.1 (the model beside the function).
+    Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 4.1 (the model beside the
+    function).
     """
     if now.step is None:
         raise ValueError("there is no step to go along")
@@ -209,7 +242,8 @@ def along_step(
 
 @dataclass(frozen=True, eq=False)
 class Walked:
-    """A moment of a descent, where it has been so far, and while a step is tried the sums of squares along it.
+    """A moment of a descent, where it has been so far, and while a step is tried the sums of
+    squares along it.
 
     Attributes:
         now: The moment.
@@ -255,10 +289,11 @@ def covariance(
 ) -> Float[np.ndarray, "k k"]:
     """Return the covariance of the unknowns at the minimum, s² (JᵀJ)⁻¹ with s² = r·r / (n - k).
 
-    It holds for residuals with independent errors of one size, and as far as the problem is straight; infinite where n
-    is not above k, or some step changes no residual.
+    It holds for residuals with independent errors of one size, and as far as the problem is
+    straight; infinite where n is not above k, or some step changes no residual.
 
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 5.2; Seber and Wild, Nonlinear regression, 2.1.
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 5.2; Seber and Wild,
+    Nonlinear regression, 2.1.
     """
     n, k = jacobian.shape
     normal = jacobian.T @ jacobian
@@ -293,7 +328,8 @@ def descend_many(
     iterations: int = 100,
     tolerance: float = 1e-6,
 ) -> Iterator[Descents]:
-    """Yield many descents side by side, one iteration at a time, each as `descend` would go; they end when all are done.
+    """Yield many descents side by side, one iteration at a time, each as `descend` would go; they
+    end when all are done.
 
     Args:
         linearise: Gives residuals (k, n) and Jacobians (k, n, m) at all unknowns.
@@ -305,7 +341,8 @@ def descend_many(
 
     Note:
         What is not finite any more stays as it is and counts as done.
-    Reference: as `descend`; the matrix is scaled to a diagonal of ones, where Marquardt's damping is one number.
+    Reference: as `descend`; the matrix is scaled to a diagonal of ones, where Marquardt's damping
+    is one number.
     """
     unknowns = starts
     residuals, jacobians = linearise(unknowns)

@@ -1,8 +1,10 @@
-"""Iterative closest point: match every source point to its nearest target point, fit a motion, repeat.
+"""Iterative closest point: match every source point to its nearest target point, fit a motion,
+repeat.
 
-References: Besl and McKay, A method for registration of 3-D shapes, 1992, section IV.B (the loop, steps a-d); Chen and
-Medioni, Object modelling by registration of multiple range images, 1992 (point to plane); Chetverikov, Svirko, Stepanov
-and Krsek, The trimmed iterative closest point algorithm, 2002 (keeping a fraction).
+References: Besl and McKay, A method for registration of 3-D shapes, 1992, section IV.B (the loop,
+steps a-d); Chen and Medioni, Object modelling by registration of multiple range images, 1992 (point
+to plane); Chetverikov, Svirko, Stepanov and Krsek, The trimmed iterative closest point algorithm,
+2002 (keeping a fraction).
 """
 
 from collections.abc import Callable, Iterator
@@ -20,7 +22,9 @@ from workbench.geometry.points.metrics import rms
 from workbench.tracing import traced
 
 Match = Callable[[np.ndarray, np.ndarray], np.ndarray]
-"""match(p_target, p_source) -> for each source point, the index of its partner; both in the target frame."""
+"""match(p_target, p_source) -> for each source point, the index of its partner; both in the target
+frame.
+"""
 Align = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """align(p_target, p_source) -> T_target_source of paired points."""
 PlaneStep = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
@@ -47,11 +51,12 @@ class Stop(Enum):
 
 @dataclass(frozen=True)
 class Gate:
-    """Which matches a fit may use: those not farther apart than a limit found from the distances themselves.
+    """Which matches a fit may use: those not farther apart than a limit found from the distances
+    themselves.
 
-    `max_distance` is a fixed limit in metres. Among the pairs it leaves, `keep` takes that fraction with the smallest
-    distances (trimming) and `medians` takes those within that many times the median. All three together: the smallest
-    limit counts.
+    `max_distance` is a fixed limit in metres. Among the pairs it leaves, `keep` takes that fraction
+    with the smallest distances (trimming) and `medians` takes those within that many times the
+    median. All three together: the smallest limit counts.
     """
 
     max_distance: float = np.inf
@@ -93,7 +98,8 @@ class State:
         limit: The largest distance the gate accepted at the match, metres.
         kept: The matches within the limit: the fit uses only these.
         rmse: Root mean square of the kept distances, metres.
-        residual: Root mean square of what the fit minimises: those distances, or the distances to tangent planes.
+        residual: Root mean square of what the fit minimises: those distances, or the distances to
+            tangent planes.
         overlap: Share of the source points whose match was kept.
         stop: Why this is the last state, or None.
     """
@@ -146,20 +152,25 @@ def icp(
         p_target: The cloud that stays, target frame, metres.
         p_source: The cloud to be moved, source frame, metres.
         T_target_source: The initial guess.
-        n_target: Unit normals of the target. With them each fit is one point-to-plane step, without them `align`.
+        n_target: Unit normals of the target. With them each fit is one point-to-plane step, without
+            them `align`.
         gate: Which matches a fit may use.
-        match: Finds partners; None means `matcher`'s, which keeps one k-d tree over the target for the whole run.
-        align: Fits a motion to pairs: `align_rigid`, `align_similarity`, `align_affine`, or one's own.
+        match: Finds partners; None means `matcher`'s, which keeps one k-d tree over the target for
+            the whole run.
+        align: Fits a motion to pairs: `align_rigid`, `align_similarity`, `align_affine`, or one's
+            own.
         step: Makes the point-to-plane step.
         max_iterations: Match and fit at most this often.
-        tolerance: Converged when a fit moves no point by more than this share of the source's extent.
+        tolerance: Converged when a fit moves no point by more than this share of the source's
+            extent.
 
     Raises:
         ValueError: If a cloud is empty or holds numbers that are not finite.
 
     Note:
-        ICP finds the nearest minimum, not the best one. With `align_rigid` and a gate that only trims, the RMSE of the
-        kept matches never rises; a plateau or a small RMSE is no proof of a right answer.
+        ICP finds the nearest minimum, not the best one. With `align_rigid` and a gate that only
+        trims, the RMSE of the kept matches never rises; a plateau or a small RMSE is no proof of a
+        right answer.
 
     Examples:
         >>> p_target = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
@@ -231,10 +242,12 @@ def icp(
 
 
 def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]) -> Match:
-    """Return a nearest-neighbour `match` that has built its tree over the target, and visits the source in tree order.
+    """Return a nearest-neighbour `match` that has built its tree over the target, and visits the
+    source in tree order.
 
-    Consecutive queries then touch the same leaves: for 100,000 points in random order that takes a third of the time.
-    So does a tree with large leaves that is neither balanced nor compacted, beside scipy's default.
+    Consecutive queries then touch the same leaves: for 100,000 points in random order that takes a
+    third of the time. So does a tree with large leaves that is neither balanced nor compacted,
+    beside scipy's default.
     """
     check_clouds(p_target, p_source)
     tree, order = _tree(p_target), _tree(p_source).indices
@@ -266,7 +279,9 @@ def check_clouds(*clouds: np.ndarray) -> None:
 
 
 def bounding_corners(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "8 3"]:
-    """Return the corners of the bounding box: no affine map moves a point by more than it moves one of these."""
+    """Return the corners of the bounding box: no affine map moves a point by more than it moves one
+    of these.
+    """
     low, high = p.min(axis=0), p.max(axis=0)
     return np.array([np.where([i & 4, i & 2, i & 1], high, low) for i in range(8)])
 

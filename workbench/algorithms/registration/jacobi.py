@@ -1,7 +1,9 @@
-"""Jacobi's eigenvalue method: turn the frame in one coordinate plane after the other until nothing is left off the diagonal.
+"""Jacobi's eigenvalue method: turn the frame in one coordinate plane after the other until nothing
+is left off the diagonal.
 
-Reference: Golub and Van Loan, Matrix Computations, 4th ed., 8.5 (classical Jacobi); Jacobi, Über ein leichtes Verfahren,
-die in der Theorie der Säcularstörungen vorkommenden Gleichungen numerisch aufzulösen, 1846.
+Reference: Golub and Van Loan, Matrix Computations, 4th ed., 8.5 (classical Jacobi); Jacobi, Über
+ein leichtes Verfahren, die in der Theorie der Säcularstörungen vorkommenden Gleichungen numerisch
+aufzulösen, 1846.
 """
 
 from collections.abc import Iterator
@@ -24,7 +26,8 @@ class State:
         A: The matrix in the frame, V^T C V.
         V: The frame, its axes in columns.
         plane: The two axes that were turned, or None before the first rotation.
-        angle: How far the first of them was turned towards the second, radians, at most a quarter of pi.
+        angle: How far the first of them was turned towards the second, radians, at most a quarter
+            of pi.
         off: Norm of what is off the diagonal of A, as a share of the norm of A.
     """
 
@@ -39,8 +42,9 @@ class State:
 def jacobi(C: Float[np.ndarray, "n n"], tolerance: float = TOLERANCE) -> Iterator[State]:
     """Yield the frame as it is, and after each rotation, until C is diagonal in it.
 
-    Each rotation makes the largest entry off the diagonal zero and brings earlier ones back, smaller: the sum of their
-    squares falls by twice the square of that entry, and in the end quadratically.
+    Each rotation makes the largest entry off the diagonal zero and brings earlier ones back,
+    smaller: the sum of their squares falls by twice the square of that entry, and in the end
+    quadratically.
 
     Args:
         C: A symmetric matrix.

@@ -1,6 +1,8 @@
-"""The similarity that fits pairs best, in the steps in which its formula is written: centre, SVD, no mirror, scale.
+"""The similarity that fits pairs best, in the steps in which its formula is written: centre, SVD,
+no mirror, scale.
 
-Reference: Umeyama, Least-squares estimation of transformation parameters between two point patterns, 1991, eq. 38-43.
+Reference: Umeyama, Least-squares estimation of transformation parameters between two point
+patterns, 1991, eq. 38-43.
 """
 
 from collections.abc import Callable, Iterator
@@ -70,7 +72,8 @@ def procrustes(
         p_target: Points in the target frame, metres.
         p_source: Their partners in the source frame, row by row.
         similarity_scale: Gives the scale from the pairs.
-        flip: Which direction changes its sign where the SVD gives a mirror image; only the least is right.
+        flip: Which direction changes its sign where the SVD gives a mirror image; only the least is
+            right.
     """
     m_target, m_source = p_target.mean(axis=0), p_source.mean(axis=0)
 
@@ -101,7 +104,9 @@ def procrustes(
 
 
 def _turning_in(H: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the SVD with a V that is a rotation, by signs that both of its factors may change together."""
+    """Return the SVD with a V that is a rotation, by signs that both of its factors may change
+    together.
+    """
     U, D, Vt = np.linalg.svd(H)
     signs = np.sign(Vt[np.arange(3), np.abs(Vt).argmax(axis=1)])
     signs[2] *= np.sign(np.linalg.det(Vt) * signs.prod())

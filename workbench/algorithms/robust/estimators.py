@@ -54,7 +54,9 @@ def huber_loss(distances: Float[np.ndarray, " n"], corner: float) -> Float[np.nd
 
 
 def huber_weights(distances: Float[np.ndarray, " n"], corner: float) -> Float[np.ndarray, " n"]:
-    """Return the weights that give least squares the slope of Huber's loss: 1 up to the corner, then corner / |distance|."""
+    """Return the weights that give least squares the slope of Huber's loss: 1 up to the corner,
+    then corner / |distance|.
+    """
     return corner / np.maximum(np.abs(distances), corner)
 
 
@@ -64,7 +66,8 @@ class Loss:
 
     Attributes:
         name: Whose it is.
-        efficient_corner: In standard deviations of the noise: where the corner costs 5 % of the points when all are good.
+        efficient_corner: In standard deviations of the noise: where the corner costs 5 % of the
+            points when all are good.
         cost: From distances of either sign and a corner the loss of each.
         weights: Likewise the weights that give least squares its slope: slope / distance.
     """
@@ -137,7 +140,8 @@ def cascade(
     max_iterations: int,
     tolerance: float,
 ) -> Iterator[Trusted]:
-    """Yield the rounds of reweighted fits with several losses, each but the first from the end of the one before.
+    """Yield the rounds of reweighted fits with several losses, each but the first from the end of
+    the one before.
 
     Args:
         p: The rows.
@@ -148,8 +152,8 @@ def cascade(
 
     Raises:
         ValueError: As `reweighted_fit`.
-    Reference: Maronna, Martin, Yohai and Salibian-Barrera, Robust Statistics, 2nd ed., 2019, 5.5: a loss whose slope returns
-        to zero starts from a fit that is robust already.
+    Reference: Maronna, Martin, Yohai and Salibian-Barrera, Robust Statistics, 2nd ed., 2019, 5.5: a
+        loss whose slope returns to zero starts from a fit that is robust already.
     """
     first, now = None, None
     for k, (loss, corner) in enumerate(losses):
@@ -187,18 +191,22 @@ def reweighted_fit(
         p: The rows: points, or matches.
         model: What to fit.
         loss: What a distance costs.
-        corner: The distance from which the loss grows less than the square, in the unit of the model's distances.
+        corner: The distance from which the loss grows less than the square, in the unit of the
+            model's distances.
         start: Where to start; the plain fit to all rows if None.
         max_iterations: Reweighted fits at most.
         tolerance: Converged when no distance changes by more than this share of the corner.
 
     Raises:
-        ValueError: If there are too few rows for the model's refit, or too few of them keep a weight.
+        ValueError: If there are too few rows for the model's refit, or too few of them keep a
+            weight.
 
     Note:
-        Under Huber's loss a far outlier pulls with the same force as one at the corner, but it does pull: many on one side
-        win. Losses whose slope returns to 0 have several minima: where they start decides.
-    Reference: Holland and Welsch, Robust regression using iteratively reweighted least-squares, 1977.
+        Under Huber's loss a far outlier pulls with the same force as one at the corner, but it does
+        pull: many on one side win. Losses whose slope returns to 0 have several minima: where they
+        start decides.
+    Reference: Holland and Welsch, Robust regression using iteratively reweighted least-squares,
+    1977.
     """
     weights = np.ones(len(p))
     estimate = model.refit(p, weights) if start is None else start

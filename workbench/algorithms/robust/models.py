@@ -1,8 +1,10 @@
-"""What can be fitted robustly: kinds of model, each as the five functions that RANSAC and Huber's method need.
+"""What can be fitted robustly: kinds of model, each as the five functions that RANSAC and Huber's
+method need.
 
-Rows are (x, y) for LINE and CIRCLE, (x, y, z) for PLANE and SPHERE, in metres; (u, v, u', v') for HOMOGRAPHY and
-FUNDAMENTAL, a pixel of the first image and its match in the second. RIGID has rows (x, y, z, x', y', z'), a source point and
-its target. `MODELS` are those of points and pixels, by name.
+Rows are (x, y) for LINE and CIRCLE, (x, y, z) for PLANE and SPHERE, in metres; (u, v, u', v') for
+HOMOGRAPHY and FUNDAMENTAL, a pixel of the first image and its match in the second. RIGID has rows
+(x, y, z, x', y', z'), a source point and its target. `MODELS` are those of points and pixels, by
+name.
 """
 
 from collections.abc import Callable
@@ -53,13 +55,15 @@ class Model:
         columns: How many numbers a row has.
         unit: Of its distances.
         degenerate_when: In words, when a sample determines no model.
-        solve: From samples (k, sample_size, columns) the estimates through them, in one list: none for a degenerate
-            sample, up to three for one sample of a fundamental matrix.
-        distances: From estimates (..., *shape) and rows (n, columns) the distances (..., n), never negative. Keeps float32.
-        solve_each: As `solve`, and of which sample each estimate is, in the order of the samples: so that RANSAC solves many
-            at once, bit by bit as one by one. None where a call for one sample costs little.
-        refit: `refit(p, weights=None, start=None)`: the estimate with the least squared distances over weighted rows, near
-            `start` where that is given.
+        solve: From samples (k, sample_size, columns) the estimates through them, in one list: none
+            for a degenerate sample, up to three for one sample of a fundamental matrix.
+        distances: From estimates (..., *shape) and rows (n, columns) the distances (..., n), never
+            negative. Keeps float32.
+        solve_each: As `solve`, and of which sample each estimate is, in the order of the samples:
+            so that RANSAC solves many at once, bit by bit as one by one. None where a call for one
+            sample costs little.
+        refit: `refit(p, weights=None, start=None)`: the estimate with the least squared distances
+            over weighted rows, near `start` where that is given.
     """
 
     name: str
@@ -80,7 +84,9 @@ def finite(estimates: Float[np.ndarray, "k ..."]) -> Float[np.ndarray, "j ..."]:
 
 
 def from_points(solver: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
-    """Return a `Model.solve` made of a function that takes one sample and gives one estimate, NaN for a degenerate one."""
+    """Return a `Model.solve` made of a function that takes one sample and gives one estimate, NaN
+    for a degenerate one.
+    """
     return lambda samples: finite(
         np.stack([np.asarray(solver(sample), dtype=float) for sample in samples])
     )
@@ -89,7 +95,8 @@ def from_points(solver: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndar
 def rms_distance(
     model: Model, estimate: Float[np.ndarray, "..."], p: Float[np.ndarray, "n d"]
 ) -> float:
-    """Return the root mean square distance of the rows to an estimate: its error, where the rows are free of noise.
+    """Return the root mean square distance of the rows to an estimate: its error, where the rows
+    are free of noise.
 
     Args:
         model: What the estimate is of.
@@ -258,7 +265,9 @@ RIGID = Model(
     fewest=3,
     columns=6,
     unit="m",
-    degenerate_when="the two triangles have different sides, so that no motion brings them together",
+    degenerate_when=(
+        "the two triangles have different sides, so that no motion brings them together"
+    ),
     solve=_solve_rigid,
     distances=_pair_distances,
     refit=_refit_rigid,

@@ -1,7 +1,8 @@
-"""RANSAC: guess a model from as few points as determine it, count who agrees, keep the best guess, refit it.
+"""RANSAC: guess a model from as few points as determine it, count who agrees, keep the best guess,
+refit it.
 
-Reference: Fischler and Bolles, Random Sample Consensus: A Paradigm for Model Fitting with Applications to Image Analysis and
-Automated Cartography, 1981, section II.
+Reference: Fischler and Bolles, Random Sample Consensus: A Paradigm for Model Fitting with
+Applications to Image Analysis and Automated Cartography, 1981, section II.
 """
 
 from collections.abc import Callable, Iterator
@@ -71,8 +72,9 @@ class State:
     """One part of one try.
 
     Attributes:
-        phase: What just happened: a sample was drawn; it was degenerate; it gave a model; the inliers were counted; that
-            was the best so far; the best was fitted again to its inliers; it is over.
+        phase: What just happened: a sample was drawn; it was degenerate; it gave a model; the
+            inliers were counted; that was the best so far; the best was fitted again to its
+            inliers; it is over.
         iteration: Samples drawn so far.
         needed: Samples needed for the confidence asked for, as far as is known.
         sample: The rows drawn.
@@ -93,7 +95,8 @@ class State:
 
 
 def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) -> float:
-    """Return how many samples must be drawn to draw, with this confidence, at least one that holds no outlier.
+    """Return how many samples must be drawn to draw, with this confidence, at least one that holds
+    no outlier.
 
     Args:
         inlier_ratio: The share of inliers, from 0 to 1.
@@ -101,15 +104,19 @@ def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) 
         confidence: Below 1.
 
     Returns:
-        A whole number, at least 1; infinity where the share is 0 (or so small that no number can hold the answer).
+        A whole number, at least 1; infinity where the share is 0 (or so small that no number can
+        hold the answer).
 
     Note:
         A sample without an outlier need not give a good model: its points are noisy.
 
-    Reference: Fischler and Bolles 1981, section II.B; Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 4.18.
+    Reference: Fischler and Bolles 1981, section II.B; Hartley and Zisserman, Multiple View
+    Geometry, 2nd ed., eq. 4.18.
 
     Examples:
-        >>> int(iterations_needed(0.5, 3, 0.99))  # half of the points are inliers, a plane needs three
+        >>> int(
+        ...     iterations_needed(0.5, 3, 0.99)
+        ... )  # half of the points are inliers, a plane needs three
         35
     """
     clean = inlier_ratio**sample_size
@@ -161,18 +168,21 @@ def ransac(
     Args:
         p: The rows: points, or matches.
         model: What to fit.
-        samples: Rows to try, from `uniform_samples`, `prosac_samples`, or chosen. Of a model with `solve_each` some more are
-            drawn than tried.
+        samples: Rows to try, from `uniform_samples`, `prosac_samples`, or chosen. Of a model with
+            `solve_each` some more are drawn than tried.
         judge: Says how all rows take an estimate: `Judge(p, model, inlier_distance, score)`.
         needed_for: The number of samples for an inlier ratio, a sample size and a confidence.
-        share_of: The inlier ratio for which `needed_for` is asked, of each new best; by default that of all rows.
+        share_of: The inlier ratio for which `needed_for` is asked, of each new best; by default
+            that of all rows.
         confidence: With which probability one sample at least shall be free of outliers.
         max_iterations: Samples drawn at most.
         local_refit: Refit every new best at once (LO-RANSAC), not only the last.
 
     Raises:
-        ValueError: If there are too few rows, they have the wrong number of columns, or are not finite.
-    Reference: Fischler and Bolles 1981, section II; Chum, Matas and Kittler, Locally Optimized RANSAC, 2003 (`local_refit`).
+        ValueError: If there are too few rows, they have the wrong number of columns, or are not
+            finite.
+    Reference: Fischler and Bolles 1981, section II; Chum, Matas and Kittler, Locally Optimized
+    RANSAC, 2003 (`local_refit`).
     """
     check_rows(p, model)
     model, samples = solved_ahead(p, model, samples)
@@ -209,7 +219,8 @@ def ransac(
 def solved_ahead(
     p: Float[np.ndarray, "n d"], model: Model, samples: Iterator[np.ndarray]
 ) -> tuple[Model, Iterator[np.ndarray]]:
-    """Return the model, knowing what the samples to come give, and these samples; both as they are without `solve_each`.
+    """Return the model, knowing what the samples to come give, and these samples; both as they are
+    without `solve_each`.
 
     Args:
         p: The rows: points, or matches.
@@ -241,10 +252,11 @@ def solved_ahead(
 def refit_rounds(
     p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit]
 ) -> Iterator[Fit]:
-    """Yield least-squares fits, each to the inliers of the one before, until these stay the same (ten fits at most).
+    """Yield least-squares fits, each to the inliers of the one before, until these stay the same
+    (ten fits at most).
 
-    No round lowers the MSAC score: the fit lowers the squared distances of the old inliers, and the new inliers are the
-    choice that lowers the truncated sum further.
+    No round lowers the MSAC score: the fit lowers the squared distances of the old inliers, and the
+    new inliers are the choice that lowers the truncated sum further.
 
     Args:
         p: The rows: points, or matches.
@@ -252,7 +264,8 @@ def refit_rounds(
         fit: The fit to begin with.
         judge: Says how all rows take an estimate.
 
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.7.1 (guided refit, alternated until it converges).
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.7.1 (guided refit,
+    alternated until it converges).
     """
     for _ in range(10):
         if fit.count < model.fewest:
@@ -285,7 +298,8 @@ def check_rows(p: Float[np.ndarray, "n d"], model: Model) -> None:
     """Raise ValueError unless the model can be fitted to these rows; the message says why.
 
     Raises:
-        ValueError: If there are too few rows, they have the wrong number of columns, or are not finite.
+        ValueError: If there are too few rows, they have the wrong number of columns, or are not
+            finite.
     """
     if p.shape[1] != model.columns:
         raise ValueError(

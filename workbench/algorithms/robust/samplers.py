@@ -1,4 +1,6 @@
-"""Which points to try next: by chance alone, or the most trusted first; and among how many of these to say when to stop."""
+"""Which points to try next: by chance alone, or the most trusted first; and among how many of these
+to say when to stop.
+"""
 
 from collections.abc import Iterator
 from itertools import count
@@ -35,7 +37,8 @@ def prosac_samples(
     *,
     grown_after: int = 20_000,
 ) -> Iterator[Int[np.ndarray, "..."]]:
-    """Yield samples from the most trusted rows first, from a pool that grows until it holds all rows.
+    """Yield samples from the most trusted rows first, from a pool that grows until it holds all
+    rows.
 
     Args:
         quality: How much each row is trusted; more is better.
@@ -45,8 +48,8 @@ def prosac_samples(
 
     Raises:
         ValueError: If there are fewer rows than a sample needs.
-    Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.1, eq. 3 (growth) and algorithm 1. There the
-        pool stops growing at the termination length; here it goes on.
+    Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.1, eq. 3 (growth) and
+        algorithm 1. There the pool stops growing at the termination length; here it goes on.
     """
     n, order = len(quality), np.argsort(-quality, kind="stable")
     _check(n, size)
@@ -70,11 +73,13 @@ def termination_length(
     by_chance: float = 0.05,
     doubt: float = 0.05,
 ) -> tuple[int, float]:
-    """Return among how many of the most trusted rows a model has the largest share of inliers, and this share.
+    """Return among how many of the most trusted rows a model has the largest share of inliers, and
+    this share.
 
-    Asked how many samples this share needs, PROSAC's stopping rule answers with the fewest (maximality). Only lengths count
-    at which a wrong model would hardly have so many inliers (non-randomness), from FEWEST_TRUSTED rows on, or from all where
-    there are fewer: of less rows a few lucky ones end the run. Where no length counts, both numbers are 0.
+    Asked how many samples this share needs, PROSAC's stopping rule answers with the fewest
+    (maximality). Only lengths count at which a wrong model would hardly have so many inliers
+    (non-randomness), from FEWEST_TRUSTED rows on, or from all where there are fewer: of less rows a
+    few lucky ones end the run. Where no length counts, both numbers are 0.
 
     Args:
         inliers: Which rows are near the model.
@@ -83,11 +88,13 @@ def termination_length(
         by_chance: How likely a row is near a wrong model.
         doubt: How likely a wrong model may have so many inliers.
 
-    Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.2 (stopping criterion; the tail of the binomial
-        distribution exactly). FEWEST_TRUSTED: Raguram et al., USAC, 2013.
+    Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.2 (stopping criterion; the
+        tail of the binomial distribution exactly). FEWEST_TRUSTED: Raguram et al., USAC, 2013.
 
     Examples:
-        >>> termination_length(np.arange(100) < 30, -np.arange(100.0), 4)  # the thirty that are trusted most
+        >>> termination_length(
+        ...     np.arange(100) < 30, -np.arange(100.0), 4
+        ... )  # the thirty that are trusted most
         (30, 1.0)
     """
     found = np.cumsum(inliers[np.argsort(-quality, kind="stable")])

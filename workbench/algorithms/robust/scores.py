@@ -1,6 +1,7 @@
 """How good a candidate is, from the distances of all points to it: more is better, for every score.
 
-Each score takes the distances, never negative, of n points to one candidate, or of n points to k candidates in rows.
+Each score takes the distances, never negative, of n points to one candidate, or of n points to k
+candidates in rows.
 """
 
 from collections.abc import Callable
@@ -27,9 +28,11 @@ def count_score(
 def msac_score(
     distances: Float[np.ndarray, "*k n"], inlier_distance: float
 ) -> Shaped[np.ndarray, "*k"]:
-    """Return the sum over points of 1 - (distance / inlier distance)², nothing for a point beyond the inlier distance.
+    """Return the sum over points of 1 - (distance / inlier distance)², nothing for a point beyond
+    the inlier distance.
 
-    It is n minus the truncated sum of squares of the paper, in units of the squared inlier distance.
+    It is n minus the truncated sum of squares of the paper, in units of the squared inlier
+    distance.
 
     Reference: Torr and Zisserman, MLESAC, 2000, section 4, eq. 16 and 17.
     """
@@ -43,8 +46,9 @@ def mlesac_score(
 ) -> Shaped[np.ndarray, "*k"]:
     """Return how much likelier the distances are than if all points were outliers, as a logarithm.
 
-    Inliers are normal around the model, with the standard deviation that puts 95 % of them within the inlier distance;
-    outliers are anywhere in a window of width `span`. The share of inliers is found by expectation maximisation.
+    Inliers are normal around the model, with the standard deviation that puts 95 % of them within
+    the inlier distance; outliers are anywhere in a window of width `span`. The share of inliers is
+    found by expectation maximisation.
 
     Args:
         distances: Of n points to one candidate, or to k candidates in rows.

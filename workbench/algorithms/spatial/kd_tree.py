@@ -1,7 +1,10 @@
-"""A k-d tree: points cut in halves at the median, along the longest side of their box, and the nearest one found in it.
+"""A k-d tree: points cut in halves at the median, along the longest side of their box, and the
+nearest one found in it.
 
-Reference: Friedman, Bentley and Finkel, An algorithm for finding best matches in logarithmic expected time, ACM TOMS 3(3),
-1977. Arya and Mount, Algorithms for fast vector quantization, DCC 1993: the distance to a cell, one axis at a time.
+Reference: Friedman, Bentley and Finkel, An algorithm for finding best matches in logarithmic
+expected time, ACM TOMS 3(3),
+1977. Arya and Mount, Algorithms for fast vector quantization, DCC 1993: the distance to a cell, one
+      axis at a time.
 """
 
 from collections.abc import Iterator
@@ -17,7 +20,8 @@ LEAF = 8  # points at most in a cell that is not cut
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Tree:
-    """A k-d tree over n points of d coordinates, m cells; cell 0 is the whole, children come after their parents.
+    """A k-d tree over n points of d coordinates, m cells; cell 0 is the whole, children come after
+    their parents.
 
     Attributes:
         p: The points, in such an order that those of a cell stand together.
@@ -77,8 +81,9 @@ def build_tree(
             cut = float(p[rows[middle], axis])
             axes[cell], cuts[cell], children[cell] = axis, cut, [len(spans), len(spans) + 1]
             for span, ends, others in (
-                ((first, first + middle), highs, lows), ((first + middle, last), lows, highs)
-            ):  # fmt: skip
+                ((first, first + middle), highs, lows),
+                ((first + middle, last), lows, highs),
+            ):
                 bounded = ends[cell].copy()
                 bounded[axis] = cut
                 ends.append(bounded)
@@ -112,7 +117,8 @@ class Visit:
         looked: How many points were looked at so far.
         nearest: The row in the tree's points of the nearest so far.
         distance: How far it is.
-        passed: Which cells were passed over on the way back up, with all that is in them: they are farther than that.
+        passed: Which cells were passed over on the way back up, with all that is in them: they are
+            farther than that.
     """
 
     cell: int
@@ -124,7 +130,8 @@ class Visit:
 
 @traced
 def search(tree: Tree, q: Float[np.ndarray, " d"]) -> Iterator[Visit]:
-    """Yield the cells that the search for the nearest point looks into: down to the query first, then back up.
+    """Yield the cells that the search for the nearest point looks into: down to the query first,
+    then back up.
 
     Args:
         tree: The points.

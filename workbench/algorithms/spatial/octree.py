@@ -1,6 +1,7 @@
 """An octree of a solid: only cells that the surface may cross are cut in eight.
 
-Reference: Meagher, Geometric modeling using octree encoding, Computer Graphics and Image Processing 19, 1982.
+Reference: Meagher, Geometric modeling using octree encoding, Computer Graphics and Image Processing
+19, 1982.
 """
 
 from collections.abc import Callable, Iterator
@@ -23,8 +24,10 @@ class Level:
         depth: The level; 0 is the whole cube.
         grid: All cells of that size, whether the tree has them or not.
         cells: Column, row and layer of the cells that the tree has at this level.
-        mixed: Which of them the surface may cross: it is nearer to their middle than their corners are.
-        bits: The solid as cells of this size: what the tree says is inside, and mixed cells by their middle.
+        mixed: Which of them the surface may cross: it is nearer to their middle than their corners
+            are.
+        bits: The solid as cells of this size: what the tree says is inside, and mixed cells by
+            their middle.
         parents: How many cells were cut in eight so far, above this level.
     """
 

@@ -1,14 +1,17 @@
 """The cost volume: how badly every left pixel matches each of its candidates in the right picture.
 
-`cost[d, y, x]` compares the window around left (x, y) with the window around right (x - d, y), for d = 0 .. max_disparity;
-low is alike. So `cost[d]` is an image: the left picture against the right one shifted by d. Where x < d the right picture
-has no such pixel; those cells hold a cost that no comparison exceeds (infinity for floats), so that they never win alone.
-A window that reaches over the border of a slice counts the border's cells again.
+`cost[d, y, x]` compares the window around left (x, y) with the window around right (x - d, y), for
+d = 0 .. max_disparity; low is alike. So `cost[d]` is an image: the left picture against the right
+one shifted by d. Where x < d the right picture has no such pixel; those cells hold a cost that no
+comparison exceeds (infinity for floats), so that they never win alone. A window that reaches over
+the border of a slice counts the border's cells again.
 
-Pictures are grey, (h, w): floats of any range, or uint8, for which the sums are exact whole numbers of the narrowest type.
+Pictures are grey, (h, w): floats of any range, or uint8, for which the sums are exact whole numbers
+of the narrowest type.
 
-Reference: Scharstein and Szeliski, A taxonomy and evaluation of dense two-frame stereo correspondence algorithms,
-IJCV 2002, sections 3.1 (matching cost) and 3.2 (aggregation); costs compared in Hirschmueller and Scharstein, PAMI 2009.
+Reference: Scharstein and Szeliski, A taxonomy and evaluation of dense two-frame stereo
+correspondence algorithms, IJCV 2002, sections 3.1 (matching cost) and 3.2 (aggregation); costs
+compared in Hirschmueller and Scharstein, PAMI 2009.
 """
 
 from collections.abc import Callable
@@ -42,11 +45,14 @@ def sad_cost_volume(
         cost[d, y, x] = sum over the window of |left(y, x) - right(y, x - d)|.
 
     Raises:
-        ValueError: If the sizes differ, the window is not odd and positive, or the shift exceeds the width.
+        ValueError: If the sizes differ, the window is not odd and positive, or the shift exceeds
+            the width.
 
     Examples:
         >>> right = np.array([[0, 9, 0, 0]], dtype=np.uint8)
-        >>> left = np.array([[0, 0, 9, 0]], dtype=np.uint8)  # the bright pixel is one column further right
+        >>> left = np.array(
+        ...     [[0, 0, 9, 0]], dtype=np.uint8
+        ... )  # the bright pixel is one column further right
         >>> sad_cost_volume(left, right, max_disparity=1)[:, 0, 2].tolist()
         [9, 0]
     """
@@ -59,7 +65,8 @@ def ssd_cost_volume(
     max_disparity: int,
     window: int = 1,
 ) -> Real[np.ndarray, "d h w"]:
-    """Return the sum of squared grey differences over a window: one outlier weighs more than in `sad_cost_volume`.
+    """Return the sum of squared grey differences over a window: one outlier weighs more than in
+    `sad_cost_volume`.
 
     Args:
         left: Grey picture of the left camera.
@@ -84,8 +91,8 @@ def census_cost_volume(
 ) -> Real[np.ndarray, "d h w"]:
     """Return the number of bits in which the census codes differ, summed over a window.
 
-    Only the order of grey values within a window matters. The costs are whole numbers (24 per pixel of the window at most)
-    for pictures of every type.
+    Only the order of grey values within a window matters. The costs are whole numbers (24 per pixel
+    of the window at most) for pictures of every type.
 
     Args:
         left: Grey picture of the left camera.
@@ -96,7 +103,8 @@ def census_cost_volume(
     Raises:
         ValueError: As `sad_cost_volume`.
 
-    Reference: Zabih and Woodfill, Non-parametric local transforms for computing visual correspondence, ECCV 1994.
+    Reference: Zabih and Woodfill, Non-parametric local transforms for computing visual
+    correspondence, ECCV 1994.
     """
     return _windowed(census(left), census(right), max_disparity, window, _hamming, CENSUS_BITS)
 
@@ -107,7 +115,8 @@ def ncc_cost_volume(
     max_disparity: int,
     window: int = 3,
 ) -> Real[np.ndarray, "d h w"]:
-    """Return 1 - the normalised correlation of the two windows, from 0 (alike up to brightness and contrast) to 2.
+    """Return 1 - the normalised correlation of the two windows, from 0 (alike up to brightness and
+    contrast) to 2.
 
     Args:
         left: Grey picture of the left camera.
@@ -119,8 +128,8 @@ def ncc_cost_volume(
         ValueError: As `sad_cost_volume`.
 
     Note:
-        A window without contrast correlates with nothing: its cost is 1. One pixel has no correlation, so a window of 1 is
-        taken as 3.
+        A window without contrast correlates with nothing: its cost is 1. One pixel has no
+        correlation, so a window of 1 is taken as 3.
     """
     _check(left, right, max_disparity, window)
     window = max(window, 3)
@@ -148,7 +157,9 @@ def ncc_cost_volume(
 
 
 def census(picture: Real[np.ndarray, "h w"]) -> UInt32[np.ndarray, "h w"]:
-    """Return a 24-bit code per pixel: for each neighbour in its 5 x 5 window, whether that is darker than the pixel."""
+    """Return a 24-bit code per pixel: for each neighbour in its 5 x 5 window, whether that is
+    darker than the pixel.
+    """
     h, w = picture.shape
     padded = np.pad(picture, 2, mode="edge")
     neighbours = [(dy, dx) for dy in range(5) for dx in range(5) if (dy, dx) != (2, 2)]
@@ -167,10 +178,12 @@ def census(picture: Real[np.ndarray, "h w"]) -> UInt32[np.ndarray, "h w"]:
 def box_sum(
     image: Real[np.ndarray, "h w"], window: int, dtype: type | np.dtype
 ) -> Real[np.ndarray, "h w"]:
-    """Return the sum over the square window around every pixel; border pixels stand in for what lies outside.
+    """Return the sum over the square window around every pixel; border pixels stand in for what
+    lies outside.
 
-    Running sums over 1, 2, 4, 8, ... pixels are built up and joined, rows first and then columns: the work grows with the
-    logarithm of the window, not with its area, and floats lose nothing to cancellation.
+    Running sums over 1, 2, 4, 8, ... pixels are built up and joined, rows first and then columns:
+    the work grows with the logarithm of the window, not with its area, and floats lose nothing to
+    cancellation.
 
     Args:
         image: What is summed.
@@ -207,7 +220,9 @@ def _windowed(
     difference: Callable[[np.ndarray, np.ndarray], np.ndarray],
     largest: int,
 ) -> np.ndarray:
-    """Sum a difference per pixel over a window, for every disparity; `largest` bounds it where it is a whole number."""
+    """Sum a difference per pixel over a window, for every disparity; `largest` bounds it where it
+    is a whole number.
+    """
     _check(left, right, max_disparity, window)
     h, w = left.shape
     whole = left.dtype.kind == "u" and right.dtype.kind == "u"

@@ -1,11 +1,11 @@
 """The whole way from two pictures to disparities and depths, in steps.
 
-`match` stops after every disparity compared and every direction summed; `reconstruct` turns a map into depths. Maps are
-(h, w), pixels, for the left picture: d = x_left - x_right. NaN is unknown; 0 is a disparity like any other, that of
-something infinitely far.
+`match` stops after every disparity compared and every direction summed; `reconstruct` turns a map
+into depths. Maps are (h, w), pixels, for the left picture: d = x_left - x_right. NaN is unknown; 0
+is a disparity like any other, that of something infinitely far.
 
-Reference: Scharstein and Szeliski, A taxonomy and evaluation of dense two-frame stereo correspondence algorithms, IJCV 2002,
-section 3; Hirschmueller, PAMI 2008, section 2.
+Reference: Scharstein and Szeliski, A taxonomy and evaluation of dense two-frame stereo
+correspondence algorithms, IJCV 2002, section 3; Hirschmueller, PAMI 2008, section 2.
 """
 
 from collections.abc import Callable, Iterator
@@ -76,7 +76,8 @@ class Matching:
 
 
 def usual_penalties(cost: Real[np.ndarray, "d h w"], smoothness: float) -> tuple[float, float]:
-    """Return P1 and P2 for costs of any unit: P2 is `smoothness` times the median cost, mostly that of wrong matches.
+    """Return P1 and P2 for costs of any unit: P2 is `smoothness` times the median cost, mostly that
+    of wrong matches.
 
     P1 is a third of P2.
     """
@@ -102,7 +103,8 @@ def match(
         right: Grey picture of the right one, of the same size; rows correspond.
         max_disparity: Largest disparity that is tried, pixels.
         window: Side of the window over which costs are summed, pixels, odd.
-        penalties: P1 and P2 of the semi-global paths, from the summed costs; None leaves the paths out.
+        penalties: P1 and P2 of the semi-global paths, from the summed costs; None leaves the paths
+            out.
         compare: Makes the cost volume of two pictures, for a largest disparity and a window.
         choose: Takes a map from a cost volume.
     """
@@ -134,7 +136,9 @@ def match(
 
 @dataclass(frozen=True, eq=False)
 class Depths:
-    """A step of `reconstruct`: the depth per pixel, metres, and how far a disparity error moves it, where already known."""
+    """A step of `reconstruct`: the depth per pixel, metres, and how far a disparity error moves it,
+    where already known.
+    """
 
     depth: Float[np.ndarray, "h w"]
     uncertainty: Float[np.ndarray, "h w"] | None = None

@@ -1,11 +1,13 @@
-"""Semi-global matching: smooth a cost volume along eight straight paths through every pixel, then add the paths up.
+"""Semi-global matching: smooth a cost volume along eight straight paths through every pixel, then
+add the paths up.
 
-The map sought minimises E(D) = sum_p C(p, D_p) + sum over neighbours of P1 [|step| = 1] + P2 [|step| > 1]: a slope of one
-disparity is cheap, a jump costs P2 however high it is. In two dimensions that is NP-hard; along one line it is a shortest
-path, and the sum over eight lines that meet in a pixel approximates the minimum.
+The map sought minimises E(D) = sum_p C(p, D_p) + sum over neighbours of P1 [|step| = 1] + P2
+[|step| > 1]: a slope of one disparity is cheap, a jump costs P2 however high it is. In two
+dimensions that is NP-hard; along one line it is a shortest path, and the sum over eight lines that
+meet in a pixel approximates the minimum.
 
-Reference: Hirschmueller, Stereo processing by semiglobal matching and mutual information, PAMI 2008, section 2.2; equation
-numbers are that paper's.
+Reference: Hirschmueller, Stereo processing by semiglobal matching and mutual information, PAMI
+2008, section 2.2; equation numbers are that paper's.
 """
 
 from collections.abc import Iterator
@@ -57,7 +59,9 @@ def semi_global(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Iterat
 
 @dataclass(frozen=True)
 class Jumps:
-    """The penalties, and the largest matching cost, which together bound every path cost: L <= top + P2."""
+    """The penalties, and the largest matching cost, which together bound every path cost: L <= top
+    + P2.
+    """
 
     P1: float
     P2: float
@@ -74,7 +78,8 @@ class Jumps:
 def prepare(
     cost: Real[np.ndarray, "d h w"], P1: float, P2: float
 ) -> tuple[Real[np.ndarray, "d h w"], Jumps]:
-    """Return the cost as the sweeps want it: whole numbers as they are, others as float32 without infinities.
+    """Return the cost as the sweeps want it: whole numbers as they are, others as float32 without
+    infinities.
 
     Args:
         cost: C(p, d), from `cost_volume`.
@@ -125,9 +130,10 @@ def sweep(
         jumps: The penalties.
 
     Note:
-        With carried(d) = min(L(d) - min L, P2) of the pixel before, eq. 13 reads L(d) = C(d) + min(carried(d),
-        carried(d +- 1) + P1); it never exceeds top + P2, so bytes often do. A line is laid out flat, d by d, with one spare
-        column and a spare d at both ends: then every neighbour is the same array at another offset.
+        With carried(d) = min(L(d) - min L, P2) of the pixel before, eq. 13 reads L(d) = C(d) +
+        min(carried(d), carried(d +- 1) + P1); it never exceeds top + P2, so bytes often do. A line
+        is laid out flat, d by d, with one spare column and a spare d at both ends: then every
+        neighbour is the same array at another offset.
     """
     n, disparities, w = cost.shape
     row = w + 1
@@ -161,7 +167,8 @@ def energy(
 
     Args:
         cost: C(p, d); infinite cells count as the worst finite one.
-        disparity: The map, pixels, charged at the nearest whole disparity; NaN is unknown and left out.
+        disparity: The map, pixels, charged at the nearest whole disparity; NaN is unknown and left
+            out.
         P1: Penalty for a step of one disparity; every pair among the eight neighbours counts once.
         P2: Penalty for every larger step.
     """

@@ -1,7 +1,9 @@
-"""Curvature of a mesh, one quantity after the other: what each step measures, at one vertex and at all of them.
+"""Curvature of a mesh, one quantity after the other: what each step measures, at one vertex and at
+all of them.
 
-Reference: Meyer, Desbrun, Schroeder and Barr, Discrete differential-geometry operators for triangulated 2-manifolds,
-Visualization and Mathematics III, 2003. Equation numbers below are theirs.
+Reference: Meyer, Desbrun, Schroeder and Barr, Discrete differential-geometry operators for
+triangulated 2-manifolds, Visualization and Mathematics III, 2003. Equation numbers below are
+theirs.
 """
 
 from collections.abc import Callable, Iterator
@@ -161,7 +163,8 @@ def measure_curvature(
 
 
 def angles_at(p: Points, vertex: int, ring: Int[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-    """Return the angles at a vertex between each neighbour of its ring and the next, the last being back to the first.
+    """Return the angles at a vertex between each neighbour of its ring and the next, the last being
+    back to the first.
 
     Args:
         p: Vertices, metres.

@@ -1,10 +1,13 @@
-"""Fast marching on a square grid: a front that leaves the source and accepts nodes in the order of their distance.
+"""Fast marching on a square grid: a front that leaves the source and accepts nodes in the order of
+their distance.
 
-Nodes are accepted band by band instead of one by one. Within a band the update is repeated until nothing falls: the upwind
-equation has one solution, whatever the order, so that the values are those of the one-by-one front.
+Nodes are accepted band by band instead of one by one. Within a band the update is repeated until
+nothing falls: the upwind equation has one solution, whatever the order, so that the values are
+those of the one-by-one front.
 
-Reference: Sethian, A fast marching level set method for monotonically advancing fronts, PNAS 93, 1996; Kim, An O(N) level
-set method for eikonal equations, SIAM J. Sci. Comput. 22, 2001 (groups of nodes).
+Reference: Sethian, A fast marching level set method for monotonically advancing fronts, PNAS 93,
+1996; Kim, An O(N) level set method for eikonal equations, SIAM J. Sci. Comput. 22, 2001 (groups of
+nodes).
 """
 
 from collections.abc import Callable, Iterator
@@ -22,10 +25,12 @@ Grid = Float[np.ndarray, "n m"]
 def eikonal_update(
     a: Float[np.ndarray, " n"], b: Float[np.ndarray, " n"], h: float
 ) -> Float[np.ndarray, " n"]:
-    """Return the distance u of nodes from what their neighbours have: (u - a)^2 + (u - b)^2 = h^2, u not below a or b.
+    """Return the distance u of nodes from what their neighbours have: (u - a)^2 + (u - b)^2 = h^2,
+    u not below a or b.
 
     Args:
-        a: The smaller distance of the two neighbours to the left and right; inf where neither has one.
+        a: The smaller distance of the two neighbours to the left and right; inf where neither has
+            one.
         b: Of those above and below; one of the two is finite.
         h: Spacing of the grid.
 
@@ -68,15 +73,17 @@ def march(
     band: float,
     update: Update = eikonal_update,
 ) -> Iterator[March]:
-    """Yield the front as it spreads from the nodes whose distance is known, until all that can be reached are accepted.
+    """Yield the front as it spreads from the nodes whose distance is known, until all that can be
+    reached are accepted.
 
     Args:
-        start: Distances of the first nodes, inf elsewhere: 0 at a source, or exact ones in a disc around it.
+        start: Distances of the first nodes, inf elsewhere: 0 at a source, or exact ones in a disc
+            around it.
         free: Where the front can go.
         h: Spacing of the grid.
         band: How far the front goes from one state to the next.
-        update: Gives nodes their distance from two neighbours', as `eikonal_update` does. One that is no number, or below
-            both neighbours, is not taken.
+        update: Gives nodes their distance from two neighbours', as `eikonal_update` does. One that
+            is no number, or below both neighbours, is not taken.
     """
     n, m = start.shape
     d = np.full(

@@ -1,7 +1,8 @@
-"""Geodesic distance by heat: let it flow for a short time, keep only its direction, and find the function that rises so.
+"""Geodesic distance by heat: let it flow for a short time, keep only its direction, and find the
+function that rises so.
 
-Reference: Crane, Weischedel and Wardetzky, Geodesics in heat: a new approach to computing distance based on heat flow, ACM
-Transactions on Graphics 32, 2013, sections 2 and 3.
+Reference: Crane, Weischedel and Wardetzky, Geodesics in heat: a new approach to computing distance
+based on heat flow, ACM Transactions on Graphics 32, 2013, sections 2 and 3.
 """
 
 from collections.abc import Iterator
@@ -35,11 +36,12 @@ def mean_edge_length(p: Points, faces: Faces) -> float:
 
 
 class HeatMethod:
-    """A mesh made ready for distances by heat: its two matrices, factored once for any number of sources.
+    """A mesh made ready for distances by heat: its two matrices, factored once for any number of
+    sources.
 
     Attributes:
-        measured: The corners of its triangles, as they stand in space (`corners`) or laid out each for itself
-            (`intrinsic_delaunay`). Heat does not leave over a border.
+        measured: The corners of its triangles, as they stand in space (`corners`) or laid out each
+            for itself (`intrinsic_delaunay`). Heat does not leave over a border.
         time: How long heat flows, m^2.
     """
 
@@ -52,19 +54,24 @@ class HeatMethod:
         self._rise = _factored(L + shift * scipy.sparse.eye_array(measured.count))
 
     def heat(self, sources: Int[np.ndarray, " s"]) -> Float[np.ndarray, "v s"]:
-        """Return the heat of every vertex, one column per source, after one implicit step from a unit there."""
+        """Return the heat of every vertex, one column per source, after one implicit step from a
+        unit there.
+        """
         unit = np.zeros((self.measured.count, len(sources)))
         unit[sources, np.arange(len(sources))] = 1.0
         return self._flow.solve(unit)
 
     def directions(self, heat: Float[np.ndarray, " v"]) -> Float[np.ndarray, "f 3"]:
-        """Return on every face the unit vector X along which heat falls; zero where it does not fall."""
+        """Return on every face the unit vector X along which heat falls; zero where it does not
+        fall.
+        """
         return directions_of(self.measured, heat)
 
     def distances(
         self, directions: Float[np.ndarray, "f 3"], source: int
     ) -> Float[np.ndarray, " v"]:
-        """Return the function that rises along X as well as one can, 0 at the source, m: L phi = -div X.
+        """Return the function that rises along X as well as one can, 0 at the source, m: L phi =
+        -div X.
 
         Reference: Crane et al. 2013, section 3.2.
         """
@@ -100,7 +107,8 @@ class HeatState:
 
 @traced
 def heat_method(measured: Corners, source: int, time: float) -> Iterator[HeatState]:
-    """Yield heat that has flowed for a time, its directions, and the distances that rise along them.
+    """Yield heat that has flowed for a time, its directions, and the distances that rise along
+    them.
 
     Args:
         measured: The corners of a mesh' triangles.
@@ -117,7 +125,8 @@ def heat_method(measured: Corners, source: int, time: float) -> Iterator[HeatSta
 
 
 def _factored(matrix: "scipy.sparse.csr_array") -> "scipy.sparse.linalg.SuperLU":
-    # A symmetric matrix with a symmetric order and no pivoting: several times faster than the defaults.
+    # A symmetric matrix with a symmetric order and no pivoting: several times faster than the
+    # defaults.
     return scipy.sparse.linalg.splu(
         matrix.tocsc(),
         permc_spec="MMD_AT_PLUS_A",
@@ -127,7 +136,9 @@ def _factored(matrix: "scipy.sparse.csr_array") -> "scipy.sparse.linalg.SuperLU"
 
 
 def directions_of(measured: Corners, u: Float[np.ndarray, " v"]) -> Float[np.ndarray, "f 3"]:
-    """Return -grad u / |grad u| of a function that is linear on each face: grad u = sum_k u_k (N x e_k) / 2 A."""
+    """Return -grad u / |grad u| of a function that is linear on each face: grad u = sum_k u_k (N x
+    e_k) / 2 A.
+    """
     e, N, at = measured.edges, measured.normals, u[measured.vertices]
     level = np.abs(at).max(axis=0)
     at = np.divide(
@@ -140,7 +151,9 @@ def directions_of(measured: Corners, u: Float[np.ndarray, " v"]) -> Float[np.nda
 
 
 def _divergence(measured: Corners, X: np.ndarray) -> np.ndarray:
-    """Return the divergence of X about each vertex: 1/2 sum over its faces of cot a (e_1 . X) + cot b (e_2 . X)."""
+    """Return the divergence of X about each vertex: 1/2 sum over its faces of cot a (e_1 . X) + cot
+    b (e_2 . X).
+    """
     along = np.einsum(
         "xkf,fx->kf", measured.edges, X
     )  # edge k goes from corner k + 1 to corner k + 2

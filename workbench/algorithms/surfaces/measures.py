@@ -1,6 +1,7 @@
 """Area and volume as sums over the faces of a mesh, or over the cells of ever finer grids.
 
-Reference: Zhang and Chen, Efficient feature extraction for 2D/3D objects in mesh representation, ICIP 2001.
+Reference: Zhang and Chen, Efficient feature extraction for 2D/3D objects in mesh representation,
+ICIP 2001.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -89,7 +90,8 @@ class Cells:
         across: How many cells lay along the longest side, now and before.
         volumes: The volume of the full cells, now and before, m^3.
         areas: The area of the cell faces around them, m^2.
-        marched: The area of the surface by marching cubes through them, m^2; NaN where no cell is full.
+        marched: The area of the surface by marching cubes through them, m^2; NaN where no cell is
+            full.
     """
 
     grid: Grid

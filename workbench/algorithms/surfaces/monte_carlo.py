@@ -1,7 +1,8 @@
-"""Volume, area and samples by chance: points thrown into a box, lines through space, points on a surface.
+"""Volume, area and samples by chance: points thrown into a box, lines through space, points on a
+surface.
 
-Reference: Pharr, Jakob and Humphreys, Physically Based Rendering, 4th ed., chapter 2 and A.5.1. Santalo, Integral
-Geometry and Geometric Probability, 1976, chapter 12.
+Reference: Pharr, Jakob and Humphreys, Physically Based Rendering, 4th ed., chapter 2 and A.5.1.
+Santalo, Integral Geometry and Geometric Probability, 1976, chapter 12.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -58,7 +59,9 @@ class Estimates:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Throws:
-    """Points thrown into a box: some of them, which of those lie inside, how many of all do, and the estimates."""
+    """Points thrown into a box: some of them, which of those lie inside, how many of all do, and
+    the estimates.
+    """
 
     q: Float[np.ndarray, "n 3"]
     inside: Bool[np.ndarray, " n"]
@@ -83,7 +86,8 @@ def throw_points(
         inside: Tells which points lie inside.
         low: The lowest corner of the box, m.
         high: Its highest corner, m.
-        counts: How many points are thrown until each step; stratified points are thrown anew at each.
+        counts: How many points are thrown until each step; stratified points are thrown anew at
+            each.
         draw: How they are drawn.
         rng: Chance.
         volume_by_chance: Makes the estimate.
@@ -104,7 +108,8 @@ def throw_points(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Lines:
-    """Lines through a ball: the last of them, where those cross the surface, how often all do, and the estimates.
+    """Lines through a ball: the last of them, where those cross the surface, how often all do, and
+    the estimates.
 
     Attributes:
         ends: Segments, m.
@@ -127,7 +132,8 @@ def shoot_lines(
     counts: Iterable[int],
     rng: np.random.Generator,
 ) -> Iterator[Lines]:
-    """Yield the estimate of an area from ever more random lines: A = 2 pi R^2 times the mean number of crossings (Crofton).
+    """Yield the estimate of an area from ever more random lines: A = 2 pi R^2 times the mean number
+    of crossings (Crofton).
 
     Args:
         p: Vertices, m.
@@ -208,7 +214,8 @@ class Balls:
 
 @traced
 def raise_dimension(highest: int, throws: int, rng: np.random.Generator) -> Iterator[Balls]:
-    """Yield how many points of the cube [-1, 1]^d lie in the ball inside it, for d = 2, 3 and so on.
+    """Yield how many points of the cube [-1, 1]^d lie in the ball inside it, for d = 2, 3 and so
+    on.
 
     Args:
         highest: The last dimension.

@@ -1,7 +1,9 @@
-"""The earth mover's distance, exact: the one-to-one matching of two clouds with the least total distance.
+"""The earth mover's distance, exact: the one-to-one matching of two clouds with the least total
+distance.
 
-References: Rubner, Tomasi and Guibas, The earth mover's distance, 2000; Crouse, On implementing 2D rectangular assignment
-algorithms, 2016 (scipy's solver); Peyre and Cuturi, Computational optimal transport, 2019, sections 2.3 and 3.
+References: Rubner, Tomasi and Guibas, The earth mover's distance, 2000; Crouse, On implementing 2D
+rectangular assignment algorithms, 2016 (scipy's solver); Peyre and Cuturi, Computational optimal
+transport, 2019, sections 2.3 and 3.
 """
 
 import functools
@@ -23,14 +25,17 @@ MOST_UNEQUAL = (
 )
 
 _BLURS = ((0.05, 5), (0.01, 10), (0.002, 25))  # share of the median cost, sweeps
-_RELAXATION = 1.6  # exponent of a sweep's scalings, 1 to below 2: at 1 the solver takes up to four times as long
+# exponent of a sweep's scalings, 1 to below 2: at 1 the solver takes up to four times as long
+_RELAXATION = 1.6
 _FEWEST = 250  # rows from which potentials gain more than they cost,
-_CONTESTED = 0.35  # where at least this share of the columns is cheapest to no row, since rows contend for the others
+# where at least this share of the columns is cheapest to no row, since rows contend for the others
+_CONTESTED = 0.35
 
 
 @dataclass(frozen=True, eq=False)
 class Matching:
-    """A transport plan: k pairs of a point of a and a point of b, the mass that moves between them, and how far.
+    """A transport plan: k pairs of a point of a and a point of b, the mass that moves between them,
+    and how far.
 
     Attributes:
         i_a, i_b: The pairs, as indices into the clouds, sorted by i_a.
@@ -45,35 +50,44 @@ class Matching:
 
     @property
     def cost(self) -> float:
-        """Mass times distance, summed: the earth mover's distance in metres where the matching is the best one."""
+        """Mass times distance, summed: the earth mover's distance in metres where the matching is
+        the best one.
+        """
         return float(self.mass @ self.distances)
 
 
 def earth_movers(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the earth mover's distance: the mean distance travelled under the best one-to-one matching.
+    """Return the earth mover's distance: the mean distance travelled under the best one-to-one
+    matching.
 
     Args:
         p_a: Points, metres; together they have mass 1, each the same share.
-        p_b: Points in the same frame, likewise; where the counts differ a point's mass is split among several.
+        p_b: Points in the same frame, likewise; where the counts differ a point's mass is split
+            among several.
 
     Returns:
-        min over matchings of (1 / n) sum_i |a_i - b_match(i)|, in metres. A metric between clouds of equal mass.
+        min over matchings of (1 / n) sum_i |a_i - b_match(i)|, in metres. A metric between clouds
+        of equal mass.
 
     Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite, or counts differ and are too large.
+        ValueError: If a cloud is empty or holds coordinates that are not finite, or counts differ
+            and are too large.
 
     Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 2, as a mean.
 
     Examples:
         >>> p_a = np.array([[0.0, 0, 0], [1, 0, 0]])
-        >>> earth_movers(p_a, p_a[::-1] + np.array([0.0, 0.0, 0.5]))  # the order of the rows is of no account
+        >>> earth_movers(
+        ...     p_a, p_a[::-1] + np.array([0.0, 0.0, 0.5])
+        ... )  # the order of the rows is of no account
         0.5
     """
     return best_matching(p_a, p_b).cost
 
 
 def earth_movers_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
-    """Return the gradient of `earth_movers` with respect to p_a: unit vectors away from the partners, times mass.
+    """Return the gradient of `earth_movers` with respect to p_a: unit vectors away from the
+    partners, times mass.
 
     A pair that coincides has no direction and counts as zero, which is one of its subgradients.
     """
@@ -95,17 +109,20 @@ def blurred_earth_movers(
     max_sweeps: int = 10_000,
     tolerance: float = 1e-9,
 ) -> float:
-    """Return the mean distance travelled under Sinkhorn's blurred plan, metres: never below `earth_movers`.
+    """Return the mean distance travelled under Sinkhorn's blurred plan, metres: never below
+    `earth_movers`.
 
     Args:
         p_a: Points, metres.
         p_b: Points in the same frame; the counts may differ.
         regularisation: How much the plan is blurred, metres.
         max_sweeps: See `sinkhorn`.
-        tolerance: See `sinkhorn`; a plan whose sums are not yet right may cost too little by as much mass as is missing.
+        tolerance: See `sinkhorn`; a plan whose sums are not yet right may cost too little by as
+            much mass as is missing.
 
     Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite, or the regularisation is not positive.
+        ValueError: If a cloud is empty or holds coordinates that are not finite, or the
+            regularisation is not positive.
     """
     check_clouds(p_a, p_b)
     distances = scipy.spatial.distance.cdist(p_a, p_b)
@@ -118,7 +135,8 @@ def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) 
     """Return the matching with the least total distance.
 
     Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite, or counts differ and are too large.
+        ValueError: If a cloud is empty or holds coordinates that are not finite, or counts differ
+            and are too large.
 
     Note:
         Several matchings may share the least total; one of them is returned.
@@ -129,7 +147,9 @@ def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) 
 
 @functools.lru_cache(maxsize=8)
 def _matched(a: bytes, shape_a: tuple[int, ...], b: bytes, shape_b: tuple[int, ...]) -> Matching:
-    """Return the best matching; who asks how far two clouds are apart then asks which way they go, and what goes where."""
+    """Return the best matching; who asks how far two clouds are apart then asks which way they go,
+    and what goes where.
+    """
     p_a, p_b = np.frombuffer(a).reshape(shape_a), np.frombuffer(b).reshape(shape_b)
     distances = scipy.spatial.distance.cdist(p_a, p_b)
     if len(p_a) == len(p_b):
@@ -148,10 +168,11 @@ def best_assignment(
 ) -> tuple[Int[np.ndarray, "n"], Int[np.ndarray, "n"]]:
     """Return rows and columns of the one-to-one assignment with the least total cost.
 
-    Subtracting a number from a row or a column changes every assignment's total alike, so the best one stays the best.
-    Numbers close to the optimal dual potentials leave costs of which the best assignment uses only near-zeros, which the
-    solver finds several times sooner; blurred transport gives such numbers cheaply. Where nearly each row has a cheapest
-    column of its own the solver is quick without them.
+    Subtracting a number from a row or a column changes every assignment's total alike, so the best
+    one stays the best. Numbers close to the optimal dual potentials leave costs of which the best
+    assignment uses only near-zeros, which the solver finds several times sooner; blurred transport
+    gives such numbers cheaply. Where nearly each row has a cheapest column of its own the solver is
+    quick without them.
 
     Raises:
         ValueError: If the cost is empty, not square, not finite or too large.
@@ -171,10 +192,11 @@ def best_assignment(
 def best_plan(
     cost: Float[np.ndarray, "n m"],
 ) -> tuple[Int[np.ndarray, "k"], Int[np.ndarray, "k"], Float[np.ndarray, "k"]]:
-    """Return rows, columns and masses of the cheapest plan from n equal masses to m equal masses, each summing to 1.
+    """Return rows, columns and masses of the cheapest plan from n equal masses to m equal masses,
+    each summing to 1.
 
-    Where a few copies of rows and columns make the counts equal, their assignment is the answer; otherwise a linear
-    programme is.
+    Where a few copies of rows and columns make the counts equal, their assignment is the answer;
+    otherwise a linear programme is.
 
     Raises:
         ValueError: If the cost has more than MOST_UNEQUAL entries.
@@ -184,8 +206,8 @@ def best_plan(
     n, m = cost.shape
     if cost.size > MOST_UNEQUAL:
         raise ValueError(
-            f"exact transport between {n} and {m} points is too large: take equal counts, at most {MOST_UNEQUAL:,} pairs, "
-            "or blurred transport"
+            f"exact transport between {n} and {m} points is too large: take equal counts, at most"
+            f" {MOST_UNEQUAL:,} pairs, or blurred transport"
         )
     copies = int(np.lcm(n, m))
     if copies <= max(
@@ -202,7 +224,8 @@ def best_plan(
 
 
 def best_plan_by_programme(cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, "n m"]:
-    """Return the cheapest plan as the solution of a linear programme: row and column sums are equality constraints.
+    """Return the cheapest plan as the solution of a linear programme: row and column sums are
+    equality constraints.
 
     Raises:
         ValueError: If the solver finds no solution.
@@ -225,18 +248,22 @@ def best_plan_by_programme(cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, 
 
 
 def contested(cost: Float[np.ndarray, "n m"]) -> float:
-    """Return the share of the columns that are the cheapest of no row: 0 where each row has one of its own."""
+    """Return the share of the columns that are the cheapest of no row: 0 where each row has one of
+    its own.
+    """
     return 1 - len(np.unique(cost.argmin(axis=1))) / cost.shape[1]
 
 
 def blurred_potentials(cost: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n"]:
-    """Return column potentials near the optimal ones: a few overrelaxed sweeps of Sinkhorn's scaling at ever smaller blur.
+    """Return column potentials near the optimal ones: a few overrelaxed sweeps of Sinkhorn's
+    scaling at ever smaller blur.
 
-    Single precision will do, since any numbers leave the best assignment the best. The products are taken row by row
-    (`vecdot`), because a matrix product that is spread over threads waits for all of them on a machine with other work.
+    Single precision will do, since any numbers leave the best assignment the best. The products are
+    taken row by row (`vecdot`), because a matrix product that is spread over threads waits for all
+    of them on a machine with other work.
 
-    Reference: Thibault, Chizat, Dossal and Papadakis, Overrelaxed Sinkhorn-Knopp algorithm for regularized optimal
-    transport, 2021, equation 12.
+    Reference: Thibault, Chizat, Dossal and Papadakis, Overrelaxed Sinkhorn-Knopp algorithm for
+    regularized optimal transport, 2021, equation 12.
     """
     rough = cost.astype(np.float32)
     typical = np.median(rough[:: 1 + len(rough) // 300])

@@ -1,7 +1,9 @@
-"""One cloud flows to another: gradient descent on a distance between them, one point each its own way.
+"""One cloud flows to another: gradient descent on a distance between them, one point each its own
+way.
 
-References: Polyak, Introduction to optimization, 1987, section 5.3 (the step for a function whose least value is known);
-Fan, Su and Guibas, A Point Set Generation Network, 2017, section 3.3 (Chamfer and earth mover's as losses).
+References: Polyak, Introduction to optimization, 1987, section 5.3 (the step for a function whose
+least value is known); Fan, Su and Guibas, A Point Set Generation Network, 2017, section 3.3
+(Chamfer and earth mover's as losses).
 """
 
 from collections.abc import Callable, Iterator
@@ -74,7 +76,8 @@ def flow(
         p_moving: The cloud that moves, metres.
         p_target: The cloud that stays, same frame.
         distance: What is lowered.
-        gradient: Its gradient with respect to p_moving: one's own, or `partial(numeric_gradient, distance)`.
+        gradient: Its gradient with respect to p_moving: one's own, or `partial(numeric_gradient,
+            distance)`.
         longest_step: No step moves the points farther than this, root mean square, metres.
         share: Of Polyak's step length; 1 aims at zero at once.
         max_steps: Take at most this many steps.
@@ -110,11 +113,13 @@ def descend(
     slope: Float[np.ndarray, "n 3"],
     length: float,
 ) -> tuple[Float[np.ndarray, "n 3"], float]:
-    """Return the cloud one step down the slope and its distance; the cloud as it was where no step lowers the distance.
+    """Return the cloud one step down the slope and its distance; the cloud as it was where no step
+    lowers the distance.
 
-    A step that is too long is tried once more, half as far, against the mean of the slopes at its two ends: for a point
-    that passed a kink, such as its own place, these cancel and it stays, while the others go on. That is kept where the
-    distance falls in a straight line, as it does between kinks. Else the step is halved until the distance is lower.
+    A step that is too long is tried once more, half as far, against the mean of the slopes at its
+    two ends: for a point that passed a kink, such as its own place, these cancel and it stays,
+    while the others go on. That is kept where the distance falls in a straight line, as it does
+    between kinks. Else the step is halved until the distance is lower.
 
     Args:
         distance: What is lowered.
@@ -125,8 +130,9 @@ def descend(
         slope: The gradient now.
         length: The step length that is tried first: the points move by `length * slope`.
 
-    Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., algorithm 3.1, with plain decrease as the condition;
-    the mean over a kink after Wolfe, A method of conjugate subgradients for minimizing nondifferentiable functions, 1975.
+    Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., algorithm 3.1, with plain
+    decrease as the condition; the mean over a kink after Wolfe, A method of conjugate subgradients
+    for minimizing nondifferentiable functions, 1975.
     """
     if length * rms(slope) <= _SHORTEST:
         return p_moving, value
@@ -155,8 +161,8 @@ def descend(
 def polyak_length(value: float, slope: Float[np.ndarray, "n 3"], share: float) -> float:
     """Return `share` of Polyak's step length for a least value of zero.
 
-    The whole of it reaches zero at once where the distance falls like a cone, and goes half the way where it falls like a
-    square.
+    The whole of it reaches zero at once where the distance falls like a cone, and goes half the way
+    where it falls like a square.
 
     Args:
         value: The function's value; its least one is zero.
@@ -204,7 +210,8 @@ def numeric_gradient(
     p_b: Float[np.ndarray, "m 3"],
     h: float = 1e-6,
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the gradient of any distance with respect to p_a, by central differences of 2 h metres.
+    """Return the gradient of any distance with respect to p_a, by central differences of 2 h
+    metres.
 
     Args:
         distance: Of two clouds.
@@ -213,8 +220,9 @@ def numeric_gradient(
         h: Half the width of a difference, metres.
 
     Note:
-        It asks for the distance twice per coordinate. A coordinate in which all points of both clouds agree is left at
-        zero: by symmetry no distance between clouds in a plane pulls them out of it.
+        It asks for the distance twice per coordinate. A coordinate in which all points of both
+        clouds agree is left at zero: by symmetry no distance between clouds in a plane pulls them
+        out of it.
     """
     slope = np.zeros_like(p_a)
     free = np.flatnonzero(np.ptp(np.concatenate([p_a, p_b]), axis=0) > 0)

@@ -1,8 +1,9 @@
-"""Entropic optimal transport: blur the transport plan a little, and it is found by scaling rows and columns in turn.
+"""Entropic optimal transport: blur the transport plan a little, and it is found by scaling rows and
+columns in turn.
 
-References: Cuturi, Sinkhorn distances, 2013, algorithm 1; Schmitzer, Stabilized sparse scaling algorithms for entropy
-regularized transport problems, 2019, algorithm 2 (absorption); Peyre and Cuturi, Computational optimal transport, 2019,
-section 4.
+References: Cuturi, Sinkhorn distances, 2013, algorithm 1; Schmitzer, Stabilized sparse scaling
+algorithms for entropy regularized transport problems, 2019, algorithm 2 (absorption); Peyre and
+Cuturi, Computational optimal transport, 2019, section 4.
 """
 
 from collections.abc import Iterator
@@ -40,7 +41,8 @@ class Blurred:
         sweep: How often rows and columns were scaled.
         regularisation: The weight of the entropy, in units of the cost.
         f, g: Log-domain potentials: plan_ij = exp((f_i + g_j - cost_ij) / regularisation).
-        marginal_error: How much mass the plan's row sums put wrongly; the column sums are exact. Masses sum to 1.
+        marginal_error: How much mass the plan's row sums put wrongly; the column sums are exact.
+            Masses sum to 1.
         stop: Why this is the last state, or None.
     """
 
@@ -56,7 +58,9 @@ class Blurred:
         return np.exp((self.f[:, None] + self.g - cost) / self.regularisation)
 
     def cost(self, cost: Float[np.ndarray, "n m"]) -> float:
-        """Return what the plan costs, entropy not counted: at least the optimum once the sums are right."""
+        """Return what the plan costs, entropy not counted: at least the optimum once the sums are
+        right.
+        """
         return float(np.vdot(self.plan(cost), cost))
 
 
@@ -68,25 +72,30 @@ def sinkhorn_steps(
     max_sweeps: int = 10_000,
     tolerance: float = 1e-9,
 ) -> Iterator[Blurred]:
-    """Yield the potentials of the entropic plan between uniform masses, after every few sweeps, until its sums are right.
+    """Yield the potentials of the entropic plan between uniform masses, after every few sweeps,
+    until its sums are right.
 
     Args:
         cost: What it costs to move a unit of mass from row to column.
-        regularisation: The weight of the entropy, in units of the cost; smaller is nearer to the optimum and slower.
+        regularisation: The weight of the entropy, in units of the cost; smaller is nearer to the
+            optimum and slower.
         max_sweeps: Scale rows and columns at most this often.
         tolerance: Converged when the row sums are wrong by no more than this in total.
 
     Raises:
-        ValueError: If the cost is empty, not finite or too large, or the regularisation is not positive.
+        ValueError: If the cost is empty, not finite or too large, or the regularisation is not
+            positive.
 
     Note:
-        Any positive regularisation works, since the scalings are absorbed into log-domain potentials before they
-        overflow. The cost found is above the exact one; by how much depends on the regularisation.
+        Any positive regularisation works, since the scalings are absorbed into log-domain
+        potentials before they overflow. The cost found is above the exact one; by how much depends
+        on the regularisation.
     """
     check_cost(cost)
     if not (regularisation > 0 and max_sweeps >= 1):
         raise ValueError(
-            f"regularisation > 0 and max_sweeps >= 1 are needed, not {regularisation} and {max_sweeps}"
+            f"regularisation > 0 and max_sweeps >= 1 are needed, not {regularisation} and"
+            f" {max_sweeps}"
         )
     n, m = cost.shape
     f, g = tight_potentials(cost, np.zeros(m))
@@ -121,7 +130,8 @@ def sinkhorn(
 ) -> Blurred:
     """Return the last state of `sinkhorn_steps`.
 
-    Its steps are not traced (`workbench.tracing`): a trace of the run that calls this goes on with that run.
+    Its steps are not traced (`workbench.tracing`): a trace of the run that calls this goes on with
+    that run.
 
     Args:
         cost: What it costs to move a unit of mass from row to column.
@@ -140,7 +150,8 @@ def sinkhorn(
 def tight_potentials(
     cost: Float[np.ndarray, "n m"], g: Float[np.ndarray, "m"]
 ) -> tuple[Float[np.ndarray, "n"], Float[np.ndarray, "m"]]:
-    """Return the largest f, then the largest g, with f_i + g_j <= cost_ij: each row and column has an equality.
+    """Return the largest f, then the largest g, with f_i + g_j <= cost_ij: each row and column has
+    an equality.
 
     Reference: Peyre and Cuturi 2019, section 5.1, the c-transform.
     """
@@ -154,7 +165,8 @@ def kernel(
     g: Float[np.ndarray, "m"],
     regularisation: float,
 ) -> Float[np.ndarray, "n m"]:
-    """Return exp((f_i + g_j - cost_ij) / regularisation), entries that cannot matter kept above the slow denormals.
+    """Return exp((f_i + g_j - cost_ij) / regularisation), entries that cannot matter kept above the
+    slow denormals.
 
     Args:
         cost: What it costs to move a unit of mass from row to column.
@@ -173,13 +185,15 @@ def check_cost(cost: np.ndarray) -> None:
     """Raise ValueError if a cost is empty, too large or not finite.
 
     Raises:
-        ValueError: If the cost is empty, has more than MOST_ENTRIES entries, or one that is not finite.
+        ValueError: If the cost is empty, has more than MOST_ENTRIES entries, or one that is not
+            finite.
     """
     if cost.size == 0:
         raise ValueError(f"a cost of {cost.shape[0]} x {cost.shape[1]} has nothing to move")
     if cost.size > MOST_ENTRIES:
         raise ValueError(
-            f"a cost of {cost.shape[0]} x {cost.shape[1]} is too large; at most {MOST_ENTRIES:,} entries"
+            f"a cost of {cost.shape[0]} x {cost.shape[1]} is too large; at most {MOST_ENTRIES:,}"
+            " entries"
         )
     if not np.isfinite(cost).all():
         raise ValueError("the cost has entries that are not finite")

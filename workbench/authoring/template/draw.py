@@ -1,4 +1,6 @@
-"""What one step looks like: a mapping from path to what stands there. A path names the same thing for the whole run."""
+"""What one step looks like: a mapping from path to what stands there. A path names the same thing
+for the whole run.
+"""
 
 from workbench.geometry.polylines import between
 from workbench.scene import Chart, Points, Scene, Segments

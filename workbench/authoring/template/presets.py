@@ -60,7 +60,10 @@ def drop(states: Sequence[State]) -> str:
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         name="how-far",
-        text="15 fixes have σ = 2 cm, 15 have σ = 20 cm in each coordinate. All count the same. How far off is the mean?",
+        text=(
+            "15 fixes have σ = 2 cm, 15 have σ = 20 cm in each coordinate. All count the same. How"
+            " far off is the mean?"
+        ),
         answer=equal_error,
         why=equal_reason,
         params=EQUAL,
@@ -76,7 +79,10 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         name="what-becomes",
-        text="Two of 30 fixes are of another beacon, 85 cm away. The weights do not know. What becomes of the estimate?",
+        text=(
+            "Two of 30 fixes are of another beacon, 85 cm away. The weights do not know. What"
+            " becomes of the estimate?"
+        ),
         choices=(
             Choice(
                 "hardly moves",

@@ -21,7 +21,8 @@ class EdgeList:
 
     Attributes:
         names: What the file calls each node.
-        edges: Each edge once, smaller number first; one listed several times has the sum of its weights.
+        edges: Each edge once, smaller number first; one listed several times has the sum of its
+            weights.
         weights: One per edge; 1 where the file has none.
     """
 
@@ -32,10 +33,11 @@ class EdgeList:
 
 @apart
 def read_edges(path: Path, most_nodes: int) -> EdgeList:
-    """Return the edges of a text file: per line two names and maybe a weight, between commas, semicolons or blanks.
+    """Return the edges of a text file: per line two names and maybe a weight, between commas,
+    semicolons or blanks.
 
-    Lines that begin with # or %, empty ones, and a first line of words such as "source target" are left out, as are edges
-    from a node to itself. Directions do not matter.
+    Lines that begin with # or %, empty ones, and a first line of words such as "source target" are
+    left out, as are edges from a node to itself. Directions do not matter.
 
     Args:
         path: The file: csv, txt, tsv, edges or edgelist.

@@ -1,6 +1,8 @@
-"""Points out of the bytes of ply, pcd, obj and text files, in the dialects that people's scanners write.
+"""Points out of the bytes of ply, pcd, obj and text files, in the dialects that people's scanners
+write.
 
-Every function takes the whole file as bytes and its name for messages, and raises `InputError` with one clear line.
+Every function takes the whole file as bytes and its name for messages, and raises `InputError` with
+one clear line.
 """
 
 import re
@@ -16,10 +18,23 @@ from workbench.errors import InputError
 BLOCK = 10**6  # signs of a text that are split into lines at a time
 
 _PLY_TYPES = {
-    "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
-    "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "float": "f4", "float32": "f4",
-    "double": "f8", "float64": "f8",
-}  # fmt: skip
+    "char": "i1",
+    "int8": "i1",
+    "uchar": "u1",
+    "uint8": "u1",
+    "short": "i2",
+    "int16": "i2",
+    "ushort": "u2",
+    "uint16": "u2",
+    "int": "i4",
+    "int32": "i4",
+    "uint": "u4",
+    "uint32": "u4",
+    "float": "f4",
+    "float32": "f4",
+    "double": "f8",
+    "float64": "f8",
+}
 
 
 @dataclass
@@ -48,7 +63,8 @@ def ply_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
         raise mesh_error(name, vertices.count, faces)
     if vertices is not elements[0] or vertices.has_lists:
         raise InputError(
-            f"{name}: the vertices of this ply file are not its first element, or hold lists; not read"
+            f"{name}: the vertices of this ply file are not its first element, or hold lists; not"
+            " read"
         )
     not_too_many(vertices.count, name)
     body = content[end.end() :]
@@ -80,7 +96,8 @@ def _ply_header(header: str, name: str) -> tuple[str, list[_PlyElement]]:
 
 
 def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
-    """Return the points of a pcd file (ascii, binary or binary_compressed); what the scanner did not see is NaN.
+    """Return the points of a pcd file (ascii, binary or binary_compressed); what the scanner did
+    not see is NaN.
 
     Raises:
         InputError: If it is no pcd file, is cut short, or has no x, y, z.
@@ -139,7 +156,9 @@ def _compressed_columns(
 
 
 def _unpack_lzf(packed: bytes, size: int, name: str) -> bytes:
-    """Undo LZF: runs of up to 32 plain bytes, and copies of 3 to 264 bytes from at most 8192 back."""
+    """Undo LZF: runs of up to 32 plain bytes, and copies of 3 to 264 bytes from at most 8192
+    back.
+    """
     out, i = bytearray(), 0
     try:
         while i < len(packed):
@@ -190,9 +209,10 @@ def obj_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
 def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     """Return the points of a text table, one row each.
 
-    Columns are separated by commas, semicolons (then numbers may have decimal commas), tabs or spaces. A header names the
-    columns x, y and z (units may follow the letter); without one the first three columns count, and the rest is left
-    out. Empty lines and those that start with # or // are skipped, and so is a first line with the number of points.
+    Columns are separated by commas, semicolons (then numbers may have decimal commas), tabs or
+    spaces. A header names the columns x, y and z (units may follow the letter); without one the
+    first three columns count, and the rest is left out. Empty lines and those that start with # or
+    // are skipped, and so is a first line with the number of points.
 
     Raises:
         InputError: If the file is no text, or its columns are not understood; names the line.
@@ -215,7 +235,9 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
 
 
 def _columns(row: str, separator: str | None, name: str) -> tuple[list[int], int]:
-    """Return which columns are x, y and z by the first row of a table, and how many rows of titles there are, 0 or 1."""
+    """Return which columns are x, y and z by the first row of a table, and how many rows of titles
+    there are, 0 or 1.
+    """
     if separator == ";":
         row = row.replace(",", ".")
     first = [word.strip().strip("\"'") for word in row.split(separator)]
@@ -232,7 +254,8 @@ def _columns(row: str, separator: str | None, name: str) -> tuple[list[int], int
 
 
 def text_of(content: bytes, name: str) -> str:
-    """Return a file as text, lines ending as here: UTF-8, or UTF-16 that begins with its mark (spreadsheets write it).
+    """Return a file as text, lines ending as here: UTF-8, or UTF-16 that begins with its mark
+    (spreadsheets write it).
 
     Raises:
         InputError: If it is neither.
@@ -249,7 +272,9 @@ def text_of(content: bytes, name: str) -> str:
 
 
 def _blocks(text: str) -> Iterator[list[str]]:
-    """Yield the lines of a text, some at a time: a list of all of them takes many times the memory of the text."""
+    """Yield the lines of a text, some at a time: a list of all of them takes many times the memory
+    of the text.
+    """
     start = 0
     while start < len(text):
         end = text.find("\n", start + BLOCK) + 1 or len(text)
@@ -271,7 +296,9 @@ def _first_rows(body: bytes, n: int, columns: list[int], name: str) -> np.ndarra
 
 
 def not_too_many(n: int, name: str, what: str = "points") -> None:
-    """Raise InputError where there are more points, or lines with a point each, than may be read."""
+    """Raise InputError where there are more points, or lines with a point each, than may be
+    read.
+    """
     most = allowance().points
     if n > most:
         raise InputError(

@@ -26,10 +26,12 @@ class Matches:
         p: Rows (u, v, u', v'), pixels of the first image and of the second.
         quality: How much each is trusted, more is better; None where the file does not say.
         H: The true homography, first to second, where the file has one.
-        F: The true fundamental matrix, `uv_second_h.T @ F @ uv_first_h = 0`, where the file has one.
+        F: The true fundamental matrix, `uv_second_h.T @ F @ uv_first_h = 0`, where the file has
+            one.
         K_first: Intrinsics of the first camera, where the file has them.
         K_second: Those of the second.
-        T_second_first: The true motion between the cameras, where the file has one; its length means nothing.
+        T_second_first: The true motion between the cameras, where the file has one; its length
+            means nothing.
     """
 
     p: Float[np.ndarray, "n 4"]
@@ -45,12 +47,14 @@ class Matches:
 def read_matches(path: Path, fewest: int = 4) -> Matches:
     """Return the matches of a file.
 
-    Formats: npz with arrays x1 and x2 (n, 2), or matches (n, 4), and optionally quality (n,), H, F, K or K1 and K2 (3, 3),
-    R (or R_rel) and t (or t_rel) from the first camera to the second; or text with four numbers a line, u v u' v', separated
-    by commas or white space, and optionally a quality as the fifth. Rows with NaN or infinity are left out, and counted.
+    Formats: npz with arrays x1 and x2 (n, 2), or matches (n, 4), and optionally quality (n,), H, F,
+    K or K1 and K2 (3, 3), R (or R_rel) and t (or t_rel) from the first camera to the second; or
+    text with four numbers a line, u v u' v', separated by commas or white space, and optionally a
+    quality as the fifth. Rows with NaN or infinity are left out, and counted.
 
     Raises:
-        InputError: If the file is missing, too large, not understood, or has fewer than `fewest` matches.
+        InputError: If the file is missing, too large, not understood, or has fewer than `fewest`
+            matches.
     """
     path = Path(path)
     stamp(path)
@@ -74,7 +78,8 @@ def _from_arrays(path: Path) -> Matches:
         )
         if p is None:
             raise InputError(
-                f"{path.name}: {len(first)} pixels in the first image and {len(second)} in the second"
+                f"{path.name}: {len(first)} pixels in the first image and {len(second)} in the"
+                " second"
             )
     elif both is not None:
         p = _rows(path, both, 4)
@@ -85,7 +90,8 @@ def _from_arrays(path: Path) -> Matches:
     quality = _named(arrays, _QUALITY)
     if quality is not None and (quality.shape != (len(p),) or quality.dtype.kind not in "fiu"):
         raise InputError(
-            f"{path.name}: quality is {quality.dtype} {quality.shape}, where ({len(p)},) numbers are wanted"
+            f"{path.name}: quality is {quality.dtype} {quality.shape}, where ({len(p)},) numbers"
+            " are wanted"
         )
     K_first, K_second = (_camera(path, arrays, name) for name in ("K1", "K2"))
     return Matches(
@@ -106,7 +112,8 @@ def _from_text(path: Path) -> Matches:
     widths = {len(words) for words in kept}
     if len(widths) != 1 or widths <= {0, 1, 2, 3}:
         raise InputError(
-            f"{path.name}: not lines of four numbers u v u' v', with a quality as the fifth where known"
+            f"{path.name}: not lines of four numbers u v u' v', with a quality as the fifth where"
+            " known"
         )
     try:
         table = np.array(kept, dtype=float)
@@ -126,7 +133,8 @@ def _named(arrays: dict[str, np.ndarray], names: tuple[str, ...]) -> np.ndarray 
 def _rows(path: Path, array: np.ndarray, columns: int) -> np.ndarray:
     if array.ndim != 2 or array.shape[1] != columns or array.dtype.kind not in "fiu":
         raise InputError(
-            f"{path.name}: an array of {array.dtype} {array.shape}, where (n, {columns}) numbers are wanted"
+            f"{path.name}: an array of {array.dtype} {array.shape}, where (n, {columns}) numbers"
+            " are wanted"
         )
     return array.astype(float)
 

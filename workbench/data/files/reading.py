@@ -1,4 +1,6 @@
-"""Files that people bring: clouds, meshes, images and known poses, each read or refused in one clear line."""
+"""Files that people bring: clouds, meshes, images and known poses, each read or refused in one
+clear line.
+"""
 
 import contextlib
 import functools
@@ -37,21 +39,26 @@ if TYPE_CHECKING:
 NO_VERTEX = "a face names a vertex that is not there"
 MOST_OF_POSES = 2 * 10**6  # bytes
 IMAGES = ("PNG", "JPEG", "WEBP", "TIFF", "BMP", "GIF", "PPM")
-"""What pictures are read from; Pillow would also hand a file to other programs (EPS to Ghostscript)."""
+"""What pictures are read from; Pillow would also hand a file to other programs (EPS to
+Ghostscript).
+"""
 
 _TEXT = (".xyz", ".txt", ".csv", ".asc", ".pts", ".tsv", ".dat")
 _MESHES = (".off", ".stl", ".glb", ".gltf", ".obj", ".ply")
 
 
 def read_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n 3"]:
-    """Return the points of a file, in its own unit and frame, read-only; a second call for the same file is free.
+    """Return the points of a file, in its own unit and frame, read-only; a second call for the same
+    file is free.
 
-    Formats: ply, pcd, obj, npy, npz (an array named p, points, xyz or vertices, or the only one) and text (xyz, txt,
-    csv, ...; see `text_points`), each also gzipped. A mesh is refused: its vertices are rarely the samples that a cloud
-    is taken for. Points with NaN or infinity are left out: a scanner did not see them. How many is told with the first step.
+    Formats: ply, pcd, obj, npy, npz (an array named p, points, xyz or vertices, or the only one)
+    and text (xyz, txt, csv, ...; see `text_points`), each also gzipped. A mesh is refused: its
+    vertices are rarely the samples that a cloud is taken for. Points with NaN or infinity are left
+    out: a scanner did not see them. How many is told with the first step.
 
     Raises:
-        InputError: If the file is missing, too large, not understood, or has fewer than `fewest` points.
+        InputError: If the file is missing, too large, not understood, or has fewer than `fewest`
+            points.
     """
     path = Path(path)
     changed = stamp(path)
@@ -63,7 +70,8 @@ def read_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n 3"]:
 
 @apart
 def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Return the vertices and triangles of a mesh file (off, obj, ply, stl, glb; also gzipped); polygons are cut up.
+    """Return the vertices and triangles of a mesh file (off, obj, ply, stl, glb; also gzipped);
+    polygons are cut up.
 
     Raises:
         InputError: If the file is missing, too large, not understood, has no faces, or holds NaN.
@@ -73,7 +81,8 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
     content, kind = _content(path)
     if kind not in _MESHES:
         raise InputError(
-            f"{path.name}: {kind or 'a file without ending'} is no mesh format that is read (off, obj, ply, stl, glb)"
+            f"{path.name}: {kind or 'a file without ending'} is no mesh format that is read (off,"
+            " obj, ply, stl, glb)"
         )
     import trimesh
 
@@ -103,7 +112,9 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
 
 
 def lost_rows(path: Path) -> bool:
-    """Tell whether a cloud that was read has rows less than its file: they had no finite numbers."""
+    """Tell whether a cloud that was read has rows less than its file: they had no finite
+    numbers.
+    """
     return len(told(path)) > 0
 
 
@@ -117,10 +128,12 @@ def _one_mesh(scene: Any, name: str) -> Any:
 
 @apart
 def read_voxels(path: Path) -> Shaped[np.ndarray, "x y z"]:
-    """Return bits or labels on a regular grid, (x, y, z) whole numbers: of an npy file, or the only such array of an npz.
+    """Return bits or labels on a regular grid, (x, y, z) whole numbers: of an npy file, or the only
+    such array of an npz.
 
     Raises:
-        InputError: If the file is missing, too large, not understood, or has no array of three axes, or several.
+        InputError: If the file is missing, too large, not understood, or has no array of three
+            axes, or several.
     """
     path = Path(path)
     stamp(path)
@@ -165,7 +178,9 @@ def _plain(image: "Image.Image") -> np.ndarray:
 
 
 def shipped(name: str) -> Path:
-    """Return where scikit-image keeps one of the samples in its wheel: to import its own readers takes 0.3 s."""
+    """Return where scikit-image keeps one of the samples in its wheel: to import its own readers
+    takes 0.3 s.
+    """
     import skimage
 
     return Path(skimage.__file__).with_name("data") / name
@@ -173,7 +188,8 @@ def shipped(name: str) -> Path:
 
 @contextlib.contextmanager
 def opened_image(source: Path | io.BytesIO, name: str) -> "Iterator[Image.Image]":
-    """Give an image of Pillow's, its size and depth judged and nothing decoded yet; what fails on it is told in one line.
+    """Give an image of Pillow's, its size and depth judged and nothing decoded yet; what fails on
+    it is told in one line.
 
     Raises:
         InputError: If it is no image of 8 bits a channel, or too large.
@@ -205,17 +221,19 @@ def read_pose(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the T_target_source that a file gives.
 
-    The file is 16 numbers row by row (text or npy), or a list of poses by the name of a scan, each from the scan into one
-    common frame: rows of 12 or 16 numbers, or a Stanford .conf (translation, then a quaternion x, y, z, w that is stored
-    conjugated).
+    The file is 16 numbers row by row (text or npy), or a list of poses by the name of a scan, each
+    from the scan into one common frame: rows of 12 or 16 numbers, or a Stanford .conf (translation,
+    then a quaternion x, y, z, w that is stored conjugated).
 
     Args:
         path: The file.
-        target: The scan in whose frame the pose is, to find its row in a list; a single 4x4 does not need it.
+        target: The scan in whose frame the pose is, to find its row in a list; a single 4x4 does
+            not need it.
         source: The scan that the pose moves, likewise.
 
     Raises:
-        InputError: If the file is missing, not understood, not a pose, or a list without the two scans.
+        InputError: If the file is missing, not understood, not a pose, or a list without the two
+            scans.
     """
     path = Path(path)
     stamp(path)
@@ -321,14 +339,17 @@ def _points(path: Path) -> np.ndarray:
 def finite(
     p: Float[np.ndarray, "n d"], name: str, one: str = "point", many: str = "points"
 ) -> Float[np.ndarray, "m d"]:
-    """Return the rows without NaN and infinity; how many are left out is told with the first step of the run."""
+    """Return the rows without NaN and infinity; how many are left out is told with the first step
+    of the run.
+    """
     good = np.isfinite(p).all(axis=1)
     if len(p) and not good.any():
         raise InputError(f"{name}: all {len(p):,} {many} are NaN or infinite")
     if not good.all():
         bad = int((~good).sum())
         note(
-            f"{name}: {bad:,} of {len(p):,} {one if len(p) == 1 else many} left out: NaN or infinite."
+            f"{name}: {bad:,} of {len(p):,} {one if len(p) == 1 else many} left out: NaN or"
+            " infinite."
         )
     return p[good]
 
@@ -399,7 +420,8 @@ def text_rows(
 
 
 def word_rows(path: Path, what: str, kinds: tuple[str, ...] | None) -> list[tuple[int, list[str]]]:
-    """Return the words of each line of a text file with its number, as `text_rows` does; none without a word.
+    """Return the words of each line of a text file with its number, as `text_rows` does; none
+    without a word.
 
     Args:
         path: The file.
@@ -413,13 +435,16 @@ def word_rows(path: Path, what: str, kinds: tuple[str, ...] | None) -> list[tupl
 
 
 def number_rows(path: Path, what: str, kinds: tuple[str, ...]) -> list[tuple[int, list[str]]]:
-    """Return what `word_rows` does, without a first line of names: one that begins with no number."""
+    """Return what `word_rows` does, without a first line of names: one that begins with no
+    number.
+    """
     rows = word_rows(path, what, kinds)
     return rows[bool(rows) and not is_number(rows[0][1][0]) :]
 
 
 def stamp(path: Path) -> tuple[int, int]:
-    """Return when a file was changed and its size: what is read from it may be kept as long as they stay.
+    """Return when a file was changed and its size: what is read from it may be kept as long as they
+    stay.
 
     Raises:
         InputError: If it is no file, or too large.

@@ -1,4 +1,6 @@
-"""The rim of something bright and round on a dark ground, such as a coin, found from a pixel inside."""
+"""The rim of something bright and round on a dark ground, such as a coin, found from a pixel
+inside.
+"""
 
 import functools
 from dataclasses import dataclass
@@ -23,7 +25,8 @@ class Rim:
 
     Attributes:
         photograph: Grey or coloured.
-        p: Its points in order round it, y upwards, in radii of the circle through all of them, about its centre.
+        p: Its points in order round it, y upwards, in radii of the circle through all of them,
+            about its centre.
         center: Of that circle, pixels.
         radius: Likewise.
     """
@@ -34,7 +37,9 @@ class Rim:
     radius: float
 
     def windows(self, arc: float) -> Float[np.ndarray, "k m 2"]:
-        """Return parts of it that are an arc of so many degrees long and begin in twelve places, the first about +x."""
+        """Return parts of it that are an arc of so many degrees long and begin in twelve places,
+        the first about +x.
+        """
         n = len(self.p)
         count = max(round(n * arc / 360.0), 4)
         first = np.arange(WINDOWS) * n // WINDOWS - count // 2
@@ -86,7 +91,8 @@ def rim_points(
         farthest: How far they go, pixels.
 
     Note:
-        A ray on which nothing darkens gives some place on it: what is fitted to the rim may have to be robust.
+        A ray on which nothing darkens gives some place on it: what is fitted to the rim may have to
+        be robust.
     """
     gray = image if image.ndim == 2 else image[..., :3].mean(axis=-1)
     smooth = scipy.ndimage.gaussian_filter(gray.astype(float), SMOOTH)

@@ -1,4 +1,5 @@
-"""Seeded synthetic clouds for registration: one shape with no symmetry, one with, one that slides, and scans of them.
+"""Seeded synthetic clouds for registration: one shape with no symmetry, one with, one that slides,
+and scans of them.
 
 Lengths in metres, +Z up, every shape about a metre in size.
 """
@@ -32,7 +33,9 @@ class Pair:
 
 
 def vase(count: int, rng: np.random.Generator) -> Cloud:
-    """Return points on a surface of revolution about z: no cloud of it can tell how far it was turned."""
+    """Return points on a surface of revolution about z: no cloud of it can tell how far it was
+    turned.
+    """
     z = np.linspace(-0.45, 0.45, 400)
     area = _vase_radius(z) * np.hypot(1.0, np.gradient(_vase_radius(z), z))
     height = np.interp(rng.random(count), np.cumsum(area) / area.sum(), z)
@@ -42,7 +45,9 @@ def vase(count: int, rng: np.random.Generator) -> Cloud:
 
 
 def corner(count: int, rng: np.random.Generator) -> Cloud:
-    """Return points on a floor and a wall that meet along x, 2 m long: nothing holds a slide along x but the ends."""
+    """Return points on a floor and a wall that meet along x, 2 m long: nothing holds a slide along
+    x but the ends.
+    """
     floor = np.arange(count) < 0.55 * count
     x, s = rng.uniform(-1.0, 1.0, count), rng.uniform(0.0, 0.8, count)
     return np.column_stack([x, np.where(floor, s, 0.0) - 0.3, np.where(floor, 0.0, s) - 0.3])
@@ -84,7 +89,8 @@ def pair(
         count: Points of each scan.
         T_target_source: The true motion.
         rng: Draws points, noise and outliers.
-        overlap: Share of the source scan that the target scan saw too; the two lose opposite ends along x.
+        overlap: Share of the source scan that the target scan saw too; the two lose opposite ends
+            along x.
         noise: Standard deviation of each coordinate, in both scans, metres.
         outliers: Share of the source points that lie anywhere in twice the shape's box.
 

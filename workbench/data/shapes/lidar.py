@@ -1,7 +1,8 @@
-"""A seeded lidar pair: rings of a spinning scanner on a street with houses, cars and poles, from two places.
+"""A seeded lidar pair: rings of a spinning scanner on a street with houses, cars and poles, from
+two places.
 
-Lengths in metres, +Z up. The rings lie densely along themselves and far apart from each other, and they move with the
-scanner: what the two scans have in common is the street, not the rings.
+Lengths in metres, +Z up. The rings lie densely along themselves and far apart from each other, and
+they move with the scanner: what the two scans have in common is the street, not the rings.
 """
 
 from dataclasses import dataclass
@@ -103,7 +104,9 @@ def lidar_pair(
     columns: int = 1000,
     noise: float = 0.02,
 ) -> tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "n 3"]]:
-    """Return target and source: scans of one street, the second after the scanner has moved by T_target_source."""
+    """Return target and source: scans of one street, the second after the scanner has moved by
+    T_target_source.
+    """
     scene = street(rng)
     T_world_target = motion(np.eye(3), np.array([0.0, 0.0, SENSOR_HEIGHT]))
     p_target = lidar_scan(scene, T_world_target, rng, rings=rings, columns=columns, noise=noise)
@@ -114,13 +117,16 @@ def lidar_pair(
 
 
 def _distances(scene: Street, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
-    """Return how far rays from one place go until they hit something; infinity where they hit nothing."""
+    """Return how far rays from one place go until they hit something; infinity where they hit
+    nothing.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):  # rays along an axis
         hits = np.where(v_world[:, 2] < 0, -p_world[2] / v_world[:, 2], np.inf)
         flat = np.square(v_world[:, :2]).sum(axis=1)
         for to_it, things, reaches in (
-            (_to_box, scene.boxes, np.hypot(*scene.boxes[:, 3:5].T)), (_to_pole, scene.poles, scene.poles[:, 2])
-        ):  # fmt: skip
+            (_to_box, scene.boxes, np.hypot(*scene.boxes[:, 3:5].T)),
+            (_to_pole, scene.poles, scene.poles[:, 2]),
+        ):
             for thing, reach in zip(things, reaches, strict=True):
                 rays = _towards(thing[:2] - p_world[:2], float(reach), v_world, flat)
                 hits[rays] = np.minimum(hits[rays], to_it(thing, p_world, v_world[rays]))
@@ -128,7 +134,9 @@ def _distances(scene: Street, p_world: np.ndarray, v_world: np.ndarray) -> np.nd
 
 
 def _towards(off: np.ndarray, reach: float, v_world: np.ndarray, flat: np.ndarray) -> np.ndarray:
-    """Return which rays, seen from above, pass a middle by `reach` or little more; `flat` is their squared length."""
+    """Return which rays, seen from above, pass a middle by `reach` or little more; `flat` is their
+    squared length.
+    """
     along = v_world[:, :2] @ off
     beside = off @ off - (1.01 * reach) ** 2  # square of how far it is to the circle's edge
     return (

@@ -1,4 +1,5 @@
-"""A rabbit of blended ellipsoids, the course's shape without any symmetry: its field, points on it, and a mesh of it.
+"""A rabbit of blended ellipsoids, the course's shape without any symmetry: its field, points on it,
+and a mesh of it.
 
 Lengths in metres, +Z up, nose towards +X; about 0.9 by 0.6 by 1.0 m.
 """
@@ -31,10 +32,11 @@ _ROUNDS = 5  # of moving vertices towards the middle of their neighbours
 
 
 def rabbit(count: int, rng: np.random.Generator) -> Cloud:
-    """Return points on a rabbit: a smooth closed surface of blended ellipsoids that no motion takes to itself.
+    """Return points on a rabbit: a smooth closed surface of blended ellipsoids that no motion takes
+    to itself.
 
-    The points of each ellipsoid that lie inside another are left out, and the rest is projected onto the surface where
-    the smooth minimum of all ellipsoid distances is zero.
+    The points of each ellipsoid that lie inside another are left out, and the rest is projected
+    onto the surface where the smooth minimum of all ellipsoid distances is zero.
     """
     areas = np.array([_mean_product(radii) for _, radii, _ in _RABBIT])
     pieces = []
@@ -49,10 +51,11 @@ def rabbit(count: int, rng: np.random.Generator) -> Cloud:
 
 @lru_cache(maxsize=4)
 def rabbit_mesh(spacing: float = 0.03) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Return the rabbit as a closed triangle mesh without holes or handles; read-only arrays, the same at every call.
+    """Return the rabbit as a closed triangle mesh without holes or handles; read-only arrays, the
+    same at every call.
 
-    Its field is marched on a grid; then vertices move along the surface towards the middle of their neighbours, which
-    rounds off the slivers that marching cubes leaves, and back onto it.
+    Its field is marched on a grid; then vertices move along the surface towards the middle of their
+    neighbours, which rounds off the slivers that marching cubes leaves, and back onto it.
 
     Args:
         spacing: Of the grid, metres: 0.03 gives 2,844 vertices, 0.05 gives 994, 0.015 gives 11,460.
@@ -60,7 +63,8 @@ def rabbit_mesh(spacing: float = 0.03) -> tuple[Float[np.ndarray, "v 3"], Int[np
     Raises:
         ValueError: If the grid is too coarse for the ears (over 0.05 m), or finer than 0.01 m.
 
-    Reference: Lewiner et al., Efficient implementation of marching cubes' cases with topological guarantees, 2003.
+    Reference: Lewiner et al., Efficient implementation of marching cubes' cases with topological
+    guarantees, 2003.
     """
     if not 0.01 <= spacing <= 0.05:
         raise ValueError(f"a grid of {spacing:g} m; the rabbit's mesh takes 0.01 to 0.05 m")
@@ -83,7 +87,8 @@ def rabbit_mesh(spacing: float = 0.03) -> tuple[Float[np.ndarray, "v 3"], Int[np
 
 
 def rabbit_field(p: Cloud) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
-    """Return the smooth minimum of the blobs' distances, and its gradient: 0 on the rabbit, negative inside, metres.
+    """Return the smooth minimum of the blobs' distances, and its gradient: 0 on the rabbit,
+    negative inside, metres.
 
     It is no distance: its gradient is 0.57 to 0.97 long in the box around the rabbit.
     """
@@ -104,7 +109,9 @@ def _onto_surface(p: np.ndarray, steps: int = 4) -> np.ndarray:
 
 
 def _ellipsoid(count: int, radii: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Return about half as many points as asked for, uniform on an ellipsoid: sphere points kept by their area."""
+    """Return about half as many points as asked for, uniform on an ellipsoid: sphere points kept by
+    their area.
+    """
     u = rng.standard_normal((count, 3))
     u /= np.linalg.norm(u, axis=1, keepdims=True)
     stretch = np.linalg.norm(u / radii, axis=1) * radii.min()

@@ -1,9 +1,11 @@
-"""The corners of a checkerboard in a picture: saddles of brightness, joined to a grid square by square, then refined.
+"""The corners of a checkerboard in a picture: saddles of brightness, joined to a grid square by
+square, then refined.
 
-Reference: Bennett and Lasenby, ChESS: quick and robust detection of chess-board features, Computer Vision and Image
-Understanding 118, 2014 (the ring around a corner). Geiger, Moosmann, Car and Schuster, Automatic camera and range sensor
-calibration using a single shot, ICRA 2012, section III (a board grown from a corner). Foerstner and Guelch, A fast operator
-for detection and precise location of distinct points, corners and centres of circular features, 1987 (refinement).
+Reference: Bennett and Lasenby, ChESS: quick and robust detection of chess-board features, Computer
+Vision and Image Understanding 118, 2014 (the ring around a corner). Geiger, Moosmann, Car and
+Schuster, Automatic camera and range sensor calibration using a single shot, ICRA 2012, section III
+(a board grown from a corner). Foerstner and Guelch, A fast operator for detection and precise
+location of distinct points, corners and centres of circular features, 1987 (refinement).
 """
 
 from collections.abc import Iterator
@@ -21,10 +23,13 @@ SIDES = (
 BLUR, RING, APART = 1.5, 4.5, 7  # pixels: of the saddles, of the ring around one, between two
 MOST, SEEDS = 500, 120  # saddles that are looked at, and those from which a board is grown
 FOURFOLD = 0.55  # share of a ring's changes that two dark and two bright sectors make
-UNLIKE = 0.2  # share of them by which its opposite sides may differ: they do where a square meets the board's rim
+# share of them by which its opposite sides may differ: they do where a square meets the board's rim
+UNLIKE = 0.2
 FAINT = 4.0  # grey levels: rings that change less are noise
 NEAR = 0.3  # of a square's edge: how far a corner may be from where its neighbours let expect it
-REACH = 0.3  # of the shortest edge: half the window in which a corner is refined; wider ones see other corners' edges
+# of the shortest edge: half the window in which a corner is refined; wider ones see other corners'
+# edges
+REACH = 0.3
 ITERATIONS, STILL = 40, 1e-3  # pixels
 
 Table = Int[np.ndarray, "rows columns"]
@@ -33,10 +38,11 @@ Table = Int[np.ndarray, "rows columns"]
 def board_corners(
     grey: UInt8[np.ndarray, "h w"], columns: int, rows: int
 ) -> Float[np.ndarray, "n 2"] | None:
-    """Return the inner corners of a whole checkerboard, pixels, row by row; None where there is none, or a larger one.
+    """Return the inner corners of a whole checkerboard, pixels, row by row; None where there is
+    none, or a larger one.
 
-    Rows run to the right where the first corner is at the upper left. That is the one of the two ends between dark squares
-    where colours tell them apart, else the upper one.
+    Rows run to the right where the first corner is at the upper left. That is the one of the two
+    ends between dark squares where colours tell them apart, else the upper one.
 
     Args:
         grey: A picture.
@@ -65,7 +71,8 @@ def board_corners(
 def refined(
     grey: UInt8[np.ndarray, "h w"], uv: Float[np.ndarray, "n 2"], half: int
 ) -> Float[np.ndarray, "n 2"]:
-    """Return corners where the gradients around them, each at right angles to the way there, put them, pixels.
+    """Return corners where the gradients around them, each at right angles to the way there, put
+    them, pixels.
 
     Args:
         grey: A picture.
@@ -101,7 +108,9 @@ def refined(
 
 
 def _saddles(grey: np.ndarray) -> tuple[Float[np.ndarray, "n 2"], Complex[np.ndarray, " n"]]:
-    """Return pixels around which dark and bright take turns twice, and where they do: twice the angle of the bright."""
+    """Return pixels around which dark and bright take turns twice, and where they do: twice the
+    angle of the bright.
+    """
     yy, xx, xy = (
         scipy.ndimage.gaussian_filter(grey, BLUR, order=order) for order in ((2, 0), (0, 2), (1, 1))
     )
@@ -126,7 +135,9 @@ def _saddles(grey: np.ndarray) -> tuple[Float[np.ndarray, "n 2"], Complex[np.nda
 
 
 def _tables(uv: np.ndarray, wave: np.ndarray, columns: int, rows: int) -> Iterator[Table]:
-    """Yield whole boards of that shape as tables of saddles, grown from one saddle and two beside it."""
+    """Yield whole boards of that shape as tables of saddles, grown from one saddle and two beside
+    it.
+    """
     if len(uv) < columns * rows:
         return
     tree, known = scipy.spatial.cKDTree(uv), set[int]()
@@ -183,7 +194,9 @@ def _grown(
 
 
 def _whole(grid: dict[tuple[int, int], int], columns: int, rows: int) -> Iterator[Table]:
-    """Yield the board in a grid, where it has that shape and no more than half of a further row or column beside it."""
+    """Yield the board in a grid, where it has that shape and no more than half of a further row or
+    column beside it.
+    """
     places = np.array(list(grid))
     high, wide = (np.ptp(places, axis=0) + 3).tolist()
     table = np.full((high, wide), -1)
@@ -198,7 +211,9 @@ def _whole(grid: dict[tuple[int, int], int], columns: int, rows: int) -> Iterato
 
 
 def _from_the_first(uv: np.ndarray, wave: np.ndarray, table: Table) -> Table:
-    """Return the table so turned that its first corner lies between dark squares, or else that it is the upper one."""
+    """Return the table so turned that its first corner lies between dark squares, or else that it
+    is the upper one.
+    """
     diagonal = complex(*(uv[table[1, 1]] - uv[table[0, 0]]))
     back = table[::-1, ::-1]
     if sum(table.shape) % 2:  # the two ends differ

@@ -1,4 +1,6 @@
-"""Corners of a board in people's own pictures: read or refused in one clear line, or found in the pictures themselves."""
+"""Corners of a board in people's own pictures: read or refused in one clear line, or found in the
+pictures themselves.
+"""
 
 import functools
 from dataclasses import dataclass, replace
@@ -38,7 +40,7 @@ _PIXELS = (
     ("image_points", "image_points2"),
 )
 _SIZES = (
-    (640, 480), (752, 480), (800, 600), (1024, 768), (1280, 720), (1280, 960), (1600, 1200), (1920, 1080), (2048, 1536),
+    (640, 480), (752, 480), (800, 600), (1024, 768), (1280, 720), (1280, 960), (1600, 1200), (1920, 1080), (2048, 1536),  # noqa: E501
     (2592, 1944), (3264, 2448), (3840, 2160), (4032, 3024), (5184, 3456), (6000, 4000),
 )  # fmt: skip
 
@@ -52,7 +54,8 @@ class Corners:
         uv: Their pixels in every view that is left.
         names: What the views of the file are called; empty where the file does not say.
         stated: Width and height of the pictures, as the file says, or None.
-        left_out: Views of the file that are not in `uv`, for too many of their corners have no number; counted from 0.
+        left_out: Views of the file that are not in `uv`, for too many of their corners have no
+            number; counted from 0.
     """
 
     p_board: Float[np.ndarray, "n 3"]
@@ -73,7 +76,9 @@ class Corners:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height of the pictures: as stated, or the least usual size that holds all corners."""
+        """Width and height of the pictures: as stated, or the least usual size that holds all
+        corners.
+        """
         return self.stated or _size_of(self.uv)
 
 
@@ -81,10 +86,11 @@ class Corners:
 def read_corners(path: Path, which: Which = "first") -> Corners:
     """Return the corners of a file.
 
-    Formats: npz with object_points (n, 3) or (n, 2), and left, corners, uv or image_points (k, n, 2), a second camera's in
-    right, corners2, uv2 or image_points2, and optionally size (width, height) and what the pictures are called (names, or
-    left_names, right_names and so on); or lines of text `view X Y u v`. Corners with NaN or infinity are left out, and
-    counted; all views have the same points, so with a corner goes its point in all views, or its view: whichever lacks the
+    Formats: npz with object_points (n, 3) or (n, 2), and left, corners, uv or image_points (k, n,
+    2), a second camera's in right, corners2, uv2 or image_points2, and optionally size (width,
+    height) and what the pictures are called (names, or left_names, right_names and so on); or lines
+    of text `view X Y u v`. Corners with NaN or infinity are left out, and counted; all views have
+    the same points, so with a corner goes its point in all views, or its view: whichever lacks the
     larger share of its corners.
 
     Args:
@@ -92,8 +98,8 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
         which: Of which of two cameras.
 
     Raises:
-        InputError: If it is no such file, too little of it is left, or the board is not flat, not broad, or not the same in
-            all views.
+        InputError: If it is no such file, too little of it is left, or the board is not flat, not
+            broad, or not the same in all views.
     """
     stamp(path)
     given = _from_arrays(path, which) if path.suffix.lower() == ".npz" else _from_text(path)
@@ -103,7 +109,8 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
         )
     if len(given.p_board) > MOST_POINTS:
         raise InputError(
-            f"{path.name}: {len(given.p_board)} points on the board; from 4 to {MOST_POINTS} are calibrated from"
+            f"{path.name}: {len(given.p_board)} points on the board; from 4 to {MOST_POINTS} are"
+            " calibrated from"
         )
     found = _with_numbers(given, path.name)
     p, uv = found.p_board, found.uv
@@ -114,7 +121,8 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
         )
     if len(p) < 4:
         raise InputError(
-            f"{path.name}: {len(p)} points on the board{left}; from 4 to {MOST_POINTS} are calibrated from"
+            f"{path.name}: {len(p)} points on the board{left}; from 4 to {MOST_POINTS} are"
+            " calibrated from"
         )
     reach = np.linalg.svd(p[:, :2] - p[:, :2].mean(axis=0), compute_uv=False)
     if not reach[1] > 1e-6 * reach[0] > 0 or np.ptp(p[:, 2]) > 1e-6 * reach[0]:
@@ -130,12 +138,15 @@ def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
     """Return a person's own pictures in which corners were found, as large as these or shrunk.
 
     Args:
-        found: The corners; they have to lie in the pictures, or their file says of which size these were.
-        path: A folder or a zip, matched by the names of views or in order; or a picture of one view.
+        found: The corners; they have to lie in the pictures, or their file says of which size these
+            were.
+        path: A folder or a zip, matched by the names of views or in order; or a picture of one
+            view.
         only: That view, where it is one picture.
 
     Raises:
-        InputError: If they are no pictures, not as many as views, or of another size than each other or the corners.
+        InputError: If they are no pictures, not as many as views, or of another size than each
+            other or the corners.
     """
     count = found.count
     one = tuple(path.name if view == min(only, count - 1) else None for view in range(count))
@@ -143,19 +154,23 @@ def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
     (w, h), (u, v), stated = pictures.size, found.uv.reshape(-1, 2).max(axis=0), found.stated
     if stated is None and not (u < w and v < h):
         raise InputError(
-            f"{path.name or path}: pictures of {w} x {h} pixels, and corners as far as ({u:.0f}, {v:.0f})"
+            f"{path.name or path}: pictures of {w} x {h} pixels, and corners as far as ({u:.0f},"
+            f" {v:.0f})"
         )
     if stated is not None and abs(w * stated[1] / (h * stated[0]) - 1) > STRETCHED:
         raise InputError(
-            f"{path.name or path}: pictures of {w} x {h} pixels, and corners of {stated[0]} x {stated[1]}"
+            f"{path.name or path}: pictures of {w} x {h} pixels, and corners of {stated[0]} x"
+            f" {stated[1]}"
         )
     return pictures
 
 
 def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures, tuple[str, ...]]:
-    """Return the corners of a board that are found in a person's pictures, these pictures, and the names of the others.
+    """Return the corners of a board that are found in a person's pictures, these pictures, and the
+    names of the others.
 
-    Squares are as large as ours, since nobody can tell: it changes how far away boards are, and nothing else.
+    Squares are as large as ours, since nobody can tell: it changes how far away boards are, and
+    nothing else.
 
     Args:
         path: A folder or a zip of pictures.
@@ -163,7 +178,8 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
         rows: Its rows.
 
     Raises:
-        InputError: If they are no pictures of one size, too many, or fewer than two show a whole board of that shape.
+        InputError: If they are no pictures of one size, too many, or fewer than two show a whole
+            board of that shape.
     """
     names = names_in(path) if holds_many(path) else (path.name,)
     if len(names) > MOST_VIEWS:
@@ -175,8 +191,8 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
     with_board = {name: uv for name, uv in found.items() if uv is not None}
     if len(with_board) < 2:
         raise InputError(
-            f"{path.name or path}: a whole board of {columns} x {rows} inner corners in {len(with_board)} of {len(names)}"
-            " pictures; two are needed, of a board of that shape"
+            f"{path.name or path}: a whole board of {columns} x {rows} inner corners in"
+            f" {len(with_board)} of {len(names)} pictures; two are needed, of a board of that shape"
         )
     corners = Corners(
         p_board=board_points(columns, rows),
@@ -199,7 +215,9 @@ def _found(
 
 
 def _with_numbers(given: Corners, name: str) -> Corners:
-    """Return the views and points that all have numbers, and tell how many corners have none and what went with them."""
+    """Return the views and points that all have numbers, and tell how many corners have none and
+    what went with them.
+    """
     unknown: np.ndarray = np.asarray(
         ~np.isfinite(given.uv).all(axis=2) | ~np.isfinite(given.p_board).all(axis=1)
     )
@@ -223,12 +241,15 @@ def _with_numbers(given: Corners, name: str) -> Corners:
             f"{counted(len(given.p_board) - len(points), 'point')} of the board in all views"
         )
     note(
-        f"{name}: {int(unknown.sum()):,} of {counted(unknown.size, 'corner')} left out, NaN or infinite, and with them"
-        f" {' and '.join(lost)}."
+        f"{name}: {int(unknown.sum()):,} of {counted(unknown.size, 'corner')} left out, NaN or"
+        f" infinite, and with them {' and '.join(lost)}."
     )
     return replace(
-        given, p_board=given.p_board[points], uv=given.uv[np.ix_(views, points)], left_out=without,
-    )  # fmt: skip
+        given,
+        p_board=given.p_board[points],
+        uv=given.uv[np.ix_(views, points)],
+        left_out=without,
+    )
 
 
 def _from_arrays(path: Path, which: Which) -> Corners:
@@ -237,7 +258,8 @@ def _from_arrays(path: Path, which: Which) -> Corners:
     pair = next((names for names in _PIXELS if names[0] in arrays), None)
     if board is None or pair is None:
         raise InputError(
-            f"{path.name}: no arrays object_points and corners (left and right), but {', '.join(arrays) or 'nothing'}"
+            f"{path.name}: no arrays object_points and corners (left and right), but"
+            f" {', '.join(arrays) or 'nothing'}"
         )
     if which == "second" and pair[1] not in arrays:
         raise InputError(f"{path.name}: no second camera: it has no array {pair[1]}")
@@ -254,7 +276,8 @@ def _from_arrays(path: Path, which: Which) -> Corners:
     )
     if not shapes or board.dtype.kind not in "fiu" or uv.dtype.kind not in "fiu":
         raise InputError(
-            f"{path.name}: arrays {board.shape} and {uv.shape}, where (n, 3) and (k, n, 2) are wanted"
+            f"{path.name}: arrays {board.shape} and {uv.shape}, where (n, 3) and (k, n, 2) are"
+            " wanted"
         )
     p = np.zeros((len(board), 3))
     p[:, : board.shape[1]] = board

@@ -1,4 +1,6 @@
-"""A city in a valley with mountains behind it, seen from a hill: nothing in it is nearer than 180 m."""
+"""A city in a valley with mountains behind it, seen from a hill: nothing in it is nearer than 180
+m.
+"""
 
 import functools
 from dataclasses import dataclass
@@ -61,7 +63,9 @@ def skyline() -> Skyline:
 
 @functools.cache
 def skyline_items() -> tuple[MeshItem | SegmentItem, ...]:
-    """Return what `workbench.geometry.cameras.raster.render` takes to make a photograph of the city."""
+    """Return what `workbench.geometry.cameras.raster.render` takes to make a photograph of the
+    city.
+    """
     scene = skyline()
     meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids]
     return (

@@ -1,4 +1,6 @@
-"""Rectified pairs of pictures: made ones whose every disparity is known, the Middlebury motorcycle, and people's own."""
+"""Rectified pairs of pictures: made ones whose every disparity is known, the Middlebury motorcycle,
+and people's own.
+"""
 
 import functools
 from dataclasses import dataclass, replace
@@ -53,12 +55,14 @@ def synthetic_pair(
         scene: A name in `SCENES`.
         camera: The cameras.
         size: Width and height, pixels.
-        noise: Standard deviation of the sensors' noise, grey levels of 255; each picture has its own.
+        noise: Standard deviation of the sensors' noise, grey levels of 255; each picture has its
+            own.
         rng: Draws textures and noise.
 
     Returns:
-        The pair; its disparities are exact, and `visible` is too: a left pixel is visible in the right picture when the
-        point that it shows lies inside that and nothing stands nearer on the way to it.
+        The pair; its disparities are exact, and `visible` is too: a left pixel is visible in the
+        right picture when the point that it shows lies inside that and nothing stands nearer on the
+        way to it.
     """
     things = SCENES[scene](rng, 1.0 / camera.f)
     w, h = size
@@ -82,9 +86,11 @@ def synthetic_pair(
 
 @functools.lru_cache(maxsize=1)
 def motorcycle_pair() -> StereoPair:
-    """Return the Middlebury 2014 motorcycle, 741 x 500 pixels, as scikit-image ships it, with disparities to +-0.1 px or so.
+    """Return the Middlebury 2014 motorcycle, 741 x 500 pixels, as scikit-image ships it, with
+    disparities to +-0.1 px or so.
 
-    Reference: Scharstein et al., High-resolution stereo datasets with subpixel-accurate ground truth, GCPR 2014.
+    Reference: Scharstein et al., High-resolution stereo datasets with subpixel-accurate ground
+    truth, GCPR 2014.
     """
     left, right = (shipped_image(f"motorcycle_{side}.png") for side in ("left", "right"))
     disparity = read_arrays(shipped("motorcycle_disp.npz").read_bytes(), "motorcycle_disp.npz")[
@@ -96,14 +102,16 @@ def motorcycle_pair() -> StereoPair:
 
 
 def read_pair(left: Path, right: Path, f: float, baseline: float, doffs: float = 0.0) -> StereoPair:
-    """Return a rectified pair from two image files; grey ones become RGB, so the two may differ in that.
+    """Return a rectified pair from two image files; grey ones become RGB, so the two may differ in
+    that.
 
     Args:
         left: File of the left picture.
         right: File of the right picture.
         f: Focal length, pixels of these files.
         baseline: Distance between the cameras, metres.
-        doffs: cx_right - cx_left, pixels; the left principal point is taken to be in the middle of the picture.
+        doffs: cx_right - cx_left, pixels; the left principal point is taken to be in the middle of
+            the picture.
 
     Raises:
         InputError: If a file is missing, no image, too large, or the two differ in size.
@@ -111,18 +119,20 @@ def read_pair(left: Path, right: Path, f: float, baseline: float, doffs: float =
     one, two = _rgb(left), _rgb(right)
     if one.shape != two.shape:
         raise InputError(
-            f"the two pictures of a rectified pair have the same size: {Path(left).name} is "
-            f"{one.shape[1]} x {one.shape[0]} pixels, {Path(right).name} {two.shape[1]} x {two.shape[0]}"
+            f"the two pictures of a rectified pair have the same size: {Path(left).name} is"
+            f" {one.shape[1]} x {one.shape[0]} pixels, {Path(right).name} {two.shape[1]} x"
+            f" {two.shape[0]}"
         )
     h, w = one.shape[:2]
     return StereoPair(one, two, StereoCamera(f, (w - 1) / 2, (h - 1) / 2, baseline, doffs))
 
 
 def shrunk(pair: StereoPair, k: int) -> StereoPair:
-    """Return the pair with every block of k x k pixels averaged; its disparities, f and doffs shrink as well.
+    """Return the pair with every block of k x k pixels averaged; its disparities, f and doffs
+    shrink as well.
 
-    What is left over at the right and lower border is cut off. A block's true disparity is that of the pixel in its
-    middle: the mean over an edge would be the depth of nothing.
+    What is left over at the right and lower border is cut off. A block's true disparity is that of
+    the pixel in its middle: the mean over an edge would be the depth of nothing.
 
     Raises:
         InputError: If the pictures are smaller than one block.
@@ -130,7 +140,8 @@ def shrunk(pair: StereoPair, k: int) -> StereoPair:
     h, w = (side // k for side in pair.left.shape[:2])
     if min(h, w) < 1:
         raise InputError(
-            f"pictures of {pair.left.shape[1]} x {pair.left.shape[0]} pixels cannot shrink {k} times"
+            f"pictures of {pair.left.shape[1]} x {pair.left.shape[0]} pixels cannot shrink {k}"
+            " times"
         )
     left, right = (
         np.rint(
@@ -152,8 +163,8 @@ def shrunk(pair: StereoPair, k: int) -> StereoPair:
 def in_both(disparity: Float[np.ndarray, "h w"], tolerance: float = 1.0) -> Bool[np.ndarray, "h w"]:
     """Say which left pixels both cameras see, judged from the true left disparities alone.
 
-    Of all left pixels that land on one right pixel, those within `tolerance` pixels of the largest disparity (the nearest)
-    are seen; so are none that land outside, and none that are unknown.
+    Of all left pixels that land on one right pixel, those within `tolerance` pixels of the largest
+    disparity (the nearest) are seen; so are none that land outside, and none that are unknown.
     """
     h, w = disparity.shape
     known = np.isfinite(disparity)
@@ -170,7 +181,8 @@ def _rgb(path: Path) -> UInt8[np.ndarray, "h w 3"]:
     h, w = picture.shape[:2]
     if h * w > MOST_PIXELS:
         raise InputError(
-            f"{Path(path).name}: {w} x {h} pixels; a pair may have at most {MOST_PIXELS:,} each: make it smaller first"
+            f"{Path(path).name}: {w} x {h} pixels; a pair may have at most {MOST_PIXELS:,} each:"
+            " make it smaller first"
         )
     return picture if picture.ndim == 3 else np.repeat(picture[:, :, None], 3, axis=2)
 

@@ -1,7 +1,8 @@
-"""Small scenes of textured boards and balls, and the rays that see them: where every depth is known exactly.
+"""Small scenes of textured boards and balls, and the rays that see them: where every depth is known
+exactly.
 
-Everything is in the frame of the left camera (OpenCV: +X right, +Y down, +Z forward), metres. A ray direction has Z = 1,
-so that the distance along it is the depth.
+Everything is in the frame of the left camera (OpenCV: +X right, +Y down, +Z forward), metres. A ray
+direction has Z = 1, so that the distance along it is the depth.
 """
 
 from collections.abc import Callable, Mapping
@@ -37,7 +38,9 @@ class Board:
     color: int = 0
 
     def hit(self, p_eye: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return per ray the depth of the hit, infinity where there is none, and the surface point (s, t)."""
+        """Return per ray the depth of the hit, infinity where there is none, and the surface point
+        (s, t).
+        """
         corner, right, down = (
             np.array(a, float) for a in (self.p_corner, self.v_right, self.v_down)
         )
@@ -60,7 +63,9 @@ class Ball:
     color: int = 0
 
     def hit(self, p_eye: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return per ray the depth of the nearer hit, infinity where there is none, and the surface point (s, t)."""
+        """Return per ray the depth of the nearer hit, infinity where there is none, and the surface
+        point (s, t).
+        """
         to_center = np.array(self.p_center, float) - p_eye
         a, b = np.einsum("...i,...i->...", v, v), v @ to_center
         root = b * b - a * (to_center @ to_center - self.radius**2)
@@ -90,7 +95,8 @@ Thing = Board | Ball | Sky
 def look(
     things: tuple[Thing, ...], p_eye: np.ndarray, v: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return per ray the depth of the nearest thing (infinity for the sky) and its colour 0 .. 255, (..., 3).
+    """Return per ray the depth of the nearest thing (infinity for the sky) and its colour 0 .. 255,
+    (..., 3).
 
     Args:
         things: The scene; the first is seen where no other is hit.
@@ -113,7 +119,9 @@ def look(
 
 
 def speckle(rng: np.random.Generator, grain: float, contrast: float = 1.0) -> Paint:
-    """Return a paint of random blots: some `grain` metres wide, fainter ones four times as wide; around 0.6 on average."""
+    """Return a paint of random blots: some `grain` metres wide, fainter ones four times as wide;
+    around 0.6 on average.
+    """
     fine, coarse = rng.random((128, 128)), rng.random((128, 128))
 
     def paint(s: np.ndarray, t: np.ndarray) -> np.ndarray:
@@ -191,7 +199,9 @@ def repeated(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
 
 
 def boards(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
-    """Return boards at 1, 5 and 20 m before an infinitely far sky, none of which hides another; made for f = 640 px."""
+    """Return boards at 1, 5 and 20 m before an infinitely far sky, none of which hides another;
+    made for f = 640 px.
+    """
     flat = [
         Board(
             (x * z, y * z, z),
@@ -217,7 +227,9 @@ SCENES: Mapping[str, Callable[[np.random.Generator, float], tuple[Thing, ...]]] 
     "repeated pattern": repeated,
     "boards at three depths": boards,
 }
-"""Scenes by name; each is made from `rng` and the width of a pixel at 1 m, so that its texture is as fine as the picture."""
+"""Scenes by name; each is made from `rng` and the width of a pixel at 1 m, so that its texture is
+as fine as the picture.
+"""
 
 
 def rays(

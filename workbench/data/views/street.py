@@ -1,4 +1,6 @@
-"""A small street to look at with a camera: two rails to the horizon, sleepers, boxes, spheres and a house."""
+"""A small street to look at with a camera: two rails to the horizon, sleepers, boxes, spheres and a
+house.
+"""
 
 import functools
 from dataclasses import dataclass
@@ -36,7 +38,8 @@ class Street:
         solids: What stands there, by name.
         rails: Two parallel segments.
         edges: The outlines of boxes, house and roof.
-        points: Points worth following: those with a name first, then corners, and points along rails and on balls.
+        points: Points worth following: those with a name first, then corners, and points along
+            rails and on balls.
         names: The names of the first points.
     """
 
@@ -112,7 +115,9 @@ def standing() -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
 
 @functools.cache
 def street_map() -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
-    """Return the points of a map of the street and their normals: on what stands there, evenly by area, always the same."""
+    """Return the points of a map of the street and their normals: on what stands there, evenly by
+    area, always the same.
+    """
     p, faces = standing()
     k, shares = places_on_faces(p, faces, np.random.default_rng(0).random((MAPPED, 3)))
     return np.einsum("ni,nix->nx", shares, p[faces[k]]), face_normals(p, faces)[k]
@@ -120,7 +125,9 @@ def street_map() -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
 
 @functools.cache
 def street_items() -> tuple[MeshItem | SegmentItem, ...]:
-    """Return what `workbench.geometry.cameras.raster.render` takes to make a photograph of the street."""
+    """Return what `workbench.geometry.cameras.raster.render` takes to make a photograph of the
+    street.
+    """
     scene = street()
     meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()]
     return (*meshes, SegmentItem(scene.rails, np.tile(np.array(RAIL_COLOR, np.uint8), (2, 1)), 2))
@@ -140,7 +147,9 @@ def _box(foot: tuple[float, float, float], size: tuple[float, float, float]) -> 
 
 
 def _roof(foot: tuple[float, float, float], size: tuple[float, float, float]) -> Mesh:
-    """Return a gable along y: four eaves corners, then the two ends of the ridge, the one at low y first."""
+    """Return a gable along y: four eaves corners, then the two ends of the ridge, the one at low y
+    first.
+    """
     x, y, h = np.array(size) * (0.5, 0.5, 1.0)
     p = np.array(foot) + np.array(
         [[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0], [0, -y, h], [0, y, h]]
@@ -216,7 +225,9 @@ def _merge(meshes: list[Mesh]) -> Mesh:
 
 
 def lit(mesh: Mesh, color: tuple[int, int, int]) -> Solid:
-    """Return vertices and faces with a colour for each face, by Lambert's law, half of the light from everywhere."""
+    """Return vertices and faces with a colour for each face, by Lambert's law, half of the light
+    from everywhere.
+    """
     p, faces = mesh
     a, b, c = p[faces[:, 0]], p[faces[:, 1]], p[faces[:, 2]]
     normal = np.cross(b - a, c - a)

@@ -1,4 +1,6 @@
-"""Two pictures of one scene with matches between them: of a made one, where all is known, or from people's files."""
+"""Two pictures of one scene with matches between them: of a made one, where all is known, or from
+people's files.
+"""
 
 import functools
 from dataclasses import dataclass, replace
@@ -27,7 +29,8 @@ FOCAL = 420.0
 EYE, TARGET = np.array([-0.4, 0.5, 1.7]), np.array([0.3, 8.0, 1.2])
 NEAREST, FARTHEST = 3.0, 22.0  # metres, of what is matched of the street
 MODEL = 50.0  # of the far scene's metres one is drawn: nearly 200 m become the street's 4
-INWARD = 0.1  # radians that the second camera turns towards what both see, where it stands beside the first
+# radians that the second camera turns towards what both see, where it stands beside the first
+INWARD = 0.1
 CANDIDATES, CLEAN = 12_000, 300
 GROUND = -0.02  # metres below which everything is ground
 SHOWN_DEPTH = 9.0  # metres that the middle of a person's scene is drawn away
@@ -49,7 +52,8 @@ class TwoViews:
         matches: Rows (u, v, u', v').
         sigma: Standard deviation of each number of a match, where known.
         T_first_world: Where the first camera stands, world to camera.
-        T_second_first: The true motion between the cameras, where known; metres where the scene was made.
+        T_second_first: The true motion between the cameras, where known; metres where the scene was
+            made.
         p_first: The true points of the matches in the first camera's frame, where known.
         clean: Other matches of the same scene without noise, none where not known.
         depth: Of every pixel of the first picture, metres, where known.
@@ -81,7 +85,8 @@ def made_views(
         count: How many matches.
         sigma: Standard deviation of the noise of each of their numbers, pixels.
         baseline: Distance between the cameras, metres; 0 for a camera that only turns.
-        heading: Where the second camera stands as seen from the first, radians: 0 right of it, pi / 2 ahead, pi left.
+        heading: Where the second camera stands as seen from the first, radians: 0 right of it, pi /
+            2 ahead, pi left.
         rng: A numpy random generator; draws which surface points are matched, and the noise.
 
     Raises:
@@ -173,7 +178,8 @@ def own_views(
         K_first = K_second = read_intrinsics(K)
     if K_first is None or K_second is None:
         raise InputError(
-            f"{matches.name} has no K: give it as a file too (fx fy cx cy, or three rows), or as K in an npz"
+            f"{matches.name} has no K: give it as a file too (fx fy cx cy, or three rows), or as K"
+            " in an npz"
         )
     (image_first, size_first, k_first), (image_second, size_second, k_second) = (
         _shown(first_image, found.p[:, :2]),
@@ -193,9 +199,11 @@ def own_views(
 
 
 def shown_length(views: TwoViews) -> float:
-    """Return how long the baseline is drawn, metres: as long as it is, and in a person's scene so that it fits.
+    """Return how long the baseline is drawn, metres: as long as it is, and in a person's scene so
+    that it fits.
 
-    No picture tells how long it is. Where it is 0, a motion that is found all the same is drawn with 1 m.
+    No picture tells how long it is. Where it is 0, a motion that is found all the same is drawn
+    with 1 m.
     """
     if views.depth is not None and views.T_second_first is not None:
         return float(np.linalg.norm(views.T_second_first[:3, 3])) or 1.0
@@ -212,7 +220,9 @@ def shown_length(views: TwoViews) -> float:
 
 
 def _shown(file: Path | None, uv: np.ndarray) -> tuple[np.ndarray | None, tuple[int, int], int]:
-    """Return a picture as it is shown, its whole size, and its stride; without one, the size that its pixels need."""
+    """Return a picture as it is shown, its whole size, and its stride; without one, the size that
+    its pixels need.
+    """
     if file is None:
         w, h = np.ceil(1.05 * np.maximum(uv.max(axis=0), 10.0) + 1.0).astype(int).tolist()
         return None, (w, h), 1

@@ -1,9 +1,10 @@
-"""What a student's process takes from itself before the student's code runs; the kernel gives none of it back.
+"""What a student's process takes from itself before the student's code runs; the kernel gives none
+of it back.
 
-Limits bound memory, processor time, files and processes. Where the grader asks for them, a filter of system calls
-(`syscalls`) and, in place of a sandbox around the process, Landlock: files outside a list cannot be opened; or another
-user, to whom the grader's files are closed.
-It imports nothing of ours but its neighbours.
+Limits bound memory, processor time, files and processes. Where the grader asks for them, a filter
+of system calls (`syscalls`) and, in place of a sandbox around the process, Landlock: files outside
+a list cannot be opened; or another user, to whom the grader's files are closed. It imports nothing
+of ours but its neighbours.
 """
 
 import ctypes
@@ -25,7 +26,8 @@ ASK_VERSION, PATH_BENEATH = 1, 1
 CAPABILITIES = 0x20080522  # the version of what capset takes
 EXECUTE, READ_FILE, READ_DIR = 1 << 0, 1 << 2, 1 << 3
 HANDLED = {
-    # from this version of Landlock on: what is denied wherever no rule gives it, of files, of ports, of other processes
+    # from this version of Landlock on: what is denied wherever no rule gives it, of files, of
+    # ports, of other processes
     1: ((1 << 13) - 1,),
     2: ((1 << 14) - 1,),  # links and names across folders
     3: ((1 << 15) - 1,),  # truncating
@@ -38,8 +40,8 @@ HANDLED = {
 def shut(settings: dict[str, Any]) -> None:
     """Bound this process for good, as its settings say.
 
-    They are `megabytes`, `cpu`, `filter`, and one of `landlock`, paths to read, and `user`, to whom the folders in `closed`
-    are closed.
+    They are `megabytes`, `cpu`, `filter`, and one of `landlock`, paths to read, and `user`, to whom
+    the folders in `closed` are closed.
 
     Raises:
         OSError: If the kernel does not take it, or the folders are open.

@@ -1,8 +1,8 @@
 """The student's side of the pipe: started as `python -I -S -B child.py SETTINGS`, never imported.
 
-It bounds itself (`lockdown`), then loads the student's source and answers calls. It holds no expected answer, check or seed:
-those stay with the grader. What the student's code does to this process it does to itself: what comes out of the pipe is
-read as bytes of somebody else.
+It bounds itself (`lockdown`), then loads the student's source and answers calls. It holds no
+expected answer, check or seed: those stay with the grader. What the student's code does to this
+process it does to itself: what comes out of the pipe is read as bytes of somebody else.
 """
 
 import io
@@ -19,7 +19,8 @@ Message = dict[str, Any]
 
 
 class Allowed:
-    """Imports the installed packages that may be used; says of ours, which hold the solutions, why they may not.
+    """Imports the installed packages that may be used; says of ours, which hold the solutions, why
+    they may not.
 
     Args:
         places: By package, the folder that holds its folder.
@@ -60,7 +61,8 @@ class Beside:
 
 
 class Kept(io.RawIOBase):
-    """Writes the first bytes and drops the rest without a word: who prints too much loses the output, not the mark.
+    """Writes the first bytes and drops the rest without a word: who prints too much loses the
+    output, not the mark.
 
     Args:
         most: How many bytes are kept.
@@ -167,7 +169,9 @@ def flush() -> None:
 
 
 def told(error: BaseException, file: str) -> Message:
-    """Return what the grader is told of an exception: its names, its text, and the student's line."""
+    """Return what the grader is told of an exception: its names, its text, and the student's
+    line.
+    """
     names = [kind.__name__ for kind in type(error).__mro__[:12]]
     return {"error": names[0], "errors": names, "message": _said(error), "line": _line(error, file)}
 

@@ -1,7 +1,9 @@
-"""Reads what was handed in, in a process of its own with limits: started as `python -I -S -B reading.py`, never imported.
+"""Reads what was handed in, in a process of its own with limits: started as `python -I -S -B
+reading.py`, never imported.
 
-Nothing of a hand-in is run here. But to read one costs what its author wants it to cost: a name of 400,000 parts keeps
-Python's parser busy for minutes. Requests and replies are lines of JSON. It imports nothing of ours.
+Nothing of a hand-in is run here. But to read one costs what its author wants it to cost: a name of
+400,000 parts keeps Python's parser busy for minutes. Requests and replies are lines of JSON. It
+imports nothing of ours.
 """
 
 import ast
@@ -22,8 +24,9 @@ MOST_IMPORTS = 200
 MARK = re.compile(r"^[^\w\n]{0,20}Exercise (\w{1,100}), lesson \w", re.MULTILINE)
 """The first line of a starter: it says which exercise a file is handed in for."""
 NOT_PARSED = (SyntaxError, ValueError, RecursionError)
-"""What Python's parser says of what is no Python: also of NUL bytes, and of what is nested too deep. What takes too much
-memory ends this process."""
+"""What Python's parser says of what is no Python: also of NUL bytes, and of what is nested too
+deep. What takes too much memory ends this process.
+"""
 
 
 class UnreadableError(Exception):
@@ -47,7 +50,8 @@ def main() -> None:
 
 
 def read(file: str, content: bytes) -> dict[str, Any]:
-    """Return what is in a file: its text, what it says that it is for, what it defines and imports, or why it is no Python.
+    """Return what is in a file: its text, what it says that it is for, what it defines and imports,
+    or why it is no Python.
 
     Raises:
         UnreadableError: If it is no text, or a notebook that is none.
@@ -121,17 +125,19 @@ def names(body: list[ast.stmt]) -> Iterator[str]:
             yield from names(handler.body)
 
 
-# what of other modules is used, and where -----------------------------------------------------------------------------
+# what of other modules is used, and where ---------------------------------------------------------
 
 
 DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 
 
 def parts(tree: ast.Module) -> Iterator[dict[str, Any]]:
-    """Yield of each statement what it gives a value, which names it reads, and which modules it uses, in which line.
+    """Yield of each statement what it gives a value, which names it reads, and which modules it
+    uses, in which line.
 
-    A module is told by its whole path, however it came by a shorter name: `import scipy as sp` and `sp.spatial.distance` use
-    scipy.spatial.distance, and so do `from scipy import spatial`, and a text that is handed to `import_module`.
+    A module is told by its whole path, however it came by a shorter name: `import scipy as sp` and
+    `sp.spatial.distance` use scipy.spatial.distance, and so do `from scipy import spatial`, and a
+    text that is handed to `import_module`.
     """
     known = dict[str, str]()  # by the name in this file, the path that it stands for
     nodes = [
@@ -178,7 +184,9 @@ def bound(node: ast.Import | ast.ImportFrom) -> Iterator[tuple[str, str]]:
 
 
 def used(statement: ast.stmt, known: dict[str, str]) -> Iterator[tuple[str, int]]:
-    """Yield the paths of modules and of what is in them that a statement uses, each with its line."""
+    """Yield the paths of modules and of what is in them that a statement uses, each with its
+    line.
+    """
     for node in ast.walk(statement):
         if isinstance(node, ast.Import):
             yield from ((alias.name, node.lineno) for alias in node.names)
@@ -191,7 +199,9 @@ def used(statement: ast.stmt, known: dict[str, str]) -> Iterator[tuple[str, int]
 
 
 def path_of(node: ast.expr, known: dict[str, str]) -> str | None:
-    """Return the path that an expression stands for, where it is one of a module: a name, an attribute, or a call for it."""
+    """Return the path that an expression stands for, where it is one of a module: a name, an
+    attribute, or a call for it.
+    """
     behind = list[str]()
     while isinstance(node, ast.Attribute):
         behind.append(node.attr)
@@ -216,7 +226,9 @@ def _called_for(call: ast.Call, known: dict[str, str]) -> str | None:
 
 
 def text_of(node: ast.expr) -> str | None:
-    """Return the text that an expression is, also where it is put together of pieces; None where it is none."""
+    """Return the text that an expression is, also where it is put together of pieces; None where it
+    is none.
+    """
     if isinstance(node, ast.Constant):
         return node.value if isinstance(node.value, str) else None
     pieces = list[str | None]()
@@ -229,7 +241,7 @@ def text_of(node: ast.expr) -> str | None:
     return None if None in pieces else "".join(reversed([piece or "" for piece in pieces]))
 
 
-# notebooks ------------------------------------------------------------------------------------------------------------
+# notebooks ----------------------------------------------------------------------------------------
 
 DEFINING = (ast.Import, ast.ImportFrom, ast.FunctionDef, ast.ClassDef)
 TAGS = {"exercise", "solution", "workbench"}
@@ -237,9 +249,11 @@ TAGS = {"exercise", "solution", "workbench"}
 
 
 def of_notebook(file: str, content: bytes) -> str:
-    """Return the imports, definitions and constants of the code cells, each in its line of all cells joined.
+    """Return the imports, definitions and constants of the code cells, each in its line of all
+    cells joined.
 
-    What else is in the cells was written to be looked at. Of several definitions the last counts, a tagged one first.
+    What else is in the cells was written to be looked at. Of several definitions the last counts, a
+    tagged one first.
 
     Raises:
         UnreadableError: If it is no notebook.
@@ -280,7 +294,9 @@ def of_notebook(file: str, content: bytes) -> str:
 
 
 def is_constant(node: ast.stmt) -> bool:
-    """Whether a statement gives a name a value that is made without running anything of the student's."""
+    """Whether a statement gives a name a value that is made without running anything of the
+    student's.
+    """
     if not isinstance(node, (ast.Assign, ast.AnnAssign)) or node.value is None:
         return False
     calls = [call.func for call in ast.walk(node.value) if isinstance(call, ast.Call)]

@@ -1,9 +1,11 @@
-"""The filter of system calls of a student's process: a list of what it may, as the kernel takes it (seccomp, classic BPF).
+"""The filter of system calls of a student's process: a list of what it may, as the kernel takes it
+(seccomp, classic BPF).
 
-The list is what Python, numpy and scipy were seen to use (strace, five of OpenBLAS's kernels), and their like: memory,
-threads, clocks, files, and what a process asks about itself. Everything else is refused, what the kernel does not have
-yet included. So a function has no other program, no other process, no socket, no signal, no lease or lock on a file that
-others read, no owner, no mode, and none of the kernel's rarer doors. It imports nothing of ours.
+The list is what Python, numpy and scipy were seen to use (strace, five of OpenBLAS's kernels), and
+their like: memory, threads, clocks, files, and what a process asks about itself. Everything else is
+refused, what the kernel does not have yet included. So a function has no other program, no other
+process, no socket, no signal, no lease or lock on a file that others read, no owner, no mode, and
+none of the kernel's rarer doors. It imports nothing of ours.
 
 Source: Linux, Documentation/userspace-api/seccomp_filter.rst and include/uapi/linux/seccomp.h.
 """
@@ -18,31 +20,100 @@ Way = tuple[
 ]  # of each word, these bits are one of these values
 
 MAY: dict[str, Numbers] = {
-    "brk": (12, 214), "mmap": (9, 222), "mprotect": (10, 226), "munmap": (11, 215), "mremap": (25, 216),
-    "msync": (26, 227), "exit": (60, 93), "exit_group": (231, 94), "set_robust_list": (273, 99), "rseq": (334, 293),
-    "sched_yield": (24, 124), "sched_getaffinity": (204, 123), "getcpu": (309, 168), "restart_syscall": (219, 128),
-    "rt_sigaction": (13, 134), "rt_sigprocmask": (14, 135), "rt_sigreturn": (15, 139), "rt_sigpending": (127, 136),
-    "rt_sigtimedwait": (128, 137), "rt_sigsuspend": (130, 133), "sigaltstack": (131, 132), "pause": (34, None),
-    "nanosleep": (35, 101), "clock_nanosleep": (230, 115), "clock_gettime": (228, 113), "clock_getres": (229, 114),
-    "time": (201, None), "gettimeofday": (96, 169), "alarm": (37, None), "getitimer": (36, 102),
-    "setitimer": (38, 103), "times": (100, 153), "getrusage": (98, 165), "sysinfo": (99, 179), "uname": (63, 160),
-    "getrandom": (318, 278), "getpid": (39, 172), "getppid": (110, 173), "gettid": (186, 178), "getuid": (102, 174),
-    "geteuid": (107, 175), "getgid": (104, 176), "getegid": (108, 177), "read": (0, 63), "write": (1, 64),
-    "readv": (19, 65), "writev": (20, 66), "pread64": (17, 67), "pwrite64": (18, 68), "lseek": (8, 62),
-    "close": (3, 57), "close_range": (436, 436), "dup": (32, 23), "dup2": (33, None), "dup3": (292, 24),
-    "pipe": (22, None), "pipe2": (293, 59), "select": (23, None), "pselect6": (270, 72), "poll": (7, None),
-    "ppoll": (271, 73), "stat": (4, None), "fstat": (5, 80), "lstat": (6, None), "newfstatat": (262, 79),
-    "statx": (332, 291), "access": (21, None), "faccessat": (269, 48), "faccessat2": (439, 439),
-    "readlink": (89, None), "readlinkat": (267, 78), "getdents": (78, None), "getdents64": (217, 61),
-    "getcwd": (79, 17), "chdir": (80, 49), "fchdir": (81, 50),
-}  # fmt: skip
+    "brk": (12, 214),
+    "mmap": (9, 222),
+    "mprotect": (10, 226),
+    "munmap": (11, 215),
+    "mremap": (25, 216),
+    "msync": (26, 227),
+    "exit": (60, 93),
+    "exit_group": (231, 94),
+    "set_robust_list": (273, 99),
+    "rseq": (334, 293),
+    "sched_yield": (24, 124),
+    "sched_getaffinity": (204, 123),
+    "getcpu": (309, 168),
+    "restart_syscall": (219, 128),
+    "rt_sigaction": (13, 134),
+    "rt_sigprocmask": (14, 135),
+    "rt_sigreturn": (15, 139),
+    "rt_sigpending": (127, 136),
+    "rt_sigtimedwait": (128, 137),
+    "rt_sigsuspend": (130, 133),
+    "sigaltstack": (131, 132),
+    "pause": (34, None),
+    "nanosleep": (35, 101),
+    "clock_nanosleep": (230, 115),
+    "clock_gettime": (228, 113),
+    "clock_getres": (229, 114),
+    "time": (201, None),
+    "gettimeofday": (96, 169),
+    "alarm": (37, None),
+    "getitimer": (36, 102),
+    "setitimer": (38, 103),
+    "times": (100, 153),
+    "getrusage": (98, 165),
+    "sysinfo": (99, 179),
+    "uname": (63, 160),
+    "getrandom": (318, 278),
+    "getpid": (39, 172),
+    "getppid": (110, 173),
+    "gettid": (186, 178),
+    "getuid": (102, 174),
+    "geteuid": (107, 175),
+    "getgid": (104, 176),
+    "getegid": (108, 177),
+    "read": (0, 63),
+    "write": (1, 64),
+    "readv": (19, 65),
+    "writev": (20, 66),
+    "pread64": (17, 67),
+    "pwrite64": (18, 68),
+    "lseek": (8, 62),
+    "close": (3, 57),
+    "close_range": (436, 436),
+    "dup": (32, 23),
+    "dup2": (33, None),
+    "dup3": (292, 24),
+    "pipe": (22, None),
+    "pipe2": (293, 59),
+    "select": (23, None),
+    "pselect6": (270, 72),
+    "poll": (7, None),
+    "ppoll": (271, 73),
+    "stat": (4, None),
+    "fstat": (5, 80),
+    "lstat": (6, None),
+    "newfstatat": (262, 79),
+    "statx": (332, 291),
+    "access": (21, None),
+    "faccessat": (269, 48),
+    "faccessat2": (439, 439),
+    "readlink": (89, None),
+    "readlinkat": (267, 78),
+    "getdents": (78, None),
+    "getdents64": (217, 61),
+    "getcwd": (79, 17),
+    "chdir": (80, 49),
+    "fchdir": (81, 50),
+}
 OPEN: dict[str, Numbers] = {"open": (2, None), "openat": (257, 56)}
 CHANGE: dict[str, Numbers] = {
     # what writing a file, or a folder, of its own takes
-    "truncate": (76, 45), "ftruncate": (77, 46), "mkdir": (83, None), "mkdirat": (258, 34), "rmdir": (84, None),
-    "unlink": (87, None), "unlinkat": (263, 35), "rename": (82, None), "renameat": (264, 38), "renameat2": (316, 276),
-    "umask": (95, 166), "fsync": (74, 82), "fdatasync": (75, 83),
-}  # fmt: skip
+    "truncate": (76, 45),
+    "ftruncate": (77, 46),
+    "mkdir": (83, None),
+    "mkdirat": (258, 34),
+    "rmdir": (84, None),
+    "unlink": (87, None),
+    "unlinkat": (263, 35),
+    "rename": (82, None),
+    "renameat": (264, 38),
+    "renameat2": (316, 276),
+    "umask": (95, 166),
+    "fsync": (74, 82),
+    "fdatasync": (75, 83),
+}
 
 ALL = (
     0xFFFFFFFF  # bits of a word; argument k, from 0, is the words 2 k and, its upper half, 2 k + 1
@@ -71,9 +142,11 @@ MAY_IF: dict[str, tuple[Numbers, tuple[Way, ...]]] = {
     ),
     # TCGETS, TCGETS2 and TIOCGWINSZ ask whether it is a terminal; FIONCLEX, FIOCLEX, FIONBIO
     "ioctl": ((16, 29), (((2, ALL, (0x5401, 0x802C542A, 0x5413, 0x5450, 0x5451, 0x5421)),),)),
-    # waiting and waking, private and on a clock or not; not FUTEX_LOCK_PI and its like, which name anybody's thread
+    # waiting and waking, private and on a clock or not; not FUTEX_LOCK_PI and its like, which name
+    # anybody's thread
     "futex": ((202, 98), (((2, ALL & ~(128 | 256), (0, 1, 3, 4, 5, 9, 10)),),)),
-    # MADV_DONTNEED, FREE, HUGEPAGE, NOHUGEPAGE, GUARD_INSTALL, GUARD_REMOVE; not PAGEOUT: others read these pages too
+    # MADV_DONTNEED, FREE, HUGEPAGE, NOHUGEPAGE, GUARD_INSTALL, GUARD_REMOVE; not PAGEOUT: others
+    # read these pages too
     "madvise": ((28, 233), (((4, ALL, (4, 8, 14, 15, 102, 103)),),)),
     "mbind": ((237, 235), (((10, ALL, (0,)),),)),  # says where memory shall be and moves none
     "membarrier": ((324, 283), (((0, ALL, (0, 8, 16)),),)),  # of its own threads
@@ -83,7 +156,9 @@ MAY_IF: dict[str, tuple[Numbers, tuple[Way, ...]]] = {
     ),  # its own, and no new ones
 }
 NEW = 424
-"""Calls from this number on are of 2019 or later: they are unknown, not refused, so that libraries take older ones."""
+"""Calls from this number on are of 2019 or later: they are unknown, not refused, so that libraries
+take older ones.
+"""
 
 MACHINES = {
     "x86_64": (0, 0xC000003E),

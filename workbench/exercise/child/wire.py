@@ -1,7 +1,9 @@
-"""Values as plain bytes, for the pipe between the grader and a student's process: nothing is unpickled on either side.
+"""Values as plain bytes, for the pipe between the grader and a student's process: nothing is
+unpickled on either side.
 
-A message is 8 bytes of lengths (header, payload), a JSON header that describes the value, and the payload: the raw
-bytes of all arrays, in order. Used by both processes, so it imports nothing of ours.
+A message is 8 bytes of lengths (header, payload), a JSON header that describes the value, and the
+payload: the raw bytes of all arrays, in order. Used by both processes, so it imports nothing of
+ours.
 """
 
 import json
@@ -22,7 +24,8 @@ class WireError(ValueError):
 
 
 def pack(message: dict[str, Any]) -> bytes:
-    """Return the bytes of a message: a dict whose values are None, bools, numbers, text, arrays, or lists of these.
+    """Return the bytes of a message: a dict whose values are None, bools, numbers, text, arrays, or
+    lists of these.
 
     Raises:
         WireError: If a value is of another kind; says which.

@@ -1,4 +1,6 @@
-"""How long a student's function is waited for: an endless loop costs its limit three times, not once for every check."""
+"""How long a student's function is waited for: an endless loop costs its limit three times, not
+once for every check.
+"""
 
 REFUSED_AFTER = 3
 CALLS = 20
@@ -8,8 +10,8 @@ CALLS = 20
 class CallBudget:
     """The time that calls of one function may take together.
 
-    Each may take the limit that its student was promised. After three that were late or ended their process, or when all of
-    them took twenty times the limit, no call is made any more.
+    Each may take the limit that its student was promised. After three that were late or ended their
+    process, or when all of them took twenty times the limit, no call is made any more.
 
     Args:
         seconds: The longest one call may take.

@@ -25,7 +25,8 @@ LOAD_SECONDS = 10.0
 
 
 class StudentError(InputError):
-    """The student's function gave no result; the message says what happened and where in the student's file.
+    """The student's function gave no result; the message says what happened and where in the
+    student's file.
 
     Args:
         message: One line for the student.
@@ -43,7 +44,8 @@ class StudentError(InputError):
 
 
 class SandboxedFunction:
-    """A student's function, callable; every call crosses to a process of its own, which is started when it is needed.
+    """A student's function, callable; every call crosses to a process of its own, which is started
+    when it is needed.
 
     Args:
         given: The student's file, or what was read of it.
@@ -83,7 +85,8 @@ class SandboxedFunction:
         """Return what the student's function returns for these arguments, as plain values.
 
         Raises:
-            StudentError: If it raised, took too long, ended its process, or returned what is no value.
+            StudentError: If it raised, took too long, ended its process, or returned what is no
+                value.
         """
         with self._lock:
             if self._budget is not None and self._budget.over:
@@ -141,7 +144,7 @@ class SandboxedFunction:
             if folder != "/":
                 os.rmdir(
                     folder
-                )  # the process stays in it: a folder that is no more takes no files, and none stays behind
+                )  # the process stays in it: a folder that is no more takes no files, and none stays behind  # noqa: E501
         if self._closed:  # by another thread just now: nobody would end the process
             self.close()
         self._must_be_open()
@@ -164,7 +167,9 @@ class SandboxedFunction:
             return ""
 
     def close(self) -> None:
-        """End the process and everything it started; nothing of it is left, and a run that goes on cannot start it again."""
+        """End the process and everything it started; nothing of it is left, and a run that goes on
+        cannot start it again.
+        """
         self._closed = True
         self._end()
         if self._printed is not None:
@@ -224,7 +229,9 @@ class SandboxedFunction:
         return reply
 
     def _lost(self) -> float:
-        """Return how long the student's process has waited for a processor: a busy machine is not the function's fault."""
+        """Return how long the student's process has waited for a processor: a busy machine is not
+        the function's fault.
+        """
         return 0.0 if self._process is None else waited(self._process.pid)
 
     def _raised(self, reply: dict[str, Any], loading: bool) -> StudentError:
@@ -258,7 +265,8 @@ class SandboxedFunction:
             )
         what = self.name if doing == "call" else f"{self.submission.file}: loading the file"
         return StudentError(
-            f"{what} took more than {seconds:g} s, the limit, and was stopped: an endless loop, or too slow?",
+            f"{what} took more than {seconds:g} s, the limit, and was stopped: an endless loop, or"
+            " too slow?",
             "timeout",
         )
 

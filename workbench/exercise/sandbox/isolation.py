@@ -1,6 +1,8 @@
-"""What shuts a student's process in on this machine: bubblewrap, else Landlock, else nothing but limits.
+"""What shuts a student's process in on this machine: bubblewrap, else Landlock, else nothing but
+limits.
 
-Whether a wall holds here is tried, not looked up: a program may be installed and not be allowed to do its work.
+Whether a wall holds here is tried, not looked up: a program may be installed and not be allowed to
+do its work.
 """
 
 import functools
@@ -32,8 +34,8 @@ class Wall:
     """What stands between a student's process and this machine.
 
     Attributes:
-        name: `bubblewrap`, `landlock`, `user` (another one, to whom what matters is closed), or `none`: limits only, so that
-            marks are not safe.
+        name: `bubblewrap`, `landlock`, `user` (another one, to whom what matters is closed), or
+            `none`: limits only, so that marks are not safe.
         why: Where it is `none`, why there is nothing better; one line.
     """
 
@@ -68,12 +70,19 @@ class Wall:
         files = python.here()
         boxed = self.name == "bubblewrap"
         settings = {
-            "in": pipe_in, "out": pipe_out, "packages": files.places, "megabytes": megabytes, "cpu": cpu_seconds,
-            "output": OUTPUT_BYTES, "filter": self.holds, "writes": boxed,
+            "in": pipe_in,
+            "out": pipe_out,
+            "packages": files.places,
+            "megabytes": megabytes,
+            "cpu": cpu_seconds,
+            "output": OUTPUT_BYTES,
+            "filter": self.holds,
+            "writes": boxed,
             "grader": None if boxed else os.getpid(),  # it has parents of its own
             "landlock": list(files.listed()) if self.name == "landlock" else None,
-            "user": NOBODY if self.name == "user" else None, "closed": python.ours(),
-        }  # fmt: skip
+            "user": NOBODY if self.name == "user" else None,
+            "closed": python.ours(),
+        }
         child = f"{bubblewrap.CHILD}/main.py" if boxed else str(python.CHILD_FILES / "main.py")
         quiet = ["-W", "ignore::RuntimeWarning"]  # numpy's are not what the student printed
         environment = {
@@ -108,8 +117,9 @@ def best(*, alone: bool = False) -> Wall:
     """Return the best wall of this machine.
 
     Args:
-        alone: Whether the machine is a container for this one submission, closed to others but root: then another user is
-            a wall too. Elsewhere it could read what other students handed in.
+        alone: Whether the machine is a container for this one submission, closed to others but
+            root: then another user is a wall too. Elsewhere it could read what other students
+            handed in.
     """
     troubles = []
     for name in NAMES[:3] if alone else NAMES[:2]:
@@ -149,7 +159,9 @@ def _without(name: str) -> str:
 
 @functools.cache
 def _tried(wall: Wall) -> str:
-    """Return why a process cannot be shut in by a wall here; nothing where it can: it starts, and ends with its pipe."""
+    """Return why a process cannot be shut in by a wall here; nothing where it can: it starts, and
+    ends with its pipe.
+    """
     pipe_in, other = os.pipe()
     os.close(other)
     pipe_out = os.open(os.devnull, os.O_WRONLY)
@@ -182,7 +194,9 @@ def _tried(wall: Wall) -> str:
 
 
 def anonymous() -> IO[bytes]:
-    """Return a file without a name, so that nothing can stay behind: in memory where there is such a thing."""
+    """Return a file without a name, so that nothing can stay behind: in memory where there is such
+    a thing.
+    """
     if hasattr(os, "memfd_create"):
         return os.fdopen(os.memfd_create("printed", os.MFD_CLOEXEC), "w+b", buffering=0)
     import tempfile
@@ -191,7 +205,9 @@ def anonymous() -> IO[bytes]:
 
 
 def _from_a_lasting_thread(start: Callable[[], subprocess.Popen]) -> subprocess.Popen:
-    """Start a process from a thread that lives as long as this process: the kernel ends it with the thread it came from."""
+    """Start a process from a thread that lives as long as this process: the kernel ends it with the
+    thread it came from.
+    """
     if threading.current_thread() is threading.main_thread():
         return start()
     return _thread(os.getpid()).submit(start).result()

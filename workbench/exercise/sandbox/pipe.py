@@ -1,4 +1,6 @@
-"""Messages to a student's process and back, each within its time; whatever comes is read as bytes of somebody else."""
+"""Messages to a student's process and back, each within its time; whatever comes is read as bytes
+of somebody else.
+"""
 
 import os
 import select
@@ -65,7 +67,8 @@ class Pipe:
         Args:
             message: What is sent.
             seconds: How long the answer may take.
-            lost: Tells how long the process has waited for a processor so far, seconds: that is not its own time.
+            lost: Tells how long the process has waited for a processor so far, seconds: that is not
+                its own time.
 
         Raises:
             WireError: If what came is no message.

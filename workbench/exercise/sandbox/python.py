@@ -1,4 +1,6 @@
-"""What a student's process needs of this machine: the interpreter, its library, the system's libraries, numpy and scipy."""
+"""What a student's process needs of this machine: the interpreter, its library, the system's
+libraries, numpy and scipy.
+"""
 
 import functools
 import importlib.util
@@ -27,7 +29,8 @@ class Python:
         trees: Folders to read.
         links: Links that stand for some of these folders, and where they lead.
         masked: Folders in the trees of which nothing is seen.
-        packages: The folders of what may be imported, with the libraries that wheels keep beside them.
+        packages: The folders of what may be imported, with the libraries that wheels keep beside
+            them.
     """
 
     executable: str
@@ -94,7 +97,9 @@ def ours() -> list[str]:
 
 
 def _libraries(folder: str) -> str:
-    """Return where in a system's folder the shared libraries are; on Debian and its like one folder of many."""
+    """Return where in a system's folder the shared libraries are; on Debian and its like one folder
+    of many.
+    """
     narrower = os.path.join(folder, getattr(sys.implementation, "_multiarch", ""))
     return narrower if os.path.isdir(narrower) else folder
 

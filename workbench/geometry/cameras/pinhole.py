@@ -1,13 +1,13 @@
 """Pinhole cameras: from world points to pixels and back to rays.
 
-Conventions (OpenCV's): the camera frame has +X right, +Y down, +Z forward; a pixel is (u, v) = (column, row) and
-pixel centres are at integers, so a picture of width w spans u from -0.5 to w - 0.5. The motion `T_camera_world` takes
-world points into the camera frame. One point goes
+Conventions (OpenCV's): the camera frame has +X right, +Y down, +Z forward; a pixel is (u, v) =
+(column, row) and pixel centres are at integers, so a picture of width w spans u from -0.5 to w -
+0.5. The motion `T_camera_world` takes world points into the camera frame. One point goes
 
     p_camera = R p_world + t,   xy = (X/Z, Y/Z),   xy' = distort(xy),   (u, v, 1) = K (x', y', 1).
 
-Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., chapters 6 (camera), 7.4 (distortion), 8.6
-(vanishing points).
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., chapters 6 (camera), 7.4
+(distortion), 8.6 (vanishing points).
 """
 
 import math
@@ -26,7 +26,9 @@ from workbench.geometry.cameras.distortion import (
 from workbench.geometry.motions import across, apply, inverse, motion
 
 OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
-"""Takes points of an OpenCV camera frame to the OpenGL frame of the same camera (+Y up, looking along -Z)."""
+"""Takes points of an OpenCV camera frame to the OpenGL frame of the same camera (+Y up, looking
+along -Z).
+"""
 
 
 def intrinsics(
@@ -72,7 +74,8 @@ def focal_from_field_of_view(angle: float, size: int) -> float:
 def crop_intrinsics(
     K: Float[np.ndarray, "3 3"], left: float, top: float
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the K of the part of a picture whose pixel (0, 0) was (left, top): only the principal point moves.
+    """Return the K of the part of a picture whose pixel (0, 0) was (left, top): only the principal
+    point moves.
 
     Args:
         K: Intrinsics of the whole picture, pixels.
@@ -87,7 +90,8 @@ def resize_intrinsics(
 ) -> Float[np.ndarray, "3 3"]:
     """Return the K of a picture whose width and height were multiplied by these factors.
 
-    Pixel centres are at integers, so it is the edge at -0.5 that stays: u_new + 0.5 = scale_u (u + 0.5).
+    Pixel centres are at integers, so it is the edge at -0.5 that stays: u_new + 0.5 = scale_u (u +
+    0.5).
 
     Args:
         K: Intrinsics of the old picture, pixels.
@@ -110,7 +114,8 @@ def look_at(
     p_world_target: Float[np.ndarray, "3"],
     n_world_up: Float[np.ndarray, "3"] | None = None,
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the T_camera_world of a camera at `eye` whose axis goes through `target`, with `up` upwards in the picture.
+    """Return the T_camera_world of a camera at `eye` whose axis goes through `target`, with `up`
+    upwards in the picture.
 
     Args:
         p_world_eye: Camera centre, metres.
@@ -121,11 +126,14 @@ def look_at(
         ValueError: If eye and target coincide.
 
     Note:
-        Looking straight along `up` leaves the roll open; then the world axis furthest from it takes its place.
+        Looking straight along `up` leaves the roll open; then the world axis furthest from it takes
+        its place.
 
     Examples:
         >>> T_camera_world = look_at(np.array([0.0, -5.0, 0.0]), np.zeros(3))
-        >>> (T_camera_world @ np.array([0.0, 0.0, 0.0, 1.0]))[:3].round(6).tolist()  # the target: 5 m ahead
+        >>> (T_camera_world @ np.array([0.0, 0.0, 0.0, 1.0]))[:3].round(
+        ...     6
+        ... ).tolist()  # the target: 5 m ahead
         [0.0, 0.0, 5.0]
     """
     up = np.array([0.0, 0.0, 1.0]) if n_world_up is None else n_world_up
@@ -145,7 +153,8 @@ def look_at(
 
 
 def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "3"]:
-    """Return where the camera is in the world, metres: C = -R^T t, the point that it takes to its own origin.
+    """Return where the camera is in the world, metres: C = -R^T t, the point that it takes to its
+    own origin.
 
     Reference: Hartley and Zisserman, 6.1, eq. 6.7.
 
@@ -160,7 +169,9 @@ def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray,
 def depths(
     p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"]
 ) -> Float[np.ndarray, " n"]:
-    """Return Z in the camera frame, metres: the distance along the optical axis, not along the ray."""
+    """Return Z in the camera frame, metres: the distance along the optical axis, not along the
+    ray.
+    """
     return p_world @ T_camera_world[2, :3] + T_camera_world[2, 3]
 
 
@@ -199,13 +210,16 @@ def project(
         near: Depth in metres that a point must exceed to be seen.
 
     Returns:
-        Pixels, also outside the picture. A row is NaN where the point lies at or behind `near`, or so far out that the
-        lens model folds (`invertible_radius`): dividing anyway would give a pixel that looks valid.
+        Pixels, also outside the picture. A row is NaN where the point lies at or behind `near`, or
+        so far out that the lens model folds (`invertible_radius`): dividing anyway would give a
+        pixel that looks valid.
 
     Reference: Hartley and Zisserman, 6.1, eq. 6.8.
 
     Examples:
-        >>> p_world = np.array([[0.1, 0.0, 2.0], [0.0, 0.0, -1.0]])  # the second is behind the camera
+        >>> p_world = np.array(
+        ...     [[0.1, 0.0, 2.0], [0.0, 0.0, -1.0]]
+        ... )  # the second is behind the camera
         >>> project(p_world, np.eye(4), intrinsics(500.0, 319.5, 239.5)).round(6).tolist()
         [[344.5, 239.5], [nan, nan]]
     """
@@ -242,7 +256,8 @@ def project_orthographic(
         K: Here its focal lengths are pixels per metre.
 
     Note:
-        It is the limit of `project` with (K, T) from `dolly` as its factor grows; then f / Z is the scale.
+        It is the limit of `project` with (K, T) from `dolly` as its factor grows; then f / Z is the
+        scale.
     """
     xy = apply(T_camera_world, p_world)[:, :2]
     return xy @ K[:2, :2].T + K[:2, 2]
@@ -254,7 +269,8 @@ def dolly(
     subject_depth: float,
     factor: float,
 ) -> tuple[Float[np.ndarray, "4 4"], Float[np.ndarray, "3 3"]]:
-    """Return the camera moved back along its axis with f lengthened, so that the plane of the subject keeps its size.
+    """Return the camera moved back along its axis with f lengthened, so that the plane of the
+    subject keeps its size.
 
     Args:
         T_camera_world: World-to-camera motion, metres.
@@ -263,8 +279,8 @@ def dolly(
         factor: New depth of that plane over the old one; the focal length grows by it too.
 
     Returns:
-        The new T_camera_world and K. As the factor grows, the picture tends to the orthographic one with f / Z pixels
-        per metre, at a rate of one over the factor.
+        The new T_camera_world and K. As the factor grows, the picture tends to the orthographic one
+        with f / Z pixels per metre, at a rate of one over the factor.
     """
     T_back = T_camera_world.copy()
     T_back[2, 3] += (factor - 1.0) * subject_depth
@@ -276,7 +292,8 @@ def dolly(
 def normalize(
     uv: Float[np.ndarray, "n 2"], K: Float[np.ndarray, "3 3"], distortion: Distortion = NONE
 ) -> Float[np.ndarray, "n 2"]:
-    """Return ideal normalised coordinates of pixels: K and then the lens undone; NaN where the lens has no inverse.
+    """Return ideal normalised coordinates of pixels: K and then the lens undone; NaN where the lens
+    has no inverse.
 
     Args:
         uv: Pixels (column, row).
@@ -307,10 +324,13 @@ def pixel_rays(
         distortion: The lens.
 
     Returns:
-        The centre in the world, metres; and one direction per pixel, NaN where the lens has no inverse.
+        The centre in the world, metres; and one direction per pixel, NaN where the lens has no
+        inverse.
 
     Examples:
-        >>> centre, n_world = pixel_rays(np.array([[320.0, 240.0]]), np.eye(4), intrinsics(500.0, 320.0, 240.0))
+        >>> centre, n_world = pixel_rays(
+        ...     np.array([[320.0, 240.0]]), np.eye(4), intrinsics(500.0, 320.0, 240.0)
+        ... )
         >>> centre.tolist(), n_world.tolist()
         ([0.0, 0.0, 0.0], [[0.0, 0.0, 1.0]])
     """
@@ -327,7 +347,8 @@ def back_project(
     K: Float[np.ndarray, "3 3"],
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the world points, metres, that are seen at these pixels at these depths Z (not ray lengths).
+    """Return the world points, metres, that are seen at these pixels at these depths Z (not ray
+    lengths).
 
     Args:
         uv: Pixels (column, row).
@@ -338,7 +359,9 @@ def back_project(
 
     Examples:
         >>> K = intrinsics(500.0, 319.5, 239.5)
-        >>> back_project(np.array([[344.5, 239.5]]), np.array([2.0]), np.eye(4), K).round(6).tolist()
+        >>> back_project(np.array([[344.5, 239.5]]), np.array([2.0]), np.eye(4), K).round(
+        ...     6
+        ... ).tolist()
         [[0.1, 0.0, 2.0]]
     """
     xy = normalize(uv, K, distortion)
@@ -352,7 +375,8 @@ def ray_lengths(
     K: Float[np.ndarray, "3 3"],
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, " n"]:
-    """Return the distance from the camera centre of points at these depths, metres: Z sqrt(1 + x² + y²).
+    """Return the distance from the camera centre of points at these depths, metres: Z sqrt(1 + x² +
+    y²).
 
     Args:
         uv: Pixels (column, row).
@@ -361,7 +385,9 @@ def ray_lengths(
         distortion: The lens.
 
     Examples:
-        >>> ray_lengths(np.array([[620.0, 640.0]]), np.array([2.0]), intrinsics(500.0, 320.0, 240.0)).round(6).tolist()
+        >>> ray_lengths(
+        ...     np.array([[620.0, 640.0]]), np.array([2.0]), intrinsics(500.0, 320.0, 240.0)
+        ... ).round(6).tolist()
         [2.828427]
     """
     xy = normalize(uv, K, distortion)
@@ -374,11 +400,13 @@ def vanishing_points(
     K: Float[np.ndarray, "3 3"],
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, "n 2"]:
-    """Return the pixel in which all lines of a world direction meet: the picture of the point at infinity.
+    """Return the pixel in which all lines of a world direction meet: the picture of the point at
+    infinity.
 
     Args:
         v_world: Directions of any length; v and -v share their point.
-        T_camera_world: World-to-camera motion; only its rotation matters, where the camera is does not.
+        T_camera_world: World-to-camera motion; only its rotation matters, where the camera is does
+            not.
         K: Intrinsics, pixels.
         distortion: The lens.
 
@@ -401,7 +429,8 @@ def sphere_outline(
     T_camera_world: Float[np.ndarray, "4 4"],
     n: int = 96,
 ) -> Float[np.ndarray, "n 3"]:
-    """Return n points of the circle in which the camera's rays touch a sphere, metres; in the picture it is an ellipse.
+    """Return n points of the circle in which the camera's rays touch a sphere, metres; in the
+    picture it is an ellipse.
 
     Args:
         p_world_center: Centre of the sphere, metres.

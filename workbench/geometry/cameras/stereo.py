@@ -1,10 +1,11 @@
 """Depth from a rectified pair of pictures: a disparity becomes a depth, a point, and an error bar.
 
-Conventions: both cameras look along +Z (OpenCV frame, metres), the right one stands `baseline` metres along +X of the left
-one, rows of the two pictures correspond. What the left picture shows in column x is in column x - d of the right one: the
-disparity d is positive, and grows towards the cameras. Where the principal points differ, `doffs` is how far:
-cx_right - cx_left, in pixels (Middlebury's word), and d + doffs takes the place of d. At d + doffs = 0 the rays are
-parallel and what they see is infinitely far; NaN, not 0, means unknown.
+Conventions: both cameras look along +Z (OpenCV frame, metres), the right one stands `baseline`
+metres along +X of the left one, rows of the two pictures correspond. What the left picture shows in
+column x is in column x - d of the right one: the disparity d is positive, and grows towards the
+cameras. Where the principal points differ, `doffs` is how far: cx_right - cx_left, in pixels
+(Middlebury's word), and d + doffs takes the place of d. At d + doffs = 0 the rays are parallel and
+what they see is infinitely far; NaN, not 0, means unknown.
 """
 
 import math
@@ -48,11 +49,15 @@ class StereoCamera:
         return intrinsics(self.f, self.cx, self.cy)
 
     def depth(self, d: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
-        """Return the depths, metres, of disparities as they were measured: `depth_from_disparity` of d + doffs."""
+        """Return the depths, metres, of disparities as they were measured: `depth_from_disparity`
+        of d + doffs.
+        """
         return depth_from_disparity(d + self.doffs, self.f, self.baseline)
 
     def shrunk(self, k: int) -> "StereoCamera":
-        """Return the cameras of pictures with blocks of k x k pixels averaged: all but the baseline shrinks."""
+        """Return the cameras of pictures with blocks of k x k pixels averaged: all but the baseline
+        shrinks.
+        """
         K = resize_intrinsics(self.K, 1.0 / k, 1.0 / k)
         return StereoCamera(
             float(K[0, 0]), float(K[0, 2]), float(K[1, 2]), self.baseline, self.doffs / k
@@ -65,13 +70,14 @@ def depth_from_disparity(
     """Return the depth Z = f B / d that a disparity stands for: the nearer, the larger the shift.
 
     Args:
-        d: Disparities x_left - x_right, pixels (with doffs added where the principal points differ).
+        d: Disparities x_left - x_right, pixels (with doffs added where the principal points
+            differ).
         f: Focal length, pixels, of pictures of the size in which d was measured.
         baseline: Distance between the cameras, metres.
 
     Returns:
-        Depths along the optical axis, metres. Zero gives infinity (parallel rays); NaN stays NaN, and a negative
-        disparity gives NaN: nothing in front of both cameras causes one.
+        Depths along the optical axis, metres. Zero gives infinity (parallel rays); NaN stays NaN,
+        and a negative disparity gives NaN: nothing in front of both cameras causes one.
 
     Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1, eq. 12.1.
 
@@ -86,7 +92,8 @@ def depth_from_disparity(
 def disparity_from_depth(
     depth: Float[np.ndarray, "..."], f: float, baseline: float
 ) -> Float[np.ndarray, "..."]:
-    """Return the disparity d = f B / Z, pixels, of points at these depths, metres; infinity gives 0.
+    """Return the disparity d = f B / Z, pixels, of points at these depths, metres; infinity gives
+    0.
 
     Args:
         depth: Depths, metres.
@@ -112,7 +119,8 @@ def depth_uncertainty(
         disparity_error: Standard deviation of the disparity, pixels.
 
     Note:
-        It is the first-order term, good while the error is small beside d; `depth_interval` is exact.
+        It is the first-order term, good while the error is small beside d; `depth_interval` is
+        exact.
 
     Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1 (the derivative of eq. 12.1).
     """
@@ -140,14 +148,16 @@ def depth_interval(
 def depth_cloud(
     depth: Float[np.ndarray, "h w"], camera: StereoCamera
 ) -> tuple[Float[np.ndarray, "n 3"], Bool[np.ndarray, "h w"]]:
-    """Return the points seen by the pixels whose depth is known and finite, and which pixels those are.
+    """Return the points seen by the pixels whose depth is known and finite, and which pixels those
+    are.
 
     Args:
         depth: Depth per pixel, metres; NaN is unknown, infinity has no point.
         camera: Its left camera took the picture.
 
     Returns:
-        Points in the left camera's frame, metres, row by row of the picture; and the mask that gave them.
+        Points in the left camera's frame, metres, row by row of the picture; and the mask that gave
+        them.
     """
     seen = np.isfinite(depth) & (depth > 0)
     v, u = np.nonzero(seen)
@@ -159,7 +169,8 @@ def depth_cloud(
 def points_on_ray(
     uv: tuple[float, float], depth: Float[np.ndarray, " n"], camera: StereoCamera
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points at these depths, metres, on the ray of one left pixel (column, row), in the left camera's frame.
+    """Return the points at these depths, metres, on the ray of one left pixel (column, row), in the
+    left camera's frame.
 
     Args:
         uv: A left pixel (column, row).

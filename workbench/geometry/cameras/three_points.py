@@ -1,10 +1,11 @@
 """Where a camera was that saw three known points: the P3P problem, solved for many samples at once.
 
-Notation: s are the lengths of the three rays, from the camera's centre to the points; a, b, c the sides of the triangle
-of the points, opposite to the first, second and third; u = s2 / s1 and v = s3 / s1.
+Notation: s are the lengths of the three rays, from the camera's centre to the points; a, b, c the
+sides of the triangle of the points, opposite to the first, second and third; u = s2 / s1 and v = s3
+/ s1.
 
-Reference: Haralick, Lee, Ottenberg and Nölle, Review and Analysis of Solutions of the Three Point Perspective Pose
-Estimation Problem, 1994, sections 2 and 3.1 (Grunert 1841).
+Reference: Haralick, Lee, Ottenberg and Nölle, Review and Analysis of Solutions of the Three Point
+Perspective Pose Estimation Problem, 1994, sections 2 and 3.1 (Grunert 1841).
 """
 
 import numpy as np
@@ -22,7 +23,8 @@ _TWOFOLD, _SAME = 1e-5, 1e-6
 
 
 def unit_rays(xy: Float[np.ndarray, "*k 2"]) -> Float[np.ndarray, "*k 3"]:
-    """Return the unit vectors, in the camera's frame, along which normalised image coordinates look.
+    """Return the unit vectors, in the camera's frame, along which normalised image coordinates
+    look.
 
     Examples:
         >>> unit_rays(np.array([[0.0, 0.0], [0.75, 0.0]])).round(6).tolist()
@@ -49,19 +51,22 @@ def quartics(
 def three_point_lengths(
     p_world: Float[np.ndarray, "k 3 3"], n_camera: Float[np.ndarray, "k 3 3"]
 ) -> tuple[Float[np.ndarray, "m 3"], Int[np.ndarray, " m"]]:
-    """Return all lengths of three rays that put the points as far from each other as they are, metres.
+    """Return all lengths of three rays that put the points as far from each other as they are,
+    metres.
 
     Args:
         p_world: Samples of three points, metres.
         n_camera: The unit rays on which they are seen.
 
     Returns:
-        The lengths (s1, s2, s3), all positive, up to four rows for a sample; and to which sample each row belongs.
+        The lengths (s1, s2, s3), all positive, up to four rows for a sample; and to which sample
+        each row belongs.
 
     Note:
         Points in one place or on one line give none.
 
-    Reference: Haralick et al. 1994, eq. 8 (u from v) and 9 (v); Newton steps on their eq. 1 to 3 take off rounding.
+    Reference: Haralick et al. 1994, eq. 8 (u from v) and 9 (v); Newton steps on their eq. 1 to 3
+    take off rounding.
     """
     sides, cosines = _sides_and_cosines(p_world, n_camera)
     with np.errstate(all="ignore"):
@@ -109,7 +114,8 @@ def motions_from_lengths(
     n_camera: Float[np.ndarray, "m 3 3"],
     s: Float[np.ndarray, "m 3"],
 ) -> Float[np.ndarray, "m 4 4"]:
-    """Return the T_camera_world that takes each three points to the ends of their rays; NaN where they are on one line.
+    """Return the T_camera_world that takes each three points to the ends of their rays; NaN where
+    they are on one line.
 
     Args:
         p_world: Samples of three points, metres.
@@ -117,7 +123,8 @@ def motions_from_lengths(
         s: The lengths of the rays, metres, as `three_point_lengths` gives them.
 
     Note:
-        The two triangles are congruent, so the frames along their sides do what a least-squares fit does more slowly.
+        The two triangles are congruent, so the frames along their sides do what a least-squares fit
+        does more slowly.
     """
     p_camera = n_camera * s[..., None]
     T = np.zeros((len(s), 4, 4))
@@ -131,7 +138,8 @@ def motions_from_lengths(
 def p3p(
     p_world: Float[np.ndarray, "k 3 3"], xy: Float[np.ndarray, "k 3 2"]
 ) -> tuple[Float[np.ndarray, "m 4 4"], Int[np.ndarray, " m"]]:
-    """Return all T_camera_world from which three points are seen where they are seen, and of which sample each is.
+    """Return all T_camera_world from which three points are seen where they are seen, and of which
+    sample each is.
 
     Args:
         p_world: Samples of three points, metres.
@@ -163,7 +171,9 @@ def solution_counts(
 
 
 def _sides_and_cosines(p_world: np.ndarray, n_camera: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the squared sides a, b, c (3, k), and the cosines of the angles between the rays to their ends."""
+    """Return the squared sides a, b, c (3, k), and the cosines of the angles between the rays to
+    their ends.
+    """
     sides = np.stack([np.square(p_world[:, i] - p_world[:, j]).sum(axis=-1) for i, j in _OPPOSITE])
     return sides, np.stack([(n_camera[:, i] * n_camera[:, j]).sum(axis=-1) for i, j in _OPPOSITE])
 
@@ -190,7 +200,9 @@ def _quartics(sides: np.ndarray, cosines: np.ndarray) -> np.ndarray:
 def _polished(
     s: np.ndarray, sides: np.ndarray, cosines: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Take Newton steps on the law of cosines of the three sides; return the lengths and what is left of it."""
+    """Take Newton steps on the law of cosines of the three sides; return the lengths and what is
+    left of it.
+    """
     left = np.full(len(s), np.inf)
     for _ in range(3):
         ends = [
@@ -213,7 +225,9 @@ def _polished(
 
 
 def _frames(p: np.ndarray) -> np.ndarray:
-    """Return the axes of each triangle as columns: along its first side, in its plane, and across."""
+    """Return the axes of each triangle as columns: along its first side, in its plane, and
+    across.
+    """
     e1 = p[:, 1] - p[:, 0]
     e1 = e1 / np.linalg.norm(e1, axis=1, keepdims=True)
     e3 = np.cross(e1, p[:, 2] - p[:, 0])

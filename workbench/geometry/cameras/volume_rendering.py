@@ -1,6 +1,8 @@
-"""What a ray sees of a medium that emits and absorbs, sampled along it, and the gradient back to density and colour.
+"""What a ray sees of a medium that emits and absorbs, sampled along it, and the gradient back to
+density and colour.
 
-Reference: Mildenhall et al., NeRF, ECCV 2020, eq. 3; Max, Optical models for direct volume rendering, 1995, section 4.
+Reference: Mildenhall et al., NeRF, ECCV 2020, eq. 3; Max, Optical models for direct volume
+rendering, 1995, section 4.
 """
 
 from collections.abc import Callable
@@ -19,7 +21,8 @@ def samples_on(
     count: int,
     shift: Float[np.ndarray, "r s"] | float = 0.5,
 ) -> tuple[Float[np.ndarray, "r s d"], float]:
-    """Return so many points on each ray, one in each equal part of its way, and the length of a part, m.
+    """Return so many points on each ray, one in each equal part of its way, and the length of a
+    part, m.
 
     Args:
         p: Where the rays begin.
@@ -34,10 +37,11 @@ def samples_on(
 
 
 def ray_weights(density: Float[np.ndarray, "r s"], spacing: float) -> Float[np.ndarray, "r s"]:
-    """Return how much each sample counts in what its ray sees: w_i = T_i (1 - exp(-density_i spacing)).
+    """Return how much each sample counts in what its ray sees: w_i = T_i (1 - exp(-density_i
+    spacing)).
 
-    T_i = exp(-spacing sum_{j<i} density_j) is the share of light that passes all samples before. A row's sum is 1 minus what
-    passes all of them.
+    T_i = exp(-spacing sum_{j<i} density_j) is the share of light that passes all samples before. A
+    row's sum is 1 minus what passes all of them.
 
     Args:
         density: Of r rays at s samples from near to far, 1/m, not negative.
@@ -73,8 +77,8 @@ def through_seen(
 ) -> tuple[Float[np.ndarray, "r s"], Float[np.ndarray, "r s 3"]]:
     """Return the gradients by densities and colours, given that by the colours that the rays see.
 
-    By density_i it is spacing times (T_{i+1} c_i - sum_{j>i} w_j c_j - T_end behind): light that is let through less, and
-    what lies behind is seen less.
+    By density_i it is spacing times (T_{i+1} c_i - sum_{j>i} w_j c_j - T_end behind): light that is
+    let through less, and what lies behind is seen less.
 
     Args:
         slope: The gradient by what is seen.

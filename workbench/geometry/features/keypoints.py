@@ -1,6 +1,7 @@
 """Places that can be found again: corners of pictures, and salient points of clouds.
 
-References: Harris and Stephens, A combined corner and edge detector, 1988; Zhong, Intrinsic shape signatures, 2009.
+References: Harris and Stephens, A combined corner and edge detector, 1988; Zhong, Intrinsic shape
+signatures, 2009.
 """
 
 import numpy as np
@@ -15,7 +16,8 @@ HARRIS = 0.04
 
 
 def gradient(image: Image, sigma: float = DERIVE) -> tuple[Image, Image]:
-    """Return the derivatives of a smoothed picture along u and along v, grey levels per pixel (Sobel's, over 8).
+    """Return the derivatives of a smoothed picture along u and along v, grey levels per pixel
+    (Sobel's, over 8).
 
     Args:
         image: Grey levels.
@@ -26,9 +28,11 @@ def gradient(image: Image, sigma: float = DERIVE) -> tuple[Image, Image]:
 
 
 def harris_response(image: Image) -> Image:
-    """Return det(M) - 0.04 trace(M)^2 of every pixel: large at corners, negative at edges, near 0 where nothing is.
+    """Return det(M) - 0.04 trace(M)^2 of every pixel: large at corners, negative at edges, near 0
+    where nothing is.
 
-    M holds the products of the derivatives along u and v, each smoothed by a Gaussian of 1.5 px after multiplying.
+    M holds the products of the derivatives along u and v, each smoothed by a Gaussian of 1.5 px
+    after multiplying.
 
     Args:
         image: Grey levels.
@@ -64,7 +68,8 @@ def strongest(
 
 
 def patches(image: Image, uv: Int[np.ndarray, "n 2"], side: int) -> Float[np.ndarray, "n d"]:
-    """Return the grey levels around pixels, smoothed, minus their mean, of length 1: brightness and contrast do not count.
+    """Return the grey levels around pixels, smoothed, minus their mean, of length 1: brightness and
+    contrast do not count.
 
     Args:
         image: Grey levels.
@@ -87,16 +92,18 @@ def iss_keypoints(
     ratio: float = 0.975,
     fewest: int = 5,
 ) -> Int[np.ndarray, " k"]:
-    """Return the indices of salient points: spread three different ways, and the largest around in the least.
+    """Return the indices of salient points: spread three different ways, and the largest around in
+    the least.
 
-    The spread is about the point itself, as in the paper. Open3D takes it about the neighbours' mean, which is another
-    detector: few of its keypoints are these.
+    The spread is about the point itself, as in the paper. Open3D takes it about the neighbours'
+    mean, which is another detector: few of its keypoints are these.
 
     Args:
         p: Points, metres.
         radius: Of a neighbourhood, metres.
         apart: A keypoint is the most salient within this distance, metres.
-        ratio: The second variance must be less than this share of the first, and the third of the second.
+        ratio: The second variance must be less than this share of the first, and the third of the
+            second.
         fewest: Neighbours that a keypoint has at least.
 
     Reference: Zhong 2009, section 2.1 (without its weights).

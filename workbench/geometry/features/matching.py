@@ -1,7 +1,8 @@
 """Which descriptors belong together: the nearest, and which of these a filter keeps.
 
-References: Lowe, Distinctive Image Features from Scale-Invariant Keypoints, 2004, section 7.1 (the ratio);
-Deriche, Zhang, Luong and Faugeras, Robust recovery of the epipolar geometry, 1994 (both ways round).
+References: Lowe, Distinctive Image Features from Scale-Invariant Keypoints, 2004, section 7.1 (the
+ratio); Deriche, Zhang, Luong and Faugeras, Robust recovery of the epipolar geometry, 1994 (both
+ways round).
 """
 
 from dataclasses import dataclass
@@ -31,7 +32,9 @@ class Nearest:
     back: Int[np.ndarray, " m"]
 
     def kept(self, how: Filter, ratio: float) -> Bool[np.ndarray, " n"]:
-        """Return which nearest ones a filter keeps; `ratio` is between the distances, not their squares."""
+        """Return which nearest ones a filter keeps; `ratio` is between the distances, not their
+        squares.
+        """
         keep = np.ones(len(self.index), bool)
         if how in ("ratio", "both"):
             keep &= self.distance < ratio * self.second
@@ -64,7 +67,8 @@ def nearest_both_ways(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) 
         index[rows] = cost.argmin(axis=1)
         cost[here, index[rows]] = np.inf
         next_to_it[rows] = cost.argmin(axis=1)
-    # of the two nearest all digits: whether one is less than a share of the other is not left to rounding
+    # of the two nearest all digits: whether one is less than a share of the other is not left to
+    # rounding
     distance, second = (np.linalg.norm(given[0] - given[1][k], axis=1) for k in (index, next_to_it))
     if m == 1:
         return Nearest(index, distance, np.full(n, np.inf), back)
@@ -76,7 +80,8 @@ def nearest_both_ways(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) 
 def mutual_matches(
     a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float
 ) -> Int[np.ndarray, " n"]:
-    """Return for each descriptor of a the nearest of b, or -1 where that one is not much nearer, or nearest both ways.
+    """Return for each descriptor of a the nearest of b, or -1 where that one is not much nearer, or
+    nearest both ways.
 
     Args:
         a: Descriptors.
@@ -88,7 +93,9 @@ def mutual_matches(
     Reference: Lowe 2004, section 7.1.
 
     Examples:
-        >>> mutual_matches(np.array([[0.0], [5.0], [5.2]]), np.array([[0.3], [5.1], [9.0]]), 0.9).tolist()
+        >>> mutual_matches(
+        ...     np.array([[0.0], [5.0], [5.2]]), np.array([[0.3], [5.1], [9.0]]), 0.9
+        ... ).tolist()
         [0, 1, -1]
     """
     found = nearest_both_ways(a, b)
@@ -98,13 +105,16 @@ def mutual_matches(
 def filtered(
     found: Nearest, how: Filter, ratio: float, mutual: Int[np.ndarray, " n"] | None = None
 ) -> Int[np.ndarray, "k 2"]:
-    """Return rows (index in the first set, index in the second) of the matches that a filter keeps, in order.
+    """Return rows (index in the first set, index in the second) of the matches that a filter keeps,
+    in order.
 
     Args:
         found: The nearest of both sets.
-        how: Keep all, those much nearer than the second nearest, those nearest both ways, or those that are both.
+        how: Keep all, those much nearer than the second nearest, those nearest both ways, or those
+            that are both.
         ratio: How near the nearest must be, as a share of the distance of the second nearest.
-        mutual: Somebody's answer as `mutual_matches` gives it, which is then taken where `how` is both.
+        mutual: Somebody's answer as `mutual_matches` gives it, which is then taken where `how` is
+            both.
 
     Raises:
         ValueError: If that answer names what is not there.

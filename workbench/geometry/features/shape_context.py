@@ -1,6 +1,7 @@
 """Shape contexts: how the rest of an outline lies around each of its points, in log-polar bins.
 
-Reference: Belongie, Malik and Puzicha, Shape Matching and Object Recognition Using Shape Contexts, PAMI 2002, section 3.
+Reference: Belongie, Malik and Puzicha, Shape Matching and Object Recognition Using Shape Contexts,
+PAMI 2002, section 3.
 """
 
 import numpy as np
@@ -15,20 +16,24 @@ Outline = Float[np.ndarray, "n 2"]
 
 
 def tangent_angles(p: Outline) -> Float[np.ndarray, " n"]:
-    """Return the direction of a closed outline at each of its points, radians, from the point before to the next."""
+    """Return the direction of a closed outline at each of its points, radians, from the point
+    before to the next.
+    """
     along = np.roll(p, -1, axis=0) - np.roll(p, 1, axis=0)
     return np.arctan2(along[:, 1], along[:, 0])
 
 
 def shape_contexts(p: Outline, *, along_tangent: bool) -> Float[np.ndarray, "n 60"]:
-    """Return one histogram per point of a closed outline: the shares of the others in 5 rings times 12 sectors.
+    """Return one histogram per point of a closed outline: the shares of the others in 5 rings times
+    12 sectors.
 
-    Distances count in means of all distances, so scale does not matter. Points beyond two means count nowhere.
+    Distances count in means of all distances, so scale does not matter. Points beyond two means
+    count nowhere.
 
     Args:
         p: Points in order round the outline, two at least, in any unit.
-        along_tangent: Count angles from the outline's direction at the point, not from the x axis: then a turn of the
-            outline does not matter either.
+        along_tangent: Count angles from the outline's direction at the point, not from the x axis:
+            then a turn of the outline does not matter either.
 
     Reference: Belongie, Malik and Puzicha 2002, section 3.1; 3.3.3 for the tangent.
     """

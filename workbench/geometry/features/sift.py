@@ -1,7 +1,8 @@
-"""SIFT's keypoints of a picture, by scikit-image: places with a size and a direction of their own, described along it.
+"""SIFT's keypoints of a picture, by scikit-image: places with a size and a direction of their own,
+described along it.
 
-References: Lowe, Distinctive Image Features from Scale-Invariant Keypoints, 2004, sections 3 to 6; Otero and Delbracio,
-Anatomy of the SIFT Method, IPOL 2014, which scikit-image follows.
+References: Lowe, Distinctive Image Features from Scale-Invariant Keypoints, 2004, sections 3 to 6;
+Otero and Delbracio, Anatomy of the SIFT Method, IPOL 2014, which scikit-image follows.
 """
 
 from dataclasses import dataclass
@@ -34,7 +35,8 @@ class Sift:
 
 
 def sift(image: Image) -> Sift:
-    """Return the keypoints of a picture; none where no place stands out. The picture is not doubled first, as Lowe's is.
+    """Return the keypoints of a picture; none where no place stands out. The picture is not doubled
+    first, as Lowe's is.
 
     Args:
         image: Grey levels, 12 pixels wide and high at least.
@@ -48,7 +50,8 @@ def sift(image: Image) -> Sift:
         found.detect_and_extract(image / 255.0)
     except RuntimeError:  # it found nothing, and says so in this way
         return Sift(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros((0, 128)))
-    # theirs are rows and columns, and an angle from down to the right; their bins are told half a bin too far
+    # theirs are rows and columns, and an angle from down to the right; their bins are told half a
+    # bin too far
     uv = found.positions[:, ::-1].astype(float)
     angle = np.pi / 2 - (found.orientations - np.pi / BINS)
     return Sift(uv, found.sigmas.astype(float), angle, found.descriptors.astype(float))
@@ -57,7 +60,8 @@ def sift(image: Image) -> Sift:
 def turned_patch(
     image: Image, uv: Float[np.ndarray, "2"], angle: float, half: float, side: int
 ) -> Float[np.ndarray, "side side"]:
-    """Return the grey levels of a square around a place, turned so that a direction points to the right.
+    """Return the grey levels of a square around a place, turned so that a direction points to the
+    right.
 
     Args:
         image: Grey levels; beyond its border the last pixel goes on.

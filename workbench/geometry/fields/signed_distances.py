@@ -1,7 +1,8 @@
-"""How far a point is from a surface, negative inside: in closed form, or from the triangles of a closed mesh.
+"""How far a point is from a surface, negative inside: in closed form, or from the triangles of a
+closed mesh.
 
-Reference: Quilez, Distance functions, iquilezles.org/articles/distfunctions (box, torus). Ericson, Real-Time Collision
-Detection, 2005, 5.1.5 (a point and a triangle), 6.2 (boxes in boxes).
+Reference: Quilez, Distance functions, iquilezles.org/articles/distfunctions (box, torus). Ericson,
+Real-Time Collision Detection, 2005, 5.1.5 (a point and a triangle), 6.2 (boxes in boxes).
 """
 
 from dataclasses import dataclass
@@ -25,7 +26,8 @@ _ORDER = (
 
 
 def box_sdf(p: Queries, half_size: Float[np.ndarray, "3"]) -> Float[np.ndarray, " n"]:
-    """Return the signed distance to a box about the origin, its edges along the axes, m: negative inside.
+    """Return the signed distance to a box about the origin, its edges along the axes, m: negative
+    inside.
 
     Args:
         p: Points, m.
@@ -57,15 +59,17 @@ def torus_sdf(p: Queries, ring: float, tube: float) -> Float[np.ndarray, " n"]:
 
 @dataclass(frozen=True, eq=False)
 class FaceTree:
-    """A mesh sorted for the question how far it is: boxes around all faces, around both halves of them, and so on.
+    """A mesh sorted for the question how far it is: boxes around all faces, around both halves of
+    them, and so on.
 
-    Coordinates come first and lie together: that is several times as fast to gather from as rows of three.
+    Coordinates come first and lie together: that is several times as fast to gather from as rows of
+    three.
 
     Attributes:
-        corners: Its triangles in the order of the last boxes: (corner, coordinate, triangle), m; the last one is repeated
-            up to a power of two.
-        boxes: For each level the lowest and the highest corners of its boxes, (2, 3, 2^level); box k holds boxes 2k and
-            2k + 1 of the next level, the last level one triangle each.
+        corners: Its triangles in the order of the last boxes: (corner, coordinate, triangle), m;
+            the last one is repeated up to a power of two.
+        boxes: For each level the lowest and the highest corners of its boxes, (2, 3, 2^level); box
+            k holds boxes 2k and 2k + 1 of the next level, the last level one triangle each.
         middles: Finds a triangle that is near.
         columns: Tells inside from outside; None of a mesh that encloses nothing.
     """
@@ -104,7 +108,8 @@ def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
 
 
 def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
-    """Return the distance of each point to the nearest triangle, m, negative where a closed mesh winds around the point.
+    """Return the distance of each point to the nearest triangle, m, negative where a closed mesh
+    winds around the point.
 
     Boxes that are farther than the triangle with the nearest middle are left out, level by level.
 

@@ -2,8 +2,9 @@
 
 `bits[i, j, k]` is the cell at column i, row j, layer k: along x, y and z.
 
-Reference: Lindblad, Surface area estimation of digitized 3D objects using weighted local configurations, Image and Vision
-Computing 23, 2005: why counted faces do not give an area. Lorensen and Cline, Marching cubes, SIGGRAPH 1987.
+Reference: Lindblad, Surface area estimation of digitized 3D objects using weighted local
+configurations, Image and Vision Computing 23, 2005: why counted faces do not give an area. Lorensen
+and Cline, Marching cubes, SIGGRAPH 1987.
 """
 
 from dataclasses import dataclass
@@ -26,7 +27,9 @@ _QUADS = {  # of each axis: the corners of a cell's upper face, counterclockwise
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Cells in space: `low` is the lowest corner of the first cell, `spacing` a cell's edges along x, y and z, metres."""
+    """Cells in space: `low` is the lowest corner of the first cell, `spacing` a cell's edges along
+    x, y and z, metres.
+    """
 
     low: Float[np.ndarray, "3"]
     spacing: Float[np.ndarray, "3"]
@@ -49,7 +52,8 @@ def grid_over(
     cells: int,
     shift: Float[np.ndarray, "3"],
 ) -> Grid:
-    """Return a grid of cubes over a box: so many fit into its longest side, and one more along each axis covers the shift.
+    """Return a grid of cubes over a box: so many fit into its longest side, and one more along each
+    axis covers the shift.
 
     Args:
         low: The lowest corner of the box, m.
@@ -97,7 +101,8 @@ def windings_on(p: Points, faces: Faces, grid: Grid) -> Int[np.ndarray, "x y z"]
 
 
 def occupied(p: Points, faces: Faces, grid: Grid) -> Bits:
-    """Return which cells have their middle inside a closed mesh; solids that overlap count as their union.
+    """Return which cells have their middle inside a closed mesh; solids that overlap count as their
+    union.
 
     Args:
         p: Vertices, m.
@@ -116,7 +121,8 @@ def counted_area(bits: Bits, spacing: Float[np.ndarray, "3"]) -> float:
     """Return the area of the cell faces between full and empty, m^2; beyond the grid all is empty.
 
     Note:
-        It does not converge to the area of what was made into voxels: of a ball it tends to 3/2 of it.
+        It does not converge to the area of what was made into voxels: of a ball it tends to 3/2 of
+        it.
     """
     walls = spacing.prod() / spacing
     return float(sum(walls[axis] * np.count_nonzero(_steps(bits, axis)) for axis in range(3)))
@@ -171,6 +177,8 @@ def marched_surface(bits: Bits, grid: Grid) -> tuple[Points, Faces]:
 
 
 def _steps(bits: Bits, axis: int) -> Int[np.ndarray, "a b c"]:
-    """Return 1 where a full cell follows an empty one along an axis, -1 where it ends, before each cell and at the end."""
+    """Return 1 where a full cell follows an empty one along an axis, -1 where it ends, before each
+    cell and at the end.
+    """
     empty = [(int(k == axis), int(k == axis)) for k in range(3)]
     return np.diff(np.pad(bits, empty).astype(np.int8), axis=axis)

@@ -1,9 +1,12 @@
-"""Graphs as matrices: neighbours of points, adjacency, components, Laplacians, cuts, and how far apart nodes are.
+"""Graphs as matrices: neighbours of points, adjacency, components, Laplacians, cuts, and how far
+apart nodes are.
 
-A graph of n nodes is its adjacency matrix A (n, n): A_ij is the weight of the edge from i to j, 0 where there is none. It is
-symmetric unless it is said to be directed. Functions that say so take it dense or sparse and answer in kind.
+A graph of n nodes is its adjacency matrix A (n, n): A_ij is the weight of the edge from i to j, 0
+where there is none. It is symmetric unless it is said to be directed. Functions that say so take it
+dense or sparse and answer in kind.
 
-Reference: von Luxburg, A tutorial on spectral clustering, Statistics and Computing 17, 2007, sections 2 and 3.
+Reference: von Luxburg, A tutorial on spectral clustering, Statistics and Computing 17, 2007,
+sections 2 and 3.
 """
 
 from typing import Literal, TypeAlias, TypeVar
@@ -21,7 +24,8 @@ Join = Literal["union", "mutual", "directed"]
 def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.ndarray, "n {k}"]]:
     """Return the k nearest other points of every point, nearest first, and their distances.
 
-    A point is not its own neighbour, also where others lie at its place. Of equal distances any may come first.
+    A point is not its own neighbour, also where others lie at its place. Of equal distances any may
+    come first.
 
     Args:
         p: Points, n > k of them.
@@ -32,9 +36,11 @@ def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.nd
     """
     if not 0 < k < len(p):
         raise ValueError(
-            f"asked for {k} neighbours of {len(p)} points; there must be more points, and 1 neighbour or more"
+            f"asked for {k} neighbours of {len(p)} points; there must be more points, and 1"
+            " neighbour or more"
         )
-    # A query of many points goes through the tree in their own order; sorted by leaf it stays in the processor's cache.
+    # A query of many points goes through the tree in their own order; sorted by leaf it stays in
+    # the processor's cache.
     tree = scipy.spatial.cKDTree(p, balanced_tree=False, compact_nodes=False)
     order = tree.indices
     d, found = np.empty((len(p), k + 1)), np.empty((len(p), k + 1), dtype=np.intp)
@@ -49,14 +55,18 @@ def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.nd
 def directed_graph(
     rows: Int[np.ndarray, "n k"], lengths: Float[np.ndarray, "n k"] | None = None
 ) -> Sparse:
-    """Return the directed graph with an edge from every point to each of its neighbours, of weight 1 or the length given."""
+    """Return the directed graph with an edge from every point to each of its neighbours, of weight
+    1 or the length given.
+    """
     n, k = rows.shape
     weights = np.ones(n * k) if lengths is None else lengths.ravel()
     return scipy.sparse.csr_array((weights, rows.ravel(), np.arange(0, n * k + 1, k)), shape=(n, n))
 
 
 def joined(directed: Sparse, join: Join) -> Sparse:
-    """Return a directed graph with an edge where either end names the other (union), both do (mutual), or as it is."""
+    """Return a directed graph with an edge where either end names the other (union), both do
+    (mutual), or as it is.
+    """
     if join == "directed":
         return directed
     back = directed.T.tocsr()
@@ -65,7 +75,8 @@ def joined(directed: Sparse, join: Join) -> Sparse:
 
 
 def knn_adjacency(p: Points, k: int) -> Float[np.ndarray, "n n"]:
-    """Return the dense symmetric adjacency, 0 or 1: an edge wherever one point is among the k nearest others of the other.
+    """Return the dense symmetric adjacency, 0 or 1: an edge wherever one point is among the k
+    nearest others of the other.
 
     Reference: von Luxburg 2007, section 2.2, the (union) k-nearest neighbour graph.
     """
@@ -92,7 +103,9 @@ def graph_of(
 
 
 def edges_of(adjacency: Sparse) -> Int[np.ndarray, "e 2"]:
-    """Return every edge between two nodes once, smaller node first, in ascending order; of a directed graph either way."""
+    """Return every edge between two nodes once, smaller node first, in ascending order; of a
+    directed graph either way.
+    """
     a, b = adjacency.nonzero()
     once = np.unique(
         np.minimum(a, b)[a != b].astype(np.int64) * adjacency.shape[0] + np.maximum(a, b)[a != b]
@@ -107,12 +120,16 @@ def one_way_share(directed: Sparse) -> float:
 
 
 def degrees(adjacency: Matrix) -> Float[np.ndarray, " n"]:
-    """Return the sum of weights at each node: how many neighbours it has, where all weights are 1."""
+    """Return the sum of weights at each node: how many neighbours it has, where all weights are
+    1.
+    """
     return np.asarray(adjacency.sum(axis=1), dtype=float).ravel()
 
 
 def components(adjacency: Sparse) -> Int[np.ndarray, " n"]:
-    """Return the number of each node's connected component; 0 is the largest, and so on down. Directions do not matter."""
+    """Return the number of each node's connected component; 0 is the largest, and so on down.
+    Directions do not matter.
+    """
     _, names = scipy.sparse.csgraph.connected_components(adjacency, directed=False)
     sizes = np.bincount(names)
     rank = np.empty(len(sizes), dtype=np.intp)
@@ -123,17 +140,20 @@ def components(adjacency: Sparse) -> Int[np.ndarray, " n"]:
 def hops(
     adjacency: Sparse, sources: Int[np.ndarray, " s"] | None = None
 ) -> Float[np.ndarray, "s n"]:
-    """Return how many edges away every node is from each source, all nodes being sources by default; inf out of reach."""
+    """Return how many edges away every node is from each source, all nodes being sources by
+    default; inf out of reach.
+    """
     return scipy.sparse.csgraph.dijkstra(
         adjacency, directed=False, unweighted=True, indices=sources
     )
 
 
 def laplacian(adjacency: Matrix) -> Matrix:
-    """Return L = D - A, D holding the degrees, dense or sparse as A is: (L u)_i = sum_j A_ij (u_i - u_j).
+    """Return L = D - A, D holding the degrees, dense or sparse as A is: (L u)_i = sum_j A_ij (u_i -
+    u_j).
 
-    Of a symmetric A without negative weights it is symmetric and positive semidefinite, L 1 = 0, and its eigenvalue 0 comes
-    once for every connected component. Loops do not change it.
+    Of a symmetric A without negative weights it is symmetric and positive semidefinite, L 1 = 0,
+    and its eigenvalue 0 comes once for every connected component. Loops do not change it.
 
     Reference: von Luxburg 2007, section 3.1.
     """
@@ -148,7 +168,8 @@ def propagation(adjacency: Matrix) -> Matrix:
 
     Its largest eigenvalue is 1, with the eigenvector D^(1/2) 1 on every component.
 
-    Reference: Kipf and Welling, Semi-supervised classification with graph convolutional networks, 2017, section 2.2.
+    Reference: Kipf and Welling, Semi-supervised classification with graph convolutional networks,
+    2017, section 2.2.
     """
     if isinstance(adjacency, np.ndarray):
         looped = adjacency + 0.0  # a copy of floats
@@ -165,7 +186,8 @@ def propagation(adjacency: Matrix) -> Matrix:
 def gcn_layer(
     adjacency: Matrix, features: Float[np.ndarray, "n a"], weights: Float[np.ndarray, "a b"]
 ) -> Float[np.ndarray, "n b"]:
-    """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W): every node's new features out of its own and its neighbours'.
+    """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W): every node's new features out of its own and its
+    neighbours'.
 
     Args:
         adjacency: A, symmetric, without loops, dense or sparse.
@@ -178,13 +200,16 @@ def gcn_layer(
 
 
 def cut_weight(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
-    """Return the weight of all edges between a side and the rest; their number, where all weights are 1."""
+    """Return the weight of all edges between a side and the rest; their number, where all weights
+    are 1.
+    """
     part = side.astype(float)
     return float(part @ (adjacency @ (1 - part)))
 
 
 def conductance(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
-    """Return the weight of a cut over the smaller of the two sides' sums of degrees; NaN where a side has none.
+    """Return the weight of a cut over the smaller of the two sides' sums of degrees; NaN where a
+    side has none.
 
     Reference: Spielman, Spectral and algebraic graph theory, 2019, section 21.1.
     """
@@ -196,13 +221,15 @@ def conductance(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
 def sweep(
     adjacency: Sparse, values: Float[np.ndarray, " n"]
 ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, " m"]]:
-    """Return the nodes in ascending order of a value, and the conductance of each of the n - 1 cuts along that order.
+    """Return the nodes in ascending order of a value, and the conductance of each of the n - 1 cuts
+    along that order.
 
-    Cut k has the first k + 1 nodes on one side. Where a side has no edges it is given 1, so that it is not the best. One
-    pass over the edges finds all of them.
+    Cut k has the first k + 1 nodes on one side. Where a side has no edges it is given 1, so that it
+    is not the best. One pass over the edges finds all of them.
 
-    Reference: Spielman 2019, section 21.2 (Cheeger's inequality: the best of these cuts is at most sqrt(2 nu_2), nu_2 being
-    the second eigenvalue of the normalised Laplacian, where the values are its second eigenvector over D^(1/2)).
+    Reference: Spielman 2019, section 21.2 (Cheeger's inequality: the best of these cuts is at most
+    sqrt(2 nu_2), nu_2 being the second eigenvalue of the normalised Laplacian, where the values are
+    its second eigenvector over D^(1/2)).
     """
     n = adjacency.shape[0]
     order = np.argsort(values, kind="stable")
@@ -210,7 +237,8 @@ def sweep(
     place[order] = np.arange(n)
     edges = adjacency.tocoo()
     a, b = place[edges.row], place[edges.col]
-    # An edge is cut from where its first end has come to the near side until its second has: +w and -w, added up.
+    # An edge is cut from where its first end has come to the near side until its second has: +w and
+    # -w, added up.
     change = np.bincount(np.minimum(a, b), edges.data, n) - np.bincount(
         np.maximum(a, b), edges.data, n
     )

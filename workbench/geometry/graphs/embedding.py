@@ -1,4 +1,5 @@
-"""Places for things of which only the distances are known: classical scaling, and a layout of graphs by their stress.
+"""Places for things of which only the distances are known: classical scaling, and a layout of
+graphs by their stress.
 
 Reference: Borg and Groenen, Modern multidimensional scaling, 2nd ed., 2005, chapters 8 and 12.
 """
@@ -10,10 +11,12 @@ from jaxtyping import Float
 def classical_scaling(
     distances: Float[np.ndarray, "n n"], dims: int
 ) -> Float[np.ndarray, "n {dims}"]:
-    """Return points whose distances fit the given ones best in the sense of inner products, about the origin.
+    """Return points whose distances fit the given ones best in the sense of inner products, about
+    the origin.
 
-    Where the distances are those of points in so many dimensions, these are the points but for a motion or a mirror. Axes
-    come by falling variance; each has the sign that makes its entry of largest size positive.
+    Where the distances are those of points in so many dimensions, these are the points but for a
+    motion or a mirror. Axes come by falling variance; each has the sign that makes its entry of
+    largest size positive.
 
     Reference: Borg and Groenen 2005, section 12.1.
     """
@@ -32,7 +35,8 @@ def classical_scaling(
 def stress_layout(
     distances: Float[np.ndarray, "n n"], dims: int, iterations: int = 60
 ) -> Float[np.ndarray, "n {dims}"]:
-    """Return points that lower the stress sum_ij (|p_i - p_j| - d_ij)^2, from classical scaling on; it never rises.
+    """Return points that lower the stress sum_ij (|p_i - p_j| - d_ij)^2, from classical scaling on;
+    it never rises.
 
     Args:
         distances: Finite and symmetric, for instance how many edges apart the nodes of a graph are.

@@ -1,12 +1,15 @@
-"""How often a mesh winds around a point, hence which points are inside: by vertical rays, or by solid angles.
+"""How often a mesh winds around a point, hence which points are inside: by vertical rays, or by
+solid angles.
 
-A ray upwards leaves the mesh through faces that look up (+1) and enters it through faces that look down (-1); the sum over
-all faces above a point is the winding number. Every edge decides by its own two ends on which side of it a ray passes, so
-that two faces never both claim a ray through their common edge, nor both miss it.
+A ray upwards leaves the mesh through faces that look up (+1) and enters it through faces that look
+down (-1); the sum over all faces above a point is the winding number. Every edge decides by its own
+two ends on which side of it a ray passes, so that two faces never both claim a ray through their
+common edge, nor both miss it.
 
-Reference: Sunday, Inclusion of a point in a polygon, 2001 (winding number by edge crossings). Jacobson, Kavan and
-Sorkine-Hornung, Robust inside-outside segmentation using generalized winding numbers, SIGGRAPH 2013. Van Oosterom and
-Strackee, The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30, 1983.
+Reference: Sunday, Inclusion of a point in a polygon, 2001 (winding number by edge crossings).
+Jacobson, Kavan and Sorkine-Hornung, Robust inside-outside segmentation using generalized winding
+numbers, SIGGRAPH 2013. Van Oosterom and Strackee, The solid angle of a plane triangle, IEEE Trans.
+Biomed. Eng. 30, 1983.
 """
 
 from collections.abc import Iterator
@@ -25,7 +28,8 @@ _MOST_CELLS = 256
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """A mesh sorted into square columns along z: each knows the faces whose box, seen from above, touches it.
+    """A mesh sorted into square columns along z: each knows the faces whose box, seen from above,
+    touches it.
 
     Attributes:
         corners: The triangles, m.
@@ -61,7 +65,8 @@ def columns(p: Points, faces: Faces) -> Columns:
 
 
 def windings(mesh: Columns, q: Queries) -> Int[np.ndarray, " n"]:
-    """Return the winding number of a closed mesh around each point: 1 inside, 0 outside, 2 where two solids overlap.
+    """Return the winding number of a closed mesh around each point: 1 inside, 0 outside, 2 where
+    two solids overlap.
 
     Args:
         mesh: The mesh in columns. Where it is open the number holds only below what is there of it.
@@ -89,7 +94,8 @@ def inside(p: Points, faces: Faces, q: Queries) -> Bool[np.ndarray, " n"]:
 
     Args:
         p: Vertices, m.
-        faces: All counterclockwise seen from outside, or all clockwise; solids that overlap count as their union.
+        faces: All counterclockwise seen from outside, or all clockwise; solids that overlap count
+            as their union.
         q: Points, m.
     """
     return windings(columns(p, faces), q) != 0
@@ -105,8 +111,8 @@ def crossings(
         xy: Where the lines stand, m.
 
     Returns:
-        1 where the triangle looks up, -1 where it looks down, 0 where the line misses it; and the height, m, which means
-        nothing where it misses.
+        1 where the triangle looks up, -1 where it looks down, 0 where the line misses it; and the
+        height, m, which means nothing where it misses.
     """
     x, y = xy.T
     (ax, bx, cx), (ay, by, cy) = np.ascontiguousarray(corners[:, :, :2].transpose(2, 1, 0))
@@ -137,8 +143,8 @@ def crossings(
 def winding_numbers(p: Points, faces: Faces, q: Queries) -> Float[np.ndarray, " n"]:
     """Return the generalised winding number at each point: the solid angle of all faces over 4 pi.
 
-    Of a closed mesh it is whole; of an open one it changes smoothly, and more than one half still means inside. Every face
-    is asked for every point, so it suits some thousand points.
+    Of a closed mesh it is whole; of an open one it changes smoothly, and more than one half still
+    means inside. Every face is asked for every point, so it suits some thousand points.
 
     Args:
         p: Vertices, m.
@@ -147,7 +153,10 @@ def winding_numbers(p: Points, faces: Faces, q: Queries) -> Float[np.ndarray, " 
 
     Examples:
         >>> tetrahedron = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-        >>> faces, q = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]), np.array([[0.2, 0.2, 0.2], [1.0, 1.0, 1.0]])
+        >>> faces, q = (
+        ...     np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
+        ...     np.array([[0.2, 0.2, 0.2], [1.0, 1.0, 1.0]]),
+        ... )
         >>> winding_numbers(tetrahedron, faces, q).round(9).tolist()
         [1.0, 0.0]
     """

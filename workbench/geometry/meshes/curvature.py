@@ -1,10 +1,13 @@
-"""Curvature of a triangle mesh by angle defects and cotangents (Meyer, Desbrun, Schroeder and Barr 2003).
+"""Curvature of a triangle mesh by angle defects and cotangents (Meyer, Desbrun, Schroeder and Barr
+2003).
 
-Signs: normals point outward; H and the principal curvatures are positive where the surface bends away from its normal,
-so that a sphere of radius r has k1 = k2 = H = 1/r. Turning all normals round changes the sign of H, k1 and k2, never
-that of K = k1 k2. On the border of an open mesh K and H are not defined by these formulas and come out as nan.
+Signs: normals point outward; H and the principal curvatures are positive where the surface bends
+away from its normal, so that a sphere of radius r has k1 = k2 = H = 1/r. Turning all normals round
+changes the sign of H, k1 and k2, never that of K = k1 k2. On the border of an open mesh K and H are
+not defined by these formulas and come out as nan.
 
-Reference: Discrete differential-geometry operators for triangulated 2-manifolds, Visualization and Mathematics III.
+Reference: Discrete differential-geometry operators for triangulated 2-manifolds, Visualization and
+Mathematics III.
 """
 
 from dataclasses import dataclass
@@ -29,11 +32,13 @@ PerVertex = Float[np.ndarray, " v"]
 
 @dataclass(frozen=True, eq=False)
 class Curvatures:
-    """Everything the two formulas give at each vertex; curvatures in 1/m, K in 1/m^2, border vertices nan.
+    """Everything the two formulas give at each vertex; curvatures in 1/m, K in 1/m^2, border
+    vertices nan.
 
     Attributes:
         areas: Mixed Voronoi area, m^2.
-        defects: Angle defect, radians: curvature times area, or on the border the turning of the border.
+        defects: Angle defect, radians: curvature times area, or on the border the turning of the
+            border.
         normals: Angle-weighted outward unit normals.
         border: Which vertices lie on the border.
         gaussian: K = k1 k2.
@@ -53,7 +58,9 @@ class Curvatures:
 
 
 def curvatures(p: Points, faces: Faces) -> Curvatures:
-    """Return K, H and the principal curvatures at every vertex, measured in one pass over the corners."""
+    """Return K, H and the principal curvatures at every vertex, measured in one pass over the
+    corners.
+    """
     measured, border = corners(p, faces), on_boundary(faces, len(p))
     areas, normals = mixed_areas_of(measured), normals_at_vertices(measured)
     defects = _angle_defects(measured, border)
@@ -65,17 +72,20 @@ def curvatures(p: Points, faces: Faces) -> Curvatures:
 
 
 def angle_defects(p: Points, faces: Faces) -> PerVertex:
-    """Return how much the angles around each vertex miss a flat turn: 2 pi inside, pi on the border.
+    """Return how much the angles around each vertex miss a flat turn: 2 pi inside, pi on the
+    border.
 
-    This is the integral of K over the vertex' area, in radians, not K itself; on the border it is the turning of the
-    border curve. Either way all of them add up to 2 pi chi (Gauss-Bonnet).
+    This is the integral of K over the vertex' area, in radians, not K itself; on the border it is
+    the turning of the border curve. Either way all of them add up to 2 pi chi (Gauss-Bonnet).
 
     Reference: Meyer et al. 2003, equation 9.
 
     Examples:
         >>> p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
         >>> faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-        >>> (angle_defects(p, faces) / np.pi).round(3).tolist()  # a right-angled corner, and three alike: 4 pi in all
+        >>> (angle_defects(p, faces) / np.pi).round(
+        ...     3
+        ... ).tolist()  # a right-angled corner, and three alike: 4 pi in all
         [0.5, 1.167, 1.167, 1.167]
     """
     return _angle_defects(corners(p, faces), on_boundary(faces, len(p)))
@@ -91,7 +101,8 @@ def gaussian_curvature(p: Points, faces: Faces) -> PerVertex:
 
 
 def mean_curvature_normals(p: Points, faces: Faces) -> Points:
-    """Return 2 H n, 1/m, at each vertex: sum_j (cot a_ij + cot b_ij) (p_i - p_j) / (2 A_i); nan on the border.
+    """Return 2 H n, 1/m, at each vertex: sum_j (cot a_ij + cot b_ij) (p_i - p_j) / (2 A_i); nan on
+    the border.
 
     It points outward where H > 0, and its length is twice |H|.
 
@@ -102,7 +113,9 @@ def mean_curvature_normals(p: Points, faces: Faces) -> Points:
 
 
 def mean_curvature(p: Points, faces: Faces) -> PerVertex:
-    """Return H, 1/m: half the mean-curvature normal's length along the outward normal; nan on the border."""
+    """Return H, 1/m: half the mean-curvature normal's length along the outward normal; nan on the
+    border.
+    """
     return curvatures(p, faces).mean
 
 
@@ -124,10 +137,12 @@ def principal_curvatures(gaussian: PerVertex, mean: PerVertex) -> tuple[PerVerte
 
 
 def principal_directions(p: Points, faces: Faces, normals: Points) -> tuple[Points, Points]:
-    """Return unit tangents along k1 and k2, from the symmetric tensor B that fits the edges' normal curvatures best.
+    """Return unit tangents along k1 and k2, from the symmetric tensor B that fits the edges' normal
+    curvatures best.
 
-    Each edge tells the curvature in its direction d, kappa = 2 (p_i - p_j) . n / |p_i - p_j|^2, and B minimises
-    sum_j (d_j^T B d_j - kappa_j)^2. The sign of a direction means nothing; where k1 = k2 the direction does neither.
+    Each edge tells the curvature in its direction d, kappa = 2 (p_i - p_j) . n / |p_i - p_j|^2, and
+    B minimises sum_j (d_j^T B d_j - kappa_j)^2. The sign of a direction means nothing; where k1 =
+    k2 the direction does neither.
 
     Args:
         p: Vertices, metres.
@@ -142,13 +157,15 @@ def principal_directions(p: Points, faces: Faces, normals: Points) -> tuple[Poin
     x, y = np.einsum("ex,ex->e", step, right[i]), np.einsum("ex,ex->e", step, up[i])
     flat = np.maximum(x**2 + y**2, np.finfo(float).tiny)
     kappa = 2 * np.einsum("ex,ex->e", step, normals[i]) / np.einsum("ex,ex->e", step, step)
-    # d^T B d = (B11 + B22) / 2 + (B11 - B22) / 2 cos 2t + B12 sin 2t, t being the direction's angle.
+    # d^T B d = (B11 + B22) / 2 + (B11 - B22) / 2 cos 2t + B12 sin 2t, t being the direction's
+    # angle.
     terms = np.stack([np.ones(len(i)), (x**2 - y**2) / flat, 2 * x * y / flat])
     left = np.zeros((len(p), 3, 3))
     for a in range(3):
         for b in range(a, 3):
             left[:, a, b] = left[:, b, a] = np.bincount(i, terms[a] * terms[b], len(p))
-    # Two edges, or edges along two lines, leave B open; a touch on the diagonal then takes the smallest one.
+    # Two edges, or edges along two lines, leave B open; a touch on the diagonal then takes the
+    # smallest one.
     left[:, range(3), range(3)] += 1e-9 * np.maximum(left[:, 0, :1], 1.0)
     sums = np.stack([np.bincount(i, term * kappa, len(p)) for term in terms], axis=1)
     _, cosine, sine = np.linalg.solve(left, sums[:, :, None])[:, :, 0].T
@@ -168,7 +185,8 @@ def tangents(normals: Points) -> tuple[Points, Points]:
 
 
 def along(angles: PerVertex, right: Points, up: Points) -> tuple[Points, Points]:
-    """Return the tangents at these angles from `right` towards `up`, and those a quarter turn further.
+    """Return the tangents at these angles from `right` towards `up`, and those a quarter turn
+    further.
 
     Args:
         angles: Radians, one per vertex.
@@ -180,11 +198,16 @@ def along(angles: PerVertex, right: Points, up: Points) -> tuple[Points, Points]
 
 
 def gauss_bonnet(p: Points, faces: Faces) -> tuple[float, float]:
-    """Return the sum of all angle defects, and 2 pi chi, which it must equal up to rounding: both in radians.
+    """Return the sum of all angle defects, and 2 pi chi, which it must equal up to rounding: both
+    in radians.
 
     Examples:
-        >>> p = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # a closed tetrahedron
-        >>> total, expected = gauss_bonnet(p, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+        >>> p = np.array(
+        ...     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+        ... )  # a closed tetrahedron
+        >>> total, expected = gauss_bonnet(
+        ...     p, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        ... )
         >>> round(total / np.pi, 6), round(expected / np.pi, 6)
         (4.0, 4.0)
     """
@@ -198,8 +221,8 @@ def _angle_defects(measured: Corners, border: Bool[np.ndarray, " v"]) -> PerVert
 def _mean_curvature_normals(
     measured: Corners, areas: PerVertex, border: Bool[np.ndarray, " v"]
 ) -> Points:
-    # Every edge pushes its two ends apart by its cotangent: at each corner the edge that ends there, less the one that
-    # leaves.
+    # Every edge pushes its two ends apart by its cotangent: at each corner the edge that ends
+    # there, less the one that leaves.
     total = np.empty((3, len(areas)))
     cotangents = measured.cotangents
     for x in range(3):

@@ -1,7 +1,8 @@
 """Lengths of shortest ways: along the edges of a graph, over the faces of a mesh, round a wall.
 
-Reference: Dijkstra, A note on two problems in connexion with graphs, 1959; Lanthier, Maheshwari and Sack, Approximating
-weighted shortest paths on polyhedral surfaces, 2001, section 3 (points on edges).
+Reference: Dijkstra, A note on two problems in connexion with graphs, 1959; Lanthier, Maheshwari and
+Sack, Approximating weighted shortest paths on polyhedral surfaces, 2001, section 3 (points on
+edges).
 """
 
 import numpy as np
@@ -24,7 +25,8 @@ def edge_lengths(p: Points, edges: Edges) -> Lengths:
 
 
 def length_graph(edges: Edges, lengths: Lengths, count: int) -> Sparse:
-    """Return the symmetric matrix of an undirected graph's lengths; of edges given twice the shortest counts.
+    """Return the symmetric matrix of an undirected graph's lengths; of edges given twice the
+    shortest counts.
 
     Args:
         edges: Pairs of nodes, either way round.
@@ -51,7 +53,8 @@ def _one_way(edges: Edges, lengths: Lengths, count: int) -> Sparse:
 def shortest_distances(
     edges: Edges, lengths: Lengths, count: int, source: int
 ) -> Float[np.ndarray, " {count}"]:
-    """Return the length of the shortest way from the source to every node along undirected edges; inf out of reach.
+    """Return the length of the shortest way from the source to every node along undirected edges;
+    inf out of reach.
 
     Args:
         edges: Pairs of nodes.
@@ -60,7 +63,9 @@ def shortest_distances(
         source: One of them.
 
     Examples:
-        >>> shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 0).tolist()
+        >>> shortest_distances(
+        ...     np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 0
+        ... ).tolist()
         [0.0, 1.0, 2.0, inf]
     """
     graph = _one_way(edges, lengths, count)
@@ -70,7 +75,8 @@ def shortest_distances(
 def shortest_path(
     edges: Edges, lengths: Lengths, distances: Float[np.ndarray, " n"], goal: int
 ) -> Int[np.ndarray, " k"]:
-    """Return the nodes of a shortest way, from the source to the goal, read back off the distances; empty out of reach.
+    """Return the nodes of a shortest way, from the source to the goal, read back off the distances;
+    empty out of reach.
 
     Args:
         edges: Pairs of nodes, undirected.
@@ -79,8 +85,8 @@ def shortest_path(
         goal: Where the way ends.
 
     Note:
-        Every step goes to the neighbour over which the goal is reached soonest, if that is nearer to the source. The way
-        stops where there is none.
+        Every step goes to the neighbour over which the goal is reached soonest, if that is nearer
+        to the source. The way stops where there is none.
     """
     if not np.isfinite(distances[goal]):
         return np.empty(0, int)
@@ -100,10 +106,11 @@ def shortest_path(
 def with_points_on_edges(
     p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], count: int
 ) -> tuple[Float[np.ndarray, "n 3"], Edges, Lengths]:
-    """Return a graph whose shortest ways also cross faces: so many points on every edge, joined across each face.
+    """Return a graph whose shortest ways also cross faces: so many points on every edge, joined
+    across each face.
 
-    The vertices come first. With 0 points these are the mesh's own edges; the more there are, the nearer the shortest
-    way is to the true one over the faces, from above.
+    The vertices come first. With 0 points these are the mesh's own edges; the more there are, the
+    nearer the shortest way is to the true one over the faces, from above.
 
     Args:
         p: Vertices.
@@ -173,7 +180,8 @@ _PLUS, _CROSS, _KNIGHT = ((0, 1), (1, 0)), ((1, 1), (1, -1)), ((1, 2), (2, 1), (
 def distance_past_wall(
     p: Float[np.ndarray, "n 2"], q: Float[np.ndarray, "2"], tip: Float[np.ndarray, "2"]
 ) -> Float[np.ndarray, " n"]:
-    """Return the shortest way from q to every point of a plane in which a wall stands straight below the tip.
+    """Return the shortest way from q to every point of a plane in which a wall stands straight
+    below the tip.
 
     Args:
         p: Points, none of them on the wall.
@@ -190,7 +198,9 @@ def distance_past_wall(
 def crosses_wall(
     p: Float[np.ndarray, "e 2 2"], tip: Float[np.ndarray, "2"]
 ) -> Bool[np.ndarray, " e"]:
-    """Return which segments cross or touch a wall that stands straight below the tip, the tip itself left out."""
+    """Return which segments cross or touch a wall that stands straight below the tip, the tip
+    itself left out.
+    """
     x = p[:, :, 0] - tip[0]
     meets = x[:, 0] * x[:, 1] <= 1e-12
     run = x[:, 1] - x[:, 0]

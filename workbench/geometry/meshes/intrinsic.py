@@ -1,11 +1,13 @@
-"""A mesh as lengths only: its edges flipped within the surface until no cotangent weight inside is negative.
+"""A mesh as lengths only: its edges flipped within the surface until no cotangent weight inside is
+negative.
 
-The surface stays as it is. A flipped edge is the straight line across the two triangles beside it, unfolded: it bends
-where the old edge was, so only its length is kept, and no point moves.
+The surface stays as it is. A flipped edge is the straight line across the two triangles beside it,
+unfolded: it bends where the old edge was, so only its length is kept, and no point moves.
 
-Reference: Fisher, Springborn, Schroeder and Bobenko, An algorithm for the construction of intrinsic Delaunay triangulations
-with applications to digital geometry processing, Computing 81, 2007; Bobenko and Springborn, A discrete Laplace-Beltrami
-operator for simplicial surfaces, 2007, which shows that the flips come to an end.
+Reference: Fisher, Springborn, Schroeder and Bobenko, An algorithm for the construction of intrinsic
+Delaunay triangulations with applications to digital geometry processing, Computing 81, 2007;
+Bobenko and Springborn, A discrete Laplace-Beltrami operator for simplicial surfaces, 2007, which
+shows that the flips come to an end.
 """
 
 from dataclasses import replace
@@ -18,14 +20,17 @@ from workbench.geometry.meshes.triangles import Corners, corners
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
-STRAIGHT = 1e-9  # how far the two angles may be above pi together, radians: so that rounding flips nothing for ever
+# how far the two angles may be above pi together, radians: so that rounding flips nothing for ever
+STRAIGHT = 1e-9
 
 
 def intrinsic_delaunay(p: Points, faces: Faces) -> Corners:
-    """Return the corners of the intrinsic Delaunay triangulation, each triangle laid out flat in a frame of its own.
+    """Return the corners of the intrinsic Delaunay triangulation, each triangle laid out flat in a
+    frame of its own.
 
-    Of every edge inside, the two angles opposite it are at most pi together, so its cotangent weight is not negative; an
-    edge of the border may keep a negative one. Two vertices may be joined twice, and one with itself.
+    Of every edge inside, the two angles opposite it are at most pi together, so its cotangent
+    weight is not negative; an edge of the border may keep a negative one. Two vertices may be
+    joined twice, and one with itself.
 
     Args:
         p: Vertices, metres.
@@ -41,7 +46,9 @@ def intrinsic_delaunay(p: Points, faces: Faces) -> Corners:
 
 
 class _Sides:
-    """The sides of all triangles, three in a row for each: where one begins, its other half (-1 on the border), length."""
+    """The sides of all triangles, three in a row for each: where one begins, its other half (-1 on
+    the border), length.
+    """
 
     def __init__(self, p: np.ndarray, faces: np.ndarray) -> None:
         self.start = faces.ravel().tolist()
@@ -72,7 +79,8 @@ class _Sides:
         )
 
     def flip(self, h: int) -> tuple[int, ...]:
-        """Put the other diagonal of the two triangles in an edge's place; return the sides round them.
+        """Put the other diagonal of the two triangles in an edge's place; return the sides round
+        them.
 
         With the edge from a to b, c opposite it and d beyond: abc and bad become dca and cdb.
         """

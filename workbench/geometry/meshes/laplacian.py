@@ -13,12 +13,15 @@ ROUNDING = 1e-9  # of a weight; weights have no unit
 
 
 def cotangent_laplacian(p: Points, faces: Faces) -> "scipy.sparse.csr_array":
-    """Return the symmetric, positive semidefinite L with (L u)_i = sum_j w_ij (u_i - u_j), w = (cot a + cot b) / 2.
+    """Return the symmetric, positive semidefinite L with (L u)_i = sum_j w_ij (u_i - u_j), w = (cot
+    a + cot b) / 2.
 
-    a and b are the two angles opposite edge ij; on the border there is one. Applied to a function on the vertices, L
-    gives minus the integral of its Laplace-Beltrami over each vertex' area; L 1 = 0. A face without area counts for nothing.
+    a and b are the two angles opposite edge ij; on the border there is one. Applied to a function
+    on the vertices, L gives minus the integral of its Laplace-Beltrami over each vertex' area; L 1
+    = 0. A face without area counts for nothing.
 
-    Reference: Pinkall and Polthier, Computing discrete minimal surfaces and their conjugates, 1993, section 4.
+    Reference: Pinkall and Polthier, Computing discrete minimal surfaces and their conjugates, 1993,
+    section 4.
     """
     return cotangent_laplacian_of(corners(p, faces))
 
@@ -35,28 +38,34 @@ def cotangent_laplacian_of(measured: Corners) -> "scipy.sparse.csr_array":
 
 
 def negative_weights(measured: Corners) -> int:
-    """Return how many edges have a negative cotangent weight: the angles opposite them are more than pi together.
+    """Return how many edges have a negative cotangent weight: the angles opposite them are more
+    than pi together.
 
-    With such weights heat may fall below 0 and the largest value need not lie where heat was put in.
+    With such weights heat may fall below 0 and the largest value need not lie where heat was put
+    in.
     """
     L = scipy.sparse.triu(cotangent_laplacian_of(measured), 1)
     return int(np.count_nonzero(L.data > ROUNDING))
 
 
 def mixed_areas(p: Points, faces: Faces) -> Float[np.ndarray, " v"]:
-    """Return the part of the surface that belongs to each vertex, m^2; the parts add up to the whole area.
+    """Return the part of the surface that belongs to each vertex, m^2; the parts add up to the
+    whole area.
 
-    A face is shared out along the bisectors of its edges (Voronoi); where that would reach outside it because it is
-    obtuse, half of it goes to the obtuse corner and a quarter to each of the others.
+    A face is shared out along the bisectors of its edges (Voronoi); where that would reach outside
+    it because it is obtuse, half of it goes to the obtuse corner and a quarter to each of the
+    others.
 
-    Reference: Meyer, Desbrun, Schroeder, Barr, Discrete differential-geometry operators, 2003, figure 4.
+    Reference: Meyer, Desbrun, Schroeder, Barr, Discrete differential-geometry operators, 2003,
+    figure 4.
     """
     return mixed_areas_of(corners(p, faces))
 
 
 def mixed_areas_of(measured: Corners) -> Float[np.ndarray, " v"]:
     """Return the mixed areas of corners that were measured already."""
-    # Meyer (7): the corner's part is (|edge j|^2 cot j + |edge k|^2 cot k) / 8, j and k being the other two corners.
+    # Meyer (7): the corner's part is (|edge j|^2 cot j + |edge k|^2 cot k) / 8, j and k being the
+    # other two corners.
     parts = measured.squared_edges * measured.cotangents / 8
     shares = parts[[1, 2, 0]] + parts[[2, 0, 1]]
     corner, face = np.nonzero(measured.dots < 0)
@@ -68,7 +77,8 @@ def mixed_areas_of(measured: Corners) -> Float[np.ndarray, " v"]:
 def mixed_cell(p: Points, faces: Faces, vertex: int) -> Float[np.ndarray, "f 4 3"]:
     """Return the mixed area of a vertex piece by piece: its part of each face.
 
-    Each piece goes from the vertex to the middle of one edge, a corner inside or on the face, and the middle of the other.
+    Each piece goes from the vertex to the middle of one edge, a corner inside or on the face, and
+    the middle of the other.
 
     Args:
         p: Vertices, metres.
@@ -84,7 +94,9 @@ def mixed_cell(p: Points, faces: Faces, vertex: int) -> Float[np.ndarray, "f 4 3
 
 
 def _cell_corner(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
-    """Return the corner of a's mixed area across from a: the circumcentre, or for obtuse faces a point on an edge."""
+    """Return the corner of a's mixed area across from a: the circumcentre, or for obtuse faces a
+    point on an edge.
+    """
     u, v = b - a, c - a
     if u @ v < 0:
         return (b + c) / 2
@@ -97,7 +109,8 @@ def _cell_corner(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
 def vertex_pushes(
     here: Float[np.ndarray, "3"], ring: Float[np.ndarray, "k 3"], area: float
 ) -> Float[np.ndarray, "k 3"]:
-    """Return what each neighbour adds to the mean-curvature normal 2 H n of a vertex inside the border, 1/m.
+    """Return what each neighbour adds to the mean-curvature normal 2 H n of a vertex inside the
+    border, 1/m.
 
     Args:
         here: The vertex.
@@ -116,10 +129,12 @@ def vertex_pushes(
 def eigenpairs(
     p: Points, faces: Faces, count: int
 ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "v {count}"]]:
-    """Return the smallest eigenvalues, 1/m^2, and eigenfunctions of L u = lambda M u, M holding the mixed areas.
+    """Return the smallest eigenvalues, 1/m^2, and eigenfunctions of L u = lambda M u, M holding the
+    mixed areas.
 
-    The functions are orthonormal over the surface, U^T M U = 1; those of equal eigenvalues may come in any rotation. On
-    a closed mesh the first is constant, with eigenvalue 0. On an open mesh the slope across the border is zero.
+    The functions are orthonormal over the surface, U^T M U = 1; those of equal eigenvalues may come
+    in any rotation. On a closed mesh the first is constant, with eigenvalue 0. On an open mesh the
+    slope across the border is zero.
 
     Args:
         p: Vertices, metres.
@@ -130,7 +145,9 @@ def eigenpairs(
         ValueError: If `count` is not below the number of vertices.
 
     Examples:
-        >>> p = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # a closed tetrahedron
+        >>> p = np.array(
+        ...     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+        ... )  # a closed tetrahedron
         >>> values, _ = eigenpairs(p, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]), 2)
         >>> bool(abs(values[0]) < 1e-9), bool(values[1] > 1)
         (True, True)

@@ -2,8 +2,9 @@
 
 All are sums over faces, made in blocks that stay in the processor's cache.
 
-Reference: Zhang and Chen, Efficient feature extraction for 2D/3D objects in mesh representation, ICIP 2001: signed
-tetrahedra. Mirtich, Fast and accurate computation of polyhedral mass properties, JGT 1(2), 1996: the middle.
+Reference: Zhang and Chen, Efficient feature extraction for 2D/3D objects in mesh representation,
+ICIP 2001: signed tetrahedra. Mirtich, Fast and accurate computation of polyhedral mass properties,
+JGT 1(2), 1996: the middle.
 """
 
 from collections.abc import Iterator
@@ -30,8 +31,8 @@ def surface_area(p: Points, faces: Faces) -> float:
 def signed_volume(p: Points, faces: Faces) -> float:
     """Return the volume inside a closed mesh, m^3, negative where it is turned inside out.
 
-    The sum is about the first vertex, so that no digits are lost far from the origin. Of an open mesh it is the volume of
-    the cone from there.
+    The sum is about the first vertex, so that no digits are lost far from the origin. Of an open
+    mesh it is the volume of the cone from there.
     """
     return volume_about(p, faces, p[0])
 
@@ -57,7 +58,8 @@ def volume_about(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> flo
 def tetrahedra(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> Float[np.ndarray, " f"]:
     """Return the signed volume of the tetrahedron between a point and each face, m^3.
 
-    It is positive where the point lies behind the face: a . (b x c) / 6, the corners seen from there.
+    It is positive where the point lies behind the face: a . (b x c) / 6, the corners seen from
+    there.
 
     Args:
         p: Vertices, m.
@@ -88,7 +90,9 @@ def volume_centroid(p: Points, faces: Faces) -> Float[np.ndarray, "3"]:
 
     Examples:
         >>> tetrahedron = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-        >>> volume_centroid(tetrahedron, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])).tolist()
+        >>> volume_centroid(
+        ...     tetrahedron, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        ... ).tolist()
         [0.25, 0.25, 0.25]
     """
     middle = p.mean(axis=0)
@@ -99,12 +103,16 @@ def volume_centroid(p: Points, faces: Faces) -> Float[np.ndarray, "3"]:
 
 
 def encloses(faces: Faces) -> bool:
-    """Return whether signed tetrahedra add up to the same volume from every point: each edge runs as often there as back.
+    """Return whether signed tetrahedra add up to the same volume from every point: each edge runs
+    as often there as back.
 
     A hole or a face that is turned round leaves edges without a partner.
 
     Examples:
-        >>> encloses(np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])), encloses(np.array([[0, 1, 2]]))
+        >>> (
+        ...     encloses(np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])),
+        ...     encloses(np.array([[0, 1, 2]])),
+        ... )
         (True, False)
     """
     half = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)

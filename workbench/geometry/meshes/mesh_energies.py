@@ -1,7 +1,7 @@
 """What a mesh is kept smooth by while it is fitted: energies of its vertices with their gradients.
 
-References: Wang et al., Pixel2Mesh, ECCV 2018, section 3.4 (Laplacian, edges, normals). Nealen et al., Laplacian mesh
-optimization, 2006, section 2 (the uniform Laplacian).
+References: Wang et al., Pixel2Mesh, ECCV 2018, section 3.4 (Laplacian, edges, normals). Nealen et
+al., Laplacian mesh optimization, 2006, section 2 (the uniform Laplacian).
 """
 
 import numpy as np
@@ -16,7 +16,9 @@ _NO_AREA = 1e-12  # m², of twice a face
 
 
 def umbrella(faces: Int[np.ndarray, "f 3"], count: int) -> "scipy.sparse.csr_array":
-    """Return the uniform Laplacian (v, v): of each vertex, the mean of its neighbours minus itself."""
+    """Return the uniform Laplacian (v, v): of each vertex, the mean of its neighbours minus
+    itself.
+    """
     beside = adjacency(faces, count).astype(float)
     degree = np.maximum(beside.sum(axis=1), 1)
     return scipy.sparse.csr_array(
@@ -42,7 +44,8 @@ def edge_energy(p: Points, edges: Int[np.ndarray, "e 2"]) -> Energy:
 def normal_energy(
     p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]
 ) -> Energy:
-    """Return the mean of 1 - n · m over pairs of faces that share an edge, n and m their normals, and its gradient.
+    """Return the mean of 1 - n · m over pairs of faces that share an edge, n and m their normals,
+    and its gradient.
 
     Args:
         p: Vertices, m.
@@ -72,7 +75,8 @@ def face_pairs(faces: Int[np.ndarray, "f 3"]) -> Int[np.ndarray, "e 2"]:
 def fold_angles(
     p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]
 ) -> Float[np.ndarray, " e"]:
-    """Return by how much each edge is folded, radians: 0 where its two faces lie in a plane, pi where one lies on the other.
+    """Return by how much each edge is folded, radians: 0 where its two faces lie in a plane, pi
+    where one lies on the other.
 
     Args:
         p: Vertices.

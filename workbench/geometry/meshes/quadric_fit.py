@@ -1,8 +1,8 @@
 """Curvature of a triangle mesh by a quadric fitted to the neighbourhood of each vertex.
 
-Angle defects and cotangents read the curvature off the shape of a few triangles, and on an irregular mesh their error
-stays however fine it gets. A smooth function fitted to a neighbourhood depends on the vertices alone: its error falls with
-their size.
+Angle defects and cotangents read the curvature off the shape of a few triangles, and on an
+irregular mesh their error stays however fine it gets. A smooth function fitted to a neighbourhood
+depends on the vertices alone: its error falls with their size.
 """
 
 from dataclasses import dataclass
@@ -25,11 +25,14 @@ UNKNOWNS = 6
 
 @dataclass(frozen=True, eq=False)
 class Quadrics:
-    """At each vertex the height c0 + c1 x + c2 y + c3 x^2 + c4 xy + c5 y^2 over its tangent plane, in metres.
+    """At each vertex the height c0 + c1 x + c2 y + c3 x^2 + c4 xy + c5 y^2 over its tangent plane,
+    in metres.
 
     Attributes:
-        coefficients: c0 to c5, one row per vertex, for x, y and the height in metres; nan where nothing could be fitted.
-        right, up, normals: The frame at each vertex: x, y and height run along these unit vectors from the vertex.
+        coefficients: c0 to c5, one row per vertex, for x, y and the height in metres; nan where
+            nothing could be fitted.
+        right, up, normals: The frame at each vertex: x, y and height run along these unit vectors
+            from the vertex.
         neighbours: How many vertices each fit used, its own included.
     """
 
@@ -40,9 +43,11 @@ class Quadrics:
     neighbours: Int[np.ndarray, " v"]
 
     def curvatures(self) -> tuple[PerVertex, PerVertex]:
-        """Return K in 1/m^2 and H in 1/m where the quadrics pass their vertices; positive H bends away from the normal.
+        """Return K in 1/m^2 and H in 1/m where the quadrics pass their vertices; positive H bends
+        away from the normal.
 
-        Reference: do Carmo, Differential Geometry of Curves and Surfaces, 3.3, example 5 (a graph's K and H).
+        Reference: do Carmo, Differential Geometry of Curves and Surfaces, 3.3, example 5 (a graph's
+        K and H).
         """
         _, fx, fy, a, fxy, b = self.coefficients.T
         fxx, fyy, w2 = 2 * a, 2 * b, 1 + fx**2 + fy**2
@@ -55,18 +60,23 @@ class Quadrics:
         return principal_curvatures(*self.curvatures())
 
     def principal_directions(self) -> tuple[Points, Points]:
-        """Return unit tangents along k1 and k2, taken in the plane of the frame, which the fit leaves almost level."""
+        """Return unit tangents along k1 and k2, taken in the plane of the frame, which the fit
+        leaves almost level.
+        """
         _, _, _, a, fxy, b = self.coefficients.T
-        # The height bends least downwards, thus away from the normal most, where its second derivative is least.
+        # The height bends least downwards, thus away from the normal most, where its second
+        # derivative is least.
         return along(np.arctan2(-fxy, b - a) / 2, self.right, self.up)
 
 
 def fit_quadrics(p: Points, faces: Faces, rings: int = 2) -> Quadrics:
-    """Return a quadric at every vertex, fitted by weighted least squares to all vertices at most `rings` edges away.
+    """Return a quadric at every vertex, fitted by weighted least squares to all vertices at most
+    `rings` edges away.
 
-    A neighbour at distance r counts exp(-(r / r_rms)^2), r_rms being the root mean square of all of them. The error falls in
-    proportion to the mesh' edges, on any mesh whose vertices lie on the surface. More rings forgive more noise and blur
-    more. Works on the border too, though there all neighbours lie on one side.
+    A neighbour at distance r counts exp(-(r / r_rms)^2), r_rms being the root mean square of all of
+    them. The error falls in proportion to the mesh' edges, on any mesh whose vertices lie on the
+    surface. More rings forgive more noise and blur more. Works on the border too, though there all
+    neighbours lie on one side.
 
     Args:
         p: Vertices, m.
@@ -79,8 +89,9 @@ def fit_quadrics(p: Points, faces: Faces, rings: int = 2) -> Quadrics:
     Note:
         With fewer than six vertices in reach, or all of them on a conic, the row is nan.
 
-    Reference: Cazals and Pouget, Estimating differential quantities using polynomial fitting of osculating jets, 2005,
-    theorem 3 (degree 2: K and H converge with the first power of the distance).
+    Reference: Cazals and Pouget, Estimating differential quantities using polynomial fitting of
+    osculating jets, 2005, theorem 3 (degree 2: K and H converge with the first power of the
+    distance).
     """
     if rings < 1:
         raise ValueError(f"a fit needs at least the first ring, not {rings}")
@@ -125,9 +136,11 @@ def _fit(
 def _solve(
     left: Float[np.ndarray, "k k v"], right: Float[np.ndarray, "k v"]
 ) -> Float[np.ndarray, "k v"]:
-    """Solve v symmetric positive definite k x k systems at once by Cholesky; nan where one is singular.
+    """Solve v symmetric positive definite k x k systems at once by Cholesky; nan where one is
+    singular.
 
-    Golub and Van Loan, Matrix Computations, 4th ed., 4.2.5 with the loops over k written out and v in numpy's hands.
+    Golub and Van Loan, Matrix Computations, 4th ed., 4.2.5 with the loops over k written out and v
+    in numpy's hands.
     """
     k = len(left)
     factor, unknown = np.zeros_like(left), np.array(right)
@@ -148,7 +161,9 @@ def _solve(
 def _neighbourhoods(
     faces: Faces, count: int, rings: int
 ) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " e"]]:
-    """All vertices at most `rings` edges away, itself included: where each vertex' list starts, and the lists."""
+    """All vertices at most `rings` edges away, itself included: where each vertex' list starts, and
+    the lists.
+    """
     reach = one = (adjacency(faces, count) + scipy.sparse.eye_array(count)).tocsr()
     for _ in range(rings - 1):
         reach = reach @ one

@@ -1,6 +1,8 @@
-"""Mends a triangle mesh without moving a point of its surface: repeats, turned faces, sheets that touch.
+"""Mends a triangle mesh without moving a point of its surface: repeats, turned faces, sheets that
+touch.
 
-Nothing here refuses a mesh: what cannot be mended is left as it is, for `workbench.geometry.meshes.check_mesh` to name.
+Nothing here refuses a mesh: what cannot be mended is left as it is, for
+`workbench.geometry.meshes.check_mesh` to name.
 """
 
 import numpy as np
@@ -14,7 +16,9 @@ Faces = Int[np.ndarray, "f 3"]
 
 
 def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
-    """Return the faces without those that name the same three vertices in the same sense once more."""
+    """Return the faces without those that name the same three vertices in the same sense once
+    more.
+    """
     first = np.argmin(faces, axis=1)[:, None]
     started_alike = np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1)
     kept, _ = distinct_rows(started_alike)
@@ -22,9 +26,11 @@ def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
 
 
 def oriented(faces: Faces) -> Faces:
-    """Return the faces turned round until neighbours agree which side is outside; in each piece as few as possible.
+    """Return the faces turned round until neighbours agree which side is outside; in each piece as
+    few as possible.
 
-    A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an edge, stay as they are.
+    A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an
+    edge, stay as they are.
     """
     half, f = half_edges(faces), len(faces)
     keys = edge_keys(half)
@@ -33,7 +39,8 @@ def oriented(faces: Faces) -> Faces:
     if (np.diff(same) == 1).any():
         return faces
     one, two = order[same], order[same + 1]
-    # Each face twice, as it is (i) and turned (i + f); an edge joins those that agree. Half-edge k*f + i is one of face i.
+    # Each face twice, as it is (i) and turned (i + f); an edge joins those that agree. Half-edge
+    # k*f + i is one of face i.
     agree = half[one, 0] != half[two, 0]
     a, b = np.concatenate([one % f, one % f + f]), np.where(agree, two % f, two % f + f)
     b = np.concatenate([b, (b + f) % (2 * f)])
@@ -48,7 +55,8 @@ def oriented(faces: Faces) -> Faces:
 
 
 def split_where_sheets_touch(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Faces]:
-    """Return the mesh with a vertex for each fan of faces where several fans meet in one; new ones come behind the old.
+    """Return the mesh with a vertex for each fan of faces where several fans meet in one; new ones
+    come behind the old.
 
     Angles, areas and places stay; pieces that touched in a point are no longer connected there.
     """

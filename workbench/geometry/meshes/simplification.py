@@ -1,6 +1,7 @@
 """Meshes with fewer or more faces: vertices of one cell made one, edges halved.
 
-Reference: Rossignac and Borrel, Multi-resolution 3D approximations for rendering complex scenes, 1993.
+Reference: Rossignac and Borrel, Multi-resolution 3D approximations for rendering complex scenes,
+1993.
 """
 
 import numpy as np
@@ -16,7 +17,8 @@ Faces = Int[np.ndarray, "f 3"]
 def clustered(
     p: Points, faces: Faces, spacing: float
 ) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
-    """Return a mesh in which all vertices of one cell of a grid became one, at their mean; faces that collapse are gone.
+    """Return a mesh in which all vertices of one cell of a grid became one, at their mean; faces
+    that collapse are gone.
 
     Args:
         p: Vertices, m.

@@ -1,8 +1,8 @@
 """Triangle meshes as two arrays: what holds at faces, corners, edges, vertices and borders.
 
-`p` are vertex positions in metres, one row per vertex; `faces` names three vertices per face, counterclockwise seen from
-outside. Corner k of a face is opposite its edge k. No function here checks its mesh: `check_mesh` does, once, where a
-mesh enters.
+`p` are vertex positions in metres, one row per vertex; `faces` names three vertices per face,
+counterclockwise seen from outside. Corner k of a face is opposite its edge k. No function here
+checks its mesh: `check_mesh` does, once, where a mesh enters.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,8 @@ BLOCK = 8192
 
 @dataclass(frozen=True, eq=False)
 class Corners:
-    """The measures of which every formula on a mesh is made: corner k of face i stands in row k, column i.
+    """The measures of which every formula on a mesh is made: corner k of face i stands in row k,
+    column i.
 
     Attributes:
         vertices: The vertex at each corner.
@@ -43,7 +44,9 @@ class Corners:
 
     @property
     def angles(self) -> Float[np.ndarray, "3 f"]:
-        """The inner angle at every corner, radians; a face without area has angles 0, 0 and pi, or 0 three times."""
+        """The inner angle at every corner, radians; a face without area has angles 0, 0 and pi, or
+        0 three times.
+        """
         return np.arctan2(self.double_areas, self.dots)
 
     @property
@@ -87,7 +90,9 @@ def corners(p: Points, faces: Faces) -> Corners:
 
 
 def face_angles(p: Points, faces: Faces) -> Float[np.ndarray, "f 3"]:
-    """Return the inner angle at each corner of each face, radians; a row adds up to pi unless the face is a point."""
+    """Return the inner angle at each corner of each face, radians; a row adds up to pi unless the
+    face is a point.
+    """
     return np.ascontiguousarray(corners(p, faces).angles.T)
 
 
@@ -95,7 +100,9 @@ def face_areas(p: Points, faces: Faces) -> Float[np.ndarray, " f"]:
     """Return the area of every face, m^2.
 
     Examples:
-        >>> face_areas(np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])).tolist()
+        >>> face_areas(
+        ...     np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])
+        ... ).tolist()
         [1.0]
     """
     return corners(p, faces).double_areas / 2
@@ -109,10 +116,11 @@ def face_normals(p: Points, faces: Faces) -> Float[np.ndarray, "f 3"]:
 def vertex_normals(p: Points, faces: Faces) -> Float[np.ndarray, "v 3"]:
     """Return unit normals at the vertices: the face normals around, weighted by their angle there.
 
-    Unlike the mean over the faces, the angle weights do not depend on how a flat piece was cut into triangles.
-    A vertex without faces, or whose faces cancel, gets zero.
+    Unlike the mean over the faces, the angle weights do not depend on how a flat piece was cut into
+    triangles. A vertex without faces, or whose faces cancel, gets zero.
 
-    Reference: Thuermer and Wuethrich, Computing vertex normals from polygonal facets, JGT 3(1), 1998.
+    Reference: Thuermer and Wuethrich, Computing vertex normals from polygonal facets, JGT 3(1),
+    1998.
     """
     return normals_at_vertices(corners(p, faces))
 
@@ -131,16 +139,21 @@ def edges(faces: Faces) -> Int[np.ndarray, "e 2"]:
 
 
 def boundary_edges(faces: Faces) -> Int[np.ndarray, "b 2"]:
-    """Return the edges that have a face on one side only, in the direction in which that face goes round."""
+    """Return the edges that have a face on one side only, in the direction in which that face goes
+    round.
+    """
     half = half_edges(faces)
     _, first, times = np.unique(edge_keys(half), return_index=True, return_counts=True)
     return half[np.sort(first[times == 1])]
 
 
 def on_boundary(faces: Faces, count: int) -> Bool[np.ndarray, " {count}"]:
-    """Return for each of `count` vertices whether it lies on the border of an oriented mesh (see `check_mesh`)."""
-    # Going round a closed fan every neighbour follows once and precedes once, so that the sum of (next - previous) is
-    # 0; round an open fan it is the first neighbour minus the last. Whole numbers below 2^53 add up exactly.
+    """Return for each of `count` vertices whether it lies on the border of an oriented mesh (see
+    `check_mesh`).
+    """
+    # Going round a closed fan every neighbour follows once and precedes once, so that the sum of
+    # (next - previous) is 0; round an open fan it is the first neighbour minus the last. Whole
+    # numbers below 2^53 add up exactly.
     following, preceding = faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]
     return np.bincount(faces.ravel(), (following - preceding).ravel(), count) != 0
 
@@ -153,7 +166,8 @@ def adjacency(faces: Faces, count: int) -> "scipy.sparse.csr_array":
 def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.ndarray, " n"]]:
     """Return the faces around a vertex and its neighbours, both counterclockwise.
 
-    Inside the mesh there are as many neighbours as faces; on the border one more, first and last being border vertices.
+    Inside the mesh there are as many neighbours as faces; on the border one more, first and last
+    being border vertices.
 
     Raises:
         ValueError: If the vertex has no face, or its faces are not one fan.
@@ -176,7 +190,8 @@ def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.n
 def vertices_within(
     edges: Int[np.ndarray, "e 2"], vertex: int, steps: int
 ) -> Int[np.ndarray, " n"]:
-    """Return the vertices that are at most so many edges away from one, itself included, in ascending order.
+    """Return the vertices that are at most so many edges away from one, itself included, in
+    ascending order.
 
     Args:
         edges: Pairs of vertices, in either direction.
@@ -193,10 +208,13 @@ def vertices_within(
 
 
 def euler_characteristic(faces: Faces) -> int:
-    """Return chi = V - E + F, counting the vertices in use: 2 for a sphere, 0 for a torus, 2 - 2g for genus g.
+    """Return chi = V - E + F, counting the vertices in use: 2 for a sphere, 0 for a torus, 2 - 2g
+    for genus g.
 
     Examples:
-        >>> euler_characteristic(np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))  # a tetrahedron
+        >>> euler_characteristic(
+        ...     np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        ... )  # a tetrahedron
         2
     """
     return len(np.unique(faces)) - len(edges(faces)) + len(faces)
@@ -205,9 +223,11 @@ def euler_characteristic(faces: Faces) -> int:
 def distinct_rows(
     rows: Shaped[np.ndarray, "n d"],
 ) -> tuple[Int[np.ndarray, " u"], Int[np.ndarray, " n"]]:
-    """Return where each distinct row is found first, in the order of the rows, and of each row which of these it is.
+    """Return where each distinct row is found first, in the order of the rows, and of each row
+    which of these it is.
 
-    It is what `np.unique` finds along rows, whose sorting lets no other thread run: a second for a million points.
+    It is what `np.unique` finds along rows, whose sorting lets no other thread run: a second for a
+    million points.
 
     >>> distinct_rows(np.array([[2, 0], [1, 5], [2, 0]]))
     (array([1, 0]), array([1, 0, 1]))
@@ -222,9 +242,11 @@ def distinct_rows(
 
 
 def welded(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
-    """Return the mesh with one vertex per place, without faces that lose a corner by it and without unused vertices.
+    """Return the mesh with one vertex per place, without faces that lose a corner by it and without
+    unused vertices.
 
-    Files often list a vertex once per face or texture; across such seams a mesh would seem to have borders.
+    Files often list a vertex once per face or texture; across such seams a mesh would seem to have
+    borders.
     """
     first, name = distinct_rows(p)
     at, faces = p[first], name[faces]
@@ -239,20 +261,23 @@ def check_mesh(p: Points, faces: Faces) -> None:
     """Raise InputError, with what to mend, for a mesh on which curvature has no meaning.
 
     Raises:
-        InputError: If the mesh is empty, names vertices that are not there, holds values that are not finite, has faces
-            without area, edges with more than two faces, faces that do not agree which side is outside, vertices where
-            sheets only touch, or vertices without faces.
+        InputError: If the mesh is empty, names vertices that are not there, holds values that are
+            not finite, has faces without area, edges with more than two faces, faces that do not
+            agree which side is outside, vertices where sheets only touch, or vertices without
+            faces.
     """
     if len(p) == 0 or len(faces) == 0:
         raise InputError(
-            f"the mesh is empty: {len(p)} vertices and {len(faces)} faces; a point cloud has no faces to use"
+            f"the mesh is empty: {len(p)} vertices and {len(faces)} faces; a point cloud has no"
+            " faces to use"
         )
     if not np.isfinite(p).all():
         bad = int(np.argmin(np.isfinite(p).all(axis=1)))
         raise InputError(f"vertex {bad} of the mesh is not finite; remove or repair it")
     if faces.min() < 0 or faces.max() >= len(p):
         raise InputError(
-            f"a face names vertex {int(faces.max())}, but the mesh has {len(p)} vertices, counted from 0"
+            f"a face names vertex {int(faces.max())}, but the mesh has {len(p)} vertices, counted"
+            " from 0"
         )
     _check_faces(p, faces)
     _check_edges(faces)
@@ -265,7 +290,8 @@ def _check_faces(p: Points, faces: Faces) -> None:
     flat = np.flatnonzero(measured.double_areas <= 1e-12 * longest)
     if len(flat):
         raise InputError(
-            f"{len(flat)} of {len(faces)} faces have no area (the first is face {flat[0]}); remove or merge them first"
+            f"{len(flat)} of {len(faces)} faces have no area (the first is face {flat[0]}); remove"
+            " or merge them first"
         )
 
 
@@ -275,8 +301,8 @@ def _check_edges(faces: Faces) -> None:
     if (times > 2).any():
         a, b = _split(keys[times > 2])[0]
         raise InputError(
-            f"the mesh is not a surface: {int((times > 2).sum())} edges have more than two faces (the first joins "
-            f"vertices {a} and {b}); split or remove the extra faces"
+            f"the mesh is not a surface: {int((times > 2).sum())} edges have more than two faces"
+            f" (the first joins vertices {a} and {b}); split or remove the extra faces"
         )
     directed, times = np.unique(
         half[:, 0] * (int(faces.max()) + 1) + half[:, 1], return_counts=True
@@ -284,8 +310,8 @@ def _check_edges(faces: Faces) -> None:
     if (times > 1).any():
         a, b = divmod(int(directed[times > 1][0]), int(faces.max()) + 1)
         raise InputError(
-            f"neighbouring faces disagree which side is outside (at the edge of vertices {a} and {b}); make the faces' "
-            "orientation consistent"
+            f"neighbouring faces disagree which side is outside (at the edge of vertices {a} and"
+            f" {b}); make the faces' orientation consistent"
         )
 
 
@@ -300,22 +326,25 @@ def _check_vertices(p: Points, faces: Faces) -> None:
     if len(fan_vertex) > len(p):
         touching = np.flatnonzero(np.bincount(fan_vertex, minlength=len(p)) > 1)
         raise InputError(
-            f"the mesh is not a surface: at {len(touching)} vertices sheets only touch (the first is vertex "
-            f"{touching[0]}); split these vertices"
+            f"the mesh is not a surface: at {len(touching)} vertices sheets only touch (the first"
+            f" is vertex {touching[0]}); split these vertices"
         )
 
 
 def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " c"]]:
-    """Return the vertex of every fan, and the fan of every corner: corner 0 of all faces, then corner 1, then corner 2.
+    """Return the vertex of every fan, and the fan of every corner: corner 0 of all faces, then
+    corner 1, then corner 2.
 
-    A fan is a set of corners at one vertex, each sharing an edge with the next. On a surface each vertex has one fan.
+    A fan is a set of corners at one vertex, each sharing an edge with the next. On a surface each
+    vertex has one fan.
     """
     half, f = half_edges(faces), len(faces)
     keys = edge_keys(half)
     order = np.argsort(keys, kind="stable")
     first = np.flatnonzero(np.diff(keys[order]) == 0)
     one, two = order[first], order[first + 1]
-    # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way if the two faces agree.
+    # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way if
+    # the two faces agree.
     leaves, arrives = (
         (lambda h: (h // f + 1) % 3 * f + h % f),
         (lambda h: (h // f + 2) % 3 * f + h % f),
@@ -338,7 +367,9 @@ def half_edges(faces: Faces) -> Int[np.ndarray, "h 2"]:
 
 
 def edge_keys(half: Int[np.ndarray, "h 2"]) -> Int[np.ndarray, " h"]:
-    """Return one whole number per undirected edge: sorting numbers is much faster than sorting rows."""
+    """Return one whole number per undirected edge: sorting numbers is much faster than sorting
+    rows.
+    """
     return half.min(axis=1).astype(np.int64) << 32 | half.max(axis=1).astype(np.int64)
 
 

@@ -1,7 +1,9 @@
-"""Affine and projective maps as 4x4 matrices: the factors they are built from, and how to take one apart.
+"""Affine and projective maps as 4x4 matrices: the factors they are built from, and how to take one
+apart.
 
-A map acts on columns (x, y, z, w): a point has w = 1, a direction w = 0. Factors compose to the left: `B @ A` does A
-first. Metres and radians; every factor leaves the origin where it is, except a translation.
+A map acts on columns (x, y, z, w): a point has w = 1, a direction w = 0. Factors compose to the
+left: `B @ A` does A first. Metres and radians; every factor leaves the origin where it is, except a
+translation.
 """
 
 from dataclasses import dataclass
@@ -30,13 +32,15 @@ class Kind(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """An affine map taken apart: stretch first, then mirror at the origin, then rotate, then translate.
+    """An affine map taken apart: stretch first, then mirror at the origin, then rotate, then
+    translate.
 
     Attributes:
         translation: Metres.
         rotation: A proper rotation, det = +1.
         mirror: -1 where the map turns right hands into left ones, else +1.
-        stretch: Symmetric and positive semidefinite: its eigenvalues are the factors along its eigenvectors.
+        stretch: Symmetric and positive semidefinite: its eigenvalues are the factors along its
+            eigenvectors.
     """
 
     translation: Float[np.ndarray, "3"]
@@ -61,12 +65,15 @@ def rotation(axis: Axis, angle: float) -> Map:
 
 
 def scaling(factors: Float[np.ndarray, "3"]) -> Map:
-    """Return the map that multiplies x, y and z by a factor each; a negative one mirrors, zero flattens."""
+    """Return the map that multiplies x, y and z by a factor each; a negative one mirrors, zero
+    flattens.
+    """
     return motion(np.diag(factors), np.zeros(3))
 
 
 def shear(along: Axis, across: Axis, amount: float) -> Map:
-    """Return the map that shifts points along one axis by `amount` times their coordinate on another.
+    """Return the map that shifts points along one axis by `amount` times their coordinate on
+    another.
 
     Args:
         along: The axis along which points are shifted.
@@ -84,7 +91,8 @@ def shear(along: Axis, across: Axis, amount: float) -> Map:
 
 
 def reflection(normal: Float[np.ndarray, "3"]) -> Map:
-    """Return the mirror image in the plane through the origin with this normal (of any length but zero).
+    """Return the mirror image in the plane through the origin with this normal (of any length but
+    zero).
 
     Raises:
         ValueError: If the normal is zero or not finite.
@@ -146,7 +154,8 @@ def is_affine(H: Map) -> bool:
 
 
 def decompose(A: Map) -> Parts:
-    """Return the rotation, mirror, stretch and translation of an affine map (its polar decomposition).
+    """Return the rotation, mirror, stretch and translation of an affine map (its polar
+    decomposition).
 
     Raises:
         ValueError: If the last row is not (0, 0, 0, 1): a projective map has no such parts.
@@ -154,7 +163,8 @@ def decompose(A: Map) -> Parts:
     Note:
         Where the stretch flattens (det = 0) the rotation is one of many.
 
-    Reference: Shoemake and Duff, Matrix animation and polar decomposition, 1992: M = T F R S with F = +-1.
+    Reference: Shoemake and Duff, Matrix animation and polar decomposition, 1992: M = T F R S with F
+    = +-1.
     """
     if not is_affine(A):
         raise ValueError(f"the last row {A[3]} is that of a projective map")

@@ -1,8 +1,9 @@
-"""Least-squares alignment of paired points: rigid, similarity, affine, and one linear point-to-plane step.
+"""Least-squares alignment of paired points: rigid, similarity, affine, and one linear
+point-to-plane step.
 
-Moments are taken about the first pair and in chunks that stay in cache: about the origin they would lose all digits
-for clouds far from it (a degree of rotation at an offset of 1e6), and centring whole copies first takes three times
-as long.
+Moments are taken about the first pair and in chunks that stay in cache: about the origin they would
+lose all digits for clouds far from it (a degree of rotation at an offset of 1e6), and centring
+whole copies first takes three times as long.
 """
 
 from dataclasses import dataclass
@@ -28,14 +29,16 @@ def align_rigid(
         weights: One weight of at least zero per pair; all equal when left out.
 
     Raises:
-        ValueError: If there are no pairs, their numbers differ, a number is not finite, or the weights are not usable.
+        ValueError: If there are no pairs, their numbers differ, a number is not finite, or the
+            weights are not usable.
 
     Note:
-        The result is always a rotation (determinant +1), also for noisy flat or mirrored points. Collinear points leave
-        the turn about their line open and one pair leaves all of it; any one solution is returned.
+        The result is always a rotation (determinant +1), also for noisy flat or mirrored points.
+        Collinear points leave the turn about their line open and one pair leaves all of it; any one
+        solution is returned.
 
-    Reference: Umeyama, Least-squares estimation of transformation parameters between two point patterns, 1991,
-    eq. 39-43 with scale 1; Kabsch 1976 and 1978.
+    Reference: Umeyama, Least-squares estimation of transformation parameters between two point
+    patterns, 1991, eq. 39-43 with scale 1; Kabsch 1976 and 1978.
 
     Examples:
         >>> p_source = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
@@ -70,7 +73,11 @@ def align_similarity(
 
     Examples:
         >>> p_source = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
-        >>> bool(np.allclose(align_similarity(3.0 * p_source, p_source), np.diag([3.0, 3.0, 3.0, 1.0])))
+        >>> bool(
+        ...     np.allclose(
+        ...         align_similarity(3.0 * p_source, p_source), np.diag([3.0, 3.0, 3.0, 1.0])
+        ...     )
+        ... )
         True
     """
     m = _moments(p_target, p_source, weights)
@@ -82,7 +89,8 @@ def align_similarity(
 def similarity_scale(
     p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]
 ) -> float:
-    """Return the scale of the similarity that fits pairs best: how many times larger the target is, by least squares.
+    """Return the scale of the similarity that fits pairs best: how many times larger the target is,
+    by least squares.
 
     Args:
         p_target: Points in the target frame.
@@ -92,10 +100,11 @@ def similarity_scale(
         ValueError: As `align_rigid`.
 
     Note:
-        Noise in the source makes it too small (regression dilution), so that there and back do not multiply to 1. Source
-        points that all coincide say nothing about scale: it is 1 then.
+        Noise in the source makes it too small (regression dilution), so that there and back do not
+        multiply to 1. Source points that all coincide say nothing about scale: it is 1 then.
 
-    Reference: Umeyama 1991, eq. 42; Fuller, Measurement Error Models, 1987, 1.1.1, for the dilution.
+    Reference: Umeyama 1991, eq. 42; Fuller, Measurement Error Models, 1987, 1.1.1, for the
+    dilution.
 
     Examples:
         >>> round(similarity_scale(2.5 * np.eye(3) + 1.0, np.eye(3)), 6)
@@ -121,9 +130,11 @@ def align_affine(
         ValueError: As `align_rigid`.
 
     Note:
-        Directions which the source points do not span (flat or collinear clouds) are left as they are.
+        Directions which the source points do not span (flat or collinear clouds) are left as they
+        are.
 
-    Reference: the normal equations A C_ss = C_ts, solved for A - I so that unseen directions stay the identity.
+    Reference: the normal equations A C_ss = C_ts, solved for A - I so that unseen directions stay
+    the identity.
     """
     m = _moments(p_target, p_source, weights)
     A = np.eye(3) + (m.cross - m.source) @ np.linalg.pinv(m.source, rcond=1e-12, hermitian=True)
@@ -137,8 +148,8 @@ def point_to_plane_step(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the small motion that brings points closest to the tangent planes at their partners.
 
-    Minimises the sum of ((p_source + w x p_source + v - p_target) . n_target)^2 over the rotation vector w and the
-    translation v, and returns the proper rotation by w with v.
+    Minimises the sum of ((p_source + w x p_source + v - p_target) . n_target)^2 over the rotation
+    vector w and the translation v, and returns the proper rotation by w with v.
 
     Args:
         p_target: A point on each plane, target frame.
@@ -152,10 +163,11 @@ def point_to_plane_step(
         ValueError: If there are no pairs, their numbers differ, or a number is not finite.
 
     Note:
-        Directions in which the planes hold nothing (sliding along a plane, turning a sphere) get no motion.
+        Directions in which the planes hold nothing (sliding along a plane, turning a sphere) get no
+        motion.
 
-    Reference: Low, Linear least-squares optimization for point-to-plane ICP surface registration, 2004, eq. 8-10;
-    the error is that of Chen and Medioni 1992.
+    Reference: Low, Linear least-squares optimization for point-to-plane ICP surface registration,
+    2004, eq. 8-10; the error is that of Chen and Medioni 1992.
     """
     _check_pairs(p_target, p_source)
     centre = p_source.mean(axis=0)
@@ -183,7 +195,8 @@ def point_to_plane_step(
 
 
 def nearest_rotation(A: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the rotation nearest to a matrix in the least-squares sense: the turn that a similarity or affine map holds.
+    """Return the rotation nearest to a matrix in the least-squares sense: the turn that a
+    similarity or affine map holds.
 
     Args:
         A: One matrix or several.
@@ -217,8 +230,8 @@ class MotionError:
     Attributes:
         rotation: Degrees.
         translation: How far the mean of the points is off, metres.
-        displacement: Root mean square distance of the points from where they belong, metres: it holds all of the error,
-            also a wrong scale.
+        displacement: Root mean square distance of the points from where they belong, metres: it
+            holds all of the error, also a wrong scale.
     """
 
     rotation: float
@@ -231,7 +244,8 @@ def motion_error(
     T_true: Float[np.ndarray, "4 4"] | None,
     p: Float[np.ndarray, "n 3"],
 ) -> MotionError:
-    """Return how far a motion or an affine map is from the true motion, told by where it brings points.
+    """Return how far a motion or an affine map is from the true motion, told by where it brings
+    points.
 
     Args:
         T: The motion in question.
@@ -304,14 +318,18 @@ def _moments(p_target: np.ndarray, p_source: np.ndarray, weights: np.ndarray | N
 
 
 def _rotation(cross: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return the rotation nearest to the cross-covariance of target and source, and trace(D S) (Umeyama, eq. 40-43)."""
+    """Return the rotation nearest to the cross-covariance of target and source, and trace(D S)
+    (Umeyama, eq. 40-43).
+    """
     U, D, Vt = np.linalg.svd(cross)
     S = np.array([1.0, 1.0, np.sign(np.linalg.det(U) * np.linalg.det(Vt))])  # eq. 43: no reflection
     return (U * S) @ Vt, float(D @ S)
 
 
 def _scale(m: _Moments, explained: float) -> float:
-    """Return trace(D S) over the source's variance (Umeyama, eq. 42), or 1 where the source is a single place."""
+    """Return trace(D S) over the source's variance (Umeyama, eq. 42), or 1 where the source is a
+    single place.
+    """
     spread = np.trace(m.source)
     return float(explained / spread) if spread > 0 else 1.0
 
@@ -319,7 +337,8 @@ def _scale(m: _Moments, explained: float) -> float:
 def _check_pairs(p_target: np.ndarray, p_source: np.ndarray) -> None:
     if len(p_target) != len(p_source):
         raise ValueError(
-            f"pairs need as many target points as source points, not {len(p_target)} and {len(p_source)}"
+            f"pairs need as many target points as source points, not {len(p_target)} and"
+            f" {len(p_source)}"
         )
     if len(p_source) == 0:
         raise ValueError("no pairs to align")

@@ -1,16 +1,18 @@
 """Rigid motions: SO(3) and SE(3) with exp and log that hold at the identity and at half a turn.
 
-A motion `T_a_b` is 4x4 and takes points of frame b to frame a: `p_a = apply(T_a_b, p_b)`. A twist is (v, w): the
-translational part in metres first, then the rotation vector in radians.
+A motion `T_a_b` is 4x4 and takes points of frame b to frame a: `p_a = apply(T_a_b, p_b)`. A twist
+is (v, w): the translational part in metres first, then the rotation vector in radians.
 
-Reference: Solà, Deray and Atchuthan, A micro Lie theory for state estimation in robotics, 2018, appendices B and D.
+Reference: Solà, Deray and Atchuthan, A micro Lie theory for state estimation in robotics, 2018,
+appendices B and D.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 R_ROWS_DOWN = np.diag([1.0, -1.0, -1.0])
-"""Lays a picture into the plane z = 0, its rows along -y, so that it is seen from above as it is."""
+"""Lays a picture into the plane z = 0, its rows along -y, so that it is seen from above as it is.
+"""
 R_UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Stands a picture up, its rows along -z; a camera looks along +y."""
 
@@ -47,7 +49,9 @@ def apply(T: Float[np.ndarray, "4 4"], p: Float[np.ndarray, "*n 3"]) -> Float[np
     """Return the points moved by a motion or an affine map: T_a_b takes p_b to p_a.
 
     Examples:
-        >>> T_world_body = motion(exp_so3(np.array([0.0, 0.0, np.pi / 2])), np.array([5.0, 0.0, 0.0]))
+        >>> T_world_body = motion(
+        ...     exp_so3(np.array([0.0, 0.0, np.pi / 2])), np.array([5.0, 0.0, 0.0])
+        ... )
         >>> apply(T_world_body, np.array([[1.0, 0.0, 0.0]])).round(6).tolist()
         [[5.0, 1.0, 0.0]]
     """
@@ -60,7 +64,8 @@ def turn_about(p: Float[np.ndarray, "3"], R: Float[np.ndarray, "3 3"]) -> Float[
 
 
 def angle_between(v: Float[np.ndarray, "3"], w: Float[np.ndarray, "3"]) -> float:
-    """Return the angle between two vectors in [0, pi] radians, exact at both ends; 0 where one of them is zero.
+    """Return the angle between two vectors in [0, pi] radians, exact at both ends; 0 where one of
+    them is zero.
 
     Examples:
         >>> round(angle_between(np.array([2.0, 0.0, 0.0]), np.array([1.0, 1.0, 0.0])) / np.pi, 6)
@@ -82,8 +87,8 @@ def across(
 def rotation_angle(R: Float[np.ndarray, "3 3"]) -> float:
     """Return the angle of a rotation in [0, pi] radians, exact at both ends.
 
-    The sine comes from the antisymmetric part and the cosine from the trace, so neither end loses digits as the
-    arc cosine alone does.
+    The sine comes from the antisymmetric part and the cosine from the trace, so neither end loses
+    digits as the arc cosine alone does.
 
     Examples:
         >>> round(rotation_angle(exp_so3(np.array([0.0, 0.0, 0.5]))), 6)
@@ -93,7 +98,9 @@ def rotation_angle(R: Float[np.ndarray, "3 3"]) -> float:
 
 
 def skew(w: Float[np.ndarray, "*k 3"]) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the matrix whose product with x is the cross product w x x, for one vector or several."""
+    """Return the matrix whose product with x is the cross product w x x, for one vector or
+    several.
+    """
     W = np.zeros((*w.shape[:-1], 3, 3))
     W[..., 2, 1], W[..., 0, 2], W[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
     return W - np.swapaxes(W, -1, -2)
@@ -106,7 +113,11 @@ def exp_so3(w: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
         w: Rotation vector, radians; zero gives the identity.
 
     Examples:
-        >>> bool(np.allclose(exp_so3(np.array([0.0, 0.0, np.pi / 2])), [[0, -1, 0], [1, 0, 0], [0, 0, 1]]))
+        >>> bool(
+        ...     np.allclose(
+        ...         exp_so3(np.array([0.0, 0.0, np.pi / 2])), [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+        ...     )
+        ... )
         True
     """
     angle = np.linalg.norm(w)
@@ -184,7 +195,9 @@ def _twice_vee(R: np.ndarray) -> np.ndarray:
 
 
 def _unit_quaternion(R: np.ndarray) -> np.ndarray:
-    """(w, x, y, z) with w >= 0, from its largest component, so that nothing is divided by a small number."""
+    """(w, x, y, z) with w >= 0, from its largest component, so that nothing is divided by a small
+    number.
+    """
     x, y, z = _twice_vee(R)
     a, b, c = np.diag(R)
     four_q_times_q = np.array(  # row i is 4 q_i q

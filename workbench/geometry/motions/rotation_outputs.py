@@ -1,10 +1,12 @@
-"""Numbers that a network can put out for a rotation: how they become a matrix, and the gradient back through that.
+"""Numbers that a network can put out for a rotation: how they become a matrix, and the gradient
+back through that.
 
-Batches throughout: outputs are (n, k), rotations (n, d, d) with d = 2 or 3. Every `pullback` takes the gradient of a loss by
-the entries of R to that by the numbers.
+Batches throughout: outputs are (n, k), rotations (n, d, d) with d = 2 or 3. Every `pullback` takes
+the gradient of a loss by the entries of R to that by the numbers.
 
-References: Zhou et al., On the continuity of rotation representations in neural networks, CVPR 2019, section 4 and eq. 15.
-Levinson et al., An analysis of SVD for deep rotation estimation, NeurIPS 2020, section 3.
+References: Zhou et al., On the continuity of rotation representations in neural networks, CVPR
+2019, section 4 and eq. 15. Levinson et al., An analysis of SVD for deep rotation estimation,
+NeurIPS 2020, section 3.
 """
 
 from collections.abc import Callable, Mapping
@@ -32,7 +34,8 @@ class Representation:
         start: The numbers of no turn, (k,).
         decode: Makes rotations (n, d, d) of numbers (n, k).
         pullback: Returns the gradient by the numbers, given them and the gradient by R.
-        numbers: The numbers that are asked for where the loss is on them: a choice where several mean one rotation.
+        numbers: The numbers that are asked for where the loss is on them: a choice where several
+            mean one rotation.
     """
 
     start: Float[np.ndarray, " k"]
@@ -42,10 +45,12 @@ class Representation:
 
 
 def rotation_from_six(y: Float[np.ndarray, "n 6"]) -> Float[np.ndarray, "n 3 3"]:
-    """Return the rotations whose first two columns are two vectors each, made orthonormal by Gram and Schmidt.
+    """Return the rotations whose first two columns are two vectors each, made orthonormal by Gram
+    and Schmidt.
 
-    The first three numbers, normalised, are the first column; the last three, without their part along it and normalised,
-    the second; the third is the first times the second. Vectors that are zero or parallel give what is not finite.
+    The first three numbers, normalised, are the first column; the last three, without their part
+    along it and normalised, the second; the third is the first times the second. Vectors that are
+    zero or parallel give what is not finite.
 
     Reference: Zhou et al. 2019, eq. 15.
     """
@@ -54,7 +59,8 @@ def rotation_from_six(y: Float[np.ndarray, "n 6"]) -> Float[np.ndarray, "n 3 3"]
 
 
 def degrees_apart(R: Rotations, other: Rotations) -> Float[np.ndarray, " n"]:
-    """Return the angle between each two matrices, degrees, from the length of their difference; 180 is the most.
+    """Return the angle between each two matrices, degrees, from the length of their difference; 180
+    is the most.
 
     Of a matrix that is no rotation it is an angle in name only, and of one that is not finite 180.
     """
@@ -218,8 +224,9 @@ IN_PLANE: Mapping[str, Representation] = {
         numbers=lambda R: R[:, :, 0],
     ),
 }
-"""An angle, in (-pi, pi] where it is asked for; cosine and sine of half of it, as a quaternion has them, both signs being
-one rotation; or its own, a vector of which the direction counts."""
+"""An angle, in (-pi, pi] where it is asked for; cosine and sine of half of it, as a quaternion has
+them, both signs being one rotation; or its own, a vector of which the direction counts.
+"""
 
 IN_SPACE: Mapping[str, Representation] = {
     "Euler": Representation(
@@ -247,13 +254,16 @@ IN_SPACE: Mapping[str, Representation] = {
         numbers=lambda R: R.reshape(-1, 9),
     ),
 }
-"""Angles about the fixed x, y, z; a rotation vector; (w, x, y, z), w >= 0 where asked for; two columns; all nine entries."""
+"""Angles about the fixed x, y, z; a rotation vector; (w, x, y, z), w >= 0 where asked for; two
+columns; all nine entries.
+"""
 
 
 def random_rotations(
     count: int, dimension: int, largest: float, rng: np.random.Generator
 ) -> tuple[Rotations, Float[np.ndarray, "n w"]]:
-    """Return rotations by at most an angle, as evenly spread as all rotations are, and their angle or rotation vector.
+    """Return rotations by at most an angle, as evenly spread as all rotations are, and their angle
+    or rotation vector.
 
     Args:
         count: How many.
@@ -261,7 +271,8 @@ def random_rotations(
         largest: Radians, up to pi.
         rng: Chance.
 
-    Reference: in space the angle has the density (1 - cos a) / pi: Miles, On random rotations in R^3, Biometrika 1965.
+    Reference: in space the angle has the density (1 - cos a) / pi: Miles, On random rotations in
+    R^3, Biometrika 1965.
     """
     if dimension == 2:
         a = rng.uniform(-largest, largest, (count, 1))

@@ -1,11 +1,12 @@
 """Rotations by their other names: an axis and an angle, 24 kinds of Euler angles, unit quaternions.
 
-All of them stand for the matrix `R_a_b` that takes coordinates of frame b to frame a. Angles are radians and positive
-counter-clockwise about their axis (right-hand rule). Quaternions are (w, x, y, z).
+All of them stand for the matrix `R_a_b` that takes coordinates of frame b to frame a. Angles are
+radians and positive counter-clockwise about their axis (right-hand rule). Quaternions are (w, x, y,
+z).
 
-An Euler order is three letters. Lower case turns about the fixed axes of the world, one after the other; upper case
-turns about the body's own axes, which the earlier turns have carried along. So "xyz" with (a, b, c) is the matrix
-Rz(c) Ry(b) Rx(a), and "XYZ" is Rx(a) Ry(b) Rz(c).
+An Euler order is three letters. Lower case turns about the fixed axes of the world, one after the
+other; upper case turns about the body's own axes, which the earlier turns have carried along. So
+"xyz" with (a, b, c) is the matrix Rz(c) Ry(b) Rx(a), and "XYZ" is Rx(a) Ry(b) Rz(c).
 """
 
 from typing import Literal, get_args
@@ -17,9 +18,31 @@ from workbench.geometry.motions.rigid import exp_so3, log_so3
 
 Axis = Literal["x", "y", "z"]
 EulerOrder = Literal[
-    "xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz",
-    "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ",
-]  # fmt: skip
+    "xyz",
+    "xzy",
+    "yxz",
+    "yzx",
+    "zxy",
+    "zyx",
+    "xyx",
+    "xzx",
+    "yxy",
+    "yzy",
+    "zxz",
+    "zyz",
+    "XYZ",
+    "XZY",
+    "YXZ",
+    "YZX",
+    "ZXY",
+    "ZYX",
+    "XYX",
+    "XZX",
+    "YXY",
+    "YZY",
+    "ZXZ",
+    "ZYZ",
+]
 EULER_ORDERS: tuple[EulerOrder, ...] = get_args(EulerOrder)
 
 _LOCKED = (
@@ -39,7 +62,8 @@ def rotation_from_axis_angle(
     Raises:
         ValueError: If the axis is zero or not finite; it names no direction.
 
-    Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq. 2.14.
+    Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq.
+    2.14.
 
     Examples:
         >>> R = rotation_from_axis_angle(np.array([0.0, 0.0, 2.0]), np.pi / 2)  # of any length
@@ -56,7 +80,8 @@ def axis_angle_from_rotation(R: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndar
     """Return the unit axis and the angle in [0, pi] of a rotation.
 
     Note:
-        The identity turns about no axis in particular; x is returned. At half a turn both signs of the axis are right.
+        The identity turns about no axis in particular; x is returned. At half a turn both signs of
+        the axis are right.
     """
     w = log_so3(R)
     largest = np.abs(w).max()
@@ -81,7 +106,8 @@ def euler_to_matrix(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[
     Raises:
         ValueError: If the order is not one of the 24.
 
-    Reference: Diebel, Representing Attitude, 2006, section 5.1; his R takes world to body, ours body to world.
+    Reference: Diebel, Representing Attitude, 2006, section 5.1; his R takes world to body, ours
+    body to world.
 
     Examples:
         >>> angles = np.array([0.1, 0.2, 0.3])
@@ -96,8 +122,8 @@ def euler_to_matrix(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[
 def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.ndarray, "3"]:
     """Return three angles that make this rotation, in the order of the letters.
 
-    The middle angle is in [-pi/2, pi/2] where the three letters differ and in [0, pi] where the first comes back; the
-    other two are in [-pi, pi].
+    The middle angle is in [-pi/2, pi/2] where the three letters differ and in [0, pi] where the
+    first comes back; the other two are in [-pi, pi].
 
     Args:
         R: A rotation matrix (not checked).
@@ -107,14 +133,17 @@ def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.
         ValueError: If the order is not one of the 24.
 
     Note:
-        In gimbal lock only the sum or the difference of the outer angles is determined; the last one is then zero.
-        `euler_to_matrix` gives R back there too, and arbitrarily close to it.
+        In gimbal lock only the sum or the difference of the outer angles is determined; the last
+        one is then zero. `euler_to_matrix` gives R back there too, and arbitrarily close to it.
 
-    Reference: derived from the product in `euler_to_matrix`: the third turn leaves its own axis alone, so where R takes
-        that axis gives the first two angles, and what they leave of R is the third.
+    Reference: derived from the product in `euler_to_matrix`: the third turn leaves its own axis
+        alone, so where R takes that axis gives the first two angles, and what they leave of R is
+        the third.
 
     Examples:
-        >>> matrix_to_euler(euler_to_matrix(np.array([0.1, 0.2, 0.3]), "ZYX"), "ZYX").round(6).tolist()
+        >>> matrix_to_euler(euler_to_matrix(np.array([0.1, 0.2, 0.3]), "ZYX"), "ZYX").round(
+        ...     6
+        ... ).tolist()
         [0.1, 0.2, 0.3]
     """
     (i, j, k), carried = _letters(order)
@@ -138,10 +167,11 @@ def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.
 
 
 def euler_axes(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3 3"]:
-    """Return the three directions in the world, one per row, about which the three angles turn the body now.
+    """Return the three directions in the world, one per row, about which the three angles turn the
+    body now.
 
-    A small change of the angles turns the body by `change @ euler_axes(angles, order)` (a rotation vector in world
-    axes).
+    A small change of the angles turns the body by `change @ euler_axes(angles, order)` (a rotation
+    vector in world axes).
     """
     (i, j, k), carried = _letters(order)
     if not carried:
@@ -153,7 +183,9 @@ def euler_axes(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.nd
 
 
 def gimbal_margin(angles: Float[np.ndarray, "3"], order: EulerOrder) -> float:
-    """Return the sine of the angle between the first and the third turning axis: 1 at best, 0 in gimbal lock."""
+    """Return the sine of the angle between the first and the third turning axis: 1 at best, 0 in
+    gimbal lock.
+    """
     first, _, third = euler_axes(angles, order)
     return float(np.linalg.norm(np.cross(first, third)))
 
@@ -161,7 +193,8 @@ def gimbal_margin(angles: Float[np.ndarray, "3"], order: EulerOrder) -> float:
 def locked_family(
     angles: Float[np.ndarray, "3"], order: EulerOrder, turns: Float[np.ndarray, "n"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the triples that make the same rotation as these angles in gimbal lock, one for each turn.
+    """Return the triples that make the same rotation as these angles in gimbal lock, one for each
+    turn.
 
     Args:
         angles: A triple in gimbal lock, radians.
@@ -178,7 +211,9 @@ def locked_family(
 
 
 def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3"]:
-    """Return the second triple of angles that makes the same rotation; there always is one, lock or not."""
+    """Return the second triple of angles that makes the same rotation; there always is one, lock or
+    not.
+    """
     (i, _, k), _ = _letters(order)
     a, b, c = angles
     return np.array([a + np.pi, -b if i == k else np.pi - b, c + np.pi])
@@ -187,9 +222,11 @@ def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.
 def triple_past_lock(
     angles: Float[np.ndarray, "3"], order: EulerOrder, turn: float
 ) -> Float[np.ndarray, "3"]:
-    """Return the triple, of the two nearest to these, that turns the body further in the direction lost in gimbal lock.
+    """Return the triple, of the two nearest to these, that turns the body further in the direction
+    lost in gimbal lock.
 
-    The lost direction is at right angles to all axes of the three angles, so no small change of them turns about it.
+    The lost direction is at right angles to all axes of the three angles, so no small change of
+    them turns about it.
 
     Args:
         angles: The three angles, radians, in gimbal lock.
@@ -203,7 +240,8 @@ def triple_past_lock(
 
 
 def angles_apart(triple: Float[np.ndarray, "3"], other: Float[np.ndarray, "3"]) -> float:
-    """Return by how much the angle differs that differs most, radians; a full turn is no difference.
+    """Return by how much the angle differs that differs most, radians; a full turn is no
+    difference.
 
     Examples:
         >>> round(angles_apart(np.array([3.0, 0.0, 0.0]), np.array([3.0 - 2 * np.pi, 0.1, 0.0])), 6)
@@ -213,7 +251,8 @@ def angles_apart(triple: Float[np.ndarray, "3"], other: Float[np.ndarray, "3"]) 
 
 
 def quaternion_from_matrix(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"]:
-    """Return the unit quaternion (w, x, y, z) of a rotation that has w >= 0; its negative is the same rotation.
+    """Return the unit quaternion (w, x, y, z) of a rotation that has w >= 0; its negative is the
+    same rotation.
 
     Examples:
         >>> quaternion_from_matrix(rotation_about("z", np.pi)).round(6).tolist()
@@ -264,7 +303,8 @@ def quaternion_product(
 def great_circle(
     q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float
 ) -> Float[np.ndarray, "4"]:
-    """Return the unit quaternion at the fraction t of the arc from one to the other, signs taken as they are.
+    """Return the unit quaternion at the fraction t of the arc from one to the other, signs taken as
+    they are.
 
     Args:
         q_start: Unit quaternion (w, x, y, z).
@@ -272,8 +312,9 @@ def great_circle(
         t: 0 at the start, 1 at the end.
 
     Note:
-        q and -q are one rotation but two points of the sphere: with the wrong one of them the arc is the long way
-        round. Opposite quaternions have no one arc between them; the start is returned.
+        q and -q are one rotation but two points of the sphere: with the wrong one of them the arc
+        is the long way round. Opposite quaternions have no one arc between them; the start is
+        returned.
 
     Reference: Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985.
     """
@@ -288,7 +329,8 @@ def great_circle(
 def slerp(
     q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float
 ) -> Float[np.ndarray, "4"]:
-    """Return the unit quaternion at the fraction t of the shortest turn from one rotation to the other.
+    """Return the unit quaternion at the fraction t of the shortest turn from one rotation to the
+    other.
 
     Args:
         q_start: Unit quaternion (w, x, y, z).
@@ -296,11 +338,19 @@ def slerp(
         t: 0 at the start, 1 at the end; the turn has constant speed.
 
     Note:
-        Half a turn can go either way round; the way that the signs of the two quaternions give is taken.
+        Half a turn can go either way round; the way that the signs of the two quaternions give is
+        taken.
 
     Examples:
-        >>> q_start, q_end = np.array([1.0, 0.0, 0.0, 0.0]), quaternion_from_matrix(rotation_about("z", 0.8))
-        >>> bool(np.allclose(matrix_from_quaternion(slerp(q_start, q_end, 0.25)), rotation_about("z", 0.2)))
+        >>> q_start, q_end = (
+        ...     np.array([1.0, 0.0, 0.0, 0.0]),
+        ...     quaternion_from_matrix(rotation_about("z", 0.8)),
+        ... )
+        >>> bool(
+        ...     np.allclose(
+        ...         matrix_from_quaternion(slerp(q_start, q_end, 0.25)), rotation_about("z", 0.2)
+        ...     )
+        ... )
         True
     """
     return great_circle(q_start, q_end if q_start @ q_end >= 0 else -q_end, t)

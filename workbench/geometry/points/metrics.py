@@ -1,7 +1,8 @@
-"""Distances between points of a space, among them some that are no metrics; the scatter that Mahalanobis' is made of; rms.
+"""Distances between points of a space, among them some that are no metrics; the scatter that
+Mahalanobis' is made of; rms.
 
-Reference: Deza and Deza, Encyclopedia of distances, 4th ed., 2016, chapters 1, 17 and 19; Mahalanobis, On the generalised
-distance in statistics, 1936.
+Reference: Deza and Deza, Encyclopedia of distances, 4th ed., 2016, chapters 1, 17 and 19;
+Mahalanobis, On the generalised distance in statistics, 1936.
 """
 
 from collections.abc import Callable
@@ -22,12 +23,14 @@ Covariance = Float[np.ndarray, "d d"]
 def distance_of(
     metric: Metric, *, order: float = 2.0, covariance: Covariance | None = None
 ) -> Distance:
-    """Return the function that gives the distances of points a and b, row by row, whichever of them is a single row.
+    """Return the function that gives the distances of points a and b, row by row, whichever of them
+    is a single row.
 
     Args:
-        metric: Which one. `p` is (sum |x|^p)^(1/p), `p-sum` the same without the root, `squared` the square of Euclid's,
-            `cosine` one minus the cosine of the angle at the origin.
-        order: The exponent of `p` and `p-sum`, above 0. Below 1 `p` is no metric, above 1 `p-sum` is none.
+        metric: Which one. `p` is (sum |x|^p)^(1/p), `p-sum` the same without the root, `squared`
+            the square of Euclid's, `cosine` one minus the cosine of the angle at the origin.
+        order: The exponent of `p` and `p-sum`, above 0. Below 1 `p` is no metric, above 1 `p-sum`
+            is none.
         covariance: For `mahalanobis`, positive definite; the identity where it is left out.
     """
     match metric:
@@ -62,7 +65,8 @@ def cosine_distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 def mahalanobis(
     p: Points, mean: Float[np.ndarray, " d"], covariance: Covariance
 ) -> Float[np.ndarray, " n"]:
-    """Return the distance of every point from the mean in standard deviations along its direction, sqrt(v^T C^-1 v).
+    """Return the distance of every point from the mean in standard deviations along its direction,
+    sqrt(v^T C^-1 v).
 
     Args:
         p: Points.
@@ -88,12 +92,14 @@ def rms(values: Float[np.ndarray, "*n"]) -> float:
         >>> rms(np.array([3.0, 4.0, 0.0, 0.0]))
         2.5
     """
-    # not values @ values: BLAS wakes its threads for a long dot product, which takes 300 times as long
+    # not values @ values: BLAS wakes its threads for a long dot product, which takes 300 times as
+    # long
     return float(np.sqrt(np.mean(values * values))) if len(values) else float("nan")
 
 
 def whitening(covariance: Covariance) -> Covariance:
-    """Return the W with W C W^T = I that is lower triangular: W v has the length of v in standard deviations.
+    """Return the W with W C W^T = I that is lower triangular: W v has the length of v in standard
+    deviations.
 
     Raises:
         ValueError: If the covariance is not positive definite.
@@ -108,15 +114,19 @@ def whitening(covariance: Covariance) -> Covariance:
 
 
 def radius_of_share(share: float, dims: int) -> float:
-    """Return how far from the mean so large a share of a normal distribution lies, in standard deviations.
+    """Return how far from the mean so large a share of a normal distribution lies, in standard
+    deviations.
 
-    The squared distance has the chi-squared distribution with as many degrees of freedom as dimensions.
+    The squared distance has the chi-squared distribution with as many degrees of freedom as
+    dimensions.
     """
     return float(np.sqrt(2 * scipy.special.gammaincinv(dims / 2, share)))
 
 
 def share_within(radius: float, dims: int) -> float:
-    """Return the share of a normal distribution within so many standard deviations of its mean (Mahalanobis)."""
+    """Return the share of a normal distribution within so many standard deviations of its mean
+    (Mahalanobis).
+    """
     return float(scipy.special.gammainc(dims / 2, radius**2 / 2))
 
 
@@ -130,11 +140,13 @@ def mean_and_covariance(p: Points) -> tuple[Float[np.ndarray, " d"], Covariance]
 def robust_mean_and_covariance(
     p: Points, rng: np.random.Generator, *, starts: int = 30, steps: int = 20
 ) -> tuple[Float[np.ndarray, " d"], Covariance]:
-    """Return mean and covariance of the half of the points with the smallest covariance determinant (MCD).
+    """Return mean and covariance of the half of the points with the smallest covariance determinant
+    (MCD).
 
-    Every start draws d + 1 points; a C-step takes the half of all points that is nearest by Mahalanobis, and never raises
-    the determinant. The result is scaled so that the median distance is that of a normal distribution; mean
-    and covariance of all points within its 97.5 % radius are returned.
+    Every start draws d + 1 points; a C-step takes the half of all points that is nearest by
+    Mahalanobis, and never raises the determinant. The result is scaled so that the median distance
+    is that of a normal distribution; mean and covariance of all points within its 97.5 % radius are
+    returned.
 
     Args:
         p: Points, some more than 2 d.
@@ -145,7 +157,8 @@ def robust_mean_and_covariance(
     Raises:
         ValueError: If half of the points lie in a hyperplane.
 
-    Reference: Rousseeuw and Van Driessen, A fast algorithm for the minimum covariance determinant estimator, 1999.
+    Reference: Rousseeuw and Van Driessen, A fast algorithm for the minimum covariance determinant
+    estimator, 1999.
     """
     n, d = p.shape
     half = (n + d + 1) // 2
@@ -176,7 +189,8 @@ def robust_mean_and_covariance(
 def triangle_excess(
     distance: Distance, a: Points, b: Points, c: Points
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
-    """Return by how much the way from a to c is longer than the one over b, and the three distances ab, bc, ac.
+    """Return by how much the way from a to c is longer than the one over b, and the three distances
+    ab, bc, ac.
 
     Args:
         distance: A function of two arrays of points.

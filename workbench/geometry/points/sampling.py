@@ -1,7 +1,9 @@
-"""Points and lines drawn by chance, and what can be counted with them: volumes by hits, areas by crossings.
+"""Points and lines drawn by chance, and what can be counted with them: volumes by hits, areas by
+crossings.
 
-Reference: Pharr, Jakob and Humphreys, Physically Based Rendering, 4th ed., 2.1 (Monte Carlo), 8.5 (stratified), 8.7
-(Sobol), A.5.1 (triangles). Santalo, Integral Geometry and Geometric Probability, 1976, chapter 12: lines in space.
+Reference: Pharr, Jakob and Humphreys, Physically Based Rendering, 4th ed., 2.1 (Monte Carlo), 8.5
+(stratified), 8.7 (Sobol), A.5.1 (triangles). Santalo, Integral Geometry and Geometric Probability,
+1976, chapter 12: lines in space.
 """
 
 from typing import Literal
@@ -26,7 +28,8 @@ _SOBOL = (
 def points_on_faces(
     p: Points, faces: Faces, u: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return points on a mesh, one for each row of three numbers from 0 to 1: spread evenly where those are.
+    """Return points on a mesh, one for each row of three numbers from 0 to 1: spread evenly where
+    those are.
 
     Args:
         p: Vertices, m.
@@ -43,8 +46,8 @@ def places_on_faces(
 ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
     """Return on which faces such points lie, and the shares of the corners in each point.
 
-    The first number picks the face, each face as likely as it is large. With s the square root of the second and t the
-    third, the point is (1 - s) a + s (1 - t) b + s t c.
+    The first number picks the face, each face as likely as it is large. With s the square root of
+    the second and t the third, the point is (1 - s) a + s (1 - t) b + s t c.
 
     Args:
         p: Vertices, m.
@@ -66,10 +69,11 @@ def unit_points(
     """Return points in the unit cube.
 
     Args:
-        count: How many. Stratified: the nearest power k^d, one point in each of so many equal cubes. Sobol: the nearest
-            power of two, as the sequence is even at these lengths only.
+        count: How many. Stratified: the nearest power k^d, one point in each of so many equal
+            cubes. Sobol: the nearest power of two, as the sequence is even at these lengths only.
         dimension: d.
-        draw: How: each on its own, one in each cube, or the sequence of Sobol, its binary digits flipped by chance.
+        draw: How: each on its own, one in each cube, or the sequence of Sobol, its binary digits
+            flipped by chance.
         rng: Chance.
 
     Raises:
@@ -90,8 +94,8 @@ def unit_points(
 def sobol(count: int, dimension: int) -> Int[np.ndarray, "n d"]:
     """Return the first points of the sequence of Sobol, times 2^32.
 
-    Any 2^k of them that follow each other from a multiple of 2^k on lie one in each of 2^k equal boxes, however the cube
-    is cut into boxes by powers of two along x, y or both.
+    Any 2^k of them that follow each other from a multiple of 2^k on lie one in each of 2^k equal
+    boxes, however the cube is cut into boxes by powers of two along x, y or both.
 
     Args:
         count: How many points.
@@ -100,8 +104,8 @@ def sobol(count: int, dimension: int) -> Int[np.ndarray, "n d"]:
     Raises:
         ValueError: If there are more dimensions.
 
-    Reference: Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci. Comput. 30,
-    2008: the recurrence of the direction numbers and its first values.
+    Reference: Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections,
+    SIAM J. Sci. Comput. 30, 2008: the recurrence of the direction numbers and its first values.
     """
     if dimension > len(_SOBOL):
         raise ValueError(f"{dimension} dimensions; direction numbers are listed for {len(_SOBOL)}")
@@ -120,7 +124,8 @@ def sobol(count: int, dimension: int) -> Int[np.ndarray, "n d"]:
 
 
 def volume_by_chance(inside: Bool[np.ndarray, " n"], box_volume: float) -> tuple[float, float]:
-    """Return the volume of which these points of a box lie inside, and its standard error, both in m^3.
+    """Return the volume of which these points of a box lie inside, and its standard error, both in
+    m^3.
 
     The share of hits is binomial: its variance is share (1 - share) / n.
 
@@ -153,7 +158,8 @@ def ball_share(dimension: int) -> float:
 def lines_through_ball(
     count: int, centre: Float[np.ndarray, "3"], radius: float, rng: np.random.Generator
 ) -> Float[np.ndarray, "n 2 3"]:
-    """Return the ends of chords of a ball that stand for lines in space, all lines that meet it being as likely, m.
+    """Return the ends of chords of a ball that stand for lines in space, all lines that meet it
+    being as likely, m.
 
     Two points drawn evenly on the sphere do it.
 
@@ -170,7 +176,8 @@ def lines_through_ball(
 def line_crossings(
     p: Points, faces: Faces, ends: Float[np.ndarray, "n 2 3"]
 ) -> tuple[Int[np.ndarray, " c"], Float[np.ndarray, "c 3"]]:
-    """Return which segments cross the mesh, a segment once for each face that it crosses, and where, m.
+    """Return which segments cross the mesh, a segment once for each face that it crosses, and
+    where, m.
 
     A face is looked at closely only by lines that meet the ball around it.
 
@@ -201,7 +208,9 @@ def line_crossings(
 
 
 def _met(start: np.ndarray, along: np.ndarray, a: np.ndarray, b: np.ndarray, c: np.ndarray):
-    """Return where segments meet triangles, pair by pair, and whether they do (Moeller and Trumbore 1997)."""
+    """Return where segments meet triangles, pair by pair, and whether they do (Moeller and Trumbore
+    1997).
+    """
     ab, ac, to_start = b - a, c - a, start - a
     h, q = np.cross(along, ac), np.cross(to_start, ab)
     det = np.einsum("nx,nx->n", ab, h)

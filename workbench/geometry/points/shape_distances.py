@@ -1,7 +1,9 @@
-"""Distances between two clouds that match each point to the nearest of the other cloud, each by its full name.
+"""Distances between two clouds that match each point to the nearest of the other cloud, each by its
+full name.
 
-All compare p_a (n, 3) with p_b (m, 3), metres, one frame, in any order of rows; the mean square of index pairs is the
-exception, and here to be seen failing. Distances that match one to one are in `workbench.algorithms.transport`.
+All compare p_a (n, 3) with p_b (m, 3), metres, one frame, in any order of rows; the mean square of
+index pairs is the exception, and here to be seen failing. Distances that match one to one are in
+`workbench.algorithms.transport`.
 """
 
 from collections.abc import Callable
@@ -53,9 +55,11 @@ class Nearest:
         return float(max(self.d_a.max(), self.d_b.max()))
 
     def f_score(self, max_distance: float) -> float:
-        """Return the harmonic mean of the shares of a and of b that lie within max_distance (m) of the other cloud.
+        """Return the harmonic mean of the shares of a and of b that lie within max_distance (m) of
+        the other cloud.
 
-        Reference: Knapitsch et al., Tanks and Temples, 2017, section 3.3: precision, recall and their harmonic mean.
+        Reference: Knapitsch et al., Tanks and Temples, 2017, section 3.3: precision, recall and
+        their harmonic mean.
         """
         precision, recall = (
             float(np.mean(self.d_a <= max_distance)),
@@ -92,8 +96,8 @@ def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> f
         p_b: Points in the same frame; the counts may differ.
 
     Returns:
-        (1 / n) sum_i min_j |a_i - b_j|^2, in square metres. It is 0 when every point of a is a point of b, however much
-        of b has no point of a near it.
+        (1 / n) sum_i min_j |a_i - b_j|^2, in square metres. It is 0 when every point of a is a
+        point of b, however much of b has no point of a near it.
 
     Raises:
         ValueError: If a cloud is empty or holds coordinates that are not finite.
@@ -111,13 +115,15 @@ def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> flo
         p_b: Points in the same frame; the counts may differ.
 
     Returns:
-        (1 / n) sum_i min_j |a_i - b_j|^2 + (1 / m) sum_j min_i |a_i - b_j|^2, in square metres. Symmetric, not negative,
-        0 when each point of either cloud is a point of the other; no metric, since the triangle inequality fails.
+        (1 / n) sum_i min_j |a_i - b_j|^2 + (1 / m) sum_j min_i |a_i - b_j|^2, in square metres.
+        Symmetric, not negative, 0 when each point of either cloud is a point of the other; no
+        metric, since the triangle inequality fails.
 
     Raises:
         ValueError: If a cloud is empty or holds coordinates that are not finite.
 
-    Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1, with means in place of sums.
+    Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1, with means in
+    place of sums.
 
     Examples:
         >>> p_a = np.array([[0.0, 0, 0], [1, 0, 0]])
@@ -130,7 +136,8 @@ def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> flo
 def chamfer_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
     """Return the gradient of `chamfer` with respect to p_a, metres.
 
-    Where a point has several nearest neighbours the distance has a kink, and the gradient is that of the one taken.
+    Where a point has several nearest neighbours the distance has a kink, and the gradient is that
+    of the one taken.
     """
     near = nearest_both_ways(p_a, p_b)
     slope = 2 / len(p_a) * (p_a - p_b[near.a_to_b])
@@ -148,7 +155,8 @@ def one_sided_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
 
 
 def hausdorff(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the Hausdorff distance: the largest distance from a point of either cloud to the nearest of the other, metres.
+    """Return the Hausdorff distance: the largest distance from a point of either cloud to the
+    nearest of the other, metres.
 
     Raises:
         ValueError: As `chamfer`.
@@ -211,7 +219,8 @@ def _query(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the indices and distances of the nearest points.
 
-    Large clouds are visited in the order of their own tree, so that neighbouring queries touch the same leaves.
+    Large clouds are visited in the order of their own tree, so that neighbouring queries touch the
+    same leaves.
     """
     if len(p) < _LARGE:
         d, indices = tree.query(p)

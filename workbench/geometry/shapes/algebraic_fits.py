@@ -1,8 +1,9 @@
-"""Circles in closed form: the algebraic fits of Kåsa, Pratt, Taubin and Al-Sharadqah and Chernov, for many sets at once.
+"""Circles in closed form: the algebraic fits of Kåsa, Pratt, Taubin and Al-Sharadqah and Chernov,
+for many sets at once.
 
-Each minimises the sum of squares of A (x² + y²) + B x + C y + D, which is 0 on the circle. All zeros must be forbidden, and
-the fits differ in how: A = 1 (Kåsa), B² + C² - 4 A D = 1 (Pratt), the mean squared slope 1 (Taubin), or the constraint
-whose bias cancels (Hyper).
+Each minimises the sum of squares of A (x² + y²) + B x + C y + D, which is 0 on the circle. All
+zeros must be forbidden, and the fits differ in how: A = 1 (Kåsa), B² + C² - 4 A D = 1 (Pratt), the
+mean squared slope 1 (Taubin), or the constraint whose bias cancels (Hyper).
 """
 
 from typing import Literal, get_args
@@ -17,7 +18,8 @@ ALGEBRAIC: tuple[Algebraic, ...] = get_args(Algebraic)
 def fit_algebraic(
     p: Float[np.ndarray, "*k n d"], kind: Algebraic = "Taubin"
 ) -> Float[np.ndarray, "*k c"]:
-    """Return the circle (x, y, r), or with d = 3 the sphere, whose algebraic distances have the least squares, metres.
+    """Return the circle (x, y, r), or with d = 3 the sphere, whose algebraic distances have the
+    least squares, metres.
 
     Args:
         p: Points, or several sets of as many.
@@ -29,8 +31,8 @@ def fit_algebraic(
 
     Note:
         Points on a line give the others a very large circle, or numbers that are not finite.
-    Reference: Al-Sharadqah and Chernov, Error analysis for circle fitting algorithms, 2009, sections 4, 5, 7 and 8;
-        Chernov, Circular and linear regression, 2010, chapter 5.
+    Reference: Al-Sharadqah and Chernov, Error analysis for circle fitting algorithms, 2009,
+        sections 4, 5, 7 and 8; Chernov, Circular and linear regression, 2010, chapter 5.
     """
     n, d = p.shape[-2:]
     if n <= d:

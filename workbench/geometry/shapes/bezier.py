@@ -1,9 +1,12 @@
-"""Bezier patches: points on them by Bernstein polynomials or by de Casteljau's repeated halving, polynomial or rational.
+"""Bezier patches: points on them by Bernstein polynomials or by de Casteljau's repeated halving,
+polynomial or rational.
 
-A rational patch is a polynomial one in homogeneous coordinates (w x, w y, w z, w), divided by its last.
+A rational patch is a polynomial one in homogeneous coordinates (w x, w y, w z, w), divided by its
+last.
 
-Reference: Farin, Curves and Surfaces for CAGD, 5th ed., 2002: 4.1 (de Casteljau), 5.4 (degree elevation), 12.1 (conics),
-14.1 (patches). Piegl and Tiller, The NURBS Book, 2nd ed., 1997, 7.5 (circles) and 8.3 (surfaces of revolution).
+Reference: Farin, Curves and Surfaces for CAGD, 5th ed., 2002: 4.1 (de Casteljau), 5.4 (degree
+elevation), 12.1 (conics), 14.1 (patches). Piegl and Tiller, The NURBS Book, 2nd ed., 1997, 7.5
+(circles) and 8.3 (surfaces of revolution).
 """
 
 from math import comb
@@ -41,7 +44,8 @@ def bezier_patch(
 def de_casteljau(
     control: Float[np.ndarray, "k d"], t: float
 ) -> tuple[Float[np.ndarray, "_ d"], ...]:
-    """Return the control points of a curve, then the points that divide their legs at t, and so on to the one on the curve.
+    """Return the control points of a curve, then the points that divide their legs at t, and so on
+    to the one on the curve.
 
     Args:
         control: The control points, one row each.
@@ -58,7 +62,9 @@ def de_casteljau(
 
 
 def raised(control: Float[np.ndarray, "3 ..."]) -> Float[np.ndarray, "4 ..."]:
-    """Return the four control points of the cubic that is the same curve as a quadratic of three (Farin, 5.4)."""
+    """Return the four control points of the cubic that is the same curve as a quadratic of three
+    (Farin, 5.4).
+    """
     a, b, c = control
     return np.stack([a, (a + 2 * b) / 3, (2 * b + c) / 3, c])
 
@@ -72,8 +78,8 @@ def quarter_circles(rational: bool) -> Float[np.ndarray, "4 k 3"]:
     """Return the unit circle as four arcs, each some control points (w x, w y, w).
 
     Args:
-        rational: Whether the arcs are exact, quadratic with three control points; else they are cubic polynomials with
-            four, which meet the circle at the ends and in the middle.
+        rational: Whether the arcs are exact, quadratic with three control points; else they are
+            cubic polynomials with four, which meet the circle at the ends and in the middle.
     """
     if rational:
         w = np.sqrt(0.5)
@@ -89,7 +95,8 @@ def quarter_circles(rational: bool) -> Float[np.ndarray, "4 k 3"]:
 
 
 def torus_patches(ring: float, tube: float, rational: bool) -> Float[np.ndarray, "16 k k 4"]:
-    """Return a torus around z as 16 patches, control points (w x, w y, w z, w); u goes around z, v around the tube.
+    """Return a torus around z as 16 patches, control points (w x, w y, w z, w); u goes around z, v
+    around the tube.
 
     Args:
         ring: From the origin to the middle of the tube, m.

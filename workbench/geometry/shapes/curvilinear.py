@@ -1,9 +1,12 @@
-"""Points of space in cylindrical and spherical coordinates, and back, with what a cell of them holds.
+"""Points of space in cylindrical and spherical coordinates, and back, with what a cell of them
+holds.
 
-Spherical coordinates are (r, polar, azimuth), cylindrical ones (rho, azimuth, z): the polar angle from +Z in [0, pi], the
-azimuth from +X towards +Y in (-pi, pi], 0 on the axis where it has no meaning. Metres and radians.
+Spherical coordinates are (r, polar, azimuth), cylindrical ones (rho, azimuth, z): the polar angle
+from +Z in [0, pi], the azimuth from +X towards +Y in (-pi, pi], 0 on the axis where it has no
+meaning. Metres and radians.
 
-Reference: ISO 80000-2:2019, 2-17.2 and 2-17.3. Weisstein, MathWorld, "Spherical Coordinates", for what others call them.
+Reference: ISO 80000-2:2019, 2-17.2 and 2-17.3. Weisstein, MathWorld, "Spherical Coordinates", for
+what others call them.
 """
 
 from collections.abc import Callable, Mapping
@@ -24,7 +27,9 @@ def spherical_from_cartesian(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "
     """Return (r, polar, azimuth) of points, exact near the axis too; the origin is (0, 0, 0).
 
     Examples:
-        >>> spherical_from_cartesian(np.array([[0.0, 2.0, 0.0], [0.0, 0.0, -1.0]])).round(3).tolist()
+        >>> spherical_from_cartesian(np.array([[0.0, 2.0, 0.0], [0.0, 0.0, -1.0]])).round(
+        ...     3
+        ... ).tolist()
         [[2.0, 1.571, 1.571], [1.0, 3.142, 0.0]]
     """
     c = np.empty(p.shape)
@@ -74,8 +79,10 @@ class Coordinates:
         angles: Which of them are angles.
         of_points: Takes points (n, 3) to coordinates (n, 3).
         to_points: Takes coordinates to points.
-        density: Takes coordinates to the volume of a small cell over the product of its three sides.
-        solid: The lowest and highest coordinates of a solid about the origin, 1 m from it to its sides.
+        density: Takes coordinates to the volume of a small cell over the product of its three
+            sides.
+        solid: The lowest and highest coordinates of a solid about the origin, 1 m from it to its
+            sides.
         volume: Of that solid, m^3.
     """
 
@@ -122,7 +129,8 @@ SYSTEMS: Mapping[System, Coordinates] = {
 def cell_edges(
     system: Coordinates, low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"], pieces: int = 8
 ) -> Float[np.ndarray, "n 2 3"]:
-    """Return the twelve edges of the cell between coordinates as segments, bent where an angle changes along them.
+    """Return the twelve edges of the cell between coordinates as segments, bent where an angle
+    changes along them.
 
     Args:
         system: Whose coordinates.
@@ -141,7 +149,8 @@ def cell_edges(
 def volume_of_cells(
     system: Coordinates, low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"], cells: int = 24
 ) -> tuple[float, float]:
-    """Return the volume between coordinates as a sum over cells, m^3, and the sum of what their sides multiply to alone.
+    """Return the volume between coordinates as a sum over cells, m^3, and the sum of what their
+    sides multiply to alone.
 
     Args:
         system: Whose coordinates.
@@ -160,8 +169,9 @@ def volume_of_cells(
 def read_as(numbers: Float[np.ndarray, "3"], convention: Convention) -> Float[np.ndarray, "3"]:
     """Return the (r, polar, azimuth) that a radius and two angles mean.
 
-    ISO: (r, polar, azimuth). Mathematics: (r, azimuth, polar), as MathWorld and many textbooks have it. Elevation:
-    (r, azimuth, elevation), the last from the x-y plane upwards, as in astronomy and in MATLAB's `sph2cart`.
+    ISO: (r, polar, azimuth). Mathematics: (r, azimuth, polar), as MathWorld and many textbooks have
+    it. Elevation: (r, azimuth, elevation), the last from the x-y plane upwards, as in astronomy and
+    in MATLAB's `sph2cart`.
 
     Args:
         numbers: In the order of the convention.
@@ -174,7 +184,9 @@ def read_as(numbers: Float[np.ndarray, "3"], convention: Convention) -> Float[np
 
 
 def written_as(c: Float[np.ndarray, "3"], convention: Convention) -> Float[np.ndarray, "3"]:
-    """Return the three numbers that (r, polar, azimuth) are in a convention: what `read_as` undoes."""
+    """Return the three numbers that (r, polar, azimuth) are in a convention: what `read_as`
+    undoes.
+    """
     r, polar, azimuth = c
     if convention == "ISO":
         return np.array([r, polar, azimuth])

@@ -1,8 +1,10 @@
-"""Cylinders in space: how far points are from them, and how these distances change with the five numbers that matter.
+"""Cylinders in space: how far points are from them, and how these distances change with the five
+numbers that matter.
 
-Convention: (x, y, z, u, v, w, r): a point of the axis, its unit direction, and the radius, metres. These are seven numbers
-for five unknowns: sliding the point along the axis, or scaling the direction, changes nothing. Small steps are therefore
-five: two shifts across the axis (metres), two tilts of it (radians), and the change of radius.
+Convention: (x, y, z, u, v, w, r): a point of the axis, its unit direction, and the radius, metres.
+These are seven numbers for five unknowns: sliding the point along the axis, or scaling the
+direction, changes nothing. Small steps are therefore five: two shifts across the axis (metres), two
+tilts of it (radians), and the change of radius.
 """
 
 import numpy as np
@@ -14,13 +16,16 @@ from workbench.geometry.motions import across
 def linearise_cylinder(
     cylinder: Float[np.ndarray, "*k 7"], p: Float[np.ndarray, "*m n 3"]
 ) -> tuple[Float[np.ndarray, "*r n"], Float[np.ndarray, "*r n 5"]]:
-    """Return the signed distances of points from a cylinder, metres, negative inside, and their slopes by a small step.
+    """Return the signed distances of points from a cylinder, metres, negative inside, and their
+    slopes by a small step.
 
     Args:
         cylinder: One or several.
-        p: The points, the same for all of them or a set for each. One on the axis has no slope but that by the radius.
+        p: The points, the same for all of them or a set for each. One on the axis has no slope but
+            that by the radius.
 
-    Reference: Lukács, Martin and Marshall, Faithful least-squares fitting of spheres, cylinders, cones and tori, 1998.
+    Reference: Lukács, Martin and Marshall, Faithful least-squares fitting of spheres, cylinders,
+    cones and tori, 1998.
     """
     n_axis = cylinder[..., 3:6]
     u, v = across(n_axis)

@@ -1,10 +1,12 @@
-"""Places on a globe by latitude and longitude: distances, ways and means on a sphere, and latitudes of a flattened one.
+"""Places on a globe by latitude and longitude: distances, ways and means on a sphere, and latitudes
+of a flattened one.
 
-A place is (latitude, longitude) in degrees, north and east positive. A globe's axes: +Z to the north pole, +X to latitude 0,
-longitude 0.
+A place is (latitude, longitude) in degrees, north and east positive. A globe's axes: +Z to the
+north pole, +X to latitude 0, longitude 0.
 
-Reference: Veness, Movable Type Scripts, "Calculate distance, bearing and more between latitude/longitude points". Snyder,
-Map Projections: A Working Manual, USGS 1395, 1987, eq. 3-28 and 5-3. Torge, Geodesy, 3rd ed., 4.1.
+Reference: Veness, Movable Type Scripts, "Calculate distance, bearing and more between
+latitude/longitude points". Snyder, Map Projections: A Working Manual, USGS 1395, 1987, eq. 3-28 and
+5-3. Torge, Geodesy, 3rd ed., 4.1.
 """
 
 from dataclasses import dataclass
@@ -26,7 +28,9 @@ def units_of_places(places: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "n 3"
 
 
 def places_of_units(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
-    """Return the places below vectors from the centre, of any length but 0; longitudes in (-180, 180]."""
+    """Return the places below vectors from the centre, of any length but 0; longitudes in (-180,
+    180].
+    """
     x, y, z = p.T
     return np.degrees(np.column_stack([np.arctan2(z, np.hypot(x, y)), np.arctan2(y, x)]))
 
@@ -34,7 +38,8 @@ def places_of_units(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
 def great_circle_distance(
     a: Float[np.ndarray, "n 2"], b: Float[np.ndarray, "n 2"], radius: float = EARTH_RADIUS
 ) -> Float[np.ndarray, " n"]:
-    """Return the shortest ways along a sphere from places to others in the same rows, in the unit of the radius.
+    """Return the shortest ways along a sphere from places to others in the same rows, in the unit
+    of the radius.
 
     It is exact for a millimetre and for antipodes alike.
 
@@ -78,7 +83,8 @@ def great_circle_places(
 
 
 def mean_place(places: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2"]:
-    """Return the place below the mean of the unit vectors: the middle of places, on whatever side of the date line.
+    """Return the place below the mean of the unit vectors: the middle of places, on whatever side
+    of the date line.
 
     Raises:
         ValueError: If the vectors cancel, as for antipodes.
@@ -98,7 +104,9 @@ def parallel(polar: float, pieces: int = 72) -> Float[np.ndarray, "n 2 3"]:
 
 
 def graticule(degrees: int) -> Float[np.ndarray, "n 2 3"]:
-    """Return the unit sphere's parallels every so many degrees, and its meridians every twice as many."""
+    """Return the unit sphere's parallels every so many degrees, and its meridians every twice as
+    many.
+    """
     parallels = [parallel(polar) for polar in np.radians(np.arange(degrees, 180, degrees))]
     latitude = np.linspace(-90.0, 90.0, 37)
     meridians = [
@@ -110,13 +118,16 @@ def graticule(degrees: int) -> Float[np.ndarray, "n 2 3"]:
 
 @dataclass(frozen=True)
 class Ellipsoid:
-    """A sphere flattened at its poles: its radius at the equator, metres, and the share by which the poles are nearer."""
+    """A sphere flattened at its poles: its radius at the equator, metres, and the share by which
+    the poles are nearer.
+    """
 
     equator: float
     flattening: float
 
     def meridian(self, latitude: Float[np.ndarray, " n"]) -> Float[np.ndarray, "n 2"]:
-        """Return (rho, z) of the points whose normals rise by these latitudes from the equator's plane, radians.
+        """Return (rho, z) of the points whose normals rise by these latitudes from the equator's
+        plane, radians.
 
         Reference: Torge, eq. 4.13 and 4.15.
         """
@@ -126,7 +137,8 @@ class Ellipsoid:
         return self.equator * np.column_stack([c / length, b * b * s / length])
 
     def geocentric(self, latitude: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """Return at which angles from the equator's plane these points are seen from the centre, radians.
+        """Return at which angles from the equator's plane these points are seen from the centre,
+        radians.
 
         Reference: Snyder, eq. 3-28.
         """

@@ -1,7 +1,9 @@
-"""Lines in the plane and planes in space: from the fewest points, from many, and how far points are from them.
+"""Lines in the plane and planes in space: from the fewest points, from many, and how far points are
+from them.
 
-Convention: a line is (a, b, c) and a plane (a, b, c, d), a unit normal followed by an offset in metres; a point is on
-it where `p @ normal + offset = 0`, and the value of that sum is its signed distance.
+Convention: a line is (a, b, c) and a plane (a, b, c, d), a unit normal followed by an offset in
+metres; a point is on it where `p @ normal + offset = 0`, and the value of that sum is its signed
+distance.
 """
 
 import numpy as np
@@ -11,7 +13,8 @@ _FLAT = 1e-9
 
 
 def line_from_points(p: Float[np.ndarray, "*k 2 2"]) -> Float[np.ndarray, "*k 3"]:
-    """Return the line through each pair of points, metres; its normal is the direction turned left by a right angle.
+    """Return the line through each pair of points, metres; its normal is the direction turned left
+    by a right angle.
 
     Points that coincide give a row of NaN: every line through them fits.
     """
@@ -21,10 +24,11 @@ def line_from_points(p: Float[np.ndarray, "*k 2 2"]) -> Float[np.ndarray, "*k 3"
 
 
 def plane_from_points(p: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 4"]:
-    """Return the plane through each three points, metres; they turn counter-clockwise seen from where its normal points.
+    """Return the plane through each three points, metres; they turn counter-clockwise seen from
+    where its normal points.
 
-    Points on one line give a row of NaN: a whole pencil of planes fits. They count as such when the triangle's area
-    is below a billionth of its squared longest side.
+    Points on one line give a row of NaN: a whole pencil of planes fits. They count as such when the
+    triangle's area is below a billionth of its squared longest side.
 
     Examples:
         >>> plane_from_points(np.array([[0.0, 0, 2], [1, 0, 2], [0, 1, 2]])).tolist()  # z = 2
@@ -39,10 +43,11 @@ def plane_from_points(p: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 4
 def fit_hyperplane(
     p: Float[np.ndarray, "n d"], weights: Float[np.ndarray, " n"] | None = None
 ) -> Float[np.ndarray, " d+1"]:
-    """Return the line (d = 2) or plane (d = 3) with the smallest weighted sum of squared distances, metres.
+    """Return the line (d = 2) or plane (d = 3) with the smallest weighted sum of squared distances,
+    metres.
 
-    The distances are perpendicular (total least squares), so the answer turns with the points. The sign of the normal is
-    such that its largest entry is positive.
+    The distances are perpendicular (total least squares), so the answer turns with the points. The
+    sign of the normal is such that its largest entry is positive.
 
     Args:
         p: Points (n, 2) or (n, 3), metres.
@@ -59,7 +64,8 @@ def fit_hyperplane(
     weights = np.ones(len(p)) if weights is None else weights
     if np.count_nonzero(weights > 0.0) < p.shape[1]:
         raise ValueError(
-            f"{p.shape[1]} points with a positive weight are needed, got {np.count_nonzero(weights > 0.0)}"
+            f"{p.shape[1]} points with a positive weight are needed, got"
+            f" {np.count_nonzero(weights > 0.0)}"
         )
     center = weights @ p / weights.sum()
     v = np.ascontiguousarray((p - center).T)
@@ -69,15 +75,17 @@ def fit_hyperplane(
 
 
 def regression_line(p: Float[np.ndarray, "n 2"], on: int) -> Float[np.ndarray, "3"]:
-    """Return the line whose distances from points along one axis have the least squares: ordinary regression, metres.
+    """Return the line whose distances from points along one axis have the least squares: ordinary
+    regression, metres.
 
     Args:
         p: Points, not all at one place of the axis that is taken as exact.
-        on: The column that is taken as exact: 0 makes upright distances small (y on x), 1 level ones.
+        on: The column that is taken as exact: 0 makes upright distances small (y on x), 1 level
+            ones.
 
     Note:
-        Errors in that column make the line too flat against its axis, by v / (v + σ²) in the slope, v being the variance of
-        the true values there.
+        Errors in that column make the line too flat against its axis, by v / (v + σ²) in the slope,
+        v being the variance of the true values there.
     Reference: Fuller, Measurement error models, 1987, section 1.1.
     """
     q = p - p.mean(axis=0)
@@ -111,7 +119,8 @@ def hyperplane_distances(
 def angle_between_planes(
     plane_a: Float[np.ndarray, " d"], plane_b: Float[np.ndarray, " d"]
 ) -> float:
-    """Return the angle between two planes (or two lines), from 0 to a right angle, radians; signs do not matter.
+    """Return the angle between two planes (or two lines), from 0 to a right angle, radians; signs
+    do not matter.
 
     Examples:
         >>> floor, wall = np.array([0.0, 0.0, 1.0, 0.0]), np.array([-1.0, 0.0, 0.0, 2.0])

@@ -1,9 +1,12 @@
-"""Points and lines of the plane in homogeneous coordinates: where lines meet, which line joins points, what maps keep.
+"""Points and lines of the plane in homogeneous coordinates: where lines meet, which line joins
+points, what maps keep.
 
-A point (x, y, w) stands for (x / w, y / w), and with w = 0 for a direction: a point at infinity. A line (a, b, c) holds the
-points with a x + b y + c w = 0. All are the same up to a factor other than 0.
+A point (x, y, w) stands for (x / w, y / w), and with w = 0 for a direction: a point at infinity. A
+line (a, b, c) holds the points with a x + b y + c w = 0. All are the same up to a factor other than
+0.
 
-Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 2.2 and 2.3, eq. 2.2, 2.4 and 2.6.
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 2.2 and 2.3, eq. 2.2, 2.4 and
+2.6.
 """
 
 import numpy as np
@@ -15,7 +18,8 @@ def meet(
 ) -> Float[np.ndarray, "n 3"]:
     """Return the points (x, y, w) where lines cross those in the same rows.
 
-    Parallels meet at w = 0, a line and itself give (0, 0, 0). The same product joins points by a line.
+    Parallels meet at w = 0, a line and itself give (0, 0, 0). The same product joins points by a
+    line.
 
     Examples:
         >>> meet(np.array([[1.0, 0, -2]]), np.array([[0.0, 1, -3]])).tolist()  # x = 2 and y = 3
@@ -28,12 +32,15 @@ def meet(
 def map_lines(
     H: Float[np.ndarray, "3 3"], lines: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return where a homography of points takes lines: l' = H^-T l, so that what meets still meets."""
+    """Return where a homography of points takes lines: l' = H^-T l, so that what meets still
+    meets.
+    """
     return np.linalg.solve(H.T, lines.T).T
 
 
 def cross_ratio(t: Float[np.ndarray, "4"]) -> float:
-    """Return (t3 - t1)(t4 - t2) / ((t3 - t2)(t4 - t1)) of four places along a line, which no homography changes.
+    """Return (t3 - t1)(t4 - t2) / ((t3 - t2)(t4 - t1)) of four places along a line, which no
+    homography changes.
 
     Reference: Hartley and Zisserman, 2.5, eq. 2.18, up to the order of the points.
     """
@@ -44,7 +51,8 @@ def cross_ratio(t: Float[np.ndarray, "4"]) -> float:
 def angle_between_rays(
     p_h: Float[np.ndarray, "n 3"], q_h: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, " n"]:
-    """Return the angles between homogeneous vectors whatever their factors, radians: 0 where both are the same point.
+    """Return the angles between homogeneous vectors whatever their factors, radians: 0 where both
+    are the same point.
 
     NaN where one of them is (0, 0, 0) or not finite.
     """

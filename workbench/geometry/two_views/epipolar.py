@@ -1,7 +1,7 @@
 """Relates two views of a rigid scene: the fundamental matrix, its estimates and its distances.
 
-Convention: `F` takes a pixel of the first image to its line in the second, `uv_second_h.T @ F @ uv_first_h = 0`,
-and is scaled to Frobenius norm one.
+Convention: `F` takes a pixel of the first image to its line in the second, `uv_second_h.T @ F @
+uv_first_h = 0`, and is scaled to Frobenius norm one.
 """
 
 import numpy as np
@@ -54,7 +54,8 @@ def fundamental_from_cameras(
 def epipolar_lines(
     F: Float[np.ndarray, "3 3"], uv_first: Float[np.ndarray, "n 2"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the line (a, b, c), `a u + b v + c = 0` with a unit normal, in the second image of each first pixel.
+    """Return the line (a, b, c), `a u + b v + c = 0` with a unit normal, in the second image of
+    each first pixel.
 
     A pixel at the epipole has no line; its row is NaN. For lines in the first image pass `F.T`.
     """
@@ -71,10 +72,11 @@ def sampson_distances(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
-    """Return how far, to first order and in pixels, each match must move to satisfy the epipolar constraint.
+    """Return how far, to first order and in pixels, each match must move to satisfy the epipolar
+    constraint.
 
-    The sign is that of `uv_second_h.T @ F @ uv_first_h`. Both pixels of a match share the movement. Several matrices
-    give one row each. Works in the precision of its input.
+    The sign is that of `uv_second_h.T @ F @ uv_first_h`. Both pixels of a match share the movement.
+    Several matrices give one row each. Works in the precision of its input.
 
     Args:
         F: One fundamental matrix, or k of them.
@@ -98,10 +100,12 @@ def fundamentals_from_seven(
 ) -> Float[np.ndarray, "*k 3 3 3"]:
     """Return the one or three fundamental matrices through each sample of seven matches.
 
-    The seven constraints leave a line of matrices, G + root D; its singular ones are the roots of a cubic.
+    The seven constraints leave a line of matrices, G + root D; its singular ones are the roots of a
+    cubic.
 
     Note:
-        Rows of NaN take the place of roots that are not real, and of samples whose seven constraints are not independent.
+        Rows of NaN take the place of roots that are not real, and of samples whose seven
+        constraints are not independent.
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 11.1.2.
     """
     T = normalising_similarity(np.concatenate([uv_first, uv_second]).reshape(-1, 2))
@@ -132,15 +136,16 @@ def orientation_agrees(
 ) -> Bool[np.ndarray, "*k s"]:
     """Return of each matrix whether all m matches can lie in front of both cameras, or all behind.
 
-    A match agrees when `epipole x uv_second_h` and `F @ uv_first_h` point the same way, not merely along the same line.
+    A match agrees when `epipole x uv_second_h` and `F @ uv_first_h` point the same way, not merely
+    along the same line.
 
     Args:
         F: Fundamental matrices, s of each sample.
         uv_first: Pixels of the first image.
         uv_second: Their matches in the second.
 
-    Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the Oriented Epipolar
-        Constraint, ICPR 2004, eq. 2.
+    Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the
+        Oriented Epipolar Constraint, ICPR 2004, eq. 2.
     """
     columns = np.swapaxes(F, -1, -2)
     crosses = _cofactors(columns)
@@ -157,9 +162,11 @@ def fit_fundamental(
     uv_second: Float[np.ndarray, "n 2"],
     weights: Float[np.ndarray, " n"] | None = None,
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the fundamental matrix of eight or more matches by the normalised eight-point algorithm.
+    """Return the fundamental matrix of eight or more matches by the normalised eight-point
+    algorithm.
 
-    It minimises an algebraic error and then drops the smallest singular value; `refine_fundamental` goes on to pixels.
+    It minimises an algebraic error and then drops the smallest singular value; `refine_fundamental`
+    goes on to pixels.
 
     Args:
         uv_first: Pixels of the first image.
@@ -170,12 +177,14 @@ def fit_fundamental(
         ValueError: If there are fewer than eight matches.
 
     Note:
-        Matches of one plane, or of a camera that only turned, give one of the many matrices that fit.
+        Matches of one plane, or of a camera that only turned, give one of the many matrices that
+        fit.
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997.
     """
     if len(uv_first) < 8 or len(uv_first) != len(uv_second):
         raise ValueError(
-            f"eight points need at least 8 pairs of pixels, got {uv_first.shape} and {uv_second.shape}"
+            f"eight points need at least 8 pairs of pixels, got {uv_first.shape} and"
+            f" {uv_second.shape}"
         )
     T_first, T_second = normalising_similarity(uv_first), normalising_similarity(uv_second)
     constraints = epipolar_constraints(
@@ -190,7 +199,8 @@ def fit_fundamental(
 def epipolar_constraints(
     x_h: Float[np.ndarray, "n 3"], y_h: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 9"]:
-    """Return one row per match whose product with F, row by row, is y' F x: the equations of the eight-point algorithm.
+    """Return one row per match whose product with F, row by row, is y' F x: the equations of the
+    eight-point algorithm.
 
     Args:
         x_h: Homogeneous points of the first image.
@@ -204,7 +214,8 @@ def epipolar_constraints(
 
 
 def rank_two(F: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
-    """Return the nearest matrix of rank two: the smallest singular value dropped, so that all lines meet in one point.
+    """Return the nearest matrix of rank two: the smallest singular value dropped, so that all lines
+    meet in one point.
 
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 11.1.1.
     """
@@ -213,14 +224,18 @@ def rank_two(F: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
 
 
 def epipoles(F: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
-    """Return the epipoles (u, v, w) in the first and in the second image, unit vectors: F e = 0 and F' e' = 0.
+    """Return the epipoles (u, v, w) in the first and in the second image, unit vectors: F e = 0 and
+    F' e' = 0.
 
-    Each is the picture of the other camera's centre. Where w is 0 it lies at infinity, and the lines are parallel.
+    Each is the picture of the other camera's centre. Where w is 0 it lies at infinity, and the
+    lines are parallel.
 
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.2.4.
 
     Examples:
-        >>> first, second = epipoles(np.array([[0.0, -1.0, 5.0], [1.0, 0.0, -3.0], [-5.0, 3.0, 0.0]]))
+        >>> first, second = epipoles(
+        ...     np.array([[0.0, -1.0, 5.0], [1.0, 0.0, -3.0], [-5.0, 3.0, 0.0]])
+        ... )
         >>> (first / first[2]).round(9).tolist()
         [3.0, 5.0, 1.0]
     """
@@ -238,7 +253,8 @@ def refine_fundamental(
 ) -> Float[np.ndarray, "3 3"]:
     """Return the matrix of rank two near `F` with the smallest sum of squared Sampson distances.
 
-    The unknown is F = U diag(cos a, sin a, 0) V': two rotations and an angle, seven numbers for seven degrees of freedom.
+    The unknown is F = U diag(cos a, sin a, 0) V': two rotations and an angle, seven numbers for
+    seven degrees of freedom.
 
     Args:
         F: The matrix to begin with.
@@ -250,8 +266,8 @@ def refine_fundamental(
     Note:
         Never worse than `F` with its smallest singular value dropped.
 
-    Reference: Bartoli and Sturm, Nonlinear Estimation of the Fundamental Matrix with Minimal Parameters, PAMI 2004,
-        section 4; the distance is Hartley and Zisserman, eq. 11.9.
+    Reference: Bartoli and Sturm, Nonlinear Estimation of the Fundamental Matrix with Minimal
+        Parameters, PAMI 2004, section 4; the distance is Hartley and Zisserman, eq. 11.9.
     """
     root = np.ones(len(uv_first)) if weights is None else np.sqrt(weights)
     T = normalising_similarity(np.concatenate([uv_first, uv_second]))
@@ -314,7 +330,8 @@ def sampson_slopes(
 
 
 def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarray, "*k 3"]:
-    """Return the real roots of a x^3 + b x^2 + c x + d, in closed form; NaN where a root is not real.
+    """Return the real roots of a x^3 + b x^2 + c x + d, in closed form; NaN where a root is not
+    real.
 
     A leading coefficient of zero gives NaN only.
 
@@ -346,7 +363,9 @@ def _compose(factors: _Factors) -> np.ndarray:
 
 
 def _tangent(factors: _Factors) -> np.ndarray:
-    """Return the nine entries of F, differentiated by the turn of U, the turn of V and the angle: (7, 9)."""
+    """Return the nine entries of F, differentiated by the turn of U, the turn of V and the angle:
+    (7, 9).
+    """
     U, V, angle = factors
     S, turned = (
         np.diag([np.cos(angle), np.sin(angle), 0.0]),

@@ -1,7 +1,9 @@
-"""The motion between two calibrated cameras, held by the essential matrix up to the length of its translation.
+"""The motion between two calibrated cameras, held by the essential matrix up to the length of its
+translation.
 
-Convention: `E` takes normalised points of the first camera to lines of the second, `xy_second_h.T @ E @ xy_first_h = 0`, and
-`T_second_first` takes points of the first camera's frame to the second's: E = [t]x R. No picture tells how long t is.
+Convention: `E` takes normalised points of the first camera to lines of the second, `xy_second_h.T @
+E @ xy_first_h = 0`, and `T_second_first` takes points of the first camera's frame to the second's:
+E = [t]x R. No picture tells how long t is.
 
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.6.
 """
@@ -17,7 +19,9 @@ from workbench.geometry.two_views.homography import homogeneous, normalising_sim
 _QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 _GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
 _FORTH = np.array([1.0, 0.61, 0.37])
-"""A direction that no camera is likely to move across: of t and -t the one that has a part along it comes first."""
+"""A direction that no camera is likely to move across: of t and -t the one that has a part along it
+comes first.
+"""
 _Motion = tuple[np.ndarray, np.ndarray]
 
 
@@ -26,7 +30,8 @@ def essential_from_fundamental(
     K_first: Float[np.ndarray, "3 3"],
     K_second: Float[np.ndarray, "3 3"],
 ) -> Float[np.ndarray, "3 3"]:
-    """Return E = K'^T F K, of Frobenius norm one: what is left of F once the lenses' focal lengths are known.
+    """Return E = K'^T F K, of Frobenius norm one: what is left of F once the lenses' focal lengths
+    are known.
 
     Args:
         F: Fundamental matrix, first to second.
@@ -34,7 +39,8 @@ def essential_from_fundamental(
         K_second: Intrinsics of the second camera, pixels.
 
     Note:
-        Of an estimated F the two large singular values are not equal, as those of a motion are: see `equal_singular_values`.
+        Of an estimated F the two large singular values are not equal, as those of a motion are: see
+        `equal_singular_values`.
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 9.12.
     """
     E = K_second.T @ F @ K_first
@@ -42,7 +48,8 @@ def essential_from_fundamental(
 
 
 def equal_singular_values(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
-    """Return the nearest essential matrix: singular values (s, s, 0) with s the mean of the two largest.
+    """Return the nearest essential matrix: singular values (s, s, 0) with s the mean of the two
+    largest.
 
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.6.1 and 11.7.3.
     """
@@ -51,11 +58,13 @@ def equal_singular_values(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3
 
 
 def essential_to_poses(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4 4"]:
-    """Return the four motions T_second_first that an essential matrix allows, with translations of length one.
+    """Return the four motions T_second_first that an essential matrix allows, with translations of
+    length one.
 
-    Two rotations, half a turn about the baseline apart, and for each the translation forth and back: (R, t), (R, -t),
-    (R', t), (R', -t). The sign of E and its scale play no part. R is the smaller turn, and t points along (1, 0.61, 0.37):
-    equal singular values leave U and V open, and each library takes its own.
+    Two rotations, half a turn about the baseline apart, and for each the translation forth and
+    back: (R, t), (R, -t), (R', t), (R', -t). The sign of E and its scale play no part. R is the
+    smaller turn, and t points along (1, 0.61, 0.37): equal singular values leave U and V open, and
+    each library takes its own.
 
     Note:
         Of a matrix that is none, as estimates are, they are those of the nearest one.
@@ -77,10 +86,11 @@ def refine_motion(
     *,
     steps: int = 10,
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the motion near this one, with |t| = 1, whose matches have the smallest sum of squared Sampson distances.
+    """Return the motion near this one, with |t| = 1, whose matches have the smallest sum of squared
+    Sampson distances.
 
-    Five unknowns: a turn of R (three) and of t (two). A seven-number fundamental matrix has two more than the cameras have,
-    which is what makes a pose out of it less certain.
+    Five unknowns: a turn of R (three) and of t (two). A seven-number fundamental matrix has two
+    more than the cameras have, which is what makes a pose out of it less certain.
 
     Args:
         T_second_first: The motion to begin with.

@@ -1,6 +1,7 @@
 """Relates two images of a plane: the homography, its estimates and its distances.
 
-Convention: `H_b_a` takes pixels of image a to pixels of image b, `uv_b_h ~ H_b_a @ uv_a_h`, and has Frobenius norm one.
+Convention: `H_b_a` takes pixels of image a to pixels of image b, `uv_b_h ~ H_b_a @ uv_a_h`, and has
+Frobenius norm one.
 """
 
 import numpy as np
@@ -20,7 +21,8 @@ def homogeneous(p: Float[np.ndarray, "*k n d"]) -> Float[np.ndarray, "*k n d+1"]
 
 
 def normalising_similarity(uv: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the similarity that brings the centroid to 0 and the mean distance from it to the square root of 2.
+    """Return the similarity that brings the centroid to 0 and the mean distance from it to the
+    square root of 2.
 
     Points that all coincide are only moved, not scaled.
 
@@ -58,13 +60,15 @@ def transform_pixels(
 def warped_grid(
     H_b_a: Float[np.ndarray, "3 3"], size: Float[np.ndarray, "2"], cells: int = 4, pieces: int = 8
 ) -> Float[np.ndarray, "n 2 2"]:
-    """Return a grid over image a, cells to a side and pieces to a cell, as segments in pixels of image b.
+    """Return a grid over image a, cells to a side and pieces to a cell, as segments in pixels of
+    image b.
 
     Args:
         H_b_a: The homography.
         size: Width and height of image a, pixels.
         cells: How many squares the grid has along each side.
-        pieces: Into how many segments each side of a square is cut, so that it may be clipped and drawn piece by piece.
+        pieces: Into how many segments each side of a square is cut, so that it may be clipped and
+            drawn piece by piece.
 
     Returns:
         The segments; NaN where the homography takes an end to infinity.
@@ -99,17 +103,21 @@ def transfer_distances(
 def four_in_general_position(
     uv_a: Float[np.ndarray, "*k 4 2"], uv_b: Float[np.ndarray, "*k 4 2"]
 ) -> Bool[np.ndarray, "*k"]:
-    """Return of each sample of four matches whether some camera can see both quadrangles as one plane.
+    """Return of each sample of four matches whether some camera can see both quadrangles as one
+    plane.
 
-    False where three pixels lie on one line in either image, and where only some of the four triangles turn over:
-    a real view keeps the orientation of all of them, or of none.
+    False where three pixels lie on one line in either image, and where only some of the four
+    triangles turn over: a real view keeps the orientation of all of them, or of none.
 
-    Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the Oriented Epipolar
-        Constraint, ICPR 2004 (the same idea for a homography).
+    Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the
+        Oriented Epipolar Constraint, ICPR 2004 (the same idea for a homography).
 
     Examples:
         >>> uv = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-        >>> bool(four_in_general_position(uv, 2.0 * uv)), bool(four_in_general_position(uv, uv[[0, 2, 1, 3]]))
+        >>> (
+        ...     bool(four_in_general_position(uv, 2.0 * uv)),
+        ...     bool(four_in_general_position(uv, uv[[0, 2, 1, 3]])),
+        ... )
         (True, False)
     """
     return _in_general_position(uv_a, uv_b, _triangle_areas(uv_a), _triangle_areas(uv_b))
@@ -125,7 +133,8 @@ def homographies_from_four(
 
     Note:
         NaN where the four are not in general position (`four_in_general_position`).
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 2.3 and example 2.12 (a basis of the plane).
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 2.3 and example 2.12 (a basis
+    of the plane).
     """
     T = normalising_similarity(np.concatenate([uv_a, uv_b]).reshape(-1, 2))
     x, y = homogeneous(uv_a) @ T.T, homogeneous(uv_b) @ T.T
@@ -176,7 +185,8 @@ def fit_homography(
 def fit_homographies(
     uv_a: Float[np.ndarray, "*k n 2"], uv_b: Float[np.ndarray, "*k n 2"]
 ) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the homographies of many pairs of images side by side, each as `fit_homography` gives it.
+    """Return the homographies of many pairs of images side by side, each as `fit_homography` gives
+    it.
 
     Args:
         uv_a: Four pixels or more of each image a.
@@ -212,7 +222,8 @@ def refine_homography(
     *,
     steps: int = 10,
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the homography near `H_b_a` with the smallest sum of squared transfer distances in image b.
+    """Return the homography near `H_b_a` with the smallest sum of squared transfer distances in
+    image b.
 
     Args:
         H_b_a: The homography to begin with.
@@ -221,7 +232,8 @@ def refine_homography(
         weights: How much each match's squared distance counts; all alike if None.
         steps: Linear systems solved at most.
 
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.2.2 (transfer error) and 4.5.
+    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.2.2 (transfer error) and
+    4.5.
     """
     root = np.ones(len(uv_a)) if weights is None else np.sqrt(weights)
     T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)

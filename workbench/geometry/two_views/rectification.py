@@ -1,9 +1,11 @@
-"""Turns two cameras, where they stand, until rows of their pictures correspond: then matches are sought along rows.
+"""Turns two cameras, where they stand, until rows of their pictures correspond: then matches are
+sought along rows.
 
-Both get one orientation, their common x axis along the baseline, and one K. A turn of a camera is a homography.
+Both get one orientation, their common x axis along the baseline, and one K. A turn of a camera is a
+homography.
 
-Reference: Fusiello, Trucco and Verri, A compact algorithm for rectification of stereo pairs, Machine Vision and
-Applications, 2000; here the new optical axis is the mean of both old ones.
+Reference: Fusiello, Trucco and Verri, A compact algorithm for rectification of stereo pairs,
+Machine Vision and Applications, 2000; here the new optical axis is the mean of both old ones.
 """
 
 from dataclasses import dataclass
@@ -26,7 +28,8 @@ class Rectification:
         K: The intrinsics of both afterwards, pixels.
         H_first: Takes pixels of the first picture to its rectified one.
         H_second: Likewise of the second.
-        second_is_left: Whether the second camera stands left of the first: disparities are then those of the second.
+        second_is_left: Whether the second camera stands left of the first: disparities are then
+            those of the second.
     """
 
     R_rectified_first: Float[np.ndarray, "3 3"]
@@ -44,20 +47,25 @@ def rectify(
     *,
     keep_upright: bool = True,
 ) -> Rectification:
-    """Return the common orientation of two cameras, and the homographies that turn their pictures to it.
+    """Return the common orientation of two cameras, and the homographies that turn their pictures
+    to it.
 
     Args:
-        T_second_first: Motion from the first camera's frame to the second's; its translation at any scale.
+        T_second_first: Motion from the first camera's frame to the second's; its translation at any
+            scale.
         K_first: Intrinsics of the first camera, pixels.
         K_second: Intrinsics of the second camera, pixels.
-        keep_upright: Let x run against the baseline where the second camera stands left of the first. Without it x always
-            runs from the first camera to the second, as in the paper, and such pictures come out upside down.
+        keep_upright: Let x run against the baseline where the second camera stands left of the
+            first. Without it x always runs from the first camera to the second, as in the paper,
+            and such pictures come out upside down.
 
     Raises:
-        ValueError: If the cameras stand at one place, or the baseline runs along the mean of the optical axes.
+        ValueError: If the cameras stand at one place, or the baseline runs along the mean of the
+            optical axes.
 
     Note:
-        Where a camera sees the other (the epipole is in its picture) the homography tears that picture: see `torn`.
+        Where a camera sees the other (the epipole is in its picture) the homography tears that
+        picture: see `torn`.
     """
     R, t = T_second_first[:3, :3], T_second_first[:3, 3]
     length = np.linalg.norm(t)
@@ -86,13 +94,17 @@ def rectify(
 
 
 def torn(H: Float[np.ndarray, "3 3"], size: tuple[int, int]) -> bool:
-    """Return whether a homography takes a part of a picture of this width and height through infinity."""
+    """Return whether a homography takes a part of a picture of this width and height through
+    infinity.
+    """
     w = homogeneous(_corners(size)) @ H[2]
     return not bool((w > 1e-9 * np.abs(w).max()).all())
 
 
 def growth(H: Float[np.ndarray, "3 3"], size: tuple[int, int]) -> float:
-    """Return how many times as large the upright box around a warped picture is as the picture; infinite where it tears."""
+    """Return how many times as large the upright box around a warped picture is as the picture;
+    infinite where it tears.
+    """
     if torn(H, size):
         return float("inf")
     low, high = _box(H, size)
@@ -106,7 +118,8 @@ def fitted(
     size_second: tuple[int, int],
     size: tuple[int, int],
 ) -> tuple[Float[np.ndarray, "3 3"], Float[np.ndarray, "3 3"]]:
-    """Return both homographies, scaled alike and moved so that both warped pictures fit; rows stay the same in both.
+    """Return both homographies, scaled alike and moved so that both warped pictures fit; rows stay
+    the same in both.
 
     Args:
         H_first: Rectifies the first picture.
@@ -168,7 +181,9 @@ def _corners(size: tuple[int, int]) -> np.ndarray:
 
 
 def _box(H: np.ndarray, size: tuple[int, int]) -> np.ndarray:
-    """Return the lowest and the highest corner of the upright box around a warped picture, (2, 2)."""
+    """Return the lowest and the highest corner of the upright box around a warped picture, (2,
+    2).
+    """
     p = homogeneous(_corners(size)) @ H.T
     uv = p[:, :2] / p[:, 2:]
     return np.stack([uv.min(axis=0), uv.max(axis=0)])

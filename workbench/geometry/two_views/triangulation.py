@@ -1,4 +1,5 @@
-"""From two pixels to a point: where the rays of two cameras meet, or nearly do, and how uncertain that is.
+"""From two pixels to a point: where the rays of two cameras meet, or nearly do, and how uncertain
+that is.
 
 Camera matrices are P = K [R | t], 3x4, and take points of one common frame to pixels.
 
@@ -25,7 +26,8 @@ def triangulate(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points whose pictures are nearest to the pixels in the algebraic sense (the direct linear transform).
+    """Return the points whose pictures are nearest to the pixels in the algebraic sense (the direct
+    linear transform).
 
     Args:
         P_first: Camera matrix of the first camera.
@@ -34,8 +36,8 @@ def triangulate(
         uv_second: Their matches in the second.
 
     Note:
-        Nothing keeps a point in front of the cameras: nearly parallel rays may meet behind. Parallel ones give coordinates
-        that are huge, infinite or NaN.
+        Nothing keeps a point in front of the cameras: nearly parallel rays may meet behind.
+        Parallel ones give coordinates that are huge, infinite or NaN.
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 12.2.
     """
     rows = [
@@ -55,7 +57,8 @@ def midpoints(
     xy_first: Float[np.ndarray, "n 2"],
     xy_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the middles of the shortest segments between the rays, in the first camera's frame: quick, and less exact.
+    """Return the middles of the shortest segments between the rays, in the first camera's frame:
+    quick, and less exact.
 
     Args:
         T_second_first: Motion from the first camera's frame to the second's.
@@ -82,7 +85,9 @@ def midpoints(
 def before_both(
     p_first: Float[np.ndarray, "n 3"], T_second_first: Float[np.ndarray, "4 4"]
 ) -> Bool[np.ndarray, " n"]:
-    """Return which points of the first camera's frame lie in front of both cameras; NaN rows do not."""
+    """Return which points of the first camera's frame lie in front of both cameras; NaN rows do
+    not.
+    """
     return (p_first[:, 2] > 0.0) & (apply(T_second_first, p_first)[:, 2] > 0.0)
 
 
@@ -92,7 +97,8 @@ def triangulation_covariances(
     p: Float[np.ndarray, "n 3"],
     sigma: float,
 ) -> Float[np.ndarray, "n 3 3"]:
-    """Return how uncertain triangulated points are, to first order, when each coordinate of a pixel is.
+    """Return how uncertain triangulated points are, to first order, when each coordinate of a pixel
+    is.
 
     Args:
         P_first: Camera matrix of the first camera.

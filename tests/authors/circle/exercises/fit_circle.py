@@ -1,4 +1,6 @@
-"""Write the algebraic fit of a circle: x² + y² = 2ax + 2by + c is linear in a, b and c. The lesson refines your circle."""
+"""Write the algebraic fit of a circle: x² + y² = 2ax + 2by + c is linear in a, b and c. The lesson
+refines your circle.
+"""
 
 import numpy as np
 
@@ -40,7 +42,8 @@ def judged(candidate, p):
     ),
 )
 def fit_circle(p: np.ndarray) -> np.ndarray:
-    """Return the circle x, y, r, metres, that solves x² + y² = 2ax + 2by + c best for the points, one row (x, y) each.
+    """Return the circle x, y, r, metres, that solves x² + y² = 2ax + 2by + c best for the points,
+    one row (x, y) each.
 
     Raises:
         ValueError: If the points, or all but one, coincide or lie on one line.
@@ -79,7 +82,8 @@ def points_on_a_line(candidate):
 
 
 @mistake(
-    "You took the mean of the points for the centre. It lies inside the arc: solve the linear system for the centre."
+    "You took the mean of the points for the centre. It lies inside the arc: solve the linear"
+    " system for the centre."
 )
 def mean_for_centre(p: np.ndarray) -> np.ndarray:
     return np.array([*p.mean(axis=0), np.linalg.norm(p - p.mean(axis=0), axis=1).mean()])
@@ -91,7 +95,8 @@ def squared_radius(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your centre is twice as far out as it should be: the unknowns are a and b, and the columns are 2x and 2y."
+    "Your centre is twice as far out as it should be: the unknowns are a and b, and the columns are"
+    " 2x and 2y."
 )
 def doubled_centre(p: np.ndarray) -> np.ndarray:
     return fit_circle(p) * np.array([2, 2, 1])

@@ -1,5 +1,5 @@
-"""Write the mean of points that do not count the same: the point from which the weighted squared distances are smallest.
-The lesson takes your answer for the place of the beacon.
+"""Write the mean of points that do not count the same: the point from which the weighted squared
+distances are smallest. The lesson takes your answer for the place of the beacon.
 """
 
 import numpy as np
@@ -84,7 +84,8 @@ def no_weight_at_all(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You took the plain mean: every point counts the same there. Multiply each row by its weight first."
+    "You took the plain mean: every point counts the same there. Multiply each row by its weight"
+    " first."
 )
 def weights_ignored(p: np.ndarray, w: np.ndarray) -> np.ndarray:
     """Takes the mean of the rows."""
