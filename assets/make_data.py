@@ -34,7 +34,9 @@ def main() -> None:
     )
     surface = torus(2000)
     trimesh.Trimesh(surface.p, surface.faces, process=False).export(DATA / "torus.ply")
-    views = synthetic_pair("spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), 2.0, rng)
+    views = synthetic_pair(
+        "spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), noise=2.0, rng=rng
+    )
     for name, picture in (("left", views.left), ("right", views.right)):
         Image.fromarray(picture).save(DATA / f"{name}.png", optimize=True)
 

@@ -32,7 +32,7 @@ def opened(command: str) -> Chosen:
     def seeing(run, serving, step=None, with_=None):
         seen.append(run)
 
-    parse(seeing, words, "workbench show", "")()
+    parse(seeing, words, "workbench show", description="")()
     return seen[0]
 
 

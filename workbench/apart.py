@@ -143,12 +143,12 @@ def apart(read: Callable[P, R]) -> Callable[P, R]:
         if _inside:
             return read(*args, **kwargs)
         with allowing(_given.get() or (PAGE if _uploads & set(path.parents) else COMMAND)):
-            return _read_elsewhere(read, path, args, kwargs)
+            return _read_elsewhere(read, path, args, kwargs=kwargs)
 
     return elsewhere
 
 
-def _read_elsewhere(read: Callable[..., R], path: Path, args: Any, kwargs: Any) -> R:
+def _read_elsewhere(read: Callable[..., R], path: Path, args: Any, *, kwargs: Any) -> R:
     for somebody in tuple(_waiting):
         somebody.stands_still()
     asked = pickle.dumps(

@@ -434,12 +434,14 @@ def _carry_out(words: list[str]) -> int | None:
     if words == ["--version"]:
         sys.stdout.write(f"{__version__}\n")
     elif not words or words[0].startswith("-"):
-        return parse(serve, words, "workbench", _overview())()
+        return parse(serve, words, "workbench", description=_overview())()
     elif words[0] not in COMMANDS:
         raise InputError(f"no command is named {words[0]!r}; {not_among(words[0], COMMANDS)}")
     else:
         function = COMMANDS[words[0]]
-        return parse(function, words[1:], f"workbench {words[0]}", function.__doc__ or "")()
+        return parse(
+            function, words[1:], f"workbench {words[0]}", description=function.__doc__ or ""
+        )()
     return None
 
 

@@ -121,7 +121,9 @@ def _table(state: State) -> Table:
     if setup.metric and 0 < depth < math.inf:
         error = state.disparity_error or 1.0
         d = np.array([setup.f * camera.baseline / depth])
-        near, far = (float(z[0]) for z in depth_interval(d, setup.f, camera.baseline, error))
+        near, far = (
+            float(z[0]) for z in depth_interval(d, setup.f, camera.baseline, disparity_error=error)
+        )
         rows.append((f"± {brief(error)} px", f"{distance(near)} to {distance(far)}"))
     if setup.pair.disparity is not None:
         true = float(setup.pair.disparity[v, u])

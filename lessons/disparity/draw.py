@@ -105,9 +105,9 @@ def _bars(state: State, seen: np.ndarray) -> Segments:
     some = np.linspace(0, len(u) - 1, min(BARS, len(u))).astype(int)
     d = camera.f * camera.baseline / state.depth[v[some], u[some]]
     uv = np.column_stack([u[some], v[some]]).astype(float)
-    near_far = depth_interval(d, camera.f, camera.baseline, error)
+    near_far = depth_interval(d, camera.f, camera.baseline, disparity_error=error)
     ends = [
-        back_project(uv, np.minimum(depth, 2 * setup.far), np.eye(4), camera.K)
+        back_project(uv, np.minimum(depth, 2 * setup.far), np.eye(4), K=camera.K)
         for depth in near_far
     ]
     return Segments(

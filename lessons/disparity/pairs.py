@@ -106,7 +106,7 @@ def _far(pair: StereoPair, max_disparity: int) -> float:
 @functools.lru_cache(maxsize=8)
 def _made(scene: str, f: float, baseline: float, noise: float, seed: int) -> StereoPair:
     camera = StereoCamera(f, (SIZE[0] - 1) / 2, (SIZE[1] - 1) / 2, baseline)
-    return synthetic_pair(scene, camera, SIZE, noise, np.random.default_rng(seed))
+    return synthetic_pair(scene, camera, SIZE, noise=noise, rng=np.random.default_rng(seed))
 
 
 @functools.lru_cache(maxsize=2)

@@ -130,7 +130,7 @@ def tried(distance: Distance, rng: np.random.Generator) -> Iterator[Trials]:
     counts = np.zeros(3)
     for k in range(1, ROUNDS + 1):
         a, b, c = rng.random((3, TRIPLES, 2))
-        excess, sides = metrics.triangle_excess(distance, a, b, c)
+        excess, sides = metrics.triangle_excess(distance, a, b, c=c)
         broken += int((excess > 1e-9).sum())
         along = a * rng.uniform(
             0.2, 0.9, (TRIPLES, 1)

@@ -88,7 +88,7 @@ def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now
             if np.isfinite(found.error).any()
             else subject.source
         )
-        way = geodesics.shortest_path(edges, lengths, d, goal)
+        way = geodesics.shortest_path(edges, lengths, d, goal=goal)
         found = replace(found, path=nodes[way])
         yield subject, found
     if params.shape == "sphere" and subject.is_sphere:
@@ -148,12 +148,14 @@ def _marched(params: Params, subject: Subject, update: Update) -> Iterator[Front
     start[~subject.free] = np.inf
     start[subject.source] = 0.0
     band = float(subject.truth[subject.free].max()) / BANDS
-    for now in march(start.reshape(shape), subject.free.reshape(shape), subject.h, band, update):
+    for now in march(
+        start.reshape(shape), subject.free.reshape(shape), subject.h, band=band, update=update
+    ):
         yield Front(d=now.d.ravel(), accepted=now.accepted.ravel(), reach=now.reach)
 
 
 def _path(subject: Subject, edges: np.ndarray, lengths: np.ndarray, d: np.ndarray) -> np.ndarray:
-    return subject.p[geodesics.shortest_path(edges, lengths, d, subject.goal)]
+    return subject.p[geodesics.shortest_path(edges, lengths, d, goal=subject.goal)]
 
 
 def _found(subject: Subject, d: np.ndarray, path: np.ndarray) -> Found:
@@ -218,7 +220,7 @@ def finer_grids() -> dict[str, tuple[np.ndarray, np.ndarray]]:
             errors.setdefault(f"{neighbours} neighbours", []).append(_worst(d, truth))
         for name, disc in (("marching", 0.0), ("marching, exact disc", 0.1)):
             start = np.where(truth <= disc, truth, np.inf).reshape(side, side)
-            *_, last = march(start, np.ones((side, side), bool), h, 0.2, eikonal_update)
+            *_, last = march(start, np.ones((side, side), bool), h, band=0.2, update=eikonal_update)
             errors.setdefault(name, []).append(_worst(last.d.ravel(), truth))
     return _log(1 / (np.array(SIDES) - 1.0), errors)
 

@@ -69,7 +69,11 @@ def run(
     }
     if T is not None:
         for now in follow_ray(
-            known["uv_first"], views.model * DEPTHS, T, views.K_first, views.K_second
+            known["uv_first"],
+            views.model * DEPTHS,
+            T,
+            K_first=views.K_first,
+            K_second=views.K_second,
         ):
             yield State(**known, now=now)
 
@@ -87,7 +91,7 @@ def run(
         uv_first,
         uv_second,
         known["K_first"],
-        known["K_second"],
+        K_second=known["K_second"],
         linear=linear,
         eight_point=eight_point,
         essential_to_poses=essential_to_poses,

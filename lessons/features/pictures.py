@@ -92,7 +92,9 @@ def _sift(levels: bytes, shape: tuple[int, int]) -> Sift:
 
 
 def _turned(image: np.ndarray, by: Sift, k: int) -> np.ndarray:
-    patch = turned_patch(image, by.uv[k], float(by.angle[k]), SEEN * float(by.sigma[k]), SIDE)
+    patch = turned_patch(
+        image, by.uv[k], float(by.angle[k]), half=SEEN * float(by.sigma[k]), side=SIDE
+    )
     return _shown(patch - patch.mean())
 
 

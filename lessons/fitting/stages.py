@@ -88,7 +88,7 @@ def walk(
         if m.iteration <= SHOWN_IN_PARTS or m.phase not in ("linearised", "tried")
     )
     for walked in with_its_way(
-        shown, lambda c: kind.linearise(c, p), kind.retract, np.linspace(0.0, 1.5, 31)
+        shown, lambda c: kind.linearise(c, p), kind.retract, shares=np.linspace(0.0, 1.5, 31)
     ):
         now = walked.now
         yield walked

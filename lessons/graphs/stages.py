@@ -258,8 +258,8 @@ def training_steps(
         dense,
         np.eye(n),
         weights,
-        np.array(subject.labelled),
-        np.array([0, 1]),
+        labelled=np.array(subject.labelled),
+        classes=np.array([0, 1]),
         iterations=ITERATIONS,
         gcn_layer=functions.gcn_layer,
     )

@@ -58,7 +58,7 @@ def _what_counts(params: Params) -> Params:
 def _built_in(params: Params) -> Subject:
     rng, name = np.random.default_rng(params.seed), params.graph
     if name == "dumbbell":
-        p, classes = networks.dumbbell(params.points, params.share, params.bridge, rng)
+        p, classes = networks.dumbbell(params.points, params.share, params.bridge, rng=rng)
         ends = _nearest(p, np.array([-1.0, 0, 0])), _nearest(p, np.array([1.0, 0, 0]))
         return Subject(
             name="the dumbbell", p=p, classes=classes, front=ends[0], labelled=ends, radius=0.016

@@ -32,7 +32,7 @@ def labelled_clouds(
     """
     p = _points(of, count, rng) * rng.uniform(*STRETCH, (len(of), 1, 3))
     if turned == "freely":
-        R, _ = random_rotations(len(of), 3, np.pi, rng)
+        R, _ = random_rotations(len(of), 3, np.pi, rng=rng)
     else:
         R = turns(np.outer(rng.uniform(-np.pi, np.pi, len(of)), [0.0, 0.0, 1.0]))
     p = p @ R.swapaxes(1, 2) + NOISE * rng.normal(size=p.shape)

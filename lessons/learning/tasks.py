@@ -92,7 +92,7 @@ def _turns(
         if params.rotation == "6D":
             representation = replace(representation, decode=functions.rotation_from_six)
         R_test, w = random_rotations(
-            3 * TURNS, 3, largest, np.random.default_rng(1000 + params.seed)
+            3 * TURNS, 3, largest, rng=np.random.default_rng(1000 + params.seed)
         )
         about = Turns(w / np.pi, np.degrees(np.linalg.norm(w, axis=1)))
     width, rate = NETWORKS[params.task]
@@ -148,7 +148,7 @@ def _mesh(
         START * ball.p,
         ball.faces,
         given,
-        truth,
+        truth=truth,
         weights=weights,
         counts=counts_of(params),
         rng=rng,

@@ -70,14 +70,18 @@ def run(
             subject.inside,
             subject.low,
             subject.high,
-            counts,
+            counts=counts,
             draw=params.draw,
             rng=rng,
             volume_by_chance=volume_by_chance,
         )
     elif params.method == "lines":
         found = shoot_lines(
-            subject.p, subject.faces, _ball(subject), counts_to(min(params.throws, MOST_LINES)), rng
+            subject.p,
+            subject.faces,
+            _ball(subject),
+            counts=counts_to(min(params.throws, MOST_LINES)),
+            rng=rng,
         )
     else:
         found = raise_dimension(params.dimension, params.throws, rng)

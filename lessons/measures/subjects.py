@@ -134,7 +134,7 @@ def _grids(subject: Subject, params: Params) -> tuple[tuple[int, Grid], ...]:
     rng = np.random.default_rng(params.seed)
     steps = np.arange(4, 2 * np.log2(params.cells) - 1e-9)
     across = [*np.unique(np.rint(2 ** (steps / 2)).astype(int)).tolist(), params.cells]
-    return tuple((n, grid_over(subject.low, subject.high, n, rng.random(3))) for n in across)
+    return tuple((n, grid_over(subject.low, subject.high, n, shift=rng.random(3))) for n in across)
 
 
 def _spoilt(subject: Subject, params: Params) -> np.ndarray:

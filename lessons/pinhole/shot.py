@@ -69,7 +69,9 @@ def _shot(params: Params) -> Shot:
         crate_before=_height(CRATE_EDGE, T_near, K_before, lens),
         tower_before=_height(TOWER_EDGE, T_near, K_before, lens),
         ball_ratio=_ball_ratio(T_camera_world, K_first),
-        vanishing=vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, lens)[0],
+        vanishing=vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, distortion=lens)[
+            0
+        ],
         gaps=np.array(
             [_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]
         ),
@@ -84,7 +86,7 @@ def wires(T_camera_world: np.ndarray) -> np.ndarray:
     scene = street()
     ball = np.zeros((0, 2, 3))
     if np.linalg.norm(camera_center(T_camera_world) - BALL_CENTER) > 1.01 * BALL_RADIUS:
-        ball = segments(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 48), closed=True)
+        ball = segments(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, n=48), closed=True)
     return np.concatenate([scene.edges, scene.rails, ball])
 
 
@@ -122,7 +124,7 @@ def _ball_ratio(T_camera_world: np.ndarray, K: np.ndarray) -> float:
     )
     if not inside:
         return float("nan")
-    uv = project(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 720), T_camera_world, K)
+    uv = project(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, n=720), T_camera_world, K)
     middle = 0.5 * (uv.max(axis=0) + uv.min(axis=0))  # of an ellipse: its centre
     reach = np.linalg.norm(uv - middle, axis=1)
     return float(reach.max() / reach.min())

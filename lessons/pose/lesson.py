@@ -63,7 +63,7 @@ def run(
         T = now.T if now.phase in ("choose", "solved") else None
         yield State(params=params, subject=subject, now=now)
     if params.refine:
-        for now in downhill(T, p, xy, pose_step):
+        for now in downhill(T, p, xy, pose_step=pose_step):
             yield State(params=params, subject=subject, now=now)
     if subject.T_true is not None:
         yield State(params=params, subject=subject, now=repeated(params, subject))
@@ -82,7 +82,7 @@ def first_pose(
     """
     p, xy = subject.given.p_world, subject.xy
     if params.method == "P3P":
-        return by_three_points(p, xy, pose_from_distances, choose_pose)
+        return by_three_points(p, xy, pose_from_distances, choose_pose=choose_pose)
     if params.method == "IPPE":
         if not is_flat(p):
             raise InputError(

@@ -138,7 +138,7 @@ def _mapped(
     order = rng.permutation(MAPPED)
     p, n = (one[order] for one in street_map())
     ahead = ((camera_center(T) - p) * n).sum(axis=1) > 0.0
-    p = p[ahead & in_sight(p, T, _windowed(K, WHOLE), photograph.depth)][:most]
+    p = p[ahead & in_sight(p, T, _windowed(K, WHOLE), depth=photograph.depth)][:most]
     if len(p) < 4:
         raise InputError(
             f"the camera sees {len(p)} points of the map: move it, or make its focal length shorter"

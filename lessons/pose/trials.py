@@ -43,7 +43,7 @@ def repeated(params: Params, subject: Subject) -> Repeated:
         Ts = pairs[:, 0]
     if params.refine and params.method == "DLT":  # the way down matters where it begins far off
         ends = [
-            list(downhill(T, p, one, gauss_newton_step))[-1].T
+            list(downhill(T, p, one, pose_step=gauss_newton_step))[-1].T
             for T, one in zip(Ts, xy, strict=True)
         ]
         Ts = np.stack([T for T in ends if T is not None])

@@ -205,7 +205,7 @@ _stored = functools.lru_cache(maxsize=16)(_sampled)  # of a mesh they cost most 
 def octree(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield the levels of the tree, and with each the surface of cells of that size."""
     state = State(params=params, subject=subject)
-    for now in grow_octree(subject.field, LOW, EDGE, params.depth):
+    for now in grow_octree(subject.field, LOW, EDGE, depth=params.depth):
         state = replace(state, now=now, surface=None, bytes=now.packed_bytes)
         if now.depth >= 3:
             surface = measured(subject, *_marched(now.bits, now.grid))
@@ -226,7 +226,7 @@ def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
         [near + NEAR_SPREAD * rng.standard_normal(near.shape), rng.uniform(-1, 1, (FAR, 3))]
     )
     network, corners = (
-        new_network(params.width, params.features, params.activation, rng),
+        new_network(params.width, params.features, params.activation, rng=rng),
         grid.centres(),
     )
     counts = iteration_counts(params.iterations)

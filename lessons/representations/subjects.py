@@ -124,7 +124,7 @@ def covered(subject: Subject, p: np.ndarray) -> tuple[float, float, np.ndarray]:
 @functools.cache
 def spread_numbers() -> np.ndarray:
     """Return the numbers that spread points over any surface, the same for all."""
-    return unit_points(SPREAD, 3, "Sobol", np.random.default_rng(0))
+    return unit_points(SPREAD, 3, "Sobol", rng=np.random.default_rng(0))
 
 
 def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> float:

@@ -104,7 +104,9 @@ def _move(
     T_start = motion(euler_to_matrix(numbers.angles, params.order), np.zeros(3))
     T_end = motion(R_end, numbers.offset)
     shortest = list(
-        between.slerp_and_lerp(T_start, T_end, times, rotations.rotation_from_axis_angle)
+        between.slerp_and_lerp(
+            T_start, T_end, times, rotation_from_axis_angle=rotations.rotation_from_axis_angle
+        )
     )
     shortest_way = way = Way(
         times=times[:0], path=np.empty((0, 3)), turned=times[:0], volume=times[:0]
@@ -112,23 +114,25 @@ def _move(
     for k, now in enumerate(shortest):
         shortest_way = _gone(shortest_way, now, shortest[max(k - 1, 0)], body.p_point)
     if params.method == "slerp + lerp":
-        states = between.slerp_and_lerp(T_start, T_end, times, rotation_from_axis_angle)
+        states = between.slerp_and_lerp(
+            T_start, T_end, times, rotation_from_axis_angle=rotation_from_axis_angle
+        )
     elif params.method == "Euler angles":
         states = between.lerp_of_euler_angles(
             numbers.angles,
             angles_end,
             params.order,
-            T_start[:3, 3],
-            T_end[:3, 3],
-            times,
-            euler_to_matrix,
+            p_start=T_start[:3, 3],
+            p_end=T_end[:3, 3],
+            times=times,
+            euler_to_matrix=euler_to_matrix,
         )
     elif params.method == "matrix entries":
         states = between.lerp_of_entries(T_start, T_end, times)
     elif params.method == "slerp to -q":
         states = between.slerp_to_minus_q(T_start, T_end, times)
     else:
-        states = between.along_a_screw(T_start, T_end, times, invert_rigid)
+        states = between.along_a_screw(T_start, T_end, times, invert_rigid=invert_rigid)
     before = None
     for now, best in zip(states, shortest, strict=True):
         before = before or now

@@ -35,7 +35,7 @@ def views(seed: int = 0, count: int = 5, sigma: float = 0.2) -> tuple[np.ndarray
 
 
 def last_of(uv: np.ndarray, Ts: np.ndarray, **options) -> Adjustment:
-    *_, found = adjust(boards.K_TRUE, LENS, Ts, P, uv, **options)
+    *_, found = adjust(boards.K_TRUE, LENS, Ts, p_board=P, uv=uv, **options)
     return found
 
 
@@ -75,7 +75,9 @@ def test_it_comes_home_and_the_cost_never_rises(coefficients):
         ]
     )
     states = list(
-        adjust(intrinsics(560.0, 330, 240), NONE, start, P, uv, coefficients=coefficients)
+        adjust(
+            intrinsics(560.0, 330, 240), NONE, start, p_board=P, uv=uv, coefficients=coefficients
+        )
     )
     assert states[-1].stop in (Stop.CONVERGED, Stop.STUCK)
     np.testing.assert_allclose(states[-1].K, boards.K_TRUE, atol=1e-5)

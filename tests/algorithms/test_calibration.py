@@ -50,7 +50,7 @@ def test_residuals_are_those_of_project():
     assert last.K is not None
     expected = np.stack([project(P, T, last.K, last.lens) for T in last.Ts_camera_board]) - uv
     np.testing.assert_allclose(
-        residuals_of(last.K, last.lens, last.Ts_camera_board, P, uv), expected, atol=1e-9
+        residuals_of(last.K, last.lens, last.Ts_camera_board, p_board=P, uv=uv), expected, atol=1e-9
     )
 
 

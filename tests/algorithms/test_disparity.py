@@ -35,7 +35,7 @@ CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 
 
 def made(scene, noise=2.0, camera=CAMERA, seed=0) -> tuple[Any, np.ndarray, np.ndarray]:
-    pair = synthetic_pair(scene, camera, (160, 120), noise, np.random.default_rng(seed))
+    pair = synthetic_pair(scene, camera, (160, 120), noise=noise, rng=np.random.default_rng(seed))
     assert pair.disparity is not None
     assert pair.visible is not None
     return (

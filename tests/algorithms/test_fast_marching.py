@@ -52,7 +52,7 @@ def test_bands_give_what_a_heap_gives(seed, band):
     free[3, 4] = True
     start = np.full(free.shape, np.inf)
     start[3, 4] = 0.0
-    *_, last = march(start, free, 0.1, band)
+    *_, last = march(start, free, 0.1, band=band)
     np.testing.assert_allclose(last.d, by_heap(start, free, 0.1), atol=1e-12)
     assert (last.accepted == np.isfinite(last.d)).all()
 
@@ -61,7 +61,7 @@ def corner(side, disc=0.0):
     x = np.linspace(0, 1, side)
     true = np.hypot(*np.meshgrid(x, x, indexing="ij"))
     start = np.where(true <= disc, true, np.inf)
-    *_, last = march(start, np.ones((side, side), bool), 1 / (side - 1), 0.1)
+    *_, last = march(start, np.ones((side, side), bool), 1 / (side - 1), band=0.1)
     return 100 * (last.d / np.where(true > 0, true, 1) - 1)[true > 0.2].max()
 
 
@@ -75,7 +75,7 @@ def test_the_error_falls_slowly_and_faster_from_an_exact_disc():
 def test_what_is_accepted_stays():
     start = np.full((15, 15), np.inf)
     start[7, 2] = 0.0
-    states = list(march(start, np.ones((15, 15), bool), 1.0, 2.0))
+    states = list(march(start, np.ones((15, 15), bool), 1.0, band=2.0))
     for before, after in itertools.pairwise(states):
         assert (after.accepted[before.accepted]).all()
         np.testing.assert_array_equal(after.d[before.accepted], before.d[before.accepted])
@@ -87,7 +87,7 @@ def test_what_is_accepted_stays():
 def test_a_straight_front_is_exact():
     start = np.full((5, 9), np.inf)
     start[:, 0] = 0.0
-    *_, last = march(start, np.ones((5, 9), bool), 0.5, 10.0)
+    *_, last = march(start, np.ones((5, 9), bool), 0.5, band=10.0)
     np.testing.assert_allclose(last.d, np.broadcast_to(0.5 * np.arange(9), (5, 9)))
 
 
@@ -96,7 +96,7 @@ def test_what_is_walled_in_is_never_reached():
     free[2:5, 2] = free[2:5, 4] = free[2, 2:5] = free[4, 2:5] = False
     start = np.full((7, 7), np.inf)
     start[0, 0] = 0.0
-    *_, last = march(start, free, 1.0, 1.0)
+    *_, last = march(start, free, 1.0, band=1.0)
     assert np.isinf(last.d[3, 3])
     assert np.isfinite(last.d[6, 6])
     assert not last.accepted[3, 3]

@@ -20,11 +20,16 @@ TIMES = np.linspace(0.0, 1.0, 5)
 
 
 def slerped(T_start, T_end):
-    return [s.T_world_body for s in slerp_and_lerp(T_start, T_end, TIMES, rotation_from_axis_angle)]
+    return [
+        s.T_world_body
+        for s in slerp_and_lerp(
+            T_start, T_end, TIMES, rotation_from_axis_angle=rotation_from_axis_angle
+        )
+    ]
 
 
 def screwed(T_start, T_end):
-    return [s.T_world_body for s in along_a_screw(T_start, T_end, TIMES, inverse)]
+    return [s.T_world_body for s in along_a_screw(T_start, T_end, TIMES, invert_rigid=inverse)]
 
 
 def not_half_a_turn(T_start, T_end):
@@ -97,7 +102,9 @@ def test_every_way_ends_at_the_end(T_start, T_end):
 
 def test_one_euler_angle_alone_is_slerp():
     zero, angles = np.zeros(3), np.array([0.0, 0.0, 2.0])
-    states = lerp_of_euler_angles(zero, angles, "xyz", zero, zero, TIMES, euler_to_matrix)
+    states = lerp_of_euler_angles(
+        zero, angles, "xyz", p_start=zero, p_end=zero, times=TIMES, euler_to_matrix=euler_to_matrix
+    )
     T_end = np.eye(4)
     T_end[:3, :3] = euler_to_matrix(angles, "xyz")
     np.testing.assert_allclose(

@@ -107,12 +107,14 @@ def test_what_was_promised_is_the_linear_problems_sum():
     p = an_arc(3)
     tried = next(now for now in moments(p, HOME) if now.phase == "tried")
     assert tried.step is not None
-    along = along_step(tried, lambda c: linearise_sphere(c, p), np.add, np.array([0.0, 1.0]))
+    along = along_step(tried, lambda c: linearise_sphere(c, p), np.add, shares=np.array([0.0, 1.0]))
     np.testing.assert_allclose(along.costs, [tried.before, tried.trial_cost])
     np.testing.assert_allclose(along.promised, [tried.before, tried.before - tried.predicted])
     assert tried.gain == pytest.approx((tried.before - tried.trial_cost) / tried.predicted)
     with pytest.raises(ValueError, match="no step"):
-        along_step(moments(p, HOME)[0], lambda c: linearise_sphere(c, p), np.add, np.array([1.0]))
+        along_step(
+            moments(p, HOME)[0], lambda c: linearise_sphere(c, p), np.add, shares=np.array([1.0])
+        )
 
 
 def test_a_way_has_every_step_kept_and_every_one_taken_back():
@@ -122,7 +124,7 @@ def test_a_way_has_every_step_kept_and_every_one_taken_back():
         return linearise_sphere(c, p)
 
     found = moments(p, np.array([0.9, 0.6, 0.3]))
-    walked = list(with_its_way(iter(found), linearise, np.add, np.linspace(0, 1, 3)))
+    walked = list(with_its_way(iter(found), linearise, np.add, shares=np.linspace(0, 1, 3)))
     assert [one.now for one in walked] == found
     kept = [now.unknown for now in found if now.phase in ("start", "accepted")]
     back = [now.trial for now in found if now.phase == "rejected"]

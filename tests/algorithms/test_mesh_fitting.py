@@ -34,7 +34,7 @@ def test_gradients_are_those_of_differences_where_points_stay_in_their_faces(mon
     """
     rng = np.random.default_rng(1)
     training = fit_mesh(
-        0.8 * BALL.p, BALL.faces, GIVEN, NONE, weights=weights, counts=(0, 1), rng=rng
+        0.8 * BALL.p, BALL.faces, GIVEN, truth=NONE, weights=weights, counts=(0, 1), rng=rng
     )
     values, gradient = descended(monkeypatch, mesh_fitting, lambda: training)
     places = places_on_faces(values, BALL.faces, np.random.default_rng(2).random((150, 3)))
@@ -67,7 +67,7 @@ def test_a_ball_becomes_an_ellipsoid_and_a_laplacian_shrinks_it():
                 BALL.p,
                 BALL.faces,
                 GIVEN,
-                GIVEN,
+                truth=GIVEN,
                 weights={**NOTHING, "laplacian": laplacian},
                 counts=(0, 30),
                 rng=np.random.default_rng(4),
@@ -88,7 +88,7 @@ def test_without_a_truth_the_distance_to_it_is_nan():
             BALL.p,
             BALL.faces,
             GIVEN,
-            NONE,
+            truth=NONE,
             weights=NOTHING,
             counts=(0, 1),
             rng=np.random.default_rng(5),

@@ -35,7 +35,7 @@ def loss_of(network: Network, values: np.ndarray, x: np.ndarray, y: np.ndarray, 
 @pytest.mark.parametrize("activation", ["tanh", "relu"])
 def test_gradients_are_those_of_finite_differences(target, activation):
     rng = np.random.default_rng(1)
-    network = new_network(6, 1, activation, rng)
+    network = new_network(6, 1, activation, rng=rng)
     values, (p, y) = network.values.astype(float) / 3, samples(40)
     x, y = encoded(p, 1).astype(float), y.astype(np.float32)
     layers, gradient = perceptron.layers_of(values, network.sizes), np.zeros(len(values))
@@ -51,7 +51,7 @@ def test_gradients_are_those_of_finite_differences(target, activation):
 
 
 def test_a_layer_is_its_formula_and_the_input_has_its_waves():
-    network, (p, _) = new_network(5, 2, "tanh", np.random.default_rng(2)), samples(7)
+    network, (p, _) = new_network(5, 2, "tanh", rng=np.random.default_rng(2)), samples(7)
     x = np.concatenate(
         [p] + [f(np.pi * 2**k * p) for k in (0, 1) for f in (np.sin, np.cos)], axis=1
     )
@@ -67,7 +67,12 @@ def test_the_loss_falls_and_states_stay_as_they_were():
     rng = np.random.default_rng(3)
     found = list(
         train_field(
-            new_network(16, 1, "tanh", rng), p, y, counts=(0, 20, 100, 300), target="sdf", rng=rng
+            new_network(16, 1, "tanh", rng=rng),
+            p,
+            y,
+            counts=(0, 20, 100, 300),
+            target="sdf",
+            rng=rng,
         )
     )
     losses = [one.loss for one in found]
@@ -83,7 +88,7 @@ def test_what_is_learned_is_negative_inside(target):
     p, y = samples(2000, 4)
     rng = np.random.default_rng(5)
     *_, last = train_field(
-        new_network(12, 1, "tanh", rng), p, y, counts=(300,), target=target, rng=rng
+        new_network(12, 1, "tanh", rng=rng), p, y, counts=(300,), target=target, rng=rng
     )
     value = last.network(p)
     far = np.abs(y) > 0.05
@@ -91,7 +96,7 @@ def test_what_is_learned_is_negative_inside(target):
 
 
 def test_outputs_beyond_the_clamp_learn_nothing():
-    network = new_network(8, 1, "tanh", np.random.default_rng(6))
+    network = new_network(8, 1, "tanh", rng=np.random.default_rng(6))
     values = network.values.copy()
     values[-1] = 50 * CLAMP  # the last bias
     dead = Network(values=values, sizes=network.sizes, frequencies=1, activation="tanh")

@@ -17,7 +17,7 @@ def torus(q: np.ndarray) -> np.ndarray:
 
 
 def levels(depth: int = 6):
-    return list(grow_octree(torus, LOW, 2.0, depth))
+    return list(grow_octree(torus, LOW, 2.0, depth=depth))
 
 
 def test_bits_are_those_of_all_cells():
@@ -28,7 +28,7 @@ def test_bits_are_those_of_all_cells():
 
 def test_no_cell_that_the_surface_crosses_is_left_out():
     box = lambda q: box_sdf(q, np.array([0.52, 0.33, 0.21]))  # noqa: E731
-    *_, last = grow_octree(box, LOW, 2.0, 4)
+    *_, last = grow_octree(box, LOW, 2.0, depth=4)
     corners = np.stack(np.meshgrid(*[np.linspace(-1, 1, 17)] * 3, indexing="ij"), axis=-1)
     inside = (box(corners.reshape(-1, 3)) < 0).reshape(17, 17, 17)
     cells = np.stack(
@@ -60,5 +60,5 @@ def test_bytes():
 
 
 def test_nothing_near_is_a_tree_of_one_cell():
-    *_, last = grow_octree(lambda q: np.full(len(q), 9.0), LOW, 2.0, 3)
+    *_, last = grow_octree(lambda q: np.full(len(q), 9.0), LOW, 2.0, depth=3)
     assert (len(last.cells), last.parents, bool(last.bits.any())) == (0, 0, False)

@@ -19,9 +19,9 @@ from workbench.algorithms.robust.samplers import (
 def test_a_sample_holds_different_rows(n, size, seed):
     if n < size:
         with pytest.raises(ValueError, match=f"needs {size}"):
-            draw_samples(n, size, 5, np.random.default_rng(seed))
+            draw_samples(n, size, 5, rng=np.random.default_rng(seed))
         return
-    samples = draw_samples(n, size, 40, np.random.default_rng(seed))
+    samples = draw_samples(n, size, 40, rng=np.random.default_rng(seed))
     assert samples.shape == (40, size)
     assert samples.min() >= 0
     assert samples.max() < n
@@ -30,7 +30,9 @@ def test_a_sample_holds_different_rows(n, size, seed):
 
 @pytest.mark.parametrize("n", [8, 30])
 def test_every_row_is_equally_likely(n):
-    counts = np.bincount(draw_samples(n, 3, 20_000, np.random.default_rng(0)).ravel(), minlength=n)
+    counts = np.bincount(
+        draw_samples(n, 3, 20_000, rng=np.random.default_rng(0)).ravel(), minlength=n
+    )
     expected = 20_000 * 3 / n
     assert np.abs(counts - expected).max() < 5 * np.sqrt(expected)
 

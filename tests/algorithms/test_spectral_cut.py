@@ -32,7 +32,7 @@ def test_the_club():
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_a_cut_finds_the_bridge(seed):
-    p, classes = dumbbell(200, 0.5, 14, np.random.default_rng(seed))
+    p, classes = dumbbell(200, 0.5, 14, rng=np.random.default_rng(seed))
     adjacency = graphs.joined(graphs.directed_graph(graphs.neighbours(p, 6)[0]), "union")
     steps = list(spectral_cut(adjacency, plain(adjacency)))
     assert [step.phase for step in steps] == ["graph", "fiedler", "sign", *["sweep"] * 6, "best"]
@@ -108,7 +108,9 @@ def test_training_goes_down_the_gradient():
     weights = [rng.normal(size=(4, 3)), rng.normal(size=(3, 3)), rng.normal(size=(3, 2))]
 
     def loss(changed):
-        return next(iter(train(dense, x, changed, labelled, classes, iterations=0))).loss
+        return next(
+            iter(train(dense, x, changed, labelled=labelled, classes=classes, iterations=0))
+        ).loss
 
     step = 1e-6
     slopes = []
@@ -123,7 +125,9 @@ def test_training_goes_down_the_gradient():
             slope[at] = (ends[0] - ends[1]) / (2 * step)
         slopes.append(slope)
     rate = 1e-4
-    taken = list(train(dense, x, weights, labelled, classes, iterations=1, rate=rate))
+    taken = list(
+        train(dense, x, weights, labelled=labelled, classes=classes, iterations=1, rate=rate)
+    )
     expected = loss(
         [
             w - rate * np.sign(np.where(np.abs(s) > 1e-6, s, 0))

@@ -25,14 +25,14 @@ def steps(uv_first, uv_second, **changed) -> list[Related]:
         "triangulate": triangulate,
         "route": "refined pose",
     }
-    return list(relate(uv_first, uv_second, K, L, **(known | changed)))
+    return list(relate(uv_first, uv_second, K, K_second=L, **(known | changed)))
 
 
 def test_a_ray_is_a_line_and_ends_where_infinity_is_seen():
     T, *_ = pair(0)
     uv = np.array([400.0, 300.0])
     depths = np.array([3.0, 6.0, 100.0, np.inf])
-    found = list(follow_ray(uv, depths, T, K, L))
+    found = list(follow_ray(uv, depths, T, K_first=K, K_second=L))
     assert [now.stage for now in found] == 4 * ["ray"] + ["plane", "pencil"]
     line = epipolar_lines(fundamental_from_cameras(K, L, T), uv[None])[0]
     np.testing.assert_allclose(homogeneous(found[-1].uv_second) @ line, 0, atol=1e-3)
@@ -40,7 +40,7 @@ def test_a_ray_is_a_line_and_ends_where_infinity_is_seen():
     np.testing.assert_allclose(found[-1].uv_second[-1], away[:2] / away[2], atol=1e-2)
     turned = T.copy()
     turned[:3, 3] = 0
-    found = list(follow_ray(uv, depths, turned, K, L))
+    found = list(follow_ray(uv, depths, turned, K_first=K, K_second=L))
     assert [now.stage for now in found] == 4 * ["ray"]
     assert np.ptp(found[-1].uv_second, axis=0).max() < 1e-9
 
@@ -49,7 +49,9 @@ def test_points_behind_the_second_camera_are_not_seen():
     T, *_ = pair(0)
     T = T.copy()
     T[:3, 3] -= [0, 0, 5]
-    found = list(follow_ray(np.array([400.0, 300.0]), np.array([3.0, 20.0]), T, K, L))[-1]
+    found = list(
+        follow_ray(np.array([400.0, 300.0]), np.array([3.0, 20.0]), T, K_first=K, K_second=L)
+    )[-1]
     assert np.isnan(found.uv_second[0]).all()
     assert np.isfinite(found.uv_second[1]).all()
 

@@ -107,7 +107,7 @@ def marches(x: np.ndarray, fmm: ModuleType | None) -> dict[str, Contender]:
     start, free = np.where(true <= 0.1, true, np.inf), np.ones((SIDE, SIDE), bool)
 
     def ours() -> float:
-        *_, last = march(start, free, h, 0.1)
+        *_, last = march(start, free, h, band=0.1)
         return float(last.d[-1, -1])
 
     contenders: dict[str, Contender] = {"ours, first order": ours}

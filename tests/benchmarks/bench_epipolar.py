@@ -95,7 +95,7 @@ def main() -> None:
     def ours(refined: bool = True) -> np.ndarray:
         Ts = essential_to_poses(essential_from_fundamental(fit_fundamental(x, y), K, L))
         best = max(Ts, key=lambda one: before_both(midpoints(one, xn, yn), one).sum())
-        return refine_motion(best, x, y, K, L) if refined else best
+        return refine_motion(best, x, y, K_first=K, K_second=L) if refined else best
 
     def by_poselib() -> np.ndarray:
         cameras = [

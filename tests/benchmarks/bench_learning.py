@@ -99,7 +99,7 @@ def contenders() -> dict[str, Gradient]:
 def updates(rounds: int) -> None:
     """Compare one update, Adam included."""
     rng = np.random.default_rng(0)
-    first, R = new_values(SIZES, rng) + 0.01, random_rotations(BATCH, 3, np.pi, rng)[0]
+    first, R = new_values(SIZES, rng) + 0.01, random_rotations(BATCH, 3, np.pi, rng=rng)[0]
     ways, least = contenders(), dict[str, float]()
     expected = by_hand(first, R)[1]
     print(

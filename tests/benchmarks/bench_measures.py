@@ -124,7 +124,7 @@ def insides(n: int, igl: Any) -> None:
             2,
             exact=False,
         )
-    grid = grid_over(p.min(axis=0), p.max(axis=0), 64, np.zeros(3))
+    grid = grid_over(p.min(axis=0), p.max(axis=0), 64, shift=np.zeros(3))
     pitch = float(grid.spacing[0])
     voxels: dict[str, Task] = {"trimesh voxelized, fill": lambda: trimesh_voxels(mesh, pitch)}
     if igl:

@@ -54,7 +54,11 @@ def tasks() -> dict[str, Task]:
     where they are there.
     """
     balls = synthetic_pair(
-        "spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), 4.0, np.random.default_rng(0)
+        "spheres",
+        StereoCamera(150.0, 79.5, 59.5, 0.1),
+        (160, 120),
+        noise=4.0,
+        rng=np.random.default_rng(0),
     )
     found = {
         "balls 160 x 120, 32": task_of(balls, 32),

@@ -55,7 +55,7 @@ def test_a_drawn_disc_has_its_rim():
     v, u = np.mgrid[:80, :100]
     disc = np.where(np.hypot(u - 52, v - 41) < 20, 200, 30).astype(np.uint8)
     for image in (disc, np.repeat(disc[..., None], 3, 2)):
-        rim = rim_points(image, np.array([50.0, 38.0]), 90, 35.0)
+        rim = rim_points(image, np.array([50.0, 38.0]), 90, farthest=35.0)
         assert np.abs(np.hypot(*(rim - [52, 41]).T) - 20).max() < 0.8
 
 

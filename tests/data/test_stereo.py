@@ -26,7 +26,7 @@ CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 
 
 def made(scene, camera=CAMERA, noise=0.0, seed=0) -> Any:
-    return synthetic_pair(scene, camera, (160, 120), noise, np.random.default_rng(seed))
+    return synthetic_pair(scene, camera, (160, 120), noise=noise, rng=np.random.default_rng(seed))
 
 
 @pytest.mark.parametrize("doffs", [0.0, 4.0])

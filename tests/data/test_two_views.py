@@ -15,7 +15,9 @@ from workbench.geometry.two_views.epipolar import fundamental_from_cameras, samp
 
 
 def street(what: What = "street", count=60, sigma=0.0, baseline=1.0, heading=0.0, seed=0):
-    return made_views(what, count, sigma, baseline, heading, np.random.default_rng(seed))
+    return made_views(
+        what, count, sigma, baseline=baseline, heading=heading, rng=np.random.default_rng(seed)
+    )
 
 
 @pytest.mark.parametrize("what", ["street", "far"])
@@ -101,8 +103,8 @@ def test_what_a_file_says_of_the_cameras_is_read(tmp_path):
         written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], K1=K, K2=2 * K - np.diag([0, 0, 1.0])),
         None,
         None,
-        None,
-        20,
+        K=None,
+        most=20,
     )
     assert len(views.matches) == 20
     assert views.K_second[0, 0] == 1000
@@ -122,7 +124,9 @@ def test_what_a_file_says_of_the_cameras_is_read(tmp_path):
 def test_cameras_that_are_none_are_refused(tmp_path, arrays, words):
     uv = np.random.default_rng(0).uniform(0, 500, (30, 4))
     with pytest.raises(InputError, match=words):
-        own_views(written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], **arrays), None, None, None, 20)
+        own_views(
+            written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], **arrays), None, None, K=None, most=20
+        )
 
 
 @pytest.mark.parametrize(

@@ -112,8 +112,8 @@ def test_the_linear_lens_is_exact_where_camera_and_poses_are():
     K, lens = camera(rng), Distortion(k1=-0.2, k2=0.07)
     Ts = np.stack([pose(rng) for _ in range(3)])
     uv = np.stack([project(P, T, K, lens) for T in Ts])
-    np.testing.assert_allclose(linear_lens(K, Ts, P, uv), [-0.2, 0.07], atol=1e-10)
-    assert linear_lens(K, Ts, P, uv, terms=1).shape == (1,)
+    np.testing.assert_allclose(linear_lens(K, Ts, P, uv=uv), [-0.2, 0.07], atol=1e-10)
+    assert linear_lens(K, Ts, P, uv=uv, terms=1).shape == (1,)
 
 
 def test_the_rms_is_per_point():

@@ -55,7 +55,7 @@ def test_back_projection_inverts_projection(seed, lens):
     T_camera_world = any_motion(rng)
     p_world = seen_points(rng, T_camera_world)
     uv = project(p_world, T_camera_world, K, lens)
-    back = back_project(uv, depths(p_world, T_camera_world), T_camera_world, K, lens)
+    back = back_project(uv, depths(p_world, T_camera_world), T_camera_world, K=K, distortion=lens)
     np.testing.assert_allclose(back, p_world, atol=1e-9)
 
 
@@ -75,8 +75,8 @@ def test_rays_start_at_the_centre_and_meet_the_points_at_ray_length(seed, lens):
     T_camera_world = any_motion(rng)
     p_world = seen_points(rng, T_camera_world)
     uv = project(p_world, T_camera_world, K, lens)
-    center, n_world = pixel_rays(uv, T_camera_world, K, lens)
-    length = ray_lengths(uv, depths(p_world, T_camera_world), K, lens)
+    center, n_world = pixel_rays(uv, T_camera_world, K, distortion=lens)
+    length = ray_lengths(uv, depths(p_world, T_camera_world), K, distortion=lens)
     np.testing.assert_allclose(center + length[:, None] * n_world, p_world, atol=1e-9)
     np.testing.assert_allclose(np.linalg.norm(n_world, axis=1), 1.0, atol=1e-12)
     assert (length >= depths(p_world, T_camera_world)).all()
@@ -193,7 +193,9 @@ def test_far_points_of_a_line_tend_to_its_vanishing_point(seed, lens):
     v_camera = np.append(rng.uniform(-0.4, 0.4, 2), 1.0)
     v_world = v_camera @ T_camera_world[:3, :3]
     far = rng.normal(size=(2, 3)) + 1e8 * v_world
-    limit = vanishing_points(np.stack([v_world, -3.0 * v_world]), T_camera_world, K, lens)
+    limit = vanishing_points(
+        np.stack([v_world, -3.0 * v_world]), T_camera_world, K, distortion=lens
+    )
     np.testing.assert_allclose(project(far, T_camera_world, K, lens), limit, atol=1e-3)
 
 
@@ -259,7 +261,10 @@ def test_impossible_cameras_are_refused():
 
 def test_no_points_give_no_pixels():
     assert project(np.zeros((0, 3)), np.eye(4), K, LENS).shape == (0, 2)
-    assert back_project(np.zeros((0, 2)), np.zeros(0), np.eye(4), K, LENS).shape == (0, 3)
+    assert back_project(np.zeros((0, 2)), np.zeros(0), np.eye(4), K=K, distortion=LENS).shape == (
+        0,
+        3,
+    )
 
 
 def test_agrees_with_opencv():

@@ -100,7 +100,7 @@ def test_the_known_oracle_is_zero_near_the_axis():
 def test_cells_fill_their_solid(system):
     of = SYSTEMS[system]
     low, high = np.array(of.solid)
-    volume, product = volume_of_cells(of, low, high, 40)
+    volume, product = volume_of_cells(of, low, high, cells=40)
     assert volume == pytest.approx(of.volume, rel=1e-3)
     assert product == pytest.approx(np.prod(high - low))
 

@@ -134,7 +134,7 @@ def test_a_match_of_weight_zero_does_not_count():
     weights = np.r_[np.zeros(3), np.ones(37)]
     for found in (
         fit_fundamental(uv_first, uv_second, weights),
-        refine_fundamental(F, uv_first, uv_second, weights),
+        refine_fundamental(F, uv_first, uv_second, weights=weights),
     ):
         same_up_to_sign(found, F, 1e-6)
 
@@ -160,7 +160,7 @@ def test_refinement_lowers_the_distances_and_stays_singular(seed):
     _, uv_first, uv_second = views(seed, 60, sigma=1.0)
     weights = np.random.default_rng(seed).random(60) + 0.1
     start = fit_fundamental(uv_first, uv_second, weights)
-    found = refine_fundamental(start, uv_first, uv_second, weights, steps=50)
+    found = refine_fundamental(start, uv_first, uv_second, weights=weights, steps=50)
 
     def cost(F):
         return float(weights @ sampson_distances(F, uv_first, uv_second) ** 2)

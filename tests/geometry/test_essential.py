@@ -105,7 +105,7 @@ def test_refinement_lowers_the_distances_and_stays_at_the_truth_without_noise(se
             ).sum()
         )
 
-    found = refine_motion(start, uv_first, uv_second, K, L)
+    found = refine_motion(start, uv_first, uv_second, K_first=K, K_second=L)
     assert np.linalg.norm(found[:3, 3]) == pytest.approx(1)
     assert cost(found) <= cost(T) + 1e-9
     for axis in np.eye(3):  # a minimum: every small step raises the cost
@@ -117,7 +117,11 @@ def test_refinement_lowers_the_distances_and_stays_at_the_truth_without_noise(se
             assert cost(motion(found[:3, :3], found[:3, 3] + step * axis)) >= cost(found) - 1e-9
     T, _, uv_first, uv_second = pair(seed)
     found = refine_motion(
-        motion(exp_so3(np.full(3, 0.01)) @ T[:3, :3], T[:3, 3]), uv_first, uv_second, K, L
+        motion(exp_so3(np.full(3, 0.01)) @ T[:3, :3], T[:3, 3]),
+        uv_first,
+        uv_second,
+        K_first=K,
+        K_second=L,
     )
     assert degrees_between(found, T) < 1e-5
     assert angle_between(found[:3, 3], T[:3, 3]) < 1e-6
@@ -125,7 +129,7 @@ def test_refinement_lowers_the_distances_and_stays_at_the_truth_without_noise(se
 
 def test_a_motion_that_only_turns_is_refused():
     with pytest.raises(ValueError, match="without translation"):
-        refine_motion(np.eye(4), np.ones((9, 2)), np.ones((9, 2)), K, K)
+        refine_motion(np.eye(4), np.ones((9, 2)), np.ones((9, 2)), K_first=K, K_second=K)
 
 
 def test_the_fountains_motion(shared_data):
@@ -143,7 +147,7 @@ def test_the_fountains_motion(shared_data):
         before_both(triangulate(P, camera_matrix(K_, T), uv_first, uv_second), T).sum() for T in Ts
     ]
     assert sorted(counts) == [0, 0, 0, 1365]
-    T = refine_motion(Ts[int(np.argmax(counts))], uv_first, uv_second, K_, K_)
+    T = refine_motion(Ts[int(np.argmax(counts))], uv_first, uv_second, K_first=K_, K_second=K_)
     assert degrees_between(T[:3, :3], found["R_rel"]) < 0.05
     assert np.degrees(angle_between(T[:3, 3], found["t_rel"])) < 0.2
     everything = triangulate(

@@ -45,7 +45,7 @@ def test_a_path_is_as_long_as_its_distance(seed):
     edges, lengths, count = some_graph(seed)
     d = geodesics.shortest_distances(edges, lengths, count, 0)
     goal = int(np.argmax(np.where(np.isfinite(d), d, -1)))
-    path = geodesics.shortest_path(edges, lengths, d, goal)
+    path = geodesics.shortest_path(edges, lengths, d, goal=goal)
     weight = geodesics.length_graph(edges, lengths, count)
     assert path[0] == 0
     assert path[-1] == goal
@@ -55,8 +55,8 @@ def test_a_path_is_as_long_as_its_distance(seed):
 def test_no_path_leads_out_of_reach():
     edges, lengths = np.array([[0, 1]]), np.array([1.0])
     d = geodesics.shortest_distances(edges, lengths, 3, 0)
-    assert len(geodesics.shortest_path(edges, lengths, d, 2)) == 0
-    assert geodesics.shortest_path(edges, lengths, np.array([0.0, 0.0, 1.0]), 2).tolist() == [
+    assert len(geodesics.shortest_path(edges, lengths, d, goal=2)) == 0
+    assert geodesics.shortest_path(edges, lengths, np.array([0.0, 0.0, 1.0]), goal=2).tolist() == [
         2
     ]  # wrong distances
 

@@ -54,7 +54,7 @@ def test_weight_zero_is_absence_and_weight_two_is_twice():
     rows = np.r_[2:12, 7:12]
     for fit in (
         fit_homography,
-        lambda a, b, w=None: refine_homography(fit_homography(a, b, w), a, b, w, steps=40),
+        lambda a, b, w=None: refine_homography(fit_homography(a, b, w), a, b, weights=w, steps=40),
     ):
         ours, repeated = fit(uv_a, uv_b, weights), fit(uv_a[rows], uv_b[rows])
         tolerance = 0.05 if fit is fit_homography else 1e-3  # the normalisation sees all pixels
@@ -120,7 +120,7 @@ def test_refinement_reaches_the_optimum_of_the_transfer_distance(seed):
     _, uv_a, uv_b = scene(seed, 40, sigma=2.0)
     weights = np.random.default_rng(seed).random(40) + 0.1
     start = fit_homography(uv_a, uv_b, weights)
-    found = refine_homography(start, uv_a, uv_b, weights, steps=30)
+    found = refine_homography(start, uv_a, uv_b, weights=weights, steps=30)
 
     def cost(H):
         return float(weights @ transfer_distances(H, uv_a, uv_b) ** 2)

@@ -31,7 +31,7 @@ def some(seed, count=60, dims=2):
 def test_metrics_keep_the_axioms(seed, which):
     d = metrics.distance_of(which[0], order=which[1], covariance=C)
     a, b, c = some(seed)
-    excess, sides = metrics.triangle_excess(d, a, b, c)
+    excess, sides = metrics.triangle_excess(d, a, b, c=c)
     assert (excess <= 1e-9 * sides.max()).all()
     np.testing.assert_allclose(d(a, b), d(b, a))
     assert (d(a, a) == 0).all()
@@ -44,13 +44,13 @@ def test_metrics_keep_the_axioms(seed, which):
 )
 def test_shares_of_broken_triangles(metric, order, share):
     a, b, c = np.random.default_rng(0).random((3, 50_000, 2))
-    excess, _ = metrics.triangle_excess(metrics.distance_of(metric, order=order), a, b, c)
+    excess, _ = metrics.triangle_excess(metrics.distance_of(metric, order=order), a, b, c=c)
     assert (excess > 1e-12).mean() == pytest.approx(share, abs=0.006)
 
 
 def test_squares_break_it_where_the_angle_at_b_is_obtuse():
     a, b, c = some(3, 500)
-    excess, _ = metrics.triangle_excess(metrics.distance_of("squared"), a, b, c)
+    excess, _ = metrics.triangle_excess(metrics.distance_of("squared"), a, b, c=c)
     np.testing.assert_allclose(
         excess, -2 * ((a - b) * (c - b)).sum(axis=1), atol=1e-9
     )  # the law of cosines

@@ -49,7 +49,7 @@ def cast(
 
     Source: Möller and Trumbore 1997.
     """
-    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, lens)
+    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     n_world = n_world / (n_world @ T_camera_world[2, :3])[:, None]  # one metre of depth per unit
     nearest, margin = np.full(len(n_world), np.inf), np.full(len(n_world), np.inf)
     which = np.full(len(n_world), -1)
@@ -110,7 +110,7 @@ def test_a_floor_under_the_camera_fills_every_pixel_below_the_horizon(lens):
     p = np.array([[-100.0, -100, 0], [100, -100, 0], [100, 100, 0], [-100, 100, 0]])
     item = MeshItem(p, np.array([[0, 1, 2], [0, 2, 3]]), np.concatenate([RED, BLUE]))
     image = render([item], T_camera_world, K, WIDTH, HEIGHT, lens)
-    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, lens)
+    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     with np.errstate(divide="ignore"):
         hit = origin - origin[2] / n_world[:, 2:] * n_world
     depth = depths(hit, T_camera_world)
@@ -130,7 +130,7 @@ def test_the_ball_of_the_street_is_seen_at_the_depth_of_a_sphere(lens):
     image = render(
         [MeshItem(ball.p_world, ball.faces, ball.colors)], T_camera_world, K, WIDTH, HEIGHT, lens
     )
-    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, lens)
+    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     along = n_world @ (BALL_CENTER - origin)
     miss = np.linalg.norm(origin + along[:, None] * n_world - BALL_CENTER, axis=1)
     hit = miss < 0.9 * BALL_RADIUS
@@ -237,7 +237,7 @@ def test_a_lens_that_folds_leaves_its_dark_rim_empty():
     p = np.array([[-100.0, -100, 0], [100, -100, 0], [100, 100, 0], [-100, 100, 0]])
     item = MeshItem(p, np.array([[0, 1, 2], [0, 2, 3]]), np.concatenate([RED, RED]))
     image = render([item], T_camera_world, K, WIDTH, HEIGHT, lens)
-    _, n_world = pixel_rays(all_pixels(), T_camera_world, K, lens)
+    _, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     blind = np.isnan(n_world[:, 0]).reshape(HEIGHT, WIDTH)
     assert 0.1 < blind.mean() < 0.9
     assert (np.isfinite(image.depth) != blind).mean() > 0.93
@@ -353,7 +353,7 @@ def test_points_in_sight_are_those_that_nothing_stands_before():
         p,
         T_camera_world,
         K_street,
-        render(street_items(), T_camera_world, K_street, 320, 240).depth,
+        depth=render(street_items(), T_camera_world, K_street, 320, 240).depth,
     )
     a, b, c = np.concatenate(
         [one.p_world[one.faces] for one in street().solids.values()]

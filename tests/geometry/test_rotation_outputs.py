@@ -68,7 +68,7 @@ def test_rotation_vectors_have_their_gradient_up_to_half_a_turn():
 
 @every
 def test_the_numbers_of_a_rotation_mean_it_and_start_means_no_turn(representation, d):
-    R, _ = random_rotations(50, d, np.pi, np.random.default_rng(0))
+    R, _ = random_rotations(50, d, np.pi, rng=np.random.default_rng(0))
     np.testing.assert_allclose(representation.decode(representation.numbers(R)), R, atol=1e-12)
     np.testing.assert_array_equal(representation.decode(representation.start[None])[0], np.eye(d))
 
@@ -139,7 +139,7 @@ def test_only_vectors_of_unit_length_columns_and_entries_are_continuous():
 
 
 def test_angles_between_rotations_are_those_of_scipy():
-    R, other = (random_rotations(100, 3, np.pi, np.random.default_rng(k))[0] for k in (5, 6))
+    R, other = (random_rotations(100, 3, np.pi, rng=np.random.default_rng(k))[0] for k in (5, 6))
     theirs = np.degrees((Rotation.from_matrix(R) * Rotation.from_matrix(other).inv()).magnitude())
     np.testing.assert_allclose(degrees_apart(R, other), theirs, atol=1e-5)
     np.testing.assert_allclose(degrees_apart(R, R), 0, atol=1e-6)
@@ -151,13 +151,13 @@ def test_angles_between_rotations_are_those_of_scipy():
 
 @pytest.mark.parametrize("largest", [0.5, 2.0, np.pi])
 def test_turns_are_spread_as_all_rotations_are(largest):
-    R, w = random_rotations(4000, 3, largest, np.random.default_rng(7))
+    R, w = random_rotations(4000, 3, largest, rng=np.random.default_rng(7))
     np.testing.assert_allclose(R, Rotation.from_rotvec(w).as_matrix(), atol=1e-12)
     a = np.linalg.norm(w, axis=1)
     assert a.max() <= largest
     theirs = Rotation.random(40_000, random_state=8).magnitude()
     assert scipy.stats.ks_2samp(a, theirs[theirs <= largest]).pvalue > 0.01
     np.testing.assert_allclose((w / a[:, None]).mean(axis=0), 0, atol=0.04)
-    flat, a = random_rotations(500, 2, largest, np.random.default_rng(7))
+    flat, a = random_rotations(500, 2, largest, rng=np.random.default_rng(7))
     assert np.abs(a).max() <= largest
     np.testing.assert_allclose(flat[:, :, 0], np.column_stack([np.cos(a), np.sin(a)]))

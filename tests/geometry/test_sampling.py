@@ -34,7 +34,9 @@ def test_points_are_spread_over_faces_as_these_are_large():
 
 def test_the_mean_of_points_is_the_middle_of_the_surface():
     p, faces = rabbit_mesh(0.05)
-    q = points_on_faces(p, faces, unit_points(27_000, 3, "stratified", np.random.default_rng(1)))
+    q = points_on_faces(
+        p, faces, unit_points(27_000, 3, "stratified", rng=np.random.default_rng(1))
+    )
     assert np.linalg.norm(q.mean(axis=0) - area_centroid(p, faces)) < 0.005
 
 
@@ -56,7 +58,7 @@ def test_the_sequence_of_sobol_is_scipys():
 
 @pytest.mark.parametrize(("draw", "count"), [("stratified", 64), ("Sobol", 64)])
 def test_one_point_lies_in_each_of_so_many_boxes(draw, count):
-    u = unit_points(count, 3, draw, np.random.default_rng(2))
+    u = unit_points(count, 3, draw, rng=np.random.default_rng(2))
     assert len(u) == count
     cuts = {"stratified": [(4, 4, 4)], "Sobol": [(64, 1, 1), (1, 64, 1), (1, 1, 64), (8, 8, 1)]}[
         draw
@@ -88,7 +90,7 @@ def test_the_ball_fills_less_and_less_of_its_cube():
 
 def test_lines_are_isotropic_and_tell_the_area():
     p, faces = rabbit_mesh(0.05)
-    ends = lines_through_ball(4000, np.zeros(3), 1.0, np.random.default_rng(5))
+    ends = lines_through_ball(4000, np.zeros(3), 1.0, rng=np.random.default_rng(5))
     np.testing.assert_allclose(np.linalg.norm(ends, axis=2), 1)
     line, places = line_crossings(p, faces, ends)
     counts = np.bincount(line, minlength=4000)

@@ -79,11 +79,11 @@ def test_a_turned_patch_is_the_pixels_themselves_or_those_of_the_turned_picture(
     image = scipy.ndimage.gaussian_filter(np.random.default_rng(2).uniform(0, 255, (61, 61)), 3)
     middle = np.array([30.0, 30.0])
     np.testing.assert_allclose(
-        turned_patch(image, np.array([20.0, 32.0]), 0.0, 5.0, 11), image[27:38, 15:26]
+        turned_patch(image, np.array([20.0, 32.0]), 0.0, half=5.0, side=11), image[27:38, 15:26]
     )
     for angle in (0.0, 0.7, np.pi / 2, -2.0):
         np.testing.assert_allclose(
-            turned_patch(turned(image, angle), middle, angle, 8.0, 17),
+            turned_patch(turned(image, angle), middle, angle, half=8.0, side=17),
             image[22:39, 22:39],
             atol=2.0,
         )

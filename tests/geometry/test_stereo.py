@@ -67,9 +67,11 @@ def test_zero_is_infinitely_far_and_only_nan_is_unknown():
 
 def test_one_pixel_costs_more_the_further_away():
     depth = np.array([1.0, 5.0, 20.0])
-    error = depth_uncertainty(depth, 700.0, 0.12, 1.0)
+    error = depth_uncertainty(depth, 700.0, 0.12, disparity_error=1.0)
     assert error == pytest.approx([0.0119, 0.2976, 4.762], rel=1e-3)
-    near, far = depth_interval(disparity_from_depth(depth, 700.0, 0.12), 700.0, 0.12, 1.0)
+    near, far = depth_interval(
+        disparity_from_depth(depth, 700.0, 0.12), 700.0, 0.12, disparity_error=1.0
+    )
     assert far - near == pytest.approx(
         [0.0238, 0.597, 10.1], rel=0.01
     )  # exact: longer on the far side
@@ -82,11 +84,13 @@ def test_the_uncertainty_is_the_slope_of_depth(depth, f, baseline):
     slope = (
         depth_from_disparity(d - h, f, baseline) - depth_from_disparity(d + h, f, baseline)
     ) / (2 * h)
-    assert depth_uncertainty(np.array([depth]), f, baseline, 1.0) == pytest.approx(slope, rel=1e-4)
+    assert depth_uncertainty(np.array([depth]), f, baseline, disparity_error=1.0) == pytest.approx(
+        slope, rel=1e-4
+    )
 
 
 def test_an_error_larger_than_the_disparity_reaches_infinity():
-    near, far = depth_interval(np.array([0.4]), 700.0, 0.12, 1.0)
+    near, far = depth_interval(np.array([0.4]), 700.0, 0.12, disparity_error=1.0)
     assert np.isfinite(near).all()
     assert far[0] == np.inf
 

@@ -20,7 +20,7 @@ def medium(seed: int, rays: int = 4, samples: int = 9) -> tuple[np.ndarray, np.n
 def test_gradients_by_density_and_colour_are_those_of_differences(behind):
     density, color = medium(1)
     slope = np.random.default_rng(2).normal(size=(4, 3))
-    by_density, by_color = through_seen(slope, density, color, 0.13, behind)
+    by_density, by_color = through_seen(slope, density, color, spacing=0.13, behind=behind)
 
     def value(density: np.ndarray, color: np.ndarray) -> np.ndarray:
         return (slope * seen(ray_weights(density, 0.13), color, behind)).sum(axis=1)

@@ -23,7 +23,9 @@ from workbench.geometry.meshes.measures import encloses, signed_volume, surface_
 
 
 def grid_around(p: np.ndarray, cells: int, seed: int = 0) -> Grid:
-    return grid_over(p.min(axis=0), p.max(axis=0), cells, np.random.default_rng(seed).random(3))
+    return grid_over(
+        p.min(axis=0), p.max(axis=0), cells, shift=np.random.default_rng(seed).random(3)
+    )
 
 
 def test_columns_fill_the_cells_whose_middles_are_inside():
@@ -77,7 +79,7 @@ def test_no_cell_at_all():
     with pytest.raises(ValueError, match="no cell"):
         marched_surface(bits, grid)
     with pytest.raises(ValueError, match="cells"):
-        grid_over(np.zeros(3), np.zeros(3), 8, np.zeros(3))
+        grid_over(np.zeros(3), np.zeros(3), 8, shift=np.zeros(3))
 
 
 def test_a_ball_the_volume_converges_and_no_area_of_bits_does():

@@ -278,7 +278,7 @@ def submitted(
     documents.
     """
     (folder / "mine.py").write_text(text)
-    root = lay_out_prairielearn(folder / "grade", prairielearn, exercise, folder / "mine.py")
+    root = lay_out_prairielearn(folder / "grade", prairielearn, exercise, file=folder / "mine.py")
     found = run(root / "serverFilesCourse" / "geometry-workbench" / "run.sh", root, python)
     jsonschema.validate(found, PRAIRIELEARN)
     assert (root / "results" / "results.json").stat().st_size < 1_000_000

@@ -58,7 +58,7 @@ def test_what_the_checks_found_is_said_in_the_words_of_the_terminal(exercise):
 @pytest.mark.parametrize("name", ["point_to_plane_step", "match"])
 def test_a_watched_file_is_told_of_the_run_that_calls_it(name):
     exercise, lesson = exercises()[name], catalog()["icp"]
-    page = watched_html(exercise, "mine.py", lesson, lambda run: f"?run={run}")
+    page = watched_html(exercise, "mine.py", lesson, address=lambda run: f"?run={run}")
     calling, idle = page.partition('data-called="false"')[::2]
     assert "drives this lesson" in calling
     assert "drives this lesson" not in idle
@@ -85,7 +85,7 @@ def test_what_is_found_of_a_watched_file_stands_before_the_text(tmp_path):
 def test_what_a_student_wrote_cannot_end_up_as_html():
     (exercise, *_) = exercises_of(catalog()["icp"])
     evil = replace(exercise, task="<script>alert(1)</script>")
-    page = watched_html(evil, "<img src=x>.py", catalog()["icp"], lambda run: f"?{run}")
+    page = watched_html(evil, "<img src=x>.py", catalog()["icp"], address=lambda run: f"?{run}")
     assert "<script>" not in page
     assert "<img" not in page
     assert report_data("the file is being checked") == {

@@ -77,7 +77,7 @@ def errors(state: State) -> tuple[float, float]:
         q = surface.p
     else:
         q = points_on_faces(
-            surface.p, surface.faces, unit_points(2048, 3, "Sobol", np.random.default_rng(0))
+            surface.p, surface.faces, unit_points(2048, 3, "Sobol", rng=np.random.default_rng(0))
         )
     away = np.abs(distance(state.params, q))
     return float(away.mean()), float(away.max())

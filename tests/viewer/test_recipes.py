@@ -307,7 +307,7 @@ def test_the_container_s_recipe_agrees_with_the_project():
     assert kinds.index("USER") < kinds.index("ENTRYPOINT")
     command = json.loads(dict(steps)["ENTRYPOINT"])
     assert command[0] in project["scripts"]
-    called = flags.parse(cli.serve, command[1:], "workbench", "")
+    called = flags.parse(cli.serve, command[1:], "workbench", description="")
     assert callable(called)
     assert command[command.index("--port") + 1] == dict(steps)["EXPOSE"]
 

@@ -43,7 +43,7 @@ class State:
 
 @traced
 def slerp_and_lerp(
-    T_world_start: Pose, T_world_end: Pose, times: Times, rotation_from_axis_angle: Rodrigues
+    T_world_start: Pose, T_world_end: Pose, times: Times, *, rotation_from_axis_angle: Rodrigues
 ) -> Iterator[State]:
     """Yield poses on the shortest turn about one axis at constant speed (slerp), the place on a
     straight line.
@@ -91,6 +91,7 @@ def lerp_of_euler_angles(
     angles_start: Float[np.ndarray, "3"],
     angles_end: Float[np.ndarray, "3"],
     order: EulerOrder,
+    *,
     p_start: Float[np.ndarray, "3"],
     p_end: Float[np.ndarray, "3"],
     times: Times,
@@ -135,6 +136,7 @@ def along_a_screw(
     T_world_start: Pose,
     T_world_end: Pose,
     times: Times,
+    *,
     invert_rigid: Callable[[np.ndarray], np.ndarray],
 ) -> Iterator[State]:
     """Yield poses on the screw from start to end: the geodesic exp(t log) of SE(3), at constant

@@ -111,6 +111,7 @@ def follow_ray(
     uv_first: Float[np.ndarray, "2"],
     depths: Float[np.ndarray, " m"],
     T_second_first: Float[np.ndarray, "4 4"],
+    *,
     K_first: Float[np.ndarray, "3 3"],
     K_second: Float[np.ndarray, "3 3"],
 ) -> Iterator[Followed]:
@@ -187,8 +188,8 @@ def relate(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
     K_first: Float[np.ndarray, "3 3"],
-    K_second: Float[np.ndarray, "3 3"],
     *,
+    K_second: Float[np.ndarray, "3 3"],
     linear: Linear,
     eight_point: EightPoint,
     essential_to_poses: Poses,
@@ -257,7 +258,9 @@ def relate(
     for k in range(MOST_ROUNDS if route == "refined pose" else 0):
         before, T_second_first = (
             T_second_first,
-            refine_motion(T_second_first, uv_first, uv_second, K_first, K_second, steps=1),
+            refine_motion(
+                T_second_first, uv_first, uv_second, K_first=K_first, K_second=K_second, steps=1
+            ),
         )
         p_first = triangulate(P_first, camera_matrix(K_second, T_second_first), uv_first, uv_second)
         F = fundamental_from_cameras(K_first, K_second, T_second_first)

@@ -112,7 +112,7 @@ def the_run_that_is_opened_calls_the_function(subject: Subject, exercise: Exerci
     )
     yield (
         None
-        if _drives(lesson, exercise, params, LONGEST)
+        if _drives(lesson, exercise, params, steps=LONGEST)
         else f"{never}; `preset=` of the contract names one that does"
     )
 
@@ -314,7 +314,7 @@ def _variants(lesson: Lesson) -> Iterator[Any]:
     yield from (preset.params for preset in lesson.presets)
 
 
-def _drives(lesson: Lesson, exercise: Exercise, params: Any, steps: int = 12) -> bool:
+def _drives(lesson: Lesson, exercise: Exercise, params: Any, *, steps: int = 12) -> bool:
     try:
         for _ in islice(lesson.run(params, **{exercise.contract.slot: _called}), steps):
             pass

@@ -255,14 +255,14 @@ def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
                 idle.setdefault(base, []).append(field)
     for base, turned in idle.items():
         plain = subject.fresh(base, "a run", MOST_STEPS)
-        if _all_turned(subject, turned, base, plain):
+        if _all_turned(subject, turned, base, plain=plain):
             for field in turned:
-                yield from _has_no_effect(subject, field, base, plain)
+                yield from _has_no_effect(subject, field, base, plain=plain)
         else:
             yield from [None] * len(turned)
 
 
-def _all_turned(subject: Subject, fields: list[Field], base: Any, plain: Timeline) -> bool:
+def _all_turned(subject: Subject, fields: list[Field], base: Any, *, plain: Timeline) -> bool:
     """Whether knobs that are turned together, to each of their ends once, change a run; own files
     have no ends.
     """
@@ -277,7 +277,7 @@ def _all_turned(subject: Subject, fields: list[Field], base: Any, plain: Timelin
     return False
 
 
-def _has_no_effect(subject: Subject, field: Field, base: Any, plain: Timeline) -> Found:
+def _has_no_effect(subject: Subject, field: Field, base: Any, *, plain: Timeline) -> Found:
     for value in [value for value in ends(field) if value != getattr(base, field.name)]:
         turned = subject.fresh(
             replace(base, **{field.name: value}), f"a run at {field.name} = {value}", MOST_STEPS

@@ -166,7 +166,7 @@ def main(word: str, seconds: float) -> None:
     catalog()  # of which the lesson's own time is none
     send(doing="loading it")
     for found in _looked_at(
-        word, seconds, lambda doing: send(doing=doing), lambda name: send(name=name)
+        word, seconds, lambda doing: send(doing=doing), named=lambda name: send(name=name)
     ):
         send(holds=found)
     send(end=True)
@@ -175,7 +175,7 @@ def main(word: str, seconds: float) -> None:
 
 
 def _looked_at(
-    word: str, seconds: float, tell: Callable[[str], object], named: Callable[[str], object]
+    word: str, seconds: float, tell: Callable[[str], object], *, named: Callable[[str], object]
 ) -> Iterator[str | None]:
     try:
         lesson = lesson_given(word)

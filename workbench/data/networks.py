@@ -94,7 +94,7 @@ def drawn(
 
 
 def dumbbell(
-    count: int, share: float, bridge: int, rng: np.random.Generator
+    count: int, share: float, bridge: int, *, rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return points of two round lumps, 2 m apart, with a row of points between them; and their
     classes.

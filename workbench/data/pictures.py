@@ -55,7 +55,11 @@ class Pictures:
             InputError: If it cannot be read any more.
         """
         name = self.names[view]
-        return None if name is None else _decoded(self.path, name, stamp_of(self.path, name), most)
+        return (
+            None
+            if name is None
+            else _decoded(self.path, name, stamp_of(self.path, name), most=most)
+        )
 
 
 @apart
@@ -230,7 +234,7 @@ def _is_of_a_camera(image: "Image.Image") -> bool:
 
 
 @functools.lru_cache(maxsize=48)
-def _decoded(path: Path, name: str, _stamp: tuple[int, int], most: int) -> np.ndarray:
+def _decoded(path: Path, name: str, _stamp: tuple[int, int], *, most: int) -> np.ndarray:
     return _upright(path, name, most)
 
 

@@ -20,7 +20,7 @@ AFTER = 12
 
 
 def record_failing(
-    exercise: Exercise, path: Path, out: Path | None = None, lesson: Lesson | None = None
+    exercise: Exercise, path: Path, out: Path | None = None, *, lesson: Lesson | None = None
 ) -> Path | None:
     """Write a recording of the student's run beside the reference's, from just before the first
     step that differs.

@@ -144,7 +144,7 @@ def grade_function(
     if isinstance(function, SandboxedFunction):
         said = forbidden_use(function.submission, exercise)
         if said:
-            return _refused(said, exercise, hidden, file, function.wall, seed)
+            return _refused(said, exercise, hidden, file=file, wall=function.wall, seed=seed)
         function.start()
     outcomes: list[Outcome] = []
     asked: dict[str, Candidate] = {}
@@ -172,7 +172,7 @@ def grade_function(
 
 
 def _refused(
-    said: str, exercise: Exercise, hidden: bool, file: str, wall: Wall, seed: int | None
+    said: str, exercise: Exercise, hidden: bool, *, file: str, wall: Wall, seed: int | None
 ) -> Report:
     """Return the report on a file that uses what is forbidden: nothing of it is run, and every
     check says why.

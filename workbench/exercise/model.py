@@ -86,7 +86,7 @@ def number(value: Any, digits: int = 4) -> str:
     return brief(value, digits) if abs(value) < 1e7 else fixed_or_power(value, 0)
 
 
-def against(got: Any, right: Any, digits: int = 4, unit: str = "") -> str:
+def against(got: Any, right: Any, digits: int = 4, *, unit: str = "") -> str:
     """Write an answer and the right one, "0.64, right is −0.64", with as many more digits as it
     takes to tell them apart.
     """

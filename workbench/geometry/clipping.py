@@ -25,7 +25,7 @@ def clip_segments(
     """
     kept = np.flatnonzero((ahead > 0).any(axis=1))
     p, ahead = p[kept], ahead[kept]
-    crossing = _crossing(p[:, 0], p[:, 1], ahead[:, 0], ahead[:, 1])
+    crossing = _crossing(p[:, 0], p[:, 1], ahead[:, 0], ahead_b=ahead[:, 1])
     return np.where((ahead > 0)[:, :, None], p, crossing[:, None]), kept
 
 
@@ -222,11 +222,11 @@ def _lone_corner_first(
     turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
     a, b, c = np.take_along_axis(p, turn[:, :, None], axis=1).transpose(1, 0, 2)
     at_a, at_b, at_c = np.take_along_axis(ahead, turn, axis=1).T
-    return a, b, c, _crossing(a, b, at_a, at_b), _crossing(a, c, at_a, at_c)
+    return a, b, c, _crossing(a, b, at_a, ahead_b=at_b), _crossing(a, c, at_a, ahead_b=at_c)
 
 
 def _crossing(
-    p_a: np.ndarray, p_b: np.ndarray, ahead_a: np.ndarray, ahead_b: np.ndarray
+    p_a: np.ndarray, p_b: np.ndarray, ahead_a: np.ndarray, *, ahead_b: np.ndarray
 ) -> np.ndarray:
     """Return where segments a-b cross the plane at which `ahead` is zero; anything for those that
     do not.

@@ -56,7 +56,7 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
 
     def write(why: str = NOT_YET) -> dict[str, Any]:
         left = [ungraded("", exercise, f"{exercise.name} {why}") for exercise in waiting]
-        results = _results(assignment, reports, [*failed, *left], images, notes)
+        results = _results(assignment, reports, [*failed, *left], images=images, notes=notes)
         path = root / places.results
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomic(
@@ -109,6 +109,7 @@ def _results(
     assignment: Assignment,
     reports: Sequence[Report],
     failed: Sequence[dict[str, Any]],
+    *,
     images: Sequence[dict[str, str]],
     notes: Sequence[str],
 ) -> dict[str, Any]:

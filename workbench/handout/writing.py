@@ -98,7 +98,7 @@ def share_of(assignment: Assignment, out: Path, submission: Path) -> float:
     for exercise in assignment.exercises:
         with tempfile.TemporaryDirectory(prefix="handout-") as folder:
             root = lay_out_prairielearn(
-                Path(folder), out, exercise.name, submission / f"my_{exercise.name}.py"
+                Path(folder), out, exercise.name, file=submission / f"my_{exercise.name}.py"
             )
             found = run(root / "serverFilesCourse" / prairielearn.GRADER / "run.sh", root)
             shares.append(found.get("score", 0.0))
@@ -118,7 +118,7 @@ def lay_out_gradescope(root: Path, out: Path, submission: Path) -> Path:
     return root
 
 
-def lay_out_prairielearn(root: Path, out: Path, exercise: str, file: Path) -> Path:
+def lay_out_prairielearn(root: Path, out: Path, exercise: str, *, file: Path) -> Path:
     """Lay a question and a submitted file out below a folder as PrairieLearn does below /grade."""
     shutil.copytree(out / "serverFilesCourse", root / "serverFilesCourse")
     shutil.copytree(out / "questions" / prairielearn.GRADER / exercise / "tests", root / "tests")

@@ -44,7 +44,7 @@ def course_document(
     shown = "".join(_card(number, card) for number, card in enumerate(cards, 1))
     said = f'<p class="trouble" role="alert">{escape(trouble)}</p>' if trouble else ""
     return (
-        f"{document_head('Geometry workbench', WELCOME, root, head)}"
+        f"{document_head('Geometry workbench', WELCOME, root, more=head)}"
         '<body class="course"><a class="skip" href="#course">To the lessons</a><main id="course">'
         f"<h1>Geometry workbench</h1><p>{WELCOME}</p>{said}<ol"
         f' class="cards">{shown}</ol>{_map(cards)}'

@@ -81,9 +81,13 @@ def lesson_document(
     scripts = (*(LIVE if home == "live" else RECORDED), *SCRIPTS)
     constants = {"LESSON": data} | dict(more or {})
     heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
-    text = _alone(heading, alone[1]) if alone else _article(article, home, data, opening, ending)
+    text = (
+        _alone(heading, alone[1])
+        if alone
+        else _article(article, home, data, opening=opening, ending=ending)
+    )
     return (
-        f"{document_head(heading, lesson.summary, root, head, math=root is not None or not alone)}"
+        f"{document_head(heading, lesson.summary, root, more=head, math=root is not None or not alone)}"  # noqa: E501
         f'<body{" class=alone" if alone else ""} data-home="{home}"'
         f' data-lesson="{escape(lesson.name)}">'
         f'<a class="skip" href="#stage">To the stage</a><main>{text}'
@@ -126,7 +130,7 @@ def bare(file: Path) -> str:
     return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 
 
-def _article(article: str, home: str, data: dict[str, Any], opening: str, ending: str) -> str:
+def _article(article: str, home: str, data: dict[str, Any], *, opening: str, ending: str) -> str:
     questions = "".join(_question(question) for question in data["questions"])
     presets = "".join(
         f'<li><button type="button" data-run="{escape(preset["name"])}"'
@@ -169,7 +173,7 @@ def in_script(value: Any) -> str:
 
 
 def document_head(
-    title: str, summary: str, root: str | None, more: str, *, math: bool = True
+    title: str, summary: str, root: str | None, *, more: str, math: bool = True
 ) -> str:
     """Return the head of a document of ours."""
     return (

@@ -24,7 +24,7 @@ def exercises_html(exercises: Iterable[Exercise]) -> str:
 
 
 def watched_html(
-    exercise: Exercise, file: str, lesson: Lesson, address: Callable[[str], str]
+    exercise: Exercise, file: str, lesson: Lesson, *, address: Callable[[str], str]
 ) -> str:
     """Return the section of the exercise whose function is watched, in a student's file.
 

@@ -150,7 +150,7 @@ def _things(primitive: object, pen: _Pen) -> Iterator[tuple]:
         x, y = 0.5 * (primitive.width or 1.0) * np.array([1.0, height / width])
         corners = np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]])
         yield from _sheet(
-            primitive.rgb(), corners, primitive.T_world_object, primitive.opacity, pen
+            primitive.rgb(), corners, primitive.T_world_object, opacity=primitive.opacity, pen=pen
         )
 
 
@@ -222,7 +222,7 @@ def _camera(camera: Camera, pen: _Pen) -> Iterator[tuple]:
         image = (
             camera.image if camera.image.ndim == 3 else np.repeat(camera.image[:, :, None], 3, 2)
         )
-        yield from _sheet(image, corners, camera.T_world_object, camera.opacity, pen)
+        yield from _sheet(image, corners, camera.T_world_object, opacity=camera.opacity, pen=pen)
     spokes = np.stack([np.zeros((4, 3)), corners], 1)
     ends = np.concatenate([np.stack([corners, np.roll(corners, -1, 0)], 1), spokes])
     color = np.tile([*PALETTE[camera.color], 255 * camera.opacity], (len(ends), 1))
@@ -230,7 +230,7 @@ def _camera(camera: Camera, pen: _Pen) -> Iterator[tuple]:
 
 
 def _sheet(
-    image: np.ndarray, corners: np.ndarray, T: np.ndarray | None, opacity: float, pen: _Pen
+    image: np.ndarray, corners: np.ndarray, T: np.ndarray | None, *, opacity: float, pen: _Pen
 ) -> Iterator[tuple]:
     """Yield an image on a plane in space."""
     uv, depth = pen.seen(corners, T)

@@ -89,7 +89,9 @@ def publish(
     try:
         out.mkdir(parents=True, exist_ok=True)
         with only_writer(out):
-            return _publish(out, lessons, base_url, force, remove_others, progress)
+            return _publish(
+                out, lessons, base_url, force=force, remove_others=remove_others, progress=progress
+            )
     except OSError as error:
         raise InputError(f"{error.filename or out}: {error.strerror or error}") from None
 
@@ -98,6 +100,7 @@ def _publish(
     out: Path,
     lessons: Sequence[Lesson],
     base_url: str | None,
+    *,
     force: bool,
     remove_others: bool,
     progress: Progress | None,
@@ -132,7 +135,7 @@ def _publish(
     manifest.write(shared)
     timelines = Timelines()
     for lesson in lessons:
-        _write_page(manifest, lesson, timelines, canonical(base_url, f"{lesson.name}/"))
+        _write_page(manifest, lesson, timelines, address=canonical(base_url, f"{lesson.name}/"))
     listed = others | {
         lesson.name: Listed(lesson.title, lesson.summary, lesson.order, lesson.needs)
         for lesson in lessons
@@ -181,7 +184,7 @@ def _render(
             progress(f"{lesson.name}/{run.name}", done, len(work))
 
 
-def _write_page(manifest: Manifest, lesson: Lesson, timelines: Timelines, address: str) -> None:
+def _write_page(manifest: Manifest, lesson: Lesson, timelines: Timelines, *, address: str) -> None:
     """Write a lesson's page if it is not there as it should be: its questions need runs."""
     key, names = f"{lesson.name}/", [f"{lesson.name}/{file}" for file in (COURSE_PAGE, PICTURE)]
     digest = page_digest(lesson, address)

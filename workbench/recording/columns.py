@@ -41,7 +41,7 @@ def facts(**values: Any) -> rr.AnyValues:
     return rr.AnyValues(**{name: value for name, value in values.items() if value != ""})
 
 
-def send_series(stream: Any, path: str, series: Series, order: int) -> None:
+def send_series(stream: Any, path: str, series: Series, *, order: int) -> None:
     """Send one scalar over all steps, how it is drawn, and its logarithm where that is what is
     drawn.
     """

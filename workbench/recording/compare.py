@@ -82,7 +82,7 @@ def compare_bytes(a: Path, b: Path) -> bytes:
     values = {root: run.scalars for root, run in runs.items()}
     names = {root: " · ".join((root[1:].upper(), run.path.name)) for root, run in runs.items()}
     return stream_bytes(
-        application, fill, two_runs(view, both(contents_a, contents_b), values, names)
+        application, fill, two_runs(view, both(contents_a, contents_b), values, names=names)
     )
 
 

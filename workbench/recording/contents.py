@@ -94,7 +94,7 @@ def _canvases_of_format_1(plain: Mapping[str, Any]) -> dict[str, Any]:
     )
 
 
-def _canvas(title: str, width: float, height: float, first: int) -> Canvas:
+def _canvas(title: str, width: float, height: float, *, first: int) -> Canvas:
     return Canvas(str(title), float(width), float(height), int(first))
 
 

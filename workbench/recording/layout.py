@@ -57,7 +57,7 @@ def one_run(view: View, contents: Contents, values: Values) -> Any:
 
 
 def two_runs(
-    view: View, contents: Contents, runs: Mapping[str, Values], names: Mapping[str, str]
+    view: View, contents: Contents, runs: Mapping[str, Values], *, names: Mapping[str, str]
 ) -> Any:
     """Return the layout of two runs, given by their root entities: scenes side by side, curves in
     the same plots.

@@ -176,7 +176,7 @@ def record_bytes(
         stream.log("page", document(plain_page(wording(lesson.text(), "site"))), static=True)
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
-            send_series(stream, path, one, order)
+            send_series(stream, path, one, order=order)
         sink = RerunSink(stream, contents.canvases, clouds)
         for k, step in enumerate(steps):
             sink.show(k, step.scene)

@@ -103,7 +103,7 @@ _layout = functools.partial(argparse.RawDescriptionHelpFormatter, max_help_posit
 
 
 def parse(
-    function: Callable[..., int | None], args: Sequence[str], prog: str, description: str
+    function: Callable[..., int | None], args: Sequence[str], prog: str, *, description: str
 ) -> Callable[[], int | None]:
     """Return the call of a command that the words behind its name ask for.
 
@@ -160,19 +160,19 @@ def _reader(parser: argparse.ArgumentParser, one: inspect.Parameter) -> Reader:
             parser,
             one.name,
             one.annotation,
-            one.default,
+            default=one.default,
             positional=one.kind is one.POSITIONAL_ONLY,
         )
     group = parser.add_argument_group("serving options")
     parts = {
-        field.name: _option(group, field.name, field.type, field.default)
+        field.name: _option(group, field.name, field.type, default=field.default)
         for field in fields(one.annotation)
     }
     return lambda values: one.annotation(**{name: read(values) for name, read in parts.items()})
 
 
 def _option(
-    group: Any, name: str, annotation: Any, default: Any, *, positional: bool = False
+    group: Any, name: str, annotation: Any, *, default: Any, positional: bool = False
 ) -> Reader:
     """Add an option of the command itself; a default of `Parameter.empty` means that it must be
     given.

@@ -114,7 +114,10 @@ def start_address(start: links.Place, query: str) -> str:
 def _exercises(lesson: Lesson, watched: Watched | None) -> str:
     if watched is not None and watched.lesson is lesson:
         return watched_html(
-            watched.exercise, watched.path.name, lesson, lambda run: address(lesson, run, None)
+            watched.exercise,
+            watched.path.name,
+            lesson,
+            address=lambda run: address(lesson, run, None),
         )
     return exercises_html(exercises_of(lesson))
 

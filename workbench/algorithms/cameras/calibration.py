@@ -119,7 +119,7 @@ def calibrate(
     if K is None or guessed:
         K = intrinsics(float(w), (w - 1) / 2, (h - 1) / 2)
     Ts = np.stack([pose_from_homography(K, H) for H in Hs])
-    lens, first = NONE, residuals_of(K, NONE, Ts, p_board, uv)
+    lens, first = NONE, residuals_of(K, NONE, Ts, p_board=p_board, uv=uv)
     yield State(
         phase="poses",
         Hs_image_board=Hs,
@@ -131,9 +131,9 @@ def calibrate(
     )
     Ts_begin = np.stack([motion(nearest_rotation(T[:3, :3]), T[:3, 3]) for T in Ts])
     if coefficients:
-        radial = calibration.linear_lens(K, Ts_begin, p_board, uv, terms=min(coefficients, 2))
+        radial = calibration.linear_lens(K, Ts_begin, p_board, uv=uv, terms=min(coefficients, 2))
         lens = Distortion(*radial.tolist())
-        bent = residuals_of(K, lens, Ts_begin, p_board, uv)
+        bent = residuals_of(K, lens, Ts_begin, p_board=p_board, uv=uv)
         yield State(
             phase="lens",
             Hs_image_board=Hs,
@@ -147,8 +147,8 @@ def calibrate(
         K,
         lens,
         Ts_begin,
-        p_board,
-        uv,
+        p_board=p_board,
+        uv=uv,
         coefficients=coefficients,
         corner=corner,
         max_iterations=max_iterations,
@@ -171,6 +171,7 @@ def residuals_of(
     K: Float[np.ndarray, "3 3"],
     lens: Distortion,
     Ts_camera_board: Float[np.ndarray, "k 4 4"],
+    *,
     p_board: Float[np.ndarray, "n 3"],
     uv: Float[np.ndarray, "k n 2"],
 ) -> Float[np.ndarray, "k n 2"]:

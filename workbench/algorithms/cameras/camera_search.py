@@ -117,6 +117,7 @@ def by_three_points(
     p_world: Float[np.ndarray, "n 3"],
     xy: Float[np.ndarray, "n 2"],
     pose_from_distances: PoseFromDistances = pose_from_distances,
+    *,
     choose_pose: ChoosePose = choose_pose,
 ) -> Iterator[Searched]:
     """Yield how the first three points leave some motions open, and how the fourth chooses among
@@ -201,8 +202,8 @@ def downhill(
     T: Float[np.ndarray, "4 4"] | None,
     p_world: Float[np.ndarray, "n 3"],
     xy: Float[np.ndarray, "n 2"],
-    pose_step: PoseStep,
     *,
+    pose_step: PoseStep,
     most: int = 12,
     tolerance: float = 1e-5,
 ) -> Iterator[Searched]:

@@ -70,17 +70,17 @@ def spectral_cut(adjacency: Sparse, laplacian: Laplacian, shown: int = 6) -> Ite
     )  # the first is constant and tells nothing
     yield (now := replace(now, phase="fiedler", eigenvalues=values, fiedler=fiedler))
 
-    yield (now := _with(now, "sign", fiedler > 0, -1))
+    yield (now := _with(now, "sign", fiedler > 0, k=-1))
 
     order, conductances = sweep(adjacency, fiedler)
     now = replace(now, order=order, conductances=conductances)
     for k in np.unique(np.linspace(0, len(order) - 2, shown + 2).round().astype(int)[1:-1]):
-        yield _with(now, "sweep", np.isin(np.arange(len(order)), order[: k + 1]), int(k))
+        yield _with(now, "sweep", np.isin(np.arange(len(order)), order[: k + 1]), k=int(k))
 
     best = int(np.argmin(conductances))
-    yield _with(now, "best", np.isin(np.arange(len(order)), order[: best + 1]), best)
+    yield _with(now, "best", np.isin(np.arange(len(order)), order[: best + 1]), k=best)
 
 
-def _with(now: Cut, phase: Phase, side: np.ndarray, k: int) -> Cut:
+def _with(now: Cut, phase: Phase, side: np.ndarray, *, k: int) -> Cut:
     cut, phi = cut_weight(now.adjacency, side), conductance(now.adjacency, side)
     return replace(now, phase=phase, side=side, k=k, cut=cut, conductance=phi)

@@ -85,7 +85,12 @@ def encoded(p: Float[np.ndarray, "n 3"], frequencies: int) -> Float[np.ndarray, 
 
 
 def new_network(
-    width: int, frequencies: int, activation: Activation, rng: np.random.Generator, hidden: int = 2
+    width: int,
+    frequencies: int,
+    activation: Activation,
+    *,
+    rng: np.random.Generator,
+    hidden: int = 2,
 ) -> Network:
     """Return a network whose weights were drawn: normal, of variance 1 over the inputs, twice that
     for ReLU.

@@ -122,7 +122,7 @@ def reconstruct(
         nodes, shares = _between(q)
         density, color, by_raw = _at(raw, nodes, shares)
         off = seen(np.asarray(ray_weights(density, spacing), float), color) - colors[rays]
-        by_density, by_color = through_seen(2 * off / off.size, density, color, spacing)
+        by_density, by_color = through_seen(2 * off / off.size, density, color, spacing=spacing)
         slope = np.concatenate([by_density[:, :, None], by_color], axis=2) * by_raw
         into = (
             np.bincount(nodes.ravel(), (shares * slope[:, :, None, k]).ravel(), len(raw))

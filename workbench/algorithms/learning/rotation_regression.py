@@ -83,7 +83,7 @@ def regress(
     layers[-1][1][:] = representation.start
 
     def gradient() -> tuple[float, np.ndarray]:
-        R_true, _ = random_rotations(BATCH, d, largest, rng)
+        R_true, _ = random_rotations(BATCH, d, largest, rng=rng)
         outputs = forward(layers, _inputs(R_true), "relu")
         y = outputs[-1]
         if compared == "numbers":

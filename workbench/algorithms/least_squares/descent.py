@@ -214,7 +214,7 @@ class Along:
 
 
 def along_step(
-    now: Descent, linearise: Linearise, retract: Retract, shares: Float[np.ndarray, " k"]
+    now: Descent, linearise: Linearise, retract: Retract, *, shares: Float[np.ndarray, " k"]
 ) -> Along:
     """Return the sums of squares along the step of a descent.
 
@@ -262,6 +262,7 @@ def with_its_way(
     moments: Iterator[Descent],
     linearise: Linearise,
     retract: Retract,
+    *,
     shares: Float[np.ndarray, " k"],
 ) -> Iterator[Walked]:
     """Yield the moments of a descent, each with the way that led there.
@@ -280,7 +281,7 @@ def with_its_way(
             kept.append(now.unknown)
         elif now.phase == "rejected" and now.trial is not None:
             taken_back.append(now.trial)
-        along = along_step(now, linearise, retract, shares) if now.phase == "tried" else None
+        along = along_step(now, linearise, retract, shares=shares) if now.phase == "tried" else None
         yield Walked(now, np.array(kept), np.array(taken_back).reshape(-1, now.unknown.size), along)
 
 

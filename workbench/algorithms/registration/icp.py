@@ -194,7 +194,7 @@ def icp(
         kept = distances <= limit
         n_match = None if n_target is None else n_target[indices]
         stop = Stop.TOO_FEW_MATCHES if np.count_nonzero(kept) < fewest else None
-        residual = misfit(p_match, p_moved, n_match, distances, kept)
+        residual = misfit(p_match, p_moved, n_match, distances=distances, kept=kept)
         yield summary(
             "match", iteration, T_target_source, indices, distances, limit, kept, residual, stop
         )
@@ -233,7 +233,7 @@ def icp(
         elif iteration == max_iterations:
             stop = Stop.MAX_ITERATIONS
         last_seen[matches] = iteration
-        residual = misfit(p_match, p_moved, n_match, distances, kept)
+        residual = misfit(p_match, p_moved, n_match, distances=distances, kept=kept)
         yield summary(
             "fit", iteration, T_target_source, indices, distances, limit, kept, residual, stop
         )
@@ -295,6 +295,7 @@ def misfit(
     p_match: Float[np.ndarray, "n 3"],
     p_moved: Float[np.ndarray, "n 3"],
     n_match: Float[np.ndarray, "n 3"] | None,
+    *,
     distances: Float[np.ndarray, "n"],
     kept: Bool[np.ndarray, "n"],
 ) -> float:

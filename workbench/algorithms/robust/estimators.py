@@ -137,6 +137,7 @@ def cascade(
     p: Float[np.ndarray, "n d"],
     model: Model,
     losses: Sequence[tuple[Loss, float]],
+    *,
     max_iterations: int,
     tolerance: float,
 ) -> Iterator[Trusted]:

@@ -138,7 +138,7 @@ def _refit_homography(
 ) -> np.ndarray:
     uv_a, uv_b = matches[:, :2], matches[:, 2:]
     start = fit_homography(uv_a, uv_b, weights) if start is None else start
-    return refine_homography(start, uv_a, uv_b, weights)
+    return refine_homography(start, uv_a, uv_b, weights=weights)
 
 
 def _solve_fundamental(samples: np.ndarray) -> np.ndarray:
@@ -159,7 +159,7 @@ def _refit_fundamental(
 ) -> np.ndarray:
     uv_first, uv_second = matches[:, :2], matches[:, 2:]
     start = fit_fundamental(uv_first, uv_second, weights) if start is None else start
-    return refine_fundamental(start, uv_first, uv_second, weights)
+    return refine_fundamental(start, uv_first, uv_second, weights=weights)
 
 
 def _solve_rigid(samples: np.ndarray) -> np.ndarray:

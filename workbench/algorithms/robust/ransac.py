@@ -198,7 +198,7 @@ def ransac(
             trial = judge(estimate)
             yield State("inliers", iteration, needed, sample, estimate, trial, best)
             if trial.score > (best.score if best else 0.0):
-                best = polished(p, model, trial, judge) if local_refit else trial
+                best = polished(p, model, trial, judge=judge) if local_refit else trial
                 share = best.count / len(p) if share_of is None else share_of(best)
                 needed = min(
                     max_iterations, needed_for(share, model.sample_size, confidence)
@@ -208,7 +208,7 @@ def ransac(
             stop = Stop.MAX_ITERATIONS if needed == max_iterations else Stop.ENOUGH
             break
 
-    for refit in refit_rounds(p, model, best, judge) if best else ():
+    for refit in refit_rounds(p, model, best, judge=judge) if best else ():
         best = refit
         yield State("refit", iteration, needed, sample, best.estimate, best, best)
     yield State(
@@ -250,7 +250,7 @@ def solved_ahead(
 
 
 def refit_rounds(
-    p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit]
+    p: Float[np.ndarray, "n d"], model: Model, fit: Fit, *, judge: Callable[[np.ndarray], Fit]
 ) -> Iterator[Fit]:
     """Yield least-squares fits, each to the inliers of the one before, until these stay the same
     (ten fits at most).
@@ -280,7 +280,7 @@ def refit_rounds(
 
 
 def polished(
-    p: Float[np.ndarray, "n d"], model: Model, fit: Fit, judge: Callable[[np.ndarray], Fit]
+    p: Float[np.ndarray, "n d"], model: Model, fit: Fit, *, judge: Callable[[np.ndarray], Fit]
 ) -> Fit:
     """Return the fit after its refit rounds, or as it was if they lower its score.
 
@@ -290,7 +290,7 @@ def polished(
         fit: The fit to begin with.
         judge: Says how all rows take an estimate.
     """
-    *_, last = fit, *refit_rounds(p, model, fit, judge)
+    *_, last = fit, *refit_rounds(p, model, fit, judge=judge)
     return last if last.score >= fit.score else fit
 
 

@@ -27,7 +27,7 @@ def uniform_samples(
         ValueError: If there are fewer rows than a sample needs.
     """
     while True:
-        yield draw_samples(n, size, 1, rng)[0]
+        yield draw_samples(n, size, 1, rng=rng)[0]
 
 
 def prosac_samples(
@@ -60,9 +60,9 @@ def prosac_samples(
             grown = draws * (pool + 1) / (pool + 1 - size)  # eq. 3
             pool, until, draws = pool + 1, until + ceil(grown - draws), grown
         if t > until:  # every row is in the pool: uniform from here on
-            yield order[draw_samples(n, size, 1, rng)[0]]
+            yield order[draw_samples(n, size, 1, rng=rng)[0]]
         else:
-            yield order[np.append(draw_samples(pool - 1, size - 1, 1, rng)[0], pool - 1)]
+            yield order[np.append(draw_samples(pool - 1, size - 1, 1, rng=rng)[0], pool - 1)]
 
 
 def termination_length(
@@ -111,7 +111,7 @@ def termination_length(
 
 
 def draw_samples(
-    n: int, size: int, samples: int, rng: np.random.Generator
+    n: int, size: int, samples: int, *, rng: np.random.Generator
 ) -> Int[np.ndarray, "samples size"]:
     """Return so many samples of `size` different rows out of n, each in random order.
 

@@ -50,6 +50,7 @@ def build_tree(
     p: Float[np.ndarray, "n d"],
     low: Float[np.ndarray, " d"],
     high: Float[np.ndarray, " d"],
+    *,
     leaf: int = LEAF,
 ) -> Tree:
     """Return the k-d tree of some points.

@@ -59,6 +59,7 @@ def grow_octree(
     distance: Callable[[np.ndarray], np.ndarray],
     low: Float[np.ndarray, "3"],
     edge: float,
+    *,
     depth: int,
 ) -> Iterator[Level]:
     """Yield the levels of an octree, from the whole cube down.

@@ -165,6 +165,6 @@ def reconstruct(
     yield Depths(Z)
 
     uncertainty = depth_uncertainty(
-        Z, f, baseline, disparity_error
+        Z, f, baseline, disparity_error=disparity_error
     )  # |dZ/dd| sigma_d = Z² / (f B) sigma_d
     yield Depths(Z, uncertainty)

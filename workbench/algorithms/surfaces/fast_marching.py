@@ -70,6 +70,7 @@ def march(
     start: Grid,
     free: Bool[np.ndarray, "n m"],
     h: float,
+    *,
     band: float,
     update: Update = eikonal_update,
 ) -> Iterator[March]:

@@ -74,8 +74,8 @@ def throw_points(
     inside: Inside,
     low: Float[np.ndarray, "3"],
     high: Float[np.ndarray, "3"],
-    counts: Iterable[int],
     *,
+    counts: Iterable[int],
     draw: Draw,
     rng: np.random.Generator,
     volume_by_chance: ByChance,
@@ -93,10 +93,10 @@ def throw_points(
         volume_by_chance: Makes the estimate.
     """
     counts, box_volume, estimates = tuple(counts), float(np.prod(high - low)), Estimates()
-    u, hit = unit_points(max(counts), 3, draw, rng), np.empty(0, bool)
+    u, hit = unit_points(max(counts), 3, draw, rng=rng), np.empty(0, bool)
     for count in counts:
         if draw == "stratified":
-            u, hit = unit_points(count, 3, draw, rng), np.empty(0, bool)
+            u, hit = unit_points(count, 3, draw, rng=rng), np.empty(0, bool)
         q = low + (high - low) * (u if draw == "stratified" else u[:count])
         hit = np.concatenate([hit, inside(q[len(hit) :])])
         volume, error = volume_by_chance(hit, box_volume)
@@ -129,6 +129,7 @@ def shoot_lines(
     p: Float[np.ndarray, "v 3"],
     faces: Int[np.ndarray, "f 3"],
     ball: tuple[np.ndarray, float],
+    *,
     counts: Iterable[int],
     rng: np.random.Generator,
 ) -> Iterator[Lines]:
@@ -144,7 +145,7 @@ def shoot_lines(
     """
     (centre, radius), met, estimates = ball, np.empty(0, int), Estimates()
     for count in counts:
-        ends = lines_through_ball(count - len(met), centre, radius, rng)
+        ends = lines_through_ball(count - len(met), centre, radius, rng=rng)
         line, places = line_crossings(p, faces, ends)
         met = np.concatenate([met, np.bincount(line, minlength=len(ends))])
         area = 2 * np.pi * radius**2 * met

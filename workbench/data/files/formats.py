@@ -70,7 +70,7 @@ def ply_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     body = content[end.end() :]
     if kind == "ascii":
         columns = [field for field, _ in vertices.fields]
-        return _first_rows(body, vertices.count, [columns.index(axis) for axis in "xyz"], name)
+        return _first_rows(body, vertices.count, [columns.index(axis) for axis in "xyz"], name=name)
     order = "<" if kind == "binary_little_endian" else ">"
     table = _table(body, [(f, order + t) for f, t in vertices.fields], vertices.count, name)
     return np.column_stack([table[axis] for axis in "xyz"]).astype(float)
@@ -125,19 +125,19 @@ def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     body, kind = content[header_end.end() :], header_end[1].decode("ascii", "replace")
     if kind == "ascii":
         starts = dict(zip(fields, np.cumsum([0, *counts[:-1]]), strict=True))
-        return _first_rows(body, n, [int(starts[axis]) for axis in "xyz"], name)
+        return _first_rows(body, n, [int(starts[axis]) for axis in "xyz"], name=name)
     if kind == "binary":
         table = _table(body, [(f"{f}{i}", t, (c,)) for i, (f, t, c) in enumerate(columns)], n, name)
         return np.column_stack(
             [table[f"{axis}{fields.index(axis)}"][:, 0] for axis in "xyz"]
         ).astype(float)
     if kind == "binary_compressed":
-        return _compressed_columns(body, columns, n, name)
+        return _compressed_columns(body, columns, n, name=name)
     raise InputError(f"{name}: pcd data {kind!r}; ascii, binary and binary_compressed are read")
 
 
 def _compressed_columns(
-    body: bytes, columns: list[tuple[str, str, int]], n: int, name: str
+    body: bytes, columns: list[tuple[str, str, int]], n: int, *, name: str
 ) -> np.ndarray:
     """Return x, y, z of a compressed pcd body, which stores one field after the other."""
     if len(body) < 8:
@@ -282,7 +282,7 @@ def _blocks(text: str) -> Iterator[list[str]]:
         start = end
 
 
-def _first_rows(body: bytes, n: int, columns: list[int], name: str) -> np.ndarray:
+def _first_rows(body: bytes, n: int, columns: list[int], *, name: str) -> np.ndarray:
     """Read columns of the first n lines of a body of text."""
     found, missing = [np.empty((0, 3))], n
     for lines in _blocks(body.decode("ascii", "replace")):

@@ -61,7 +61,9 @@ def find_rim(photograph: UInt8[np.ndarray, "h w *channels"], pixel: tuple[int, i
         raise InputError(
             f"the photograph is {w} by {h} pixels; at most {MOST_PIXELS} are used: make it smaller"
         )
-    rim = rim_points(photograph, np.minimum(pixel, (w - 1, h - 1)).astype(float), RAYS, FARTHEST)
+    rim = rim_points(
+        photograph, np.minimum(pixel, (w - 1, h - 1)).astype(float), RAYS, farthest=FARTHEST
+    )
     whole = fit_algebraic(rim)
     if not (np.isfinite(whole).all() and 0.0 < whole[2] < 4 * FARTHEST):
         raise InputError(
@@ -80,6 +82,7 @@ def rim_points(
     image: UInt8[np.ndarray, "h w *channels"],
     uv_inside: Float[np.ndarray, "2"],
     rays: int,
+    *,
     farthest: float,
 ) -> Float[np.ndarray, "n 2"]:
     """Return where the picture darkens most along rays from a pixel, in order round it, pixels.

@@ -128,12 +128,12 @@ def _distances(scene: Street, p_world: np.ndarray, v_world: np.ndarray) -> np.nd
             (_to_pole, scene.poles, scene.poles[:, 2]),
         ):
             for thing, reach in zip(things, reaches, strict=True):
-                rays = _towards(thing[:2] - p_world[:2], float(reach), v_world, flat)
+                rays = _towards(thing[:2] - p_world[:2], float(reach), v_world, flat=flat)
                 hits[rays] = np.minimum(hits[rays], to_it(thing, p_world, v_world[rays]))
     return hits
 
 
-def _towards(off: np.ndarray, reach: float, v_world: np.ndarray, flat: np.ndarray) -> np.ndarray:
+def _towards(off: np.ndarray, reach: float, v_world: np.ndarray, *, flat: np.ndarray) -> np.ndarray:
     """Return which rays, seen from above, pass a middle by `reach` or little more; `flat` is their
     squared length.
     """

@@ -162,7 +162,7 @@ def saddle(
     x, y = xy.T
     slope = np.c_[bend * x, -bend * y]
     hessian = np.broadcast_to(np.diag([bend, -bend]), (len(xy), 2, 2))
-    return _monge(xy, bend * (x**2 - y**2) / 2, slope, hessian, faces)
+    return _monge(xy, bend * (x**2 - y**2) / 2, slope, hessian=hessian, faces=faces)
 
 
 def plane(
@@ -220,6 +220,7 @@ def _monge(
     xy: UV,
     z: Float[np.ndarray, " n"],
     slope: UV,
+    *,
     hessian: Float[np.ndarray, "n 2 2"],
     faces: Int[np.ndarray, "f 3"],
 ) -> Surface:

@@ -50,7 +50,7 @@ def skyline() -> Skyline:
             size = *rng.uniform(14.0, 30.0, 2), 15.0 + 85.0 * rng.random() ** 2
             if np.hypot(foot[0] - LANDMARK[0][0], foot[1] - LANDMARK[0][1]) > 50.0:
                 towers.append((foot, size))
-    valley = chequered(np.arange(-14, 15), np.arange(1, 17), 100.0, VALLEY, GREENS)
+    valley = chequered(np.arange(-14, 15), np.arange(1, 17), 100.0, height=VALLEY, colors=GREENS)
     solids, edges, storeys = [valley, _mountains()], [], []
     for k, ((x, y), size) in enumerate(towers):
         tower, foot = box(size), np.array([x, y, VALLEY])

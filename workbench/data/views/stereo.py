@@ -46,6 +46,7 @@ def synthetic_pair(
     scene: str,
     camera: StereoCamera,
     size: tuple[int, int],
+    *,
     noise: float,
     rng: np.random.Generator,
 ) -> StereoPair:

@@ -62,7 +62,11 @@ def street() -> Street:
     sleepers = [_box((0.0, y, -0.02), (2.2, 0.25, 0.06)) for y in np.arange(1.0, 40.0, 1.5)]
     solids = {
         "ground": chequered(
-            np.arange(-5, 5), np.arange(-2, 30), 2.0, -0.03, ((214, 214, 214), (226, 226, 226))
+            np.arange(-5, 5),
+            np.arange(-2, 30),
+            2.0,
+            height=-0.03,
+            colors=((214, 214, 214), (226, 226, 226)),
         ),
         "sleepers": lit(_merge(sleepers), (164, 154, 146)),
         "crate": lit(crate, (216, 202, 178)),
@@ -196,6 +200,7 @@ def chequered(
     x: Int[np.ndarray, " n"],
     y: Int[np.ndarray, " m"],
     tile: float,
+    *,
     height: float,
     colors: tuple[tuple[int, int, int], tuple[int, int, int]],
 ) -> Solid:

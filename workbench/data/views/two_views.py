@@ -76,7 +76,13 @@ class TwoViews:
 
 
 def made_views(
-    what: What, count: int, sigma: float, baseline: float, heading: float, rng: np.random.Generator
+    what: What,
+    count: int,
+    sigma: float,
+    *,
+    baseline: float,
+    heading: float,
+    rng: np.random.Generator,
 ) -> TwoViews:
     """Return two pictures of a made scene, and matches on its surfaces that both cameras see.
 
@@ -128,7 +134,7 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
     _, n_first = pixel_rays(uv, np.eye(4), K)
     p_first = n_first / n_first[:, 2:] * z[:, None]
     uv_second = project(p_first, T_second_first, K)
-    seen = in_sight(p_first, T_second_first, K, second.depth)
+    seen = in_sight(p_first, T_second_first, K, depth=second.depth)
     if what == "plane":
         seen &= apply(inverse(T_first_world), p_first)[:, 2] < GROUND
     views = TwoViews(
@@ -157,7 +163,7 @@ def _photograph(T_camera_world: bytes, far: bool) -> Image:
 
 
 def own_views(
-    matches: Path, first_image: Path | None, second_image: Path | None, K: Path | None, most: int
+    matches: Path, first_image: Path | None, second_image: Path | None, *, K: Path | None, most: int
 ) -> TwoViews:
     """Return a person's matches, with their pictures where they are given.
 

@@ -106,6 +106,7 @@ def linear_lens(
     K: Float[np.ndarray, "3 3"],
     Ts_camera_board: Float[np.ndarray, "k 4 4"],
     p_board: Float[np.ndarray, "n 3"],
+    *,
     uv: Float[np.ndarray, "k n 2"],
     terms: int = 2,
 ) -> Float[np.ndarray, " terms"]:

@@ -104,7 +104,7 @@ def undistort(xy_distorted: Float[np.ndarray, "n 2"], lens: Distortion) -> Float
         solved &= x * x + y * y < radius * radius
         left = np.flatnonzero(~solved)
         if len(left):
-            x[left], y[left] = _damped_newton(target_x[left], target_y[left], lens, radius)
+            x[left], y[left] = _damped_newton(target_x[left], target_y[left], lens, radius=radius)
         out[rows, 0], out[rows, 1] = x, y
     return out
 
@@ -223,7 +223,7 @@ def _newton(target_x, target_y, lens: Distortion):
     return x, y, solved
 
 
-def _damped_newton(target_x, target_y, lens: Distortion, radius: float):
+def _damped_newton(target_x, target_y, lens: Distortion, *, radius: float):
     """Start from the middle; take a step only if it stays in the disc and descends, else halve it.
     NaN: no answer.
     """
@@ -232,12 +232,12 @@ def _damped_newton(target_x, target_y, lens: Distortion, radius: float):
     miss = size.copy()
     with np.errstate(all="ignore"):
         for _ in range(DAMPED_STEPS):
-            miss_x, miss_y = _miss(x, y, target_x, target_y, lens)
+            miss_x, miss_y = _miss(x, y, target_x, target_y=target_y, lens=lens)
             xx, xy, yy = _slopes(x, y, *lens)
             reach = length / (xx * yy - xy * xy)
             next_x = x - reach * (yy * miss_x - xy * miss_y)
             next_y = y - reach * (xx * miss_y - xy * miss_x)
-            next_miss = np.hypot(*_miss(next_x, next_y, target_x, target_y, lens))
+            next_miss = np.hypot(*_miss(next_x, next_y, target_x, target_y=target_y, lens=lens))
             good = (next_x * next_x + next_y * next_y < radius * radius) & (next_miss < miss)
             x[good], y[good], miss[good] = next_x[good], next_y[good], next_miss[good]
             length = np.where(good, np.minimum(1.0, 2.0 * length), 0.5 * length)
@@ -248,7 +248,7 @@ def _damped_newton(target_x, target_y, lens: Distortion, radius: float):
     return x, y
 
 
-def _miss(x, y, target_x, target_y, lens: Distortion):
+def _miss(x, y, target_x, *, target_y, lens: Distortion):
     bent_x, bent_y = bend(x, y, *lens)
     return bent_x - target_x, bent_y - target_y
 

@@ -313,6 +313,7 @@ def pixel_rays(
     uv: Float[np.ndarray, "n 2"],
     T_camera_world: Float[np.ndarray, "4 4"],
     K: Float[np.ndarray, "3 3"],
+    *,
     distortion: Distortion = NONE,
 ) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "n 3"]]:
     """Return the camera centre and the unit direction, in the world, along which each pixel looks.
@@ -344,6 +345,7 @@ def back_project(
     uv: Float[np.ndarray, "n 2"],
     depth: Float[np.ndarray, " n"],
     T_camera_world: Float[np.ndarray, "4 4"],
+    *,
     K: Float[np.ndarray, "3 3"],
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, "n 3"]:
@@ -373,6 +375,7 @@ def ray_lengths(
     uv: Float[np.ndarray, "n 2"],
     depth: Float[np.ndarray, " n"],
     K: Float[np.ndarray, "3 3"],
+    *,
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, " n"]:
     """Return the distance from the camera centre of points at these depths, metres: Z sqrt(1 + x² +
@@ -398,6 +401,7 @@ def vanishing_points(
     v_world: Float[np.ndarray, "n 3"],
     T_camera_world: Float[np.ndarray, "4 4"],
     K: Float[np.ndarray, "3 3"],
+    *,
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, "n 2"]:
     """Return the pixel in which all lines of a world direction meet: the picture of the point at
@@ -427,6 +431,7 @@ def sphere_outline(
     p_world_center: Float[np.ndarray, "3"],
     radius: float,
     T_camera_world: Float[np.ndarray, "4 4"],
+    *,
     n: int = 96,
 ) -> Float[np.ndarray, "n 3"]:
     """Return n points of the circle in which the camera's rays touch a sphere, metres; in the

@@ -154,13 +154,16 @@ def render(
     window = _window(K, width, height, distortion) * (1.0 if to_pixels is None else STRAY)
     eye = _Eye(see, T_camera_world, width, height, near, any(distortion), window)
     draw = {MeshItem: _draw_mesh, SegmentItem: _draw_segments, PointItem: _draw_points}
-    return _resolve([draw[type(item)](item, eye) for item in items], width, height, background)
+    return _resolve(
+        [draw[type(item)](item, eye) for item in items], width, height, background=background
+    )
 
 
 def in_sight(
     p_world: Float[np.ndarray, "n 3"],
     T_camera_world: Float[np.ndarray, "4 4"],
     K: Float[np.ndarray, "3 3"],
+    *,
     depth: Float[np.ndarray, "h w"],
 ) -> Bool[np.ndarray, " n"]:
     """Return which points of a scene's surfaces its picture shows: those inside of it with nothing
@@ -181,7 +184,7 @@ def in_sight(
 
 
 def _resolve(
-    parts: list[_Fragments], width: int, height: int, background: tuple[int, int, int]
+    parts: list[_Fragments], width: int, height: int, *, background: tuple[int, int, int]
 ) -> Image:
     """Keep the nearest fragment of each pixel; of equals, the last."""
     nearest, inverse_depth = np.zeros(width * height), np.zeros(width * height)
@@ -238,7 +241,7 @@ def _draw_mesh(item: MeshItem, eye: _Eye) -> _Fragments:
     """
     ahead = depths(item.p_world, eye.T_camera_world) - eye.near
     uv, w, owner = _project(*clip_triangles(item.p_world[item.faces], ahead[item.faces]), eye)
-    return _fill(uv, w, owner, item.colors, eye)
+    return _fill(uv, w, owner, colors=item.colors, eye=eye)
 
 
 def _project(
@@ -270,7 +273,7 @@ def _stamp(uv, inverse_depth, owner, colors, width: int, eye: _Eye) -> _Fragment
     return _Fragments(pixel, inverse_depth[row], owner[row], colors, favour=FAVOUR)
 
 
-def _fill(uv, w, owner, colors, eye: _Eye) -> _Fragments:
+def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
     """Fill triangles: for each row the columns between the edges, and 1/Z, which is affine in the
     picture.
     """

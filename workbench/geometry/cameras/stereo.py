@@ -108,7 +108,7 @@ def disparity_from_depth(
 
 
 def depth_uncertainty(
-    depth: Float[np.ndarray, "..."], f: float, baseline: float, disparity_error: float
+    depth: Float[np.ndarray, "..."], f: float, baseline: float, *, disparity_error: float
 ) -> Float[np.ndarray, "..."]:
     """Return how far a small disparity error moves a depth, metres: sigma_Z = Z² / (f B) sigma_d.
 
@@ -128,7 +128,7 @@ def depth_uncertainty(
 
 
 def depth_interval(
-    d: Float[np.ndarray, "..."], f: float, baseline: float, disparity_error: float
+    d: Float[np.ndarray, "..."], f: float, baseline: float, *, disparity_error: float
 ) -> tuple[Float[np.ndarray, "..."], Float[np.ndarray, "..."]]:
     """Return the nearest and furthest depth within `disparity_error` pixels of a disparity, metres.
 
@@ -162,7 +162,7 @@ def depth_cloud(
     seen = np.isfinite(depth) & (depth > 0)
     v, u = np.nonzero(seen)
     return back_project(
-        np.column_stack([u, v]).astype(float), depth[seen], np.eye(4), camera.K
+        np.column_stack([u, v]).astype(float), depth[seen], np.eye(4), K=camera.K
     ), seen
 
 
@@ -178,5 +178,5 @@ def points_on_ray(
         camera: Its left camera took the picture.
     """
     return back_project(
-        np.broadcast_to(np.array(uv, float), (len(depth), 2)), depth, np.eye(4), camera.K
+        np.broadcast_to(np.array(uv, float), (len(depth), 2)), depth, np.eye(4), K=camera.K
     )

@@ -72,6 +72,7 @@ def through_seen(
     slope: Float[np.ndarray, "r 3"],
     density: Float[np.ndarray, "r s"],
     color: Float[np.ndarray, "r s 3"],
+    *,
     spacing: float,
     behind: float = 1.0,
 ) -> tuple[Float[np.ndarray, "r s"], Float[np.ndarray, "r s 3"]]:

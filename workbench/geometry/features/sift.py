@@ -58,7 +58,7 @@ def sift(image: Image) -> Sift:
 
 
 def turned_patch(
-    image: Image, uv: Float[np.ndarray, "2"], angle: float, half: float, side: int
+    image: Image, uv: Float[np.ndarray, "2"], angle: float, *, half: float, side: int
 ) -> Float[np.ndarray, "side side"]:
     """Return the grey levels of a square around a place, turned so that a direction points to the
     right.

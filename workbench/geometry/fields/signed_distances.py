@@ -127,7 +127,7 @@ def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
             if level:
                 rows, box = np.repeat(rows, 2), (2 * box[:, None] + [0, 1]).ravel()
             kept = np.flatnonzero(
-                _squared_beyond(columns_of_q, rows, low, high, box) < best.take(rows)
+                _squared_beyond(columns_of_q, rows, low, high=high, box=box) < best.take(rows)
             )
             rows, box = rows.take(kept), box.take(kept)
         nearer = _squared_distances(columns_of_q.take(rows, axis=1), mesh.corners.take(box, axis=2))
@@ -139,7 +139,7 @@ def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
 
 
 def _squared_beyond(
-    q: np.ndarray, rows: np.ndarray, low: np.ndarray, high: np.ndarray, box: np.ndarray
+    q: np.ndarray, rows: np.ndarray, low: np.ndarray, *, high: np.ndarray, box: np.ndarray
 ) -> np.ndarray:
     """Return squared distances of points to boxes, pair by pair."""
     total = np.zeros(len(rows))

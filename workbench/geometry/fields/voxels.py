@@ -50,6 +50,7 @@ def grid_over(
     low: Float[np.ndarray, "3"],
     high: Float[np.ndarray, "3"],
     cells: int,
+    *,
     shift: Float[np.ndarray, "3"],
 ) -> Grid:
     """Return a grid of cubes over a box: so many fit into its longest side, and one more along each

@@ -73,7 +73,7 @@ def shortest_distances(
 
 
 def shortest_path(
-    edges: Edges, lengths: Lengths, distances: Float[np.ndarray, " n"], goal: int
+    edges: Edges, lengths: Lengths, distances: Float[np.ndarray, " n"], *, goal: int
 ) -> Int[np.ndarray, " k"]:
     """Return the nodes of a shortest way, from the source to the goal, read back off the distances;
     empty out of reach.

@@ -104,7 +104,7 @@ def fit_quadrics(p: Points, faces: Faces, rings: int = 2) -> Quadrics:
         frames = np.stack([right[block], up[block], normals[block]])
         pairs = slice(first[block.start], first[block.stop])
         offsets = first[block.start : block.stop + 1] - first[block.start]
-        coefficients[block] = _fit(p[block], p[neighbour[pairs]], frames, offsets)
+        coefficients[block] = _fit(p[block], p[neighbour[pairs]], frames, offsets=offsets)
     return Quadrics(coefficients, right, up, normals, np.diff(first))
 
 
@@ -112,6 +112,7 @@ def _fit(
     p: Points,
     p_neighbours: Float[np.ndarray, "e 3"],
     frames: Float[np.ndarray, "3 v 3"],
+    *,
     offsets: Int[np.ndarray, " w"],
 ) -> Float[np.ndarray, "v 6"]:
     """Solve the normal equations of vertices whose neighbours stand one after the other."""

@@ -260,7 +260,7 @@ columns; all nine entries.
 
 
 def random_rotations(
-    count: int, dimension: int, largest: float, rng: np.random.Generator
+    count: int, dimension: int, largest: float, *, rng: np.random.Generator
 ) -> tuple[Rotations, Float[np.ndarray, "n w"]]:
     """Return rotations by at most an angle, as evenly spread as all rotations are, and their angle
     or rotation vector.

@@ -187,7 +187,7 @@ def robust_mean_and_covariance(
 
 
 def triangle_excess(
-    distance: Distance, a: Points, b: Points, c: Points
+    distance: Distance, a: Points, b: Points, *, c: Points
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
     """Return by how much the way from a to c is longer than the one over b, and the three distances
     ab, bc, ac.

@@ -64,7 +64,7 @@ def places_on_faces(
 
 
 def unit_points(
-    count: int, dimension: int, draw: Draw, rng: np.random.Generator
+    count: int, dimension: int, draw: Draw, *, rng: np.random.Generator
 ) -> Float[np.ndarray, "n d"]:
     """Return points in the unit cube.
 
@@ -156,7 +156,7 @@ def ball_share(dimension: int) -> float:
 
 
 def lines_through_ball(
-    count: int, centre: Float[np.ndarray, "3"], radius: float, rng: np.random.Generator
+    count: int, centre: Float[np.ndarray, "3"], radius: float, *, rng: np.random.Generator
 ) -> Float[np.ndarray, "n 2 3"]:
     """Return the ends of chords of a ball that stand for lines in space, all lines that meet it
     being as likely, m.

@@ -127,7 +127,11 @@ SYSTEMS: Mapping[System, Coordinates] = {
 
 
 def cell_edges(
-    system: Coordinates, low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"], pieces: int = 8
+    system: Coordinates,
+    low: Float[np.ndarray, "3"],
+    high: Float[np.ndarray, "3"],
+    *,
+    pieces: int = 8,
 ) -> Float[np.ndarray, "n 2 3"]:
     """Return the twelve edges of the cell between coordinates as segments, bent where an angle
     changes along them.
@@ -147,7 +151,11 @@ def cell_edges(
 
 
 def volume_of_cells(
-    system: Coordinates, low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"], cells: int = 24
+    system: Coordinates,
+    low: Float[np.ndarray, "3"],
+    high: Float[np.ndarray, "3"],
+    *,
+    cells: int = 24,
 ) -> tuple[float, float]:
     """Return the volume between coordinates as a sum over cells, m^3, and the sum of what their
     sides multiply to alone.

@@ -247,8 +247,8 @@ def refine_fundamental(
     F: Float[np.ndarray, "3 3"],
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
-    weights: Float[np.ndarray, " n"] | None = None,
     *,
+    weights: Float[np.ndarray, " n"] | None = None,
     steps: int = 10,
 ) -> Float[np.ndarray, "3 3"]:
     """Return the matrix of rank two near `F` with the smallest sum of squared Sampson distances.
@@ -278,7 +278,7 @@ def refine_fundamental(
     outer = outer_products(y, x)
 
     def linearise(unknown: _Factors) -> tuple[np.ndarray, np.ndarray]:
-        residuals, by_F = sampson_slopes(_compose(unknown), x, y, outer)
+        residuals, by_F = sampson_slopes(_compose(unknown), x, y, outer=outer)
         return root * residuals, (_tangent(unknown) @ by_F * root).T
 
     def retract(unknown: _Factors, step: np.ndarray) -> _Factors:
@@ -308,6 +308,7 @@ def sampson_slopes(
     F: Float[np.ndarray, "3 3"],
     x: Float[np.ndarray, "3 n"],
     y: Float[np.ndarray, "3 n"],
+    *,
     outer: Float[np.ndarray, "9 n"],
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "9 n"]]:
     """Return the signed Sampson distances, and how they change with each of the nine entries of F.

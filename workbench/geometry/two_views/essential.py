@@ -81,9 +81,9 @@ def refine_motion(
     T_second_first: Float[np.ndarray, "4 4"],
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
+    *,
     K_first: Float[np.ndarray, "3 3"],
     K_second: Float[np.ndarray, "3 3"],
-    *,
     steps: int = 10,
 ) -> Float[np.ndarray, "4 4"]:
     """Return the motion near this one, with |t| = 1, whose matches have the smallest sum of squared
@@ -115,7 +115,7 @@ def refine_motion(
 
     def linearise(unknown: _Motion) -> tuple[np.ndarray, np.ndarray]:
         R, t = unknown
-        residuals, by_F = sampson_slopes(left @ skew(t) @ R @ right, x, y, outer)
+        residuals, by_F = sampson_slopes(left @ skew(t) @ R @ right, x, y, outer=outer)
         turned = skew(t) @ _GENERATORS @ R
         moved = np.array([skew(side) @ R for side in across(t)])
         by_step = (left @ np.concatenate([turned, moved]) @ right).reshape(5, 9)

@@ -120,7 +120,7 @@ def four_in_general_position(
         ... )
         (True, False)
     """
-    return _in_general_position(uv_a, uv_b, _triangle_areas(uv_a), _triangle_areas(uv_b))
+    return _in_general_position(uv_a, uv_b, _triangle_areas(uv_a), areas_b=_triangle_areas(uv_b))
 
 
 def homographies_from_four(
@@ -139,7 +139,7 @@ def homographies_from_four(
     T = normalising_similarity(np.concatenate([uv_a, uv_b]).reshape(-1, 2))
     x, y = homogeneous(uv_a) @ T.T, homogeneous(uv_b) @ T.T
     areas_x, areas_y = _triangle_areas(x), _triangle_areas(y)
-    usable = _in_general_position(x, y, areas_x, areas_y)
+    usable = _in_general_position(x, y, areas_x, areas_b=areas_y)
     weights = areas_y[..., :3] / np.where(usable[..., None], areas_x[..., :3], np.nan)
     crosses = _cross(x[..., [1, 2, 0], :], x[..., [2, 0, 1], :])
     H = np.linalg.inv(T) @ np.swapaxes(weights[..., None] * y[..., :3, :], -1, -2) @ crosses @ T
@@ -218,8 +218,8 @@ def refine_homography(
     H_b_a: Float[np.ndarray, "3 3"],
     uv_a: Float[np.ndarray, "n 2"],
     uv_b: Float[np.ndarray, "n 2"],
-    weights: Float[np.ndarray, " n"] | None = None,
     *,
+    weights: Float[np.ndarray, " n"] | None = None,
     steps: int = 10,
 ) -> Float[np.ndarray, "3 3"]:
     """Return the homography near `H_b_a` with the smallest sum of squared transfer distances in
@@ -266,7 +266,7 @@ def refine_homography(
 
 
 def _in_general_position(
-    a: np.ndarray, b: np.ndarray, areas_a: np.ndarray, areas_b: np.ndarray
+    a: np.ndarray, b: np.ndarray, areas_a: np.ndarray, *, areas_b: np.ndarray
 ) -> np.ndarray:
     turned = areas_a * areas_b
     same = (turned > 0.0).all(-1) | (turned < 0.0).all(-1)

@@ -148,6 +148,7 @@ def warp(
     image: UInt8[np.ndarray, "h w 3"],
     H: Float[np.ndarray, "3 3"],
     size: tuple[int, int],
+    *,
     around: int = 255,
 ) -> UInt8[np.ndarray, "m k 3"]:
     """Return the picture that a homography makes of another, of this width and height, bilinear.
