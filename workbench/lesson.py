@@ -259,8 +259,9 @@ class Lesson(Generic[P, S]):
         values.
         """
         return tuple(
-            self.validated(replace(self.params(), **{sweep.knob: value})) for value in sweep.values
-        )  # type: ignore[type-var]
+            self.validated(replace(self.params(), **{sweep.knob: value}))  # type: ignore[type-var]
+            for value in sweep.values
+        )
 
     def view_of(self, params: P) -> View:
         """Return how the run of these params is first seen: by its preset's camera where it has

@@ -192,8 +192,9 @@ def degrees_taken(angles: np.ndarray, order: str) -> np.ndarray:
 def angles_of_axes(angles: np.ndarray, order: str) -> np.ndarray:
     """Reads the angles as those about x, y and z, whatever the order of the letters."""
     return rotations.euler_to_matrix(
-        np.array([angles["xyz".index(letter)] for letter in order.lower()]), order
-    )  # type: ignore[arg-type]
+        np.array([angles["xyz".index(letter)] for letter in order.lower()]),
+        order,  # type: ignore[arg-type]
+    )
 
 
 @mistake("You always turn about x, y, z. Read the letters: “zxz” begins with z.")
@@ -209,8 +210,9 @@ def order_ignored(angles: np.ndarray, order: str) -> np.ndarray:
 def any_order_taken(angles: np.ndarray, order: str) -> np.ndarray:
     """Multiplies whatever letters come."""
     first, second, third = (
-        rotation_about(a, v) for a, v in zip(order.lower(), angles, strict=False)
-    )  # type: ignore[arg-type]
+        rotation_about(a, v)  # type: ignore[arg-type]
+        for a, v in zip(order.lower(), angles, strict=False)
+    )
     return first @ second @ third if order.isupper() else third @ second @ first
 
 
