@@ -174,11 +174,12 @@ def _short(text: str) -> str:
 # the tests of a module ----------------------------------------------------------------------------
 
 
-def own_tests(path: Path, root: Path = ROOT) -> list[str]:
-    """Return the files of tests that are a module's own, relative to the project.
+def own_tests(path: Path, root: Path = ROOT) -> list[list[str]]:
+    """Return the files of tests that are a module's own, and those for lines they do not come to.
 
     Of those that import it: the one with its name, else those of the folder with the name of its
     layer, else all. Where none imports it: those with its name, else all of its layer's folder.
+    For lines that the one with its name does not come to: those of the folder.
     """
     layer = path.relative_to(root).parts[1].removesuffix(".py")
     importing = [test for test in _test_files(root) if _imports(test, path, root)]
@@ -191,7 +192,8 @@ def own_tests(path: Path, root: Path = ROOT) -> list[str]:
     ]
     folder = [test for test in _test_files(root) if layer in test.relative_to(root).parts]
     own = named or beside or importing or by_name or folder
-    return [test.relative_to(root).as_posix() for test in own]
+    more = beside if named else []
+    return [[test.relative_to(root).as_posix() for test in tests] for tests in (own, more)]
 
 
 @functools.cache

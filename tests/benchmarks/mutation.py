@@ -195,12 +195,14 @@ class House:
 
     def tested(self, mutant: Mutant) -> dict:
         """Return a mutant's fate: killed, survived, or too long."""
-        tests = [one for file in own_tests(ROOT / mutant.module) for one in self.baseline(file)]
-        wanted = [
-            one
-            for one in tests
-            if set(range(mutant.line, mutant.last + 1)) & set(one["lines"].get(mutant.module, []))
-        ]
+        changed = set(range(mutant.line, mutant.last + 1))
+        tests, wanted = list[dict](), list[dict]()
+        for files in own_tests(ROOT / mutant.module):
+            if not wanted:
+                tests += [one for file in files for one in self.baseline(file)]
+                wanted = [
+                    one for one in tests if changed & set(one["lines"].get(mutant.module, []))
+                ]
         covered = bool(wanted)
         chosen, seconds = [], 0.0
         for one in sorted(wanted or tests, key=lambda one: one["seconds"]):
