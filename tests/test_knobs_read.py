@@ -38,6 +38,7 @@ def field_of(kind: Any, knob: Knob, default: Any) -> knobs.Field:
         (int, Knob("", 0, 1000), 0, 1),
         (tuple[int, int], Knob("", 0, 1000), (0, 0), 1),
         (float, Knob("", 0, 0.99), 0.0, 0.01),
+        (float, Knob("", 0, 0.5), 0.0, 0.001),
         (float, Knob("", 0, 1), 0.0, 0.01),
         (float, Knob("", -1, 1), 0.0, 0.01),
         (float, Knob("", 50, 60), 50.0, 0.1),

@@ -27,6 +27,7 @@ def test_it_ends_at_rest_unless_told_otherwise():
     *_, finer = adjust(start, LENS, Ts, P, uv, tolerance=1e-15)
     *_, coarse = adjust(start, LENS, Ts, P, uv, tolerance=0.5)
     assert found.cost == pytest.approx(finer.cost, rel=1e-7)
+    np.testing.assert_allclose(found.K, finer.K, atol=1e-4)
     assert coarse.cost > found.cost * (1 + 1e-5)
 
 

@@ -8,8 +8,9 @@ statement left out. Words (f-strings), annotations and decorators stay as they a
 import ast
 import functools
 import textwrap
+from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tests.exercise.operators import changes
@@ -40,6 +41,7 @@ class Mutant:
         start: First byte of what is replaced.
         end: The byte after what is replaced.
         text: What is put there.
+        nth: Which it is of those with the same words in the same function.
     """
 
     module: str
@@ -51,11 +53,13 @@ class Mutant:
     start: int
     end: int
     text: str
+    nth: int = 1
 
     @property
     def name(self) -> str:
         """Name the mutant by the module's stem, so that the name outlives a move of the module."""
-        return f"{Path(self.module).stem}.{self.function}: {self.operator}: {self.change}"
+        nth = f" ({self.nth})" if self.nth > 1 else ""
+        return f"{Path(self.module).stem}.{self.function}: {self.operator}: {self.change}{nth}"
 
     def source(self, root: Path = ROOT) -> str:
         """Return the module's changed source."""
@@ -91,6 +95,10 @@ def mutants(path: Path, root: Path = ROOT) -> list[Mutant]:
                 text=text,
             )
         )
+    seen = Counter[str]()
+    for k, mutant in enumerate(sorted(found)):
+        seen[mutant.name] += 1
+        found[k] = replace(mutant, nth=seen[mutant.name])
     return found
 
 
