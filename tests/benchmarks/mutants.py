@@ -86,7 +86,9 @@ def mutants(path: Path, root: Path = ROOT) -> list[Mutant]:
             Mutant(
                 module=path.relative_to(root).as_posix(),
                 line=node.lineno,
-                last=node.end_lineno if isinstance(node, ast.expr) else node.lineno,
+                last=(node.end_lineno or node.lineno)
+                if isinstance(node, ast.expr)
+                else node.lineno,
                 function=function,
                 operator=operator,
                 change=change,
@@ -136,7 +138,7 @@ def _all_changes(parent: ast.AST, field: str, node: ast.AST) -> Iterator[tuple[s
         if operator == "order" and isinstance(node, ast.Call) and _name(node.func) in COMMUTE:
             continue
         yield operator, new
-    if field in {"test", "ifs"}:
+    if field in {"test", "ifs"} and isinstance(node, ast.expr):
         yield "condition", ast.UnaryOp(ast.Not(), node)
     match node:
         case ast.Constant(bool() as value):
