@@ -122,7 +122,7 @@ def _at(
     function: ast.FunctionDef, parent: ast.AST, field: str, k: int | None, node: ast.AST
 ) -> Iterator[Mutant]:
     """Yield the function with each change of one node."""
-    for operator, new in _changes(node):
+    for operator, new in changes(node):
         old = ast.unparse(node)
         _put(parent, field, k, new)
         source = ast.unparse(ast.fix_missing_locations(function))
@@ -156,7 +156,7 @@ def _of_arguments(names: list[str]) -> Iterator[tuple[str, str]]:
     yield "float32", "; ".join(f"{name} = _single({name})" for name in names)
 
 
-def _changes(node: ast.AST) -> Changed:
+def changes(node: ast.AST) -> Changed:
     """Yield what could stand at a place by mistake."""
     match node:
         case ast.BinOp(left, op, right):
