@@ -10,8 +10,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 BASE = {"workbench", "workbench.apart", "workbench.axis", "workbench.errors", "workbench.tracing", "workbench.authors"}
 DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
-LESSON = DRAWING | {
+FORM = DRAWING | {"workbench.cached", "workbench.captions", "workbench.form", "workbench.view"}
+LESSON = FORM | {
     "workbench.lesson",
+    "workbench.presets",
     "workbench.loading",
     "workbench.timeline",
     "workbench.picking",
@@ -35,7 +37,13 @@ ALLOWED = {
     "workbench.geometry": MATHS,
     "workbench.algorithms": MATHS | {"workbench.algorithms"},
     "workbench.data": MATHS | {"workbench.data", "workbench.numerals"},
-    "workbench.lesson": DRAWING,
+    "workbench.cached": {"workbench.errors", "workbench.scene"},
+    "workbench.captions": {"workbench.scene", "workbench.numerals"},
+    "workbench.form": FORM,
+    "workbench.form1": FORM,
+    "workbench.presets": {"workbench.view"},
+    "workbench.view": set(),
+    "workbench.lesson": FORM | {"workbench.form1", "workbench.presets"},
     "workbench.timeline": LESSON,
     "workbench.loading": LESSON,
     "workbench.listing": {"workbench.lesson"},
@@ -77,7 +85,8 @@ ALLOWED = {
     "workbench.__main__": None,
     "workbench": None,
     "lessons": DRAWING | {"workbench.geometry", "workbench.algorithms", "workbench.data", "workbench.lesson", "lessons",
-                          "workbench.exercise", "workbench.numerals", "workbench.certain"},
+                          "workbench.exercise", "workbench.numerals", "workbench.certain",
+                          "workbench.captions"},
 }  # fmt: skip
 
 OUTSIDE = {"viser": ("workbench.wire", "workbench.publish.site"), "rerun": ("workbench.recording",)}

@@ -1,6 +1,7 @@
 """What stands beside the space: numbers, curves, tables, and what just happened in words."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -126,21 +127,28 @@ class Table:
 
 @dataclass(frozen=True, eq=False)
 class Caption:
-    """What just happened and why, with the number that changed: one or two sentences of plain text."""
+    """What just happened and why, with the number that changed: one or two sentences of plain text.
+
+    `values` are the numbers in it by name, as `workbench.captions.say` keeps them.
+    """
 
     text: str
     tone: Literal["info", "good", "wrong"] = "info"
+    values: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         check_text("Caption.text", self.text)
         need(bool(self.text.strip()), "a Caption says something")
 
     @classmethod
-    def verdict(cls, text: str, *, right: bool, settled: bool = True) -> "Caption":
+    def verdict(
+        cls, text: str, *, right: bool, settled: bool = True, values: Mapping[str, float] | None = None
+    ) -> "Caption":
         """Return the caption of an end whose truth is known: where it is wrong, it says so behind the text.
 
         `settled` says that the method itself came to rest, so that nothing but the truth shows that it is wrong.
         """
         if right:
-            return cls(text, "good")
-        return cls(f"{text} {'It looks settled, and it' if settled else 'It'} is wrong.", "wrong")
+            return cls(text, "good", values or {})
+        wrong = "It looks settled, and it is wrong." if settled else "It is wrong."
+        return cls(f"{text} {wrong}", "wrong", values or {})
