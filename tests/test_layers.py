@@ -63,22 +63,23 @@ ALLOWED = {
                            "workbench.workers", "workbench.threads", "workbench.numerals"},
     "workbench.handout": LESSON | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail",
                                    "workbench.atomic"},
-    "workbench.page": LESSON | {"workbench.page", "workbench.images", "workbench.typeset", "workbench.numerals"},
+    "workbench.story": LESSON | {"workbench.story", "workbench.typeset"},
+    "workbench.page": LESSON | {"workbench.page", "workbench.story", "workbench.images", "workbench.typeset", "workbench.numerals"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
-        "workbench.publish", "workbench.page", "workbench.exercise",
+        "workbench.publish", "workbench.page", "workbench.story", "workbench.exercise",
         "workbench.recording", "workbench.wire", "workbench.typeset",
         "workbench.session",
         "workbench.links", "workbench.images", "workbench.progress", "workbench.atomic",
         "workbench.workers",
     },
     "workbench.viewer": LESSON | {
-        "workbench.viewer", "workbench.page", "workbench.session", "workbench.wire", "workbench.links",
+        "workbench.viewer", "workbench.page", "workbench.story", "workbench.session", "workbench.wire", "workbench.links",
         "workbench.picking", "workbench.typeset", "workbench.recording", "workbench.exercise",
         "workbench.authoring.reloading", "workbench.hosts",
     },
     "workbench.authoring": LESSON | {"workbench.authoring", "workbench.exercise", "workbench.flags", "workbench.typeset",
-                                     "workbench.page.article"},
+                                     "workbench.page.article", "workbench.page.charts", "workbench.story"},
     "workbench.flags": LESSON | {"workbench.flags"},
     "workbench.notebook": None,  # a top of its own, as the commands are
     "workbench.cli": None,  # the top: it may import everything
@@ -86,7 +87,8 @@ ALLOWED = {
     "workbench": None,
     "lessons": DRAWING | {"workbench.geometry", "workbench.algorithms", "workbench.data", "workbench.lesson", "lessons",
                           "workbench.exercise", "workbench.numerals", "workbench.certain",
-                          "workbench.captions"},
+                          "workbench.captions", "workbench.cached", "workbench.form", "workbench.presets",
+                          "workbench.view"},
 }  # fmt: skip
 
 OUTSIDE = {"viser": ("workbench.wire", "workbench.publish.site"), "rerun": ("workbench.recording",)}

@@ -1,8 +1,9 @@
-"""Notes which params a function reads, and keeps its values by just these: `cached`, and `watched` for whole runs.
+"""Notes which params a function reads, and keeps its values by just these.
 
-A function that reads `params.seed` and nothing else gives the same value for all params with that seed. `cached` finds out
-by itself: it hands the function the params in a guise that notes every field that is read. Params with the same values in
-the fields read lead to the value kept. So a function keeps its value while a knob is turned that it does not read.
+A function that reads `params.seed` and nothing else gives the same value for all params with that
+seed. `cached` finds out by itself: it hands the function the params in a guise that notes every
+field that is read. Params with the same values in the fields read lead to the value kept. So a
+function keeps its value while a knob is turned that it does not read.
 """
 
 import dataclasses
@@ -27,8 +28,8 @@ Note = Callable[[str], object]
 def watched(params: P, note: Note) -> P:
     """Return the params in a guise that tells `note` the name of each field that is read from it.
 
-    It is equal to the params, has their class and methods, and can be hashed, pickled and copied as they can. Each of
-    these reads all fields.
+    It is equal to the params, has their class and methods, and can be hashed, pickled and copied as
+    they can. Each of these reads all fields.
     """
     kind = type(plain(params))
     guise = object.__new__(_guise(kind))
@@ -46,7 +47,7 @@ def plain(params: P) -> P:
 
 
 def reader(params: Any) -> Note | None:
-    """Return what is told of the fields that are read from these params, None where nobody watches."""
+    """Return what is told of every field read from these params, None where nobody watches."""
     return object.__getattribute__(params, "_note") if isinstance(params, Guise) else None
 
 
@@ -116,15 +117,16 @@ def cached(
 
 
 def cached(function: Any = None, /, *, most: int = 32) -> Any:
-    """Keep the values of a function of params by the fields that it reads, the last used `most` of them.
+    """Keep the values of a function of params by the fields that it reads.
 
-    What else the function takes is part of the key and can be hashed. Arrays in a value become read-only. A function that
-    fails is called again. Two threads that ask at once may both compute.
+    The `most` values that were used last are kept. What else the function takes is part of the key
+    and can be hashed. Arrays in a value become read-only. A function that fails is called again.
+    Two threads that ask at once may both compute.
 
     Raises:
         TypeError: If the function is a generator: its states could be walked through only once.
-        AuthorError: When params are read after the function has returned, because its value holds on to them: such a
-            read could not be noted. Keep what is needed of them.
+        AuthorError: When params are read after the function has returned, because its value holds
+            on to them: such a read could not be noted. Keep what is needed of them.
     """
     if function is None:
         return functools.partial(cached, most=most)
@@ -173,9 +175,10 @@ class _Reads:
     def note(self, name: str) -> None:
         if self.closed and name not in self.names:
             which = self._function.__qualname__
+            late = f"{name} is read from them later, which {which} did not read"
             raise AuthorError(
-                f"{which} is cached, and its value holds on to params: {name} is read from them later, "
-                f"which {which} did not read; keep what is needed of them in place of the params"
+                f"{which} is cached, and its value holds on to params: {late}; "
+                "keep what is needed of them in place of the params"
             )
         self.names.add(name)
 

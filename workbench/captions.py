@@ -1,12 +1,16 @@
 """Captions that carry their values: `say("Turned by {turned}.", turned=degrees(0.2))`.
 
-The numbers of a caption are what its run has found; a test compares `caption.values` with what is true, and the wording
-stays free. A quantity is a number with the words for it; plain numbers are written with three significant digits.
+The numbers of a caption are what its run has found; a test compares `caption.values` with what is
+true, and the wording stays free. A quantity is a number with the words for it; plain numbers are
+written with three significant digits.
 """
 
 import math
 import string
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
 
 from workbench import numerals
 from workbench.scene import Caption
@@ -67,9 +71,10 @@ def say(
     sentence: str,
     /,
     *,
-    tone: str = "info",
+    tone: Literal["info", "good", "wrong"] = "info",
     right: bool | None = None,
     settled: bool = True,
+    place: str = "",
     **values: "float | str | Quantity",
 ) -> Caption:
     """Return a caption whose names in braces are written out, and which keeps their values.
@@ -79,10 +84,12 @@ def say(
         tone: `info`, `good` or `wrong`.
         right: For an end whose truth is known, in place of a tone: see `Caption.verdict`.
         settled: Likewise.
+        place: What a story's slider calls this step: "match", "fit".
         values: A Quantity, a number or a text for each name.
 
     Raises:
-        ValueError: If a name has no value, a value no name, or a number is not finite: say in words what is missing.
+        ValueError: If a name has no value, a value no name, or a number is not finite: say in words
+            what is missing.
     """
     parts = list(string.Formatter().parse(sentence))
     names = [name for _, name, _, _ in parts if name is not None]
@@ -99,8 +106,10 @@ def say(
     )
     numbers = {name: _number(value) for name, value in values.items() if not isinstance(value, str)}
     if right is None:
-        return Caption(told, tone, values=numbers)  # type: ignore[arg-type]
-    return Caption.verdict(told, right=right, settled=settled, values=numbers)
+        caption = Caption(told, tone, values=numbers)
+    else:
+        caption = Caption.verdict(told, right=right, settled=settled, values=numbers)
+    return replace(caption, place=place) if place else caption
 
 
 def _text(sentence: str, name: str, value: "float | str | Quantity") -> str:
@@ -112,7 +121,7 @@ def _text(sentence: str, name: str, value: "float | str | Quantity") -> str:
         )
     if isinstance(value, Quantity):
         return value.text
-    return numerals.fixed(value, 0) if isinstance(value, int) else numerals.brief(value)
+    return numerals.fixed(value, 0) if isinstance(value, int | np.integer) else numerals.brief(value)
 
 
 def _number(value: "float | Quantity") -> float:

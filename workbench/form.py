@@ -1,4 +1,4 @@
-"""The form of a lesson that everything is built on: setup, run, draw, and what draw is given to look at."""
+"""The form of a lesson that everything is built on: setup, run, and draw, which gets a `Look`."""
 
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -39,7 +39,7 @@ class Look(Generic[P, U, S]):
 
 
 class States(tuple[S, ...], Generic[P, U, S]):
-    """All states of a run, with its `params` and `subject`: what a question reads its answer off."""
+    """All states of a run, with its `params` and `subject`: a question reads its answer off it."""
 
     params: P
     subject: U
@@ -58,15 +58,18 @@ class Form(Generic[P, U, S]):
 
     Args:
         setup: Makes the subject of the params: what does not change while the run goes on.
-        run: Yields the states; takes params, subject and, by keyword, functions in the place of ours.
+        run: Yields the states; takes params, subject and, by keyword, functions in the place of
+            ours.
         draw: The scene of what a `Look` holds.
         slots: The names of these keywords.
+        inputs: What the author's own `run` takes beside them, by position.
     """
 
     setup: Callable[[P], U]
     run: Callable[..., Iterator[S]]
     draw: Callable[[Look[P, U, S]], Scene]
     slots: tuple[str, ...]
+    inputs: tuple[str, ...] = ("params", "subject")
 
     def states(self, params: P, slots: Mapping[str, Slot] | None = None) -> Iterator[S]:
         """Yield the states of a run with functions in the place of ours."""
@@ -83,7 +86,7 @@ def keywords_of(run: Callable[..., Any]) -> list[str]:
 
 
 def mistakes(setup: Any, run: Any, draw: Any) -> Iterator[str]:
-    """Yield what is wrong with the functions of a lesson, as ends of lines that begin with its name."""
+    """Yield what is wrong with a lesson's functions, as ends of lines that begin with its name."""
     yield from not_called_with(setup, 1, "setup takes the params")
     wanted = "run takes the params, the subject and, by keyword, functions that have defaults"
     yield from not_called_with(run, 2, wanted)

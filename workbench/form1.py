@@ -1,7 +1,7 @@
-"""The first form of a lesson, `run(params)` and `draw(state)`, in the second: no other module knows of it.
+"""The first form of a lesson, `run(params)` and `draw(state)`, made into the second.
 
-A lesson of the first form has no `setup`. Its states carry all that `draw` needs, so its subject is None, and its knobs
-say by `needs` when they have no effect.
+No other module knows of it. A lesson of the first form has no `setup`. Its states carry all that
+`draw` needs, so its subject is None, and its knobs say by `needs` when they have no effect.
 """
 
 import inspect
@@ -29,11 +29,11 @@ def form_of(run: Callable[..., Iterator[Any]], draw: Callable[[Any], Scene]) -> 
         slots = tuple(inspect.signature(run).parameters)[1:]
     except (TypeError, ValueError):  # a function of C says nothing of its arguments
         slots = ()
-    return Form(setup=_nothing, run=run_on, draw=draw_now, slots=slots)
+    return Form(setup=_nothing, run=run_on, draw=draw_now, slots=slots, inputs=("params",))
 
 
 def mistakes(run: Any, draw: Any) -> Iterator[str]:
-    """Yield what is wrong with the functions of a lesson of the first form, as ends of lines with its name."""
+    """Yield what is wrong with a lesson's functions, as ends of lines that begin with its name."""
     yield from not_called_with(
         run, 1, "run takes the params and, by keyword, functions that have defaults"
     )

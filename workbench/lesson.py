@@ -1,4 +1,4 @@
-"""A lesson: a page, inputs, setup, run, draw, presets and questions, as one value; and the catalogue of all lessons."""
+"""A lesson as one value: page, inputs, setup, run, draw, presets, questions; and the catalogue."""
 
 import functools
 import importlib
@@ -52,8 +52,8 @@ S = TypeVar("S")
 class Lesson(Generic[P, S]):
     """One topic, whole.
 
-    With `setup`, `run` takes the params and the subject, and `draw` takes a `Look`. Without, the lesson has the first form:
-    `run(params)` and `draw(state)`.
+    With `setup`, `run` takes the params and the subject, and `draw` takes a `Look`. Without, the
+    lesson has the first form: `run(params)` and `draw(state)`.
 
     Args:
         name: Its folder's name and its name in links and commands.
@@ -62,20 +62,24 @@ class Lesson(Generic[P, S]):
         page: Path of page.md; without one the summary is the page.
         params: The Params class; `params()` is the default run.
         setup: Makes the subject of the params: what does not change while the run goes on.
-        run: Yields states; takes params, subject and, by keyword, the functions an exercise may replace.
+        run: Yields states; takes params, subject and, by keyword, the functions an exercise may
+            replace.
         draw: What one step looks like.
-        slots: The names of these functions, where `run` passes on `**slots` and does not name them itself.
+        slots: The names of these functions, where `run` passes on `**slots` and does not name them
+            itself.
         order: The place in the course.
         view: How the scene is first seen.
         views: Cameras of a story, by name.
-        view_for: How runs of some params are first seen, where the presets' cameras do not say it; None lets them.
+        view_for: How runs of some params are first seen, where the presets' cameras do not say it;
+            None lets them.
         presets: Named runs worth seeing.
         questions: What a student predicts before looking.
         first_step: Where the default run opens (negative counts from the end).
         sweeps: Params whose runs are published at several values.
         telling: The chart or title of what tells most beside the scene: it is shown first.
         needs: Names of the lessons it builds on; they stand before it in the course.
-        tries: Whether a state only tries what another start would lead to. Such states follow the run's own end.
+        tries: Whether a state only tries what another start would lead to. Such states follow the
+            run's own end.
     """
 
     name: str
@@ -109,22 +113,23 @@ class Lesson(Generic[P, S]):
         self.text()
 
     def _mistakes(self) -> Iterator[str]:
-        """Yield what is wrong with the values given, as ends of lines that begin with the lesson's name."""
+        """Yield what is wrong with the values given: ends of lines that begin with its name."""
         if self.page is not None and not isinstance(self.page, Path):
-            yield f": page is a Path, not {self.page!r}: Path(__file__).with_name(...) finds it beside the lesson"
+            finds = "Path(__file__).with_name(...) finds it beside the lesson"
+            yield f": page is a Path, not {self.page!r}: {finds}"
         if self.setup is None:
             yield from form1.mistakes(self.run, self.draw)
         else:
             yield from mistakes(self.setup, self.run, self.draw)
         places: dict[str, str] = {}
-        for what, ones in (("preset", self.presets), ("question", self.questions)):
-            for i, one in enumerate(ones, 1):
-                if one.name in places:
-                    yield f": {places[one.name]} and {what} {i} share the name {one.name!r}; each is a run of the page"
-                places[one.name] = f"{what} {i}"
-        for what, one in [("preset", p) for p in self.presets] + [
-            ("question", q) for q in self.questions
-        ]:
+        presets = [(f"preset {i}", "preset", one) for i, one in enumerate(self.presets, 1)]
+        questions = [(f"question {i}", "question", one) for i, one in enumerate(self.questions, 1)]
+        for place, _, one in [*presets, *questions]:
+            if one.name in places:
+                both = f"{places[one.name]} and {place}"
+                yield f": {both} share the name {one.name!r}; each is a run of the page"
+            places[one.name] = place
+        for _, what, one in [*presets, *questions]:
             try:
                 self.validated(one.params)
             except InputError as error:
@@ -144,24 +149,33 @@ class Lesson(Generic[P, S]):
         if self.setup is None:
             return form1.form_of(self.run, self.draw)
         slots = self.slots or tuple(keywords_of(self.run))
-        return Form(setup=self.setup, run=self.run, draw=self.draw, slots=slots)  # type: ignore[arg-type]
+        draw: Any = self.draw
+        return Form(setup=self.setup, run=self.run, draw=draw, slots=slots)
 
     def swept(self, sweep: Sweep) -> tuple[P, ...]:
-        """Return the params of a sweep's runs: the default's, with its knob at each of its values."""
-        return tuple(
-            self.validated(replace(self.params(), **{sweep.knob: value})) for value in sweep.values
-        )  # type: ignore[type-var]
+        """Return the params of a sweep's runs: those of its run, with its knob at each value."""
+        base: Any = self.run_params(sweep.run)
+        runs = (replace(base, **{sweep.knob: value}) for value in sweep.values)
+        return tuple(self.validated(params) for params in runs)
+
+    def run_params(self, name: str) -> P:
+        """Return the params of a run by its name: `default`, or a preset's.
+
+        Raises:
+            InputError: If there is no such preset; lists those there are.
+        """
+        return self.params() if name == "default" else self.preset(name).params
 
     def view_of(self, params: P) -> View:
-        """Return how the run of these params is first seen: by its preset's camera where it has one."""
+        """Return how a run of these params is first seen: by its preset's camera if it has one."""
         preset = self.preset_of(params)
         return self.usual_view(params) if preset is None or preset.view is None else preset.view
 
     def usual_view(self, params: P) -> View:
-        """Return how runs of such params are first seen that are no preset with a camera of its own.
+        """Return how a run of these params is first seen if it is no preset with its own camera.
 
-        It is the camera of the default or the preset that is most alike in its choices, of which the first counts most: who
-        chooses another shape or stage sees it as its presets do.
+        It is the camera of the default or the preset that is most alike in its choices, of which
+        the first counts most: who chooses another shape or stage sees it as its presets do.
         """
         view = None if self.view_for is None else self.view_for(params)
         if view is not None:
@@ -230,9 +244,8 @@ def course() -> Mapping[str, Lesson]:
         if info.ispkg and importlib.util.find_spec(f"{info.name}.lesson") is not None:
             lesson = lesson_in(importlib.import_module(f"{info.name}.lesson"))
             if lesson.name in places:
-                raise InputError(
-                    f"{places[lesson.name]} and {info.name} are both named {lesson.name!r}: rename one"
-                )
+                both = f"{places[lesson.name]} and {info.name}"
+                raise InputError(f"{both} are both named {lesson.name!r}: rename one")
             found.append(lesson)
             places[lesson.name] = info.name
     return _in_order(found)
@@ -240,10 +253,12 @@ def course() -> Mapping[str, Lesson]:
 
 @functools.cache
 def catalog() -> Mapping[str, Lesson]:
-    """Return all lessons by name, in course order: those of the course and those of installed third parties.
+    """Return all lessons by name, in course order: those of the course and those of installed third
+    parties.
 
-    A third party registers a lesson under the entry-point group `workbench.lessons`, as `name = "module:lesson"`. One that
-    cannot be loaded, or whose name is taken, is left out with a warning; the course itself is always whole.
+    A third party registers a lesson under the entry-point group `workbench.lessons`, as `name =
+    "module:lesson"`. One that cannot be loaded, or whose name is taken, is left out with a warning;
+    the course itself is always whole.
     """
     found, places = dict(course()), {name: f"lessons.{name}" for name in course()}
     for entry in importlib.metadata.entry_points(group="workbench.lessons"):
@@ -270,7 +285,8 @@ def _in_order(lessons: Iterable[Lesson]) -> Mapping[str, Lesson]:
 
 
 def find(name: str) -> Lesson:
-    """Return a lesson by its name in the catalogue. Nothing is run: the name may come out of a file or a link.
+    """Return a lesson by its name in the catalogue. Nothing is run: the name may come out of a file
+    or a link.
 
     Raises:
         InputError: If there is no such lesson; lists those there are.

@@ -7,10 +7,11 @@ import numpy as np
 
 @dataclass(frozen=True)
 class View:
-    """How the scene is first seen: the eye, what it looks at, metres; +Z is up unless `up` says otherwise.
+    """How the scene is first seen: the eye, what it looks at, metres; +Z is up unless `up` says
+    otherwise.
 
-    `grid` is the spacing of the ground grid in metres at height `grid_height` along `up`; None draws none. `axes` draws
-    the world's axes, labelled, at the origin.
+    `grid` is the spacing of the ground grid in metres at height `grid_height` along `up`; None
+    draws none. `axes` draws the world's axes, labelled, at the origin.
     """
 
     eye: tuple[float, float, float] = (2.0, -2.0, 1.5)
@@ -31,8 +32,8 @@ class View:
     def seen_from(self) -> np.ndarray:
         """Return the eye, moved aside by a thousandth of its distance where it looks along `up`.
 
-        Straight down or up no direction of the picture would be decided: +y points up in it then, +z where y is vertical
-        itself (-z from above, so that +x is on the right).
+        Straight down or up no direction of the picture would be decided: +y points up in it then,
+        +z where y is vertical itself (-z from above, so that +x is on the right).
         """
         eye, target, up = (np.array(triple, float) for triple in (self.eye, self.target, self.up))
         away, up = eye - target, up / np.linalg.norm(up)
@@ -48,7 +49,10 @@ class View:
         return eye - above * 2e-3 * np.linalg.norm(away) * upwards
 
     def facing(self, right: float, up: float, nearer: float = 0.0) -> np.ndarray:
-        """Return the pose (4, 4) of a picture that stands upright before the eye, metres right of and above the target."""
+        """Return the pose (4, 4) of a picture that stands upright before the eye.
+
+        Its middle is so many metres right of the target, above it, and nearer to the eye.
+        """
         ahead = np.array(self.target) - self.seen_from()
         axes = [np.cross(ahead, self.up), np.cross(ahead, np.cross(ahead, self.up)), ahead]
         pose = np.eye(4)
