@@ -64,7 +64,8 @@ ALLOWED = {
     "workbench.handout": LESSON | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail",
                                    "workbench.atomic"},
     "workbench.story": LESSON | {"workbench.story", "workbench.typeset"},
-    "workbench.page": LESSON | {"workbench.page", "workbench.story", "workbench.images", "workbench.typeset", "workbench.numerals"},
+    "workbench.page": LESSON | {"workbench.page", "workbench.story", "workbench.images", "workbench.typeset",
+                                "workbench.numerals"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.page", "workbench.story", "workbench.exercise",

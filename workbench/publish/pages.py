@@ -14,6 +14,7 @@ from workbench.page.exercise import exercises_html
 from workbench.publish.manifest import Listed
 from workbench.publish.runs import PAGE, question_run
 from workbench.questions import answer
+from workbench.story import story_of
 from workbench.timeline import Timelines
 
 LESSONS = "lessons.js"
@@ -67,6 +68,7 @@ def lesson_page(lesson: Lesson, known: Mapping[str, Any], head: str = "") -> str
         head=f'{head}<script src="../{LESSONS}"></script>',
         more={"RECORDED": known},
         still="picture.webp",
+        story=story_of(lesson, "site"),
     )
 
 

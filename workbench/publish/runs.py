@@ -116,6 +116,7 @@ def _dial(lesson: Lesson, sweep: Sweep, runs: Sequence[Run]) -> dict[str, Any]:
         values.sort()
     said = [knobs.text_of(value) for value in values]
     return {
+        "knob": sweep.knob,
         "label": field.label,
         "unit": field.knob.unit,
         "hint": field.knob.hint,

@@ -10,7 +10,18 @@ import viser
 import workbench
 from workbench.errors import InputError
 from workbench.lesson import Lesson
-from workbench.page.document import MATH, RECORDED, SCRIPTS, STATIC, STYLES, THIRD_PARTIES, bare
+from workbench.page.document import (
+    FONTS,
+    MATH,
+    RECORDED,
+    SCRIPTS,
+    STATIC,
+    STORY_SCRIPTS,
+    STORY_STYLES,
+    STYLES,
+    THIRD_PARTIES,
+    bare,
+)
 from workbench.page.thumbnail import thumbnail
 from workbench.progress import Progress
 from workbench.publish.lock import only_writer
@@ -97,6 +108,9 @@ def _publish(
         raise InputError(f"{out}: its other lessons were published by another version; publish all of them again")
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
     shared = {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)}
+    told = [name for name in (*STORY_STYLES, *STORY_SCRIPTS) if (STATIC / name).is_file()]
+    shared |= {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in told}
+    shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in FONTS}
     shared |= {f"{PAGE}/{MATH}": math_font_css().encode(), ".nojekyll": b""}
     shared |= {CLIENT: client_script().encode()}
     shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
