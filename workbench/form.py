@@ -63,6 +63,7 @@ class Form(Generic[P, U, S]):
         draw: The scene of what a `Look` holds.
         slots: The names of these keywords.
         inputs: What the author's own `run` takes beside them, by position.
+        notes: Whether it is noted which params are read; else each knob says what it needs.
     """
 
     setup: Callable[[P], U]
@@ -70,6 +71,7 @@ class Form(Generic[P, U, S]):
     draw: Callable[[Look[P, U, S]], Scene]
     slots: tuple[str, ...]
     inputs: tuple[str, ...] = ("params", "subject")
+    notes: bool = True
 
     def states(self, params: P, slots: Mapping[str, Slot] | None = None) -> Iterator[S]:
         """Yield the states of a run with functions in the place of ours."""

@@ -29,7 +29,7 @@ def form_of(run: Callable[..., Iterator[Any]], draw: Callable[[Any], Scene]) -> 
         slots = tuple(inspect.signature(run).parameters)[1:]
     except (TypeError, ValueError):  # a function of C says nothing of its arguments
         slots = ()
-    return Form(setup=_nothing, run=run_on, draw=draw_now, slots=slots, inputs=("params",))
+    return Form(setup=_nothing, run=run_on, draw=draw_now, slots=slots, inputs=("params",), notes=False)
 
 
 def mistakes(run: Any, draw: Any) -> Iterator[str]:

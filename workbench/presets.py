@@ -70,7 +70,8 @@ class Question(Generic[P, S]):
         step: Where the revealed run opens; None is its last step.
         wrong: Known wrong numbers as (lowest, highest, what is said to those who gave one); none is
             within the tolerance.
-        start: In a story, the step of its run at which the stage stands still while it is asked.
+        start: In a story, the step of its run at which the stage stands still while it is asked;
+            `"stop"` is the end of the run itself.
         low, high: In a story, the ends of the slider for a number; with neither the answer is
             typed.
         stride: The step of that slider; None picks one.
@@ -87,7 +88,7 @@ class Question(Generic[P, S]):
     tolerance: float = 0.0
     step: int | None = None
     wrong: tuple[tuple[float, float, str], ...] = ()
-    start: int = 0
+    start: int | str = 0
     low: float | None = None
     high: float | None = None
     stride: float | None = None

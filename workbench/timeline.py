@@ -149,6 +149,11 @@ class Timeline:
         """Return the bytes of every array that the run holds, by the array's id."""
         return {key: array.nbytes for key, array in tuple(self._owners.items())}
 
+    @property
+    def read(self) -> frozenset[str]:
+        """The fields of the params that the run has read so far."""
+        return frozenset(self._read)
+
     def idle(self) -> tuple[str, ...]:
         """Return the fields of the params that the run does not read, so that they have no effect on it.
 
