@@ -1,4 +1,4 @@
-"""The stage `axes`: the frame of one cloud after the other, their signs, and what laying them on each other gives."""
+"""The steps: the frame of one cloud after the other, their signs, and what laying them on each other gives."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -7,7 +7,7 @@ import numpy as np
 import scipy
 
 from lessons.alignment.scans import box_sides, scans_of, second_scan
-from lessons.alignment.state import AxesState, Outcome, Params, Scans, Turns
+from lessons.alignment.state import Outcome, Params, Scans, State, Turns
 from workbench.algorithms.jacobi import jacobi
 from workbench.certain import sure
 from workbench.data.thinning import every
@@ -33,11 +33,11 @@ TURNS, FRESH_TURNS = 100, 40
 MOST_ASKED = 2000  # points whose nearest neighbour is looked up
 
 
-def axes_stage(params: Params, find: FindAxes | None, sign: Sign | None) -> Iterator[AxesState]:
+def steps(params: Params, find: FindAxes | None, sign: Sign | None) -> Iterator[State]:
     """Yield the steps; where functions are given in place of ours (None), they end before the many turns."""
     scans = scans_of(params)
     p_centre, covariance = centroid_and_covariance(scans.p_source)
-    state = AxesState(params=params, scans=scans, moment="cloud", p_centre=p_centre)
+    state = State(params=params, scans=scans, moment="cloud", p_centre=p_centre)
     yield state
     yield replace(state, moment="centroid")
     for k, now in enumerate(jacobi(covariance)):
@@ -75,7 +75,7 @@ def with_signs(axes: np.ndarray, p: np.ndarray, params: Params, sign: Sign = can
     return largest_entry_signs(axes) if params.signs == "largest-entry" else sign(axes, p)
 
 
-def signed(state: AxesState, sign: Sign) -> AxesState:
+def signed(state: State, sign: Sign) -> State:
     """Return the step in which both frames get their signs."""
     axes, axes_target = signed_axes(state)
     scans, params = state.scans, state.params
@@ -89,12 +89,12 @@ def signed(state: AxesState, sign: Sign) -> AxesState:
     return replace(state, outcome=outcome_of(state))
 
 
-def signed_axes(state: AxesState) -> tuple[np.ndarray, np.ndarray]:
+def signed_axes(state: State) -> tuple[np.ndarray, np.ndarray]:
     """Return both frames of a state that has them."""
     return sure(state.axes), sure(state.axes_target)
 
 
-def outcome_of(state: AxesState) -> Outcome:
+def outcome_of(state: State) -> Outcome:
     """Return what comes of laying the two frames on each other: R = V_target V_source^T."""
     axes, axes_target = signed_axes(state)
     scans = state.scans
@@ -117,7 +117,7 @@ def gap(T_target_source: np.ndarray, scans: Scans) -> float:
     return rms(np.asarray(scipy.spatial.KDTree(scans.p_target).query(apply(T_target_source, p))[0]))
 
 
-def box_ratio(state: AxesState) -> float:
+def box_ratio(state: State) -> float:
     """Return the volume of the box along the source's axes over that of the box along the shape's own sides."""
     sides, T = box_sides(state.params), state.scans.T_target_source
     if sides is None or T is None:
