@@ -201,8 +201,8 @@ class _Reader:
         question = self._names.question(given.name, block.line)
         if question.name in self._starts:
             raise self._names.wrong(block.line, f"the question {question.name!r} is asked already")
-        run = self._names.run(given.values.get("run", question.name), block.line)
-        step = question.start
+        run, at = self._names.moment(given.values.get("run", question.name), block.line)
+        step = question.start if at is None else at
         moved = Attributes(values={key: text for key, text in given.values.items() if key != "run"})
         start = self._moved(replace(scene.here, run=run, step=step, start=None), moved, block.line)
         seen: StepName = "stop" if question.step is None else question.step
