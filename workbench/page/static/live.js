@@ -49,7 +49,10 @@ const source = {
     else this.waiting.push(text);
   },
 
-  open(name, step) { this.send({ verb: "run", run: name, step }); },
+  // a step may be named by the run's own end, which the page finds when it is known
+  open(name, step) {
+    this.send({ verb: "run", run: name, step: /^stop./.test(step) ? -1 : step });
+  },
   seek(k) { this.send({ verb: "seek", k }); },
   change(values) { this.send({ verb: "change", values }); },
   reset() {
@@ -70,8 +73,9 @@ const source = {
     const address = `files/${document.body.dataset.token}/${encodeURIComponent(field)}?name=${encodeURIComponent(file.name)}`;
     return fetch(address, { method: "POST", body: file });
   },
-  predict(question, given) {
+  predict(question, given, { stay = false } = {}) {
     this.given[question] = given;
-    this.send({ verb: "predict", question, given });
+    this.send({ verb: "predict", question, given, stay });
   },
+  followed() { this.send({ verb: "open", query: location.search, lesson: LESSON.name }); },
 };
