@@ -30,6 +30,7 @@ from workbench.publish.pages import LESSONS, answers, course_page, lesson_page, 
 from workbench.publish.runs import (
     CLIENT,
     PAGE,
+    Recordings,
     Run,
     client_script,
     digest_of,
@@ -55,6 +56,7 @@ def publish(
     base_url: str | None = None,
     force: bool = False,
     remove_others: bool = False,
+    recordings: Recordings = "linked",
     progress: Progress | None = None,
 ) -> list[tuple[str, int]]:
     """Write lessons into a site and return all that the site holds of ours: (file, bytes).
@@ -68,6 +70,8 @@ def publish(
         base_url: The address the site will have, for canonical links.
         force: Replace files of others that are in the way.
         remove_others: These are all lessons of the site: others that we published before go.
+        recordings: Which runs can be downloaded as recordings: all but those of sweeps, the default and those that the
+            page's text names, or none.
         progress: Told of each run.
 
     Raises:
@@ -75,7 +79,7 @@ def publish(
             run fails, a file cannot be written, a link leads nowhere, or something is over its size budget.
     """
     for lesson in lessons:
-        runs = runs_of(lesson)
+        runs = runs_of(lesson, "all")
         if not all(NAME.fullmatch(name) for name in (lesson.name, *(run.name for run in runs if run.recorded))):
             raise InputError(f"lesson {lesson.name!r}: a name on a site has the signs A-Z a-z 0-9 _ - only")
         if len({run.file.casefold() for run in runs}) < len(runs):
@@ -86,7 +90,7 @@ def publish(
     try:
         out.mkdir(parents=True, exist_ok=True)
         with only_writer(out):
-            return _publish(out, lessons, base_url, force, remove_others, progress)
+            return _publish(out, lessons, base_url, force, remove_others, recordings, progress)
     except OSError as error:
         raise InputError(f"{error.filename or out}: {error.strerror or error}") from None
 
@@ -97,6 +101,7 @@ def _publish(
     base_url: str | None,
     force: bool,
     remove_others: bool,
+    recordings: Recordings,
     progress: Progress | None,
 ) -> list[tuple[str, int]]:
     manifest = Manifest(out)
@@ -106,7 +111,7 @@ def _publish(
     made_by = f"workbench {workbench.__version__}, viser {viser.__version__}"
     if others and manifest.made_by != made_by:
         raise InputError(f"{out}: its other lessons were published by another version; publish all of them again")
-    work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
+    work = [(lesson, run) for lesson in lessons for run in runs_of(lesson, recordings)]
     shared = {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)}
     told = [name for name in (*STORY_STYLES, *STORY_SCRIPTS) if (STATIC / name).is_file()]
     shared |= {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in told}

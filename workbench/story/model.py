@@ -63,7 +63,7 @@ class Told:
 
     values: tuple[Value, ...] = ()
     series: tuple[tuple[str, str, int], ...] = ()  # (run, name, line)
-    knobs: tuple[tuple[str, int], ...] = ()
+    knobs: tuple[tuple[str, str, int], ...] = ()  # likewise
     places: tuple[
         tuple[Place, int], ...
     ] = ()  # of beats and links; a link has its run and step alone
