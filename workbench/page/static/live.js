@@ -5,6 +5,7 @@ const source = {
   socket: null, waiting: [], given: {},
   wire: new Wire(),
   seen: null,  // {run, k}: of which step the scene is
+  drawn: null,  // {run, k, nodes} of a step that has come and is not shown
   tells: {},  // what is told -> function: what the other parts of the page hear
 
   start() {
@@ -37,10 +38,19 @@ const source = {
 
   // a step's scene, in bytes
   drew(bytes) {
-    const head = this.wire.read(bytes), { run, k } = head, by = this.seen?.run === run ? k - this.seen.k : 0;
+    const head = this.wire.read(bytes), { run, k } = head;
     if (head.stage) feed.open(head.stage);
+    this.drawn = { run, k, nodes: this.wire.nodes(head.nodes) };
+    if (page.face === "bench" || storyStage.awaits(k)) this.flush();
+  },
+
+  // shows what was drawn last; a story lets a step pass that is only on the way to the one it wants
+  flush() {
+    if (!this.drawn) return;
+    const { run, k, nodes } = this.drawn, by = this.seen?.run === run ? k - this.seen.k : 0;
+    this.drawn = null;
     this.seen = { run, k };
-    sceneView.step(this.wire.nodes(head.nodes), by);
+    sceneView.step(nodes, by);
   },
 
   send(message) {

@@ -67,7 +67,7 @@ const page = {
     if (!this.run || this.run.id !== id) return;
     Object.assign(this.run.things, things);
     this.run.steps[k] = step;
-    this.see(k);
+    if (this.face === "bench" || storyStage.awaits(k)) this.see(k);
     this.tell("came", this.run, k, step, things);
   },
 

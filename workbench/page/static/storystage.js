@@ -56,11 +56,15 @@ const storyStage = {
     if (page.k !== k || !run.steps[k]) this.seek(run, k);
     if (page.k !== k || !run.steps[k] || !this.arrived) return;
     const arrived = this.arrived;
+    source.flush?.();
     this.arrived = null;
     this.wait(false);
     this.show();
     arrived(true);
   },
+
+  // whether a step that has come is one to be seen: not one on the way to that which is wanted
+  awaits(k) { return !this.place || typeof this.place.step !== "number" || this.place.step === k; },
 
   // asks for the run of a place, once
   ask({ run, knob, id, step }) {
