@@ -10,6 +10,7 @@ import viser
 import workbench
 from workbench.errors import InputError
 from workbench.lesson import Lesson
+from workbench.moved import runs_led_on
 from workbench.page.document import (
     FONTS,
     MATH,
@@ -26,7 +27,14 @@ from workbench.page.thumbnail import thumbnail
 from workbench.progress import Progress
 from workbench.publish.lock import only_writer
 from workbench.publish.manifest import NAME, Listed, Manifest
-from workbench.publish.pages import LESSONS, answers, course_page, lesson_page, lessons_script
+from workbench.publish.pages import (
+    LESSONS,
+    answers,
+    course_page,
+    leading_on,
+    lesson_page,
+    lessons_script,
+)
 from workbench.publish.runs import (
     CLIENT,
     PAGE,
@@ -122,11 +130,13 @@ def _publish(
     wanted = {COURSE_PAGE, LESSONS, *shared}
     wanted |= {f"{name}/{file}" for name in names for file in (COURSE_PAGE, PICTURE)}
     wanted |= {name for lesson, run in work for name in files_of(lesson, run)}
+    leading = _leading_on(lessons, {*names, *others})
+    wanted |= set(leading)
     manifest.check(wanted, force=force)
 
     manifest.made_by = made_by
     _render(manifest, work, progress)
-    manifest.write(shared)
+    manifest.write({**shared, **leading})
     timelines = Timelines()
     for lesson in lessons:
         _write_page(manifest, lesson, timelines, canonical(base_url, f"{lesson.name}/"))
@@ -143,6 +153,17 @@ def _publish(
     manifest.runs = {key: value for key, value in manifest.runs.items() if key.partition("/")[0] in manifest.lessons}
     manifest.save()
     return checked(out, manifest.files)
+
+
+def _leading_on(lessons: Sequence[Lesson], there: Collection[str]) -> dict[str, bytes]:
+    """Return the pages of runs that are in another lesson of the site now, at their addresses of before."""
+    titles = {lesson.name: lesson.title for lesson in lessons}
+    return {
+        f"{lesson.name}/runs/{old}.html": leading_on(titles.get(to, to), f"../../{to}/runs/{run}.html").encode()
+        for lesson in lessons
+        for old, (to, run) in runs_led_on(lesson.name).items()
+        if to in there
+    }
 
 
 def _render(manifest: Manifest, work: Sequence[tuple[Lesson, Run]], progress: Progress | None) -> None:
