@@ -36,7 +36,7 @@ RINGS = Input(
     planes="all",
 )
 FRONT = View(eye=(0.0, 2.15, 0.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
-VIEW = View(eye=(1.25, 1.45, 0.8), target=(0.02, 0.0, 0.08), grid=None, axes=False)
+VIEW = View(eye=(0.85, 1.25, 0.55), target=(0.05, 0.0, 0.18), grid=None, axes=False)
 NEAR = View(eye=(0.75, 0.75, 0.75), target=(0.12, 0.0, 0.4), grid=None, axes=False)
 ABOVE = View(eye=(0.4, 1.0, 2.0), target=(0.0, 0.05, 0.0), grid=None, axes=False)
 SIDE = View(eye=(0.3, 1.9, 0.7), target=(0.0, 0.0, 0.0), grid=None, axes=False)

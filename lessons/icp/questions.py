@@ -153,7 +153,7 @@ QUESTIONS: tuple[Question, ...] = (
         answer=_which_matches,
         why=_why_matches,
         params=FROM_45,
-        step=0,
+        step=1,
         choices=(
             Choice(
                 "Nearly all",
