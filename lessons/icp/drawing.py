@@ -25,7 +25,7 @@ from workbench.scene import (
     Segments,
 )
 
-MOST_LINES, STUB = 160, 0.25  # matches drawn, and how much of a refused one
+MOST_LINES, STUB = 50, 0.25  # matches drawn, and how much of a refused one
 TIP, DIAL = 0.62, 0.7  # metres of the picture from its middle: of the arrows, and of the dial
 ARROW = np.array([[[0.0, 0.0, 0.0], [TIP, 0.0, 0.0]], [[TIP, 0.0, 0.0], [0.54, 0.035, 0.0]],
                   [[TIP, 0.0, 0.0], [0.54, -0.035, 0.0]]])  # fmt: skip

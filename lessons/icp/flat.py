@@ -155,9 +155,9 @@ def _landscape(look: Look[Input, Outlines, State], shown: float) -> dict[str, Pr
     if now.iteration == 0:
         ball = COST.mark(shown, MM * now.rmse, "ball", steps="angle")
         return parts | {"cost/ball": ball}
-    frozen = cost_of_pairs(lines.p_target[now.partners], lines.p_source, FINE)
+    frozen = cost_of_pairs(lines.p_target[now.partners], lines.p_source, HAND)
     return parts | {
-        "cost/frozen": COST.second(FINE, MM * frozen, "partners frozen"),
+        "cost/frozen": COST.second(HAND, MM * frozen, "partners frozen"),
         "cost/ball": COST.mark(shown, MM * now.rmse, "ball", knob="start_angle"),
         "cost/basin": COST.band(*lines.basin, "comes home from here"),
     }

@@ -222,7 +222,7 @@ class TestPicture:
         for k in range(4):
             now, shown = states(HOME)[k].icp, scene(HOME, k)
             ends, source = shown["matches"].ends, shown["source"]
-            rows = slice(None, None, 10)  # 1,500 are too many to be drawn
+            rows = slice(None, None, 30)  # 1,500 are too many to be drawn
             p, kept = apply(source.T_world_object, source.p[rows]), now.kept[rows]
             np.testing.assert_allclose(ends[:, 0], p, atol=1e-12)
             q = shown["target"].p[now.indices[rows]]
