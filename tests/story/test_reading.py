@@ -7,7 +7,7 @@ import pytest
 
 from tests.story.hill import lesson
 from workbench.errors import AuthorError
-from workbench.story import has_story, story_data, story_of
+from workbench.story import has_story, plain_text, story_data, story_of
 
 
 def told(tmp_path, text, home="live"):
@@ -122,3 +122,12 @@ def test_what_is_for_reference_is_folded_and_its_links_lead_somewhere():
     )
     assert 'data-go="far@-1"' in html
     assert "<h3>Pitfalls</h3>" in html
+
+
+def test_a_recording_has_the_words_without_attributes():
+    text = plain_text(lesson)
+    assert "{" not in text.replace("{{live", "")
+    assert ":::" not in text
+    assert "A ball lies on a curve." in text
+    assert "## A step goes downhill\n" in text
+    assert r"$$ x \leftarrow x - a\,f'(x) . $$" in text

@@ -27,7 +27,8 @@ Address = Callable[[str, int | None], str]
 def article_html(lesson: Lesson, address: Address, home: str) -> str:
     """Return a lesson's article as a home, `live` or `site`, has it, with PLACE where the questions belong.
 
-    Beside a story, which asks its questions itself, it is what the workbench says, without that place.
+    Beside a story, which asks its questions itself, it is what the workbench says; experiments and exercises belong at
+    PLACE then.
 
     Raises:
         AuthorError: If the page names a run that the lesson does not have, or a picture that is not there.
@@ -50,7 +51,8 @@ def article_html(lesson: Lesson, address: Address, home: str) -> str:
 
     text = with_terms(_LINK.sub(link, text))
     if told:
-        return text
+        at = text.find("<section", text.find("</h1>"))
+        return text + PLACE if at < 0 else text[:at] + PLACE + text[at:]
     before, after = _around_predict(text)
     return before + PLACE + after
 

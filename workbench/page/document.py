@@ -81,7 +81,8 @@ def lesson_document(
     scripts = _scripts(home, told=story is not None)
     constants = {"LESSON": data} | ({} if story is None else {"STORY": story_data(lesson, story)}) | dict(more or {})
     heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
-    text = _alone(heading, alone[1]) if alone else _article(article, home, data, opening, ending)
+    told = story is not None
+    text = _alone(heading, alone[1]) if alone else _article(article, home, data, opening, ending, told=told)
     face = "bench" if story is None else "story"
     return (
         f"{document_head(heading, lesson.summary, root, head, math=root is not None or not alone, told=story is not None)}"
@@ -144,7 +145,10 @@ def bare(file: Path) -> str:
     return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 
 
-def _article(article: str, home: str, data: dict[str, Any], opening: str, ending: str) -> str:
+def _article(
+    article: str, home: str, data: dict[str, Any], opening: str, ending: str, *, told: bool
+) -> str:
+    """Return the text of the workbench; beside a story its experiments and exercises come first."""
     questions = "".join(_question(question) for question in data["questions"])
     presets = "".join(
         f'<li><button type="button" data-run="{escape(preset["name"])}" aria-pressed="false">{escape(preset["title"])}'
@@ -152,10 +156,15 @@ def _article(article: str, home: str, data: dict[str, Any], opening: str, ending
         for preset in data["presets"]
     )
     chosen = f'<section class="s-runs"><h2>Experiments</h2><ul class="runs">{presets}</ul></section>' if presets else ""
+    before, _, after = article.partition(PLACE)
+    if told:
+        words = f'<div class="wb">{before}</div>{chosen}{ending}<div class="wb">{after}</div>'
+    else:
+        words = f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}'
     return (
         f'<article id="article">{_top("Geometry workbench", _course(home))}'
-        f'{opening}<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}'
-        f'{ending}<section class="s-run" id="this-run" hidden><h2>This run</h2></section>'
+        f"{opening}{words}"
+        f'<section class="s-run" id="this-run" hidden><h2>This run</h2></section>'
         '<details id="text"><summary>Text of this run</summary><p></p><ol start="0"></ol></details>'
         f'<nav id="around" aria-label="Lessons before and after" data-address="{_lesson(home)}"></nav></article>'
     )

@@ -6,13 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from workbench.axis import Axis, axis, labelled, number, ticks, value_axis
+from workbench.axis import Axis, axis, number, ticks, value_axis
 from workbench.page.charts import number as digits
 from workbench.page.charts import slug
 from workbench.scene import Chart, Curve
 
 HEADROOM = 0.12
 """How much room stays above what a chart shows from near, as a share of its height: a second curve is seen to rise."""
+TICKS = 5
+"""At most so many ticks stand at the y axis."""
 DEGREES = (15.0, 30.0, 45.0, 60.0, 90.0, 180.0)
 """Steps between the ticks of angles, where those of ten would look odd."""
 
@@ -29,13 +31,17 @@ def plot_of(parts: Sequence[Curve], keep: Callable[[dict[str, Any]], int]) -> di
     by_part: dict[str, list[Curve]] = {part: [] for part in ("whole", "second", "mark", "band")}
     for curve in parts:
         by_part[curve.part].append(curve)
-    head, label = labelled(chart.title, chart.unit, False)
+    label = (
+        f"{chart.title} ({'°' if chart.unit == 'deg' else chart.unit})"
+        if chart.unit
+        else chart.title
+    )
     return {
         "kind": "plot",
         "name": slug(chart.title),
         "title": chart.title,
         "x_label": chart.x_label,
-        "y_label": head or label,
+        "y_label": label,
         "unit": chart.unit,
         "x": asdict(x_axis(chart, parts, chart.x_range)),
         "y": asdict(y_axis(chart, by_part, None)),
@@ -88,17 +94,17 @@ def _of_degrees(found: Axis) -> Axis:
 def y_axis(chart: Chart, by_part: dict[str, list[Curve]], near: tuple[float, float] | None) -> Axis:
     """Return the y axis of the whole curve and the marks, of those within two ends of x where they are given."""
     if chart.y_range is not None and near is None:
-        return axis(*chart.y_range, 4)
+        return axis(*chart.y_range, TICKS)
     shown = [*by_part["whole"], *by_part["mark"]] or by_part["second"]
     low, high = near or (-np.inf, np.inf)
     values = [one.y[(one.x >= low) & (one.x <= high)].astype(float) for one in shown]
     if near is None:
-        return value_axis(values, most=4)
+        return value_axis(values, most=TICKS)
     known = np.concatenate([np.zeros(0), *(one[np.isfinite(one)] for one in values)])
     if not len(known):
-        return value_axis(values, most=4)
+        return value_axis(values, most=TICKS)
     room = HEADROOM * (float(known.max() - known.min()) or 1.0)
-    return axis(float(known.min()) - room, float(known.max()) + room, 4)
+    return axis(float(known.min()) - room, float(known.max()) + room, TICKS)
 
 
 def _line(curve: Curve) -> dict[str, Any]:

@@ -26,6 +26,7 @@ from workbench.recording.plain_page import plain_page
 from workbench.recording.read import FORMAT, digest
 from workbench.recording.sink import RerunSink, document
 from workbench.recording.streams import application_id, stream_bytes
+from workbench.story import plain_text
 from workbench.timeline import Timeline
 from workbench.typeset import wording
 
@@ -154,7 +155,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
         stream.send_recording_name(safe(_title(timeline, preset)))
         stream.send_property("run", facts(layout=to_json(contents, view), **_facts(timeline, preset)))
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        stream.log("page", document(plain_page(wording(lesson.text(), "site"))), static=True)
+        stream.log("page", document(plain_page(wording(plain_text(lesson), "site"))), static=True)
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
             send_series(stream, path, one, order)

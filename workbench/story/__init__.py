@@ -2,7 +2,7 @@
 
 from workbench.story.data import story_data
 from workbench.story.model import Place, StepName, Story, TextScene, Value
-from workbench.story.reading import bench_text, has_story, story_of
+from workbench.story.reading import bench_text, has_story, plain_text, story_of
 
 __all__ = [
     "Place",
@@ -12,6 +12,7 @@ __all__ = [
     "Value",
     "bench_text",
     "has_story",
+    "plain_text",
     "story_data",
     "story_of",
 ]

@@ -12,7 +12,7 @@ from html import escape
 from typing import Any
 
 from workbench.lesson import Lesson
-from workbench.story.attributes import HEADING, Attributes
+from workbench.story.attributes import BRACES, HEADING, Attributes
 from workbench.story.cards import asked, what_if
 from workbench.story.markdown import CARD, Block, Section, blocks, in_home, sections
 from workbench.story.model import Place, StepName, Story, TextScene
@@ -59,6 +59,15 @@ def bench_text(lesson: Lesson) -> str:
     text = re.sub(r"(?m)^### ", "## ", "\n".join(folded))
     text = text.replace("@start)", "@0)").replace("@stop)", "@-1)")
     return f"# {lesson.title}\n\n{lesson.summary}\n\n{text}"
+
+
+def plain_text(lesson: Lesson) -> str:
+    """Return page.md without attributes and cards: Markdown for a reader that shows neither, such as a recording's."""
+    if not has_story(lesson):
+        return lesson.text()
+    text = re.sub(rf"\[([^\]\n]+)\]{BRACES.pattern}", r"\1", lesson.text())
+    text = re.sub(r"(?m)^:::.*\n?", "", text)
+    return re.sub(rf"(?m)[ \t]*{BRACES.pattern}[ \t]*$", "", text)
 
 
 @dataclass
