@@ -32,7 +32,7 @@ class Input(Params):
 
 
 class Arc(NamedTuple):
-    """Points p (n, 2), the best circle (m, 3) of each radius, and its RMS distance (m,), metres."""
+    """Points (n, 2), the best circle (m, 3) of each radius, and its RMS distance (m,), metres."""
 
     p: np.ndarray
     circles: np.ndarray

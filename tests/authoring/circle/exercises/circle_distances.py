@@ -23,7 +23,7 @@ def judged(candidate, p, xyr):
     ),
 )
 def circle_distances(p: np.ndarray, xyr: np.ndarray) -> np.ndarray:
-    """Return the distances (n,) of points (n, 2) to a circle x, y, r, metres; inside is negative."""
+    """Return the distances (n,) of points (n, 2) to a circle x, y, r, metres; negative inside."""
     return np.linalg.norm(p - xyr[:2], axis=1) - xyr[2]
 
 
