@@ -5,7 +5,7 @@
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
 from typing import Any
@@ -133,7 +133,7 @@ def count(block: Block) -> int:
     return len(re.findall(r"\S*\w\S*", text))
 
 
-def element(tag: str, attributes: dict[str, object], html: str) -> str:
+def element(tag: str, attributes: Mapping[str, object], html: str) -> str:
     """Return an element; attributes that are None or empty are left out."""
     given = "".join(
         f' {key}="{escape(str(value))}"'
