@@ -113,7 +113,7 @@ def knob(
     return dataclasses.field(default=default, metadata={"knob": shown})
 
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(knob,))
+@dataclass_transform(frozen_default=True, kw_only_default=True)  # a knob is a default, to a checker
 class Params:
     """The inputs of a lesson. A subclass is a frozen dataclass by itself: `angle: float = knob(30, "How far", 0, 90)`."""
 

@@ -30,7 +30,7 @@ def test_it_says_its_values_and_keeps_them():
     ("quantity", "words", "value"),
     [
         (metres(0.0251), "25.1 mm", 0.0251),
-        (metres(np.float32(2.5)), "2.5 m", 2.5),
+        (metres(np.float64(2.5)), "2.5 m", 2.5),
         (degrees(-66.04, 2), "−66°", -66.04),
         (pixels(4.126), "4.13 px", 4.126),
         (share(0.352), "35 %", 0.352),

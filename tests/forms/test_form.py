@@ -26,7 +26,7 @@ def whole(lesson: Lesson, params: Any = None, **slots: Any) -> Timeline:
 def test_draw_sees_params_subject_now_and_before():
     seen: list[Look] = []
 
-    def draw(look: Look) -> dict:
+    def draw(look: Look) -> Any:
         seen.append(look)
         return dripping.draw(look)
 
