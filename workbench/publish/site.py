@@ -53,7 +53,7 @@ from workbench.timeline import Timelines
 from workbench.typeset import math_font_css
 
 PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = 300_000, 1_000_000, 4_000_000, 3_000_000
-TOLD_BUDGET = 400_000
+TOLD_BUDGET = 420_000
 """Of a page with a story: it has two faces, and the scripts of both."""
 COURSE_PAGE = "index.html"
 PICTURE = "picture.webp"
