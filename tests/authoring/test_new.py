@@ -32,7 +32,7 @@ def test_it_is_recorded_and_published(written, tmp_path):
     assert "The weighted mean" in page
     assert {path.stem for path in (tmp_path / "site" / "beacon" / "runs").glob("*.js")} == {
         "default", "weighted", "ignored", "stray",
-        *(f"weight.{weight}" for weight in ("0_1", "0_4", "0_55", "0_7", "0_85")),
+        *(f"weighted_weight.{weight}" for weight in ("0_1", "0_4", "0_55", "0_7", "0_85")),
     }  # fmt: skip
 
 

@@ -65,6 +65,6 @@ lesson = Lesson(
     views={"wide": View(eye=(1.9, -1.8, 1.5), target=(0.5, 0.0, 0.4))},
     presets=PRESETS,
     questions=QUESTIONS,
-    sweeps=(Sweep("weight", (0.0, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1.0)),),
+    sweeps=(Sweep("weight", (0.0, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1.0), run="weighted"),),
     first_step=-1,
 )
