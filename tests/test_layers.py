@@ -16,8 +16,14 @@ BASE = MACHINERY | {
     "workbench.tracing",
 }
 DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
+FORM = DRAWING | {"workbench.cached", "workbench.captions", "workbench.form", "workbench.view"}
 RUN = {"timeline", "loading", "questions", "picking", "links", "session"}
-LESSON = DRAWING | {"workbench.lesson", *(f"workbench.run.{name}" for name in RUN)}
+LESSON = FORM | {
+    "workbench.lesson",
+    "workbench.presets",
+    "workbench.moved",
+    *(f"workbench.run.{name}" for name in RUN),
+}
 MATHS = BASE | {"workbench.geometry"}
 
 # what a part may import of the workbench; longer names win
@@ -34,24 +40,35 @@ ALLOWED = {
     "workbench.geometry": MATHS,
     "workbench.algorithms": MATHS | {"workbench.algorithms"},
     "workbench.data": MATHS | {"workbench.data", "workbench.numerals"},
-    "workbench.lesson": DRAWING,
+    "workbench.cached": {"workbench.errors", "workbench.scene"},
+    "workbench.captions": {"workbench.scene", "workbench.numerals"},
+    "workbench.form": FORM,
+    "workbench.form1": FORM,
+    "workbench.presets": {"workbench.view"},
+    "workbench.view": set(),
+    "workbench.moved": set(),
+    "workbench.lesson": FORM | {"workbench.form1", "workbench.presets"},
     "workbench.run": LESSON,
     "workbench.run.picking": DRAWING,
     "workbench.wire": LESSON | {"workbench.wire"},
-    "workbench.recording": LESSON | {"workbench.recording", "workbench.words"},
+    "workbench.recording": (LESSON | {"workbench.recording", "workbench.words", "workbench.story"}),
     "workbench.exercise": (
         LESSON | {"workbench.exercise", "workbench.recording", "workbench.numerals"}
     ),
     "workbench.handout": (
         LESSON | {"workbench.handout", "workbench.exercise", "workbench.page.thumbnail"}
     ),
-    "workbench.page": LESSON | {"workbench.page", "workbench.words", "workbench.numerals"},
+    "workbench.story": LESSON | {"workbench.story", "workbench.words"},
+    "workbench.page": (
+        LESSON | {"workbench.page", "workbench.story", "workbench.words", "workbench.numerals"}
+    ),
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": (
         LESSON
         | {
             "workbench.publish",
             "workbench.page",
+            "workbench.story",
             "workbench.exercise",
             "workbench.recording",
             "workbench.wire",
@@ -78,6 +95,8 @@ ALLOWED = {
             "workbench.run.flags",
             "workbench.words",
             "workbench.page.article",
+            "workbench.page.charts",
+            "workbench.story",
         }
     ),
     "workbench.notebook": None,  # a top of its own, as the commands are
@@ -95,6 +114,11 @@ ALLOWED = {
             "workbench.exercise",
             "workbench.numerals",
             "workbench.certain",
+            "workbench.captions",
+            "workbench.cached",
+            "workbench.form",
+            "workbench.presets",
+            "workbench.view",
         }
     ),
 }

@@ -31,7 +31,7 @@ def example(heading: str) -> str:
 @pytest.fixture
 def lesson_file(tmp_path) -> Path:
     path = tmp_path / "my_lesson.py"
-    path.write_text(example("Add a lesson in five lines"), encoding="utf-8")
+    path.write_text(example("Add a lesson in a few lines"), encoding="utf-8")
     return path
 
 
@@ -62,7 +62,7 @@ def test_the_lesson_is_recorded_and_opened_again(capsys, monkeypatch, lesson_fil
     assert main(["record", str(lesson_file), "--turns", "180", "-o", str(out)]) == 0
     recording = open_recording(out)
     assert (recording.lesson, len(recording)) == ("turn", 11)
-    assert recording.captions[-1] == "Turned by 180 degrees."
+    assert recording.captions[-1] == "Turned by 180°."
     assert main(["show", str(lesson_file), "--turns=45"]) == 0
     assert main(["reopen", str(out), "--lesson", str(lesson_file)]) == 0
     assert [params.turns for _, params, _ in opened] == [45.0, 180.0]
@@ -100,7 +100,7 @@ def test_a_page_that_is_not_there_is_one_line_with_lesson_and_path(
 ):
     monkeypatch.chdir(lesson_file.parent)
     text = lesson_file.read_text(encoding="utf-8").replace(
-        "params=Params", 'page=Path("none/page.md"), params=Params'
+        "params=Input", 'page=Path("none/page.md"), params=Input'
     )
     lesson_file.write_text("from pathlib import Path\n" + text, encoding="utf-8")
     assert main([*command, "my_lesson.py"]) == 2

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from workbench.errors import InputError, not_among, one_line
 from workbench.knobs import called_by_flags
@@ -382,6 +382,10 @@ def publish(
     force: Annotated[
         bool, Option("Replace files that publish did not write, or that were changed since.")
     ] = False,
+    recordings: Annotated[
+        Literal["all", "linked", "none"],
+        Option("Of which runs: all, those that a text names, or none.", "all|linked|none"),
+    ] = "linked",
 ) -> None:
     """Write static tutorial pages that play in any browser, without Python."""
     from workbench.machinery.progress import bar
@@ -401,7 +405,13 @@ def publish(
         given[one.name] = word
     with bar(sys.stderr, "Publishing") as progress:
         files = publish_site(
-            out, chosen, base_url=base_url, force=force, remove_others=not names, progress=progress
+            out,
+            chosen,
+            base_url=base_url,
+            force=force,
+            remove_others=not names,
+            recordings=recordings,
+            progress=progress,
         )
     sys.stdout.write(sizes_told(out, files, swept_files(chosen)) + "\n")
 

@@ -1,9 +1,10 @@
 """Knobs: what a Params field says of itself, from which panels, command flags and links are
 generated.
 
-A Params class is a frozen dataclass whose fields are `Annotated[type, Knob(...)]`. Types: `float`,
-`int`, `bool`, `Literal[...]` of strings, `tuple` of a fixed number of floats or ints, `Path |
-None`.
+A class of inputs is a subclass of `Params` whose fields are `name: type = knob(default, "hint",
+...)`. Types: `float`, `int`, `bool`, `Literal[...]` of strings, `tuple` of a fixed number of floats
+or ints, `Path | None`. Lessons of the first form have a frozen dataclass in its place, whose fields
+are `Annotated[type, Knob(...)]`.
 """
 
 import contextlib
@@ -17,7 +18,17 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import (
+    Annotated,
+    Any,
+    Literal,
+    TypeVar,
+    Union,
+    dataclass_transform,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from workbench.errors import InputError, not_among
 
@@ -82,6 +93,41 @@ class Knob:
     by: Gizmo | Pick | None = None
     needs: Mapping[str, tuple[Any, ...]] = dataclasses.field(default_factory=dict, hash=False)
     of_files: bool = False
+
+
+def knob(
+    default: Any,
+    hint: str,
+    low: float | None = None,
+    high: float | None = None,
+    *,
+    unit: str = "",
+    step: float | None = None,
+    label: str | None = None,
+    parts: tuple[str, ...] = (),
+    by: Gizmo | Pick | None = None,
+    of_files: bool = False,
+) -> Any:
+    """Return a field of `Params`: its default, and how it is shown and set (see `Knob`).
+
+    There is no `needs`: a run that does not read the field leaves the control without effect, and a
+    page shows it so.
+    """
+    shown = Knob(
+        hint, low, high, unit, step=step, label=label, parts=parts, by=by, of_files=of_files
+    )
+    return dataclasses.field(default=default, metadata={"knob": shown})
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True)  # a knob is a default, to a checker
+class Params:
+    """The inputs of a lesson. A subclass is a frozen dataclass by itself: `angle: float =
+    knob(30, "How far", 0, 90)`.
+    """
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        dataclass(frozen=True, kw_only=True)(cls)
 
 
 Kind = Literal["float", "int", "bool", "choice", "floats", "ints", "path"]
@@ -213,19 +259,21 @@ def fields_of(params: type) -> tuple[Field, ...]:
 
 def _read(owner: type, field: dataclasses.Field, hint: Any) -> Field:
     where = f"{owner.__name__}.{field.name}"
-    if get_origin(hint) is not Annotated:
-        raise TypeError(f"{where}: write Annotated[type, Knob(...)]")
-    declared, *extras = get_args(hint)
-    knob = next((extra for extra in extras if isinstance(extra, Knob)), None)
+    declared, *extras = get_args(hint) if get_origin(hint) is Annotated else (hint,)
+    knob = next(
+        (extra for extra in (*extras, field.metadata.get("knob")) if isinstance(extra, Knob)), None
+    )
     if knob is None:
-        raise TypeError(f"{where}: has no Knob")
+        raise TypeError(
+            f'{where}: has no knob; write {field.name}: type = knob(default, "hint", ...)'
+        )
     if field.default is dataclasses.MISSING:
         raise TypeError(f"{where}: needs a default")
     kind, choices, length = _kind(where, declared)
     if kind in ("float", "int", "floats", "ints") and (
         knob.low is None or knob.high is None or knob.low >= knob.high
     ):
-        raise TypeError(f"{where}: a number needs Knob(hint, low, high) with low < high")
+        raise TypeError(f"{where}: a number needs a knob with low < high")
     if isinstance(knob.by, Gizmo) and not (kind == "floats" and length in (2, 3, 6)):
         wanted = "2 floats (a place at z = 0), 3 (a position) or 6 (with a rotation vector)"
         raise TypeError(f"{where}: a Gizmo sets {wanted}, not {declared}")

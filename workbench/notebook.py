@@ -16,6 +16,7 @@ import numpy as np
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
+from workbench.moved import moved
 from workbench.numerals import brief, length
 from workbench.page.document import lesson_document
 from workbench.page.thumbnail import still_of
@@ -57,6 +58,9 @@ def replay(
         InputError: If there is no such lesson, preset or param, a value is out of range, or the run
             gives no step.
     """
+    if isinstance(lesson, str):
+        led = moved(lesson, preset, params)
+        lesson, preset, params = led.lesson, led.preset, led.values
     chosen = (
         lesson
         if isinstance(lesson, Lesson)

@@ -1,5 +1,5 @@
-"""The stage `axes`: the frame of one cloud after the other, their signs, and what laying them on
-each other gives.
+"""The steps: the frame of one cloud after the other, their signs, and what laying them on each
+other gives.
 """
 
 from collections.abc import Callable, Iterator
@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from lessons.alignment.scans import box_sides, scans_of, second_scan
-from lessons.alignment.state import AxesState, Outcome, Params, Scans, Turns
+from lessons.alignment.state import Outcome, Params, Scans, State, Turns
 from workbench.algorithms.registration.jacobi import jacobi
 from workbench.certain import sure
 from workbench.data.thinning import every
@@ -35,13 +35,13 @@ TURNS, FRESH_TURNS = 100, 40
 MOST_ASKED = 2000  # points whose nearest neighbour is looked up
 
 
-def axes_stage(params: Params, find: FindAxes | None, sign: Sign | None) -> Iterator[AxesState]:
-    """Yield the steps; where functions are given in place of ours (None), they end before the many
-    turns.
+def steps(params: Params, find: FindAxes | None, sign: Sign | None) -> Iterator[State]:
+    """Yield the steps; where functions are given in place of ours (None), they end before the
+    many turns.
     """
     scans = scans_of(params)
     p_centre, covariance = centroid_and_covariance(scans.p_source)
-    state = AxesState(params=params, scans=scans, moment="cloud", p_centre=p_centre)
+    state = State(params=params, scans=scans, moment="cloud", p_centre=p_centre)
     yield state
     yield replace(state, moment="centroid")
     for k, now in enumerate(jacobi(covariance)):
@@ -83,7 +83,7 @@ def with_signs(
     return largest_entry_signs(axes) if params.signs == "largest-entry" else sign(axes, p)
 
 
-def signed(state: AxesState, sign: Sign) -> AxesState:
+def signed(state: State, sign: Sign) -> State:
     """Return the step in which both frames get their signs."""
     axes, axes_target = signed_axes(state)
     scans, params = state.scans, state.params
@@ -97,12 +97,12 @@ def signed(state: AxesState, sign: Sign) -> AxesState:
     return replace(state, outcome=outcome_of(state))
 
 
-def signed_axes(state: AxesState) -> tuple[np.ndarray, np.ndarray]:
+def signed_axes(state: State) -> tuple[np.ndarray, np.ndarray]:
     """Return both frames of a state that has them."""
     return sure(state.axes), sure(state.axes_target)
 
 
-def outcome_of(state: AxesState) -> Outcome:
+def outcome_of(state: State) -> Outcome:
     """Return what comes of laying the two frames on each other: R = V_target V_source^T."""
     axes, axes_target = signed_axes(state)
     scans = state.scans
@@ -127,9 +127,9 @@ def gap(T_target_source: np.ndarray, scans: Scans) -> float:
     return rms(np.asarray(scipy.spatial.KDTree(scans.p_target).query(apply(T_target_source, p))[0]))
 
 
-def box_ratio(state: AxesState) -> float:
-    """Return the volume of the box along the source's axes over that of the box along the shape's
-    own sides.
+def box_ratio(state: State) -> float:
+    """Return the volume of the box along the source's axes over that of the box along the
+    shape's own sides.
     """
     sides, T = box_sides(state.params), state.scans.T_target_source
     if sides is None or T is None:
@@ -140,8 +140,8 @@ def box_ratio(state: AxesState) -> float:
 
 
 def many_turns(params: Params, scans: Scans, axes_target: np.ndarray) -> Turns:
-    """Turn the second scan at random, find its frame by the same recipe, and bring it over by the
-    truth.
+    """Turn the second scan at random, find its frame by the same recipe, and bring it over by
+    the truth.
     """
     assert scans.T_target_source is not None
     rng = np.random.default_rng(params.seed)

@@ -4,9 +4,8 @@ come home.
 
 import numpy as np
 
-from lessons.alignment.state import HOME_DEGREES, AxesState, PairsState, Params, State
+from lessons.alignment.state import HOME_DEGREES, Params, State
 from workbench.certain import sure
-from workbench.geometry.motions import rotation_angle
 from workbench.numerals import angle, brief, fixed, length, percent
 from workbench.scene import Caption
 
@@ -26,21 +25,10 @@ RULES = {
         "Axes 1 and 2 point to where their third moment is positive; axis 3 is their cross product."
     ),
 }
-FLIPS = {
-    "least": "The direction of the least singular value is turned round",
-    "middle": "The direction of the middle singular value is turned round, not the least",
-    "largest": "The direction of the largest singular value is turned round, not the least",
-    "whole": "All three directions are turned round, not the least alone",
-    "none": "No direction is turned round: it stays a mirror image",
-}
 
 
 def caption(state: State) -> Caption:
     """Return the caption of a step."""
-    return _of_axes(state) if isinstance(state, AxesState) else _of_pairs(state)
-
-
-def _of_axes(state: AxesState) -> Caption:
     now, moment = state.jacobi, state.moment
     if moment == "cloud" or now is None:
         return Caption(_of_cloud(state) if moment == "cloud" else _of_centroid(state))
@@ -63,7 +51,7 @@ def _of_axes(state: AxesState) -> Caption:
     return _of_turns(state) if state.turns is not None else _of_pose(state)
 
 
-def _of_cloud(state: AxesState) -> str:
+def _of_cloud(state: State) -> str:
     scans, params = state.scans, state.params
     n, m = len(scans.p_target), len(scans.p_source)
     counts = f"{n:,} points each" if n == m else f"{n:,} and {m:,} points"
@@ -89,7 +77,7 @@ def _idle(params: Params) -> str:
     )
 
 
-def _of_centroid(state: AxesState) -> str:
+def _of_centroid(state: State) -> str:
     x, y, z = (fixed(100 * value, 1) for value in state.p_centre)
     return (
         f"The centroid, the mean of the points, at ({x}, {y}, {z}) cm: it moves with its scan and"
@@ -97,7 +85,7 @@ def _of_centroid(state: AxesState) -> str:
     )
 
 
-def _of_rotation(state: AxesState) -> str:
+def _of_rotation(state: State) -> str:
     now, before = sure(state.jacobi), sure(state.before)
     i, j = ("xyz"[k] for k in sure(now.plane))
     was = np.linalg.norm(before - np.diag(np.diag(before))) / np.linalg.norm(before)
@@ -116,12 +104,12 @@ def part(share: float) -> str:
     return "nothing but rounding"
 
 
-def _skewness(state: AxesState) -> str:
+def _skewness(state: State) -> str:
     over = sure(state.moments) / np.maximum(sure(state.variances), 1e-12) ** 1.5
     return f"The moments were {fixed(float(over[0]), 2)} and {fixed(float(over[1]), 2)} (over σ³)."
 
 
-def _of_pose(state: AxesState) -> Caption:
+def _of_pose(state: State) -> Caption:
     outcome = sure(state.outcome)
     near = f"its points lie {length(outcome.gap)} (RMS) from the nearest of the first"
     box = (
@@ -146,7 +134,7 @@ def _of_pose(state: AxesState) -> Caption:
     )
 
 
-def _of_turns(state: AxesState) -> Caption:
+def _of_turns(state: State) -> Caption:
     turns = sure(state.turns)
     scan = "a new scan each time" if state.params.fresh else "the same scan"
     return Caption(
@@ -154,75 +142,4 @@ def _of_turns(state: AxesState) -> Caption:
         f" {percent(float(turns.home.mean()), 0)} come home, within {HOME_DEGREES:g}°. The median"
         f" rotation error is {angle(float(np.median(turns.degrees)))}; axis 1 as a line is"
         f" {angle(float(np.median(turns.axes[:, 0])))} off."
-    )
-
-
-def _of_pairs(state: PairsState) -> Caption:
-    now = state.now
-    fall = f"RMSE {length(state.before)} → {length(now.rmse)}"
-    match now.stage:
-        case "pairs":
-            return Caption(
-                f"{len(state.scans.p_source):,} pairs: each point of the second scan knows its"
-                f" partner in the first.{_idle(state.params)}"
-            )
-        case "centre":
-            return Caption(
-                f"Centroid on centroid: RMSE {length(now.rmse)}. What is left is a turn, perhaps a"
-                " mirror image, and a scale."
-            )
-        case "cross":
-            a, b, c = (brief(1e4 * value) for value in sure(now.D))
-            return Caption(
-                f"The cross-covariance H = U D Vᵀ of the pairs has the singular values {a}, {b} and"
-                f" {c} cm²: three directions in the one scan, three in the other."
-            )
-        case "in":
-            turn = angle(np.degrees(rotation_angle(sure(now.V).T)))
-            return Caption(
-                f"Vᵀ turns the second scan by {turn}: its three directions lie along x, y and z"
-                f" now. {fall}."
-            )
-        case "out":
-            if now.mirror:
-                return Caption(
-                    f"U Vᵀ has the determinant −1: a mirror image, which no turn can make. {fall}."
-                )
-            return Caption(
-                "U turns them on to the directions of the first scan; the determinant is +1."
-                f" {fall}."
-            )
-        case "flip":
-            return Caption(_of_flip(state, fall))
-        case _:
-            return _of_scale(state)
-
-
-def _of_flip(state: PairsState, fall: str) -> str:
-    if not state.now.mirror:
-        return (
-            "The determinant is +1, so no direction is turned round: RMSE"
-            f" {length(state.now.rmse)}."
-        )
-    return f"{FLIPS[state.params.flip]}. {fall}."
-
-
-def _of_scale(state: PairsState) -> Caption:
-    now = state.now
-    text = f"Scale {fixed(sure(now.scale), 3)} by least squares"
-    if state.mirrored:
-        return Caption(
-            f"{text}: RMSE {length(now.rmse)}. No turn and no scale makes a scan of its mirror"
-            " image."
-        )
-    if not np.isfinite(state.outcome.rotation):
-        return Caption(f"{text}: RMSE {length(now.rmse)}.")
-    text += (
-        f", {fixed(state.true_scale, 3)} in truth; the turn is {angle(state.outcome.rotation)} off,"
-    )
-    text += f" RMSE {length(now.rmse)}."
-    return (
-        Caption(f"{text} It has come home.", "good")
-        if state.home
-        else Caption(f"{text} It is wrong.", "wrong")
     )

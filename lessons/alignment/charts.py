@@ -4,7 +4,7 @@ truth.
 
 import numpy as np
 
-from lessons.alignment.state import AxesState, PairsState
+from lessons.alignment.state import State
 from workbench.certain import sure
 from workbench.geometry.motions.principal_axes import degrees_between_axes
 from workbench.numerals import angle, fixed, length
@@ -14,17 +14,13 @@ CM2 = 1e4  # square centimetres in a square metre
 ROUNDING = 1e-16  # below this share nothing is left off the diagonal
 BINS = np.arange(0.0, 181.0, 10.0)
 OFF, TO_AXES = Chart("Off the diagonal", unit="of the norm"), Chart("Frame to the axes", unit="deg")
-OF_AXES, OF_H = (
-    Chart("Variance of each axis", "axis", "cm²"),
-    Chart("Singular values of H", "direction", "cm²"),
-)
+OF_AXES = Chart("Variance of each axis", "axis", "cm²")
 BY_DIRECTION = Chart("Variance by direction", "angle in the plane (deg)", "cm²")
 ENDS = Chart("Where many turns end", "rotation error (deg)", "turns")
-RMSE, TURN = Chart("RMSE", unit="m"), Chart("Rotation error", unit="deg")
 
 
-def beside_axes(state: AxesState) -> dict[str, Primitive]:
-    """Return the charts and tables of a step of the stage `axes`."""
+def beside_axes(state: State) -> dict[str, Primitive]:
+    """Return the charts and tables of a step."""
     now = state.jacobi
     turning = now is not None and state.axes is None
     scene: dict[str, Primitive] = {
@@ -57,9 +53,9 @@ def beside_axes(state: AxesState) -> dict[str, Primitive]:
     return scene
 
 
-def _to_axes(state: AxesState) -> float:
-    """Return the largest angle from an axis of the frame to the eigenvector that is nearest to it,
-    degrees.
+def _to_axes(state: State) -> float:
+    """Return the largest angle from an axis of the frame to the eigenvector that is nearest to
+    it, degrees.
     """
     assert state.jacobi is not None
     A, V = state.jacobi.A, state.jacobi.V
@@ -92,7 +88,7 @@ def _moments(moments: np.ndarray, variances: np.ndarray) -> Table:
     return Table("Third moments, before signs", ("", "over σ³"), rows)
 
 
-def _outcome(state: AxesState) -> Table:
+def _outcome(state: State) -> Table:
     outcome = sure(state.outcome)
     rows = [("to the nearest points (RMS)", length(outcome.gap))]
     if np.isfinite(outcome.rotation):
@@ -102,37 +98,3 @@ def _outcome(state: AxesState) -> Table:
             (f"axis {k + 1} off, up to its sign", angle(float(outcome.axes[k]))) for k in range(3)
         ]
     return Table("Frame on frame", ("", "distance"), tuple(rows))
-
-
-def beside_pairs(state: PairsState) -> dict[str, Primitive]:
-    """Return the charts and tables of a step of the stage `pairs`."""
-    now, outcome = state.now, state.outcome
-    begun = now.stage != "pairs"
-    scene: dict[str, Primitive] = {
-        "rmse": RMSE.scalar(now.rmse if begun else np.nan, "RMSE of the pairs"),
-        "rotation error": TURN.scalar(
-            outcome.rotation if begun else np.nan, "rotation error", "truth"
-        ),
-    }
-    if now.H is not None and now.stage == "cross":
-        scene["cross"] = _matrix("Cross-covariance H (cm²)", now.H)
-    if now.D is not None:
-        signs = np.ones(3) if now.S is None else now.S
-        scene["singular"] = OF_H.bars(
-            np.arange(1.0, 4.0), CM2 * now.D * signs, "with the sign it got"
-        )
-    if now.scale is not None:
-        scene["scales"] = _scales(state, now.scale)
-    return scene
-
-
-def _scales(state: PairsState, scale: float) -> Table:
-    rows = [
-        ("second to first, least squares", fixed(scale, 3)),
-        ("first to second, least squares", fixed(state.back, 3)),
-        ("there and back", fixed(scale * state.back, 3)),
-        ("ratio of sizes", fixed(state.sizes, 3)),
-    ]
-    if np.isfinite(state.true_scale):
-        rows.append(("true", fixed(state.true_scale, 3)))
-    return Table("Scale", ("", "×"), tuple(rows))

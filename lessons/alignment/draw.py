@@ -6,8 +6,8 @@ import numpy as np
 
 from lessons.alignment.axes import signed_axes
 from lessons.alignment.captions import caption
-from lessons.alignment.charts import beside_axes, beside_pairs
-from lessons.alignment.state import AxesState, Outcome, PairsState, Scans, State
+from lessons.alignment.charts import beside_axes
+from lessons.alignment.state import Outcome, Scans, State
 from workbench.data.shapes.surfaces import sphere
 from workbench.data.thinning import every
 from workbench.geometry.motions import apply
@@ -19,7 +19,7 @@ from workbench.scene import Classes, Label, Mesh, Points, Primitive, Role, Scene
 COLORS: tuple[Role, Role, Role] = ("x", "y", "z")
 SIGMAS = 2.0  # standard deviations to the ellipsoid
 BEYOND = 1.25  # of the ellipsoid: how far an axis reaches
-MOST_PAIRS, MOST_MISSES = 80, 40
+MOST_MISSES = 40
 TIPS = 0.8  # metres from the centroid to the tips of many turns
 BALL = sphere(400)
 EDGES = np.array([(a, a ^ bit) for a in range(8) for bit in (1, 2, 4) if a < a ^ bit])
@@ -28,15 +28,10 @@ CORNERS = np.array([[(k >> bit) & 1 for bit in range(3)] for k in range(8)])
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    parts = (
-        _axes_stage(state) | beside_axes(state)
-        if isinstance(state, AxesState)
-        else (_pairs_stage(state) | beside_pairs(state))
-    )
-    return {"caption": caption(state)} | parts
+    return {"caption": caption(state)} | _in_space(state) | beside_axes(state)
 
 
-def _axes_stage(state: AxesState) -> dict[str, Primitive]:
+def _in_space(state: State) -> dict[str, Primitive]:
     scans, outcome = state.scans, state.outcome if state.moment in ("pose", "turns") else None
     T_world_source = (
         np.eye(4) if outcome is None else scans.T_world_target @ outcome.T_target_source
@@ -93,52 +88,15 @@ def _axes_stage(state: AxesState) -> dict[str, Primitive]:
     return scene
 
 
-def _pairs_stage(state: PairsState) -> dict[str, Primitive]:
-    scans, now = state.scans, state.now
-    T_world_source = (
-        np.eye(4) if now.stage == "pairs" else scans.T_world_target @ now.T_target_source
-    )
-    mirrored = np.linalg.det(now.T_target_source[:3, :3]) < 0
-    scene = _scans(
-        scans,
-        T_world_source,
-        "wrong" if mirrored else "source",
-        " as a mirror image" if mirrored else "",
-    )
-    rows = every(len(scans.p_source), MOST_PAIRS)
-    ends = between(*(apply(T, p[rows]) for T, p in _both(scans, T_world_source)))
-    scene["pairs"] = Segments(ends, "correspondence", 1.5, name="some of the pairs")
-    if now.U is not None and now.V is not None and now.D is not None:
-        reach = BEYOND * SIGMAS * np.sqrt(np.maximum(now.D, 1e-4))
-        scene |= _lines(
-            "frame",
-            scans.p_source.mean(axis=0),
-            now.V * reach,
-            "direction {}",
-            "123",
-            T_world_source,
-        )
-        if now.stage in ("cross", "in"):  # later they lie on each other
-            here = scans.p_target.mean(axis=0)
-            scene |= _lines(
-                "target frame", here, now.U * reach, "", "123", scans.T_world_target, opacity=0.4
-            )
-    if now.stage in ("flip", "scale"):
-        scene |= _missed(scans, state.outcome, T_world_source)
-    return scene
-
-
 def _both(scans: Scans, T_world_source: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
     return (T_world_source, scans.p_source), (scans.T_world_target, scans.p_target)
 
 
-def _scans(
-    scans: Scans, T_world_source: np.ndarray, role: Role = "source", what: str = ""
-) -> dict[str, Primitive]:
+def _scans(scans: Scans, T_world_source: np.ndarray) -> dict[str, Primitive]:
     radius = float(np.clip(0.3 / np.sqrt(len(scans.p_source)), 0.003, 0.012))
     scene: dict[str, Primitive] = {
         "target": Points(scans.p_target, "target", radius, scans.T_world_target, name="first scan"),
-        "source": Points(scans.p_source, role, radius, T_world_source, name=f"second scan{what}"),
+        "source": Points(scans.p_source, "source", radius, T_world_source, name="second scan"),
     }
     if scans.stray is not None:
         size = 0.02 + 0.01 * float(np.linalg.norm(scans.stray))

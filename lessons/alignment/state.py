@@ -1,4 +1,4 @@
-"""The inputs, the two scans, and the steps of both stages."""
+"""The inputs, the two scans, and the steps."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -6,20 +6,17 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.registration import procrustes
 from workbench.algorithms.registration.jacobi import State as Rotated
 from workbench.data.framing import Up
 from workbench.knobs import Gizmo, Knob
 
 Shape = Literal["rabbit", "box", "vase", "cube", "plate"]
-Stage = Literal["axes", "pairs"]
 Signs = Literal["none", "largest-entry", "third-moment"]
 Noisy = Literal["both", "target"]
 Moment = Literal["cloud", "centroid", "covariance", "rotation", "order", "signs", "pose", "turns"]
-AXES, PAIRS = {"stage": ("axes",)}, {"stage": ("pairs",)}
-OF_BOTH = ("shape", "side", "fresh", "density", "seen", "scale", "mirrored", "turn", "noise")
+OF_BOTH = ("shape", "side", "fresh", "density", "seen", "turn", "noise")
 
-HOME_DEGREES, HOME_SCALE = 10.0, 0.02
+HOME_DEGREES = 10.0
 
 
 @dataclass(frozen=True)
@@ -29,8 +26,7 @@ class Params:
     shape: Annotated[Shape, Knob("What is scanned: lopsided, or with a symmetry of its own")] = (
         "rabbit"
     )
-    stage: Annotated[Stage, Knob("Align by the axes of each cloud, or by pairs of points")] = "axes"
-    signs: Annotated[Signs, Knob("How each axis gets its sign", needs=AXES)] = "third-moment"
+    signs: Annotated[Signs, Knob("How each axis gets its sign")] = "third-moment"
     turn: Annotated[
         float,
         Knob(
@@ -41,9 +37,7 @@ class Params:
             step=1,
         ),
     ] = 130.0
-    fresh: Annotated[
-        bool, Knob("The second scan has points of its own, not the same ones", needs=AXES)
-    ] = False
+    fresh: Annotated[bool, Knob("The second scan has points of its own, not the same ones")] = False
     points: Annotated[int, Knob("Points of each scan", 100, 20_000, step=100)] = 1500
     noise: Annotated[
         float, Knob("Noise of each coordinate (standard deviation)", 0, 0.2, unit="m", step=0.005)
@@ -61,10 +55,10 @@ class Params:
         ),
     ] = 0.6
     density: Annotated[
-        int, Knob("How many times as dense the second scan is above its middle", 1, 5, needs=AXES)
+        int, Knob("How many times as dense the second scan is above its middle", 1, 5)
     ] = 1
     seen: Annotated[
-        float, Knob("Share of the shape that the second scan saw", 0.3, 1, step=0.05, needs=AXES)
+        float, Knob("Share of the shape that the second scan saw", 0.3, 1, step=0.05)
     ] = 1.0
     stray: Annotated[
         tuple[float, float, float],
@@ -76,25 +70,12 @@ class Params:
             by=Gizmo(0.3),
         ),
     ] = (0.0, 0.0, 0.0)
-    scale: Annotated[
-        float,
-        Knob("How many times as large the first scan is", 0.5, 2, unit="×", step=0.05, needs=PAIRS),
-    ] = 1.0
-    mirrored: Annotated[bool, Knob("The second scan is a mirror image", needs=PAIRS)] = False
-    flip: Annotated[
-        procrustes.Flip,
-        Knob(
-            "Which singular direction is turned round where the SVD gives a mirror image",
-            needs=PAIRS,
-        ),
-    ] = "least"
     source: Annotated[
         Path | None, Knob("Own cloud in place of the shape: ply, pcd, obj, xyz, csv, npz")
     ] = None
-    target: Annotated[
-        Path | None,
-        Knob("Own first scan, onto which the own cloud is brought; row by row for pairs"),
-    ] = None
+    target: Annotated[Path | None, Knob("Own first scan, onto which the own cloud is brought")] = (
+        None
+    )
     truth: Annotated[Path | None, Knob("Known pose of the own cloud in the first scan's frame")] = (
         None
     )
@@ -139,8 +120,7 @@ class Outcome:
     Attributes:
         T_target_source: The map.
         rotation: Degrees to the truth; NaN where that is not known.
-        axes: Degrees between each axis, brought over by the truth, and its namesake of the target;
-            None of pairs.
+        axes: Degrees between each axis, brought over by the truth, and its namesake of the target.
         gap: Root mean square distance from the moved source's points to the nearest of the target,
             metres.
     """
@@ -179,8 +159,8 @@ class Turns:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class AxesState:
-    """One step of the stage `axes`; what is not known yet is None.
+class State:
+    """One step; what is not known yet is None.
 
     Attributes:
         moment: What was done just now.
@@ -214,48 +194,3 @@ class AxesState:
     outcome: Outcome | None = None
     turns: Turns | None = None
     box: float = float("nan")
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class PairsState:
-    """One step of the stage `pairs`.
-
-    Attributes:
-        now: What was found so far.
-        before: Root mean square distance of the pairs one stage earlier, m; NaN at first.
-        outcome: How far the map is from the truth.
-        back: The scale from target to source, in the last step.
-        sizes: The ratio of the clouds' sizes (root mean square distance from the centroid), target
-            to source.
-    """
-
-    params: Params
-    scans: Scans
-    now: procrustes.State
-    before: float
-    outcome: Outcome
-    back: float
-    sizes: float
-
-    @property
-    def mirrored(self) -> bool:
-        """Whether no rotation brings the scans together, one being a mirror image."""
-        return self.scans.T_target_source is None and not self.scans.own
-
-    @property
-    def home(self) -> bool:
-        """Whether rotation and scale are the true ones, but for sampling."""
-        return (
-            self.outcome.home
-            and self.now.scale is not None
-            and abs(self.now.scale / self.true_scale - 1) < HOME_SCALE
-        )
-
-    @property
-    def true_scale(self) -> float:
-        """The true scale; NaN where nobody knows it."""
-        T = self.scans.T_target_source
-        return float("nan") if T is None else float(np.cbrt(np.linalg.det(T[:3, :3])))
-
-
-State = AxesState | PairsState

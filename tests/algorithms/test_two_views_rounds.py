@@ -1,5 +1,7 @@
 """Rounds of refining F go on until one moves it hardly, and no further."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,7 @@ def test_the_last_round_alone_is_still(seed, sigma):
     rounds = [state for state in found if state.stage == "refined F"]
     assert [state.rounds for state in rounds] == list(range(1, len(rounds) + 1))
     still = []
-    for before, after in zip(found, found[1:], strict=False):
+    for before, after in itertools.pairwise(found):
         F = after.F * np.sign((after.F * before.F).sum())
         still.append(np.abs(F - before.F).max() < STILL * np.abs(after.F).max())
     assert not any(still[:-1])

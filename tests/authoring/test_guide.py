@@ -93,7 +93,11 @@ def test_every_helper_stands_where_the_guide_says_with_the_arguments_it_names():
         known = inspect.signature(function).parameters
         named = [argument.strip() for argument in arguments.split(",")]
         assert {argument.rstrip("=") for argument in named} <= set(known), f"{module}.{name}"
-        needed = [one for one, parameter in known.items() if parameter.default is parameter.empty]
+        needed = [
+            one
+            for one, parameter in known.items()
+            if parameter.default is parameter.empty and parameter.kind is not parameter.VAR_KEYWORD
+        ]
         assert [argument.rstrip("=") for argument in named][: len(needed)] == needed, (
             f"{module}.{name}"
         )

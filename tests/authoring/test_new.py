@@ -26,8 +26,8 @@ def test_it_holds_what_is_promised_of_all_lessons(written, capfd):
 
 
 def test_it_is_recorded_and_published(written, tmp_path):
-    assert main(["record", "beacon", "--preset", "equal", "-o", "equal.rrd"]) == 0
-    recording = open_recording(tmp_path / "equal.rrd")
+    assert main(["record", "beacon", "--preset", "ignored", "-o", "ignored.rrd"]) == 0
+    recording = open_recording(tmp_path / "ignored.rrd")
     assert (recording.lesson, len(recording)) == ("beacon", 30)
     assert main(["publish", "site", "--lesson", "beacon"]) == 0
     page = (tmp_path / "site" / "beacon" / "index.html").read_text(encoding="utf-8")
@@ -35,8 +35,9 @@ def test_it_is_recorded_and_published(written, tmp_path):
     assert {path.stem for path in (tmp_path / "site" / "beacon" / "runs").glob("*.js")} == {
         "default",
         "weighted",
-        "equal",
+        "ignored",
         "stray",
+        *(f"weighted_weight.{weight}" for weight in ("0_1", "0_4", "0_55", "0_7", "0_85")),
     }
 
 

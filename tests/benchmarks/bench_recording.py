@@ -17,6 +17,7 @@ from typing import Any
 
 from lessons.icp.draw import draw as draw_icp
 from lessons.icp.state import State as IcpState
+
 from workbench.lesson import Lesson, catalog
 from workbench.recording.write import record_file
 from workbench.run.timeline import Timeline

@@ -11,6 +11,4 @@ GIVEAWAYS = {
         r"2\d % come home",
         r"of four frames",
     ),
-    "predict-negated": (r"0\.7\d m",),
-    "predict-product": (r"product (is|of)[^.]*0\.9", r"there and back[^.]*(less|below)"),
 }

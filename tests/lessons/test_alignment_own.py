@@ -88,24 +88,10 @@ def test_a_known_pose_is_the_truth(tmp_path, shape, up):
     found = steps(Params(**files, truth=tmp_path / "pose.txt", up=up))
     assert found[-2].moment == "pose"
     assert found[-2].outcome.rotation < 1e-3
-    pairs = steps(Params(**files, truth=tmp_path / "pose.txt", up=up, stage="pairs"))
-    assert pairs[-1].home
-    scans = pairs[-1].scans
-    np.testing.assert_allclose(pairs[-1].outcome.T_target_source, scans.T_target_source, atol=1e-9)
-
-
-def test_two_clouds_go_by_pairs_row_by_row(tmp_path, shape):
-    files = saved(tmp_path, target=1.4 * shape @ R.T + 9.0, source=shape)
-    last = steps(Params(**files, stage="pairs", points=400))[-1]
-    assert len(last.scans.p_source) == 400
-    assert last.now.scale == pytest.approx(1.4)
-    assert last.now.rmse < 1e-9
-    assert caption_of(draw(last)).tone == "info"
 
 
 def test_what_cannot_be_used_is_refused_in_one_line(tmp_path, shape):
     files = saved(tmp_path, target=shape, source=shape[:30], one=np.ones((5, 3)), few=shape[:3])
-    pair = {"source": files["source"], "target": files["target"]}
     for params, words in (
         (Params(target=files["target"]), "give “source” too"),
         (Params(truth=tmp_path / "pose.txt"), "give “source” too"),
@@ -113,7 +99,6 @@ def test_what_cannot_be_used_is_refused_in_one_line(tmp_path, shape):
         (Params(source=tmp_path / "none.ply"), "no such file"),
         (Params(source=files["one"]), "at one place"),
         (Params(source=files["few"]), "3 points; at least 4"),
-        (Params(**pair, stage="pairs"), "go by axes instead"),
     ):
         with pytest.raises(InputError, match=words):
             next(run(params))

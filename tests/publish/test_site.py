@@ -10,12 +10,21 @@ from tests import fake
 from tests.publish.conftest import TINY
 from workbench.errors import InputError
 from workbench.lesson import Sweep, View, catalog
-from workbench.page.document import RECORDED, SCRIPTS, STATIC, STYLES, bare
+from workbench.page.document import (
+    RECORDED,
+    SCRIPTS,
+    STATIC,
+    STORY_SCRIPTS,
+    STORY_STYLES,
+    STYLES,
+    bare,
+)
 from workbench.page.steps import Steps
 from workbench.publish import runs, site
 from workbench.publish.pages import lesson_page
 from workbench.run.timeline import Timeline
 from workbench.scene import Caption
+from workbench.story import has_story
 from workbench.wire.packing import run_text
 from workbench.words.typeset import math_font_css
 
@@ -25,7 +34,7 @@ SMALL = replace(fake.lesson, presets=fake.lesson.presets[:1])
 @pytest.fixture(scope="module")
 def published(tmp_path_factory):
     out = tmp_path_factory.mktemp("site")
-    files = site.publish(out, [SMALL], base_url="https://example.org/course/")
+    files = site.publish(out, [SMALL], base_url="https://example.org/course/", recordings="all")
     return out, dict(files)
 
 
@@ -113,7 +122,7 @@ SWEPT = replace(
 
 
 def test_a_sweep_is_a_knob_whose_runs_are_shared_with_presets_and_the_default():
-    found = [(run.name, run.file, run.recorded) for run in runs.runs_of(SWEPT)]
+    found = [(run.name, run.file, run.recorded) for run in runs.runs_of(SWEPT, "all")]
     assert found == [
         ("default", "default", True),
         ("half", "half", True),
@@ -156,6 +165,31 @@ def test_runs_of_a_sweep_are_published_without_a_recording(tmp_path):
     }
     assert data_of(tmp_path, "colors.role")["recording"] is None
     assert data_of(tmp_path, "colors.role")["command"] == "workbench show fake.py --colors=role"
+
+
+def test_a_sweep_of_another_run_has_the_params_of_that_run():
+    other = replace(SMALL, sweeps=(Sweep("steps", (2, 3), run="half"),))
+    found = {run.name: run for run in runs.runs_of(other)}
+    half = other.preset("half").params
+    assert found["half/steps:2"].params == replace(half, steps=2)
+    assert found["half/steps:2"].file == "half_steps.2"
+    (dial,) = runs.sweep_data(other)
+    assert (dial["knob"], dial["run"], dial["runs"][-1]) == ("steps", "half", "half")
+
+
+@pytest.mark.parametrize(
+    ("recordings", "found"),
+    [("all", {"default", "half", "far"}), ("linked", {"default", "far"}), ("none", set())],
+)
+def test_recordings_are_of_all_runs_of_those_that_the_text_names_or_of_none(
+    tmp_path, recordings, found
+):
+    page = tmp_path / "page.md"
+    page.write_text("# A\n\nThe [far](run:far@2) run.\n", encoding="utf-8")
+    half = SMALL.presets[0]
+    far = replace(half, name="far", params=replace(half.params, angle=31.0))
+    lesson = replace(SMALL, page=page, presets=(half, far), questions=())
+    assert {run.name for run in runs.runs_of(lesson, recordings) if run.recorded} == found
 
 
 def test_two_runs_that_would_have_one_file_are_refused(tmp_path, rendered):
@@ -220,12 +254,12 @@ def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered, monk
     monkeypatch.setattr(
         site, "lesson_page", lambda *args: pages.append(args[-1]) or original(*args)
     )
-    site.publish(out, [SMALL])
-    site.publish(out, [SMALL])
+    site.publish(out, [SMALL], recordings="all")
+    site.publish(out, [SMALL], recordings="all")
     assert pages == [""]  # once without the address that it had
     assert rendered == []
     other = replace(SMALL, presets=(replace(SMALL.presets[0], params=fake.Params(angle=170.0)),))
-    site.publish(out, [other])
+    site.publish(out, [other], recordings="all")
     assert rendered == ["fake/half"]
 
 
@@ -332,7 +366,8 @@ def test_a_lesson_s_page_is_within_its_budget(name):
     """Without what answers say, some thousand bytes, which need runs."""
     lesson = catalog()[name]
     known = runs.recorded(lesson, runs.runs_of(lesson)[0], root="../", runs="runs/", answers={})
-    shared = sum(
-        len(bare(STATIC / file).encode()) for file in (*STYLES, *RECORDED, *SCRIPTS)
-    ) + len(math_font_css())
-    assert len(lesson_page(lesson, known).encode()) + shared < site.PAGE_BUDGET - 8_000
+    told = has_story(lesson)
+    files = (*STYLES, *RECORDED, *SCRIPTS, *((*STORY_STYLES, *STORY_SCRIPTS) if told else ()))
+    shared = sum(len(bare(STATIC / file).encode()) for file in files) + len(math_font_css())
+    budget = site.TOLD_BUDGET if told else site.PAGE_BUDGET
+    assert len(lesson_page(lesson, known).encode()) + shared < budget - 8_000

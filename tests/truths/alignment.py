@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
-from lessons.alignment.state import AxesState, PairsState, State
+from lessons.alignment.state import State
 
 HOME = 10.0  # degrees
 
@@ -47,16 +47,12 @@ def to_nearest(state: State) -> float:
     )
 
 
-def of_pairs(state: PairsState) -> float:
-    return float(np.sqrt(np.mean(np.sum((state.scans.p_target - moved(state)) ** 2, axis=1))))
-
-
 def eigenvectors(p: np.ndarray) -> np.ndarray:
     """Principal axes by numpy, columns by falling variance, any handedness."""
     return np.linalg.eigh(np.cov(p.T))[1][:, ::-1]
 
 
-def many(state: AxesState) -> np.ndarray:
+def many(state: State) -> np.ndarray:
     """Degrees from the truth of each of the many turns, from where their axes came to lie."""
     assert state.turns is not None
     assert state.axes_target is not None

@@ -15,9 +15,9 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from tests.verdicts import Claim, Run, untrue
-from workbench.lesson import Lesson, catalog
-from workbench.scene import Caption, caption_of
+from tests.verdicts import Claim, Run, misvalued, untrue
+from workbench.lesson import Lesson, Look, States, catalog
+from workbench.scene import caption_of
 
 WHOLE, QUICK = range(20), range(2)
 MOST = 5  # findings shown of a run
@@ -42,15 +42,17 @@ def audit(lesson: Lesson, *, whole: bool) -> Iterator[str]:
     """Return what captions, preset lines and explanations of a lesson say that is not true."""
     judge = importlib.import_module(f"tests.verdicts.{lesson.name}")
     yield from nameless(lesson, judge)
-    short: Callable[[Any], Iterator[Any]] = getattr(judge, "until_the_end", lesson.run)
+    form = lesson.form
+    short: Callable[[Any], Iterator[Any]] = getattr(judge, "until_the_end", form.states)
     for params, texts in experiments(lesson, judge):
         for one in seeded(params, WHOLE if whole else QUICK):
-            states = lesson.run(one) if whole or one == params else short(one)
+            states = tuple(form.states(one) if whole or one == params else short(one))
             where = (
                 f"{lesson.name}, {texts[0][0] if texts else 'default'}, seed"
                 f" {getattr(one, 'seed', '-')}"
             )
-            run = Run(one, tuple(states))
+            subject = form.setup(one)
+            run = Run(one, States.of(states, params=one, subject=subject), subject)
             wrong = list(judged(lesson, judge, run, texts))
             if one == params:
                 wrong += wordless(run, texts)
@@ -91,12 +93,14 @@ def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Itera
     """Return what is not true of one run: in its captions, in their tone, and in what is said of
     it.
     """
-    caption: Callable[[Any], Caption] = getattr(
-        judge, "caption", lambda state: caption_of(lesson.draw(state))
-    )
+    caption = getattr(judge, "caption", None)
     for k, state in enumerate(run.states):
-        said = caption(state)
+        look = Look(params=run.params, subject=run.subject, now=state, past=run.states[:k])
+        given = state if lesson.setup is None else look
+        said = caption(given) if caption else caption_of(lesson.form.draw(look))
         yield from (f"step {k}: {what}" for what in untrue(said.text, judge.CAPTIONS, run, k))
+        if lesson.setup is not None:
+            yield from (f"step {k}: {what}" for what in misvalued(said, judge.VALUES, run, k))
         right = judge.right(run, k)
         if said.tone != "info" and right is not None and right is not (said.tone == "good"):
             yield f"step {k}: the tone is {said.tone}, the truth {right}: {said.text}"

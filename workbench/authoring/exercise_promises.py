@@ -316,7 +316,7 @@ def _variants(lesson: Lesson) -> Iterator[Any]:
 
 def _drives(lesson: Lesson, exercise: Exercise, params: Any, *, steps: int = 12) -> bool:
     try:
-        for _ in islice(lesson.run(params, **{exercise.contract.slot: _called}), steps):
+        for _ in islice(lesson.form.states(params, {exercise.contract.slot: _called}), steps):
             pass
     except _CalledError:
         return True

@@ -10,15 +10,12 @@ import inspect
 import re
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import Any, TypeAlias
 
 from workbench.authoring.live_words import live_words
 from workbench.errors import InputError
-from workbench.knobs import Field, changed, fields_of, from_json, to_json
 from workbench.lesson import Lesson, Preset, Question
 from workbench.machinery.authors import at
-from workbench.run.flags import RESERVED
 from workbench.run.questions import Answer, answer
 from workbench.run.timeline import Timeline
 from workbench.scene import Scene, in_space, same
@@ -183,7 +180,7 @@ def a_run_is_reproducible(subject: Subject) -> Found:
         )
         return
     for k, (one, two) in enumerate(zip(run.known(), again.known(), strict=True)):
-        path = _differs(one.scene, two.scene)
+        path = differs(one.scene, two.scene)
         if path is not None:
             yield f"{where}run again, step {k} shows something else at {path!r}; {hint}"
             return
@@ -206,120 +203,6 @@ def the_code_of_every_step_can_be_shown(subject: Subject) -> Found:
             None
             if inside
             else f"{subject.who}: {at(step.moment.function)}step {k} stands outside of its function"
-        )
-
-
-@promise
-def every_knob_goes_to_its_ends(subject: Subject) -> Found:
-    """With each knob at each end of its range, or at each of its choices, the run begins, or says
-    why not in one line.
-
-    Where the default run does not meet what a knob needs, the run would be the same again.
-    """
-    base = subject.lesson.params()
-    for field in fields_of(subject.lesson.params):
-        if any(
-            getattr(base, name, None) not in wanted for name, wanted in field.knob.needs.items()
-        ):
-            continue
-        for value in ends(field):
-            where = f"{field.name} = {value}"
-            run = subject.fresh(
-                replace(base, **{field.name: value}), f"the run at {where}", MOST_STEPS
-            )
-            fine = (
-                run.failure is None or run.stopped == subject.default().stopped
-            )  # which is told already
-            yield None if fine else f"{run.stopped} (at {where})"
-
-
-@promise
-def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
-    """Where a knob says what it needs to have an effect, it has none while another knob is set
-    otherwise.
-    """
-    fields = {field.name: field for field in fields_of(subject.lesson.params)}
-    idle: dict[Any, list[Field]] = {}  # knobs without effect at some params
-    for field in fields.values():
-        for name, wanted in field.knob.needs.items():
-            of_file = name in fields and fields[name].kind == "path" and wanted == (None,)
-            if not of_file and (name not in fields or fields[name].kind not in ("choice", "bool")):
-                yield (
-                    f"{subject.who}: {field.name} needs {name!r}, which is no choice or switch of"
-                    " this lesson"
-                )
-                continue
-            met = {other: values[0] for other, values in field.knob.needs.items()}
-            for other in [value for value in ends(fields[name]) if value not in wanted]:
-                base = replace(subject.lesson.params(), **{**met, name: other})
-                idle.setdefault(base, []).append(field)
-    for base, turned in idle.items():
-        plain = subject.fresh(base, "a run", MOST_STEPS)
-        if _all_turned(subject, turned, base, plain=plain):
-            for field in turned:
-                yield from _has_no_effect(subject, field, base, plain=plain)
-        else:
-            yield from [None] * len(turned)
-
-
-def _all_turned(subject: Subject, fields: list[Field], base: Any, *, plain: Timeline) -> bool:
-    """Whether knobs that are turned together, to each of their ends once, change a run; own files
-    have no ends.
-    """
-    values = {field.name: ends(field) for field in fields if field.kind != "path"}
-    for k in range(max(map(len, values.values()), default=0)):
-        all_at = {name: several[k % len(several)] for name, several in values.items()}
-        if _effect(
-            plain,
-            subject.fresh(replace(base, **all_at), "a run with idle knobs turned", MOST_STEPS),
-        ):
-            return True
-    return False
-
-
-def _has_no_effect(subject: Subject, field: Field, base: Any, *, plain: Timeline) -> Found:
-    for value in [value for value in ends(field) if value != getattr(base, field.name)]:
-        turned = subject.fresh(
-            replace(base, **{field.name: value}), f"a run at {field.name} = {value}", MOST_STEPS
-        )
-        found = _effect(plain, turned)
-        where = f"{field.name} = {value} changes {found!r} although its needs are not met"
-        yield f"{subject.who}: {where}, at {changed(base)}" if found else None
-
-
-def _effect(plain: Timeline, turned: Timeline) -> str | None:
-    """Return what differs between two runs: the path of the first thing, or that they end
-    otherwise.
-    """
-    pairs = zip(plain.known(), turned.known(), strict=False)
-    found = next((path for one, two in pairs if (path := _differs(one.scene, two.scene))), None)
-    same_end = plain.stopped == turned.stopped and len(plain) == len(turned)
-    return found or (None if same_end else "how the run ends")
-
-
-@promise
-def params_survive_the_way_through_text(subject: Subject) -> Found:
-    """Params are the same after they were written to a link or recording, and no field has a name
-    that commands use.
-    """
-    kind = subject.lesson.params
-    for params in (kind(), *(preset.params for preset in subject.lesson.presets)):
-        again = from_json(kind, to_json(params))
-        kept = again == params and hash(again) == hash(params)
-        yield (
-            None
-            if kept
-            else (
-                f"{subject.who}: {kind.__name__} written as text and read again is {again}, not"
-                f" {params}"
-            )
-        )
-    for field in fields_of(kind):
-        taken = field.name in RESERVED
-        yield (
-            f"{subject.who}: {kind.__name__}.{field.name}: commands use this name"
-            if taken
-            else None
         )
 
 
@@ -419,36 +302,34 @@ def _known_wrong(who: str, question: Question, found: Answer) -> Found:
 
 @promise
 def run_takes_only_keywords_beside_params(subject: Subject) -> Found:
-    """`run` takes `params`, and by keyword functions that have defaults; the lesson's name can be a
-    folder.
+    """`run` takes `params`, its subject, and by keyword functions that have defaults; the name
+    can be a folder.
     """
-    lesson = subject.lesson
-    first, *slots = inspect.signature(lesson.run).parameters.values()
+    lesson, inputs = subject.lesson, subject.lesson.form.inputs
+    first, *others = inspect.signature(lesson.run).parameters.values()
     where = f"{subject.who}: {at(lesson.run)}run"
     yield (
         None
         if first.name == "params"
         else f"{where} calls its first argument {first.name!r}; it is 'params'"
     )
-    for slot in slots:
+    for slot in others[len(inputs) - 1 :]:
+        if slot.kind is slot.VAR_KEYWORD and len(inputs) > 1:
+            named = (
+                f"{where} passes on **{slot.name}; slots=(...) of the lesson names what it can hold"
+            )
+            yield None if lesson.slots else named
+            continue
         good = slot.kind is slot.KEYWORD_ONLY and slot.default is not slot.empty
-        wanted = f"beside params it takes keywords with defaults: `*, {slot.name}=...`"
+        wanted = (
+            f"beside {' and '.join(inputs)} it takes keywords with defaults: `*, {slot.name}=...`"
+        )
         yield None if good else f"{where} takes {slot.name!r}; {wanted}"
     yield (
         None
         if NAME.fullmatch(lesson.name)
         else f"{subject.who}: a lesson's name is letters, digits, - and _"
     )
-
-
-def ends(field: Field) -> list[Any]:
-    """Return the values of a knob at each end of its range, or each of its choices."""
-    low, high = field.knob.low, field.knob.high
-    if field.kind in ("float", "int"):
-        return [field.clean(low), field.clean(high)]
-    if field.kind in ("floats", "ints"):
-        return [field.clean([end] * field.length) for end in (low, high)]
-    return [False, True] if field.kind == "bool" else list(field.choices)
 
 
 def opens(run: Timeline, who: str, step: int) -> str | None:
@@ -470,6 +351,6 @@ def length_of(what: str, length: int, wanted: tuple[int, int], unit: str) -> str
     )
 
 
-def _differs(one: Scene, two: Scene) -> str | None:
+def differs(one: Scene, two: Scene) -> str | None:
     """Return the first path at which two scenes differ, None where they are the same."""
     return next((path for path in {**one, **two} if not same(one.get(path), two.get(path))), None)

@@ -16,6 +16,7 @@ from workbench.exercise.candidate import Candidate
 from workbench.exercise.model import Exercise, Function
 from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError
+from workbench.form import Form, Look
 from workbench.lesson import Lesson
 from workbench.run.timeline import Step, Timeline
 from workbench.scene import (
@@ -89,17 +90,20 @@ class _Beside:
 
 def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
     """Return the lesson driven by a student's function, with the reference's run as its ghost."""
+    form = lesson.form
 
-    def run(params: Any) -> Iterator[Pair]:
+    def run(params: Any, subject: Any) -> Iterator[Pair]:
         beside = _Beside(function, exercise)
-        ours, theirs = lesson.run(params), lesson.run(params, **{exercise.contract.slot: beside})
+        ours = form.run(params, subject)
+        theirs = form.run(params, subject, **{exercise.contract.slot: beside})
+        draw_ours, draw_theirs = _Drawn(form, params, subject), _Drawn(form, params, subject)
         state_ours, scene_ours, differed = None, {}, False
         while True:
             for state_ours in itertools.islice(ours, 1):
-                scene_ours = lesson.draw(state_ours)
+                scene_ours = draw_ours(state_ours)
             try:
                 state = next(theirs)
-                scene = lesson.draw(state)
+                scene = draw_theirs(state)
             except StopIteration:
                 return
             except Exception as error:
@@ -123,7 +127,8 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             yield Pair(state_ours, state, "", 0, difference, first, beside.called, scene, behind)
             differed = differed or differs
 
-    def draw(pair: Pair) -> Scene:
+    def draw(look: Look[Any, Any, Pair]) -> Scene:
+        pair = look.now
         scene = {**pair.scene, **pair.ghost}
         if pair.theirs is None:
             return scene | {
@@ -138,7 +143,20 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             )
         return scene | ({DIFFERENCE: _difference(pair.difference)} if pair.called else {})
 
-    return replace(lesson, run=run, draw=draw, questions=(), tries=None)
+    return replace(lesson, setup=form.setup, run=run, draw=draw, slots=(), questions=(), tries=None)
+
+
+class _Drawn:
+    """Draws the states of one run in their order."""
+
+    def __init__(self, form: Form, params: Any, subject: Any):
+        self._form, self._params, self._subject = form, params, subject
+        self._past: tuple[Any, ...] = ()
+
+    def __call__(self, state: Any) -> Scene:
+        look = Look(params=self._params, subject=self._subject, now=state, past=self._past)
+        self._past = (*self._past, state)
+        return self._form.draw(look)
 
 
 def _trouble(error: Exception, exercise: Exercise) -> tuple[str, int]:

@@ -45,9 +45,10 @@ def record_failing(
             return None
         timeline, at = found
         states = [step.state for step in timeline.known()][max(0, at - 1) :]
-        shown = Timeline(
-            replace(timeline.lesson, run=lambda params: iter(states)), timeline.params
-        ).complete()
+        ended = replace(
+            timeline.lesson, run=lambda params, subject: iter(states)
+        )  # of the second form: `driven`
+        shown = Timeline(ended, timeline.params).complete()
     out = path.with_suffix(".rrd") if out is None else out
     try:
         out.write_bytes(record_bytes(shown))

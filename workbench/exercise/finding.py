@@ -3,7 +3,6 @@
 import functools
 import importlib
 import importlib.util
-import inspect
 import pkgutil
 import re
 import warnings
@@ -100,12 +99,12 @@ def _exercises_in(lesson: Lesson) -> tuple[Exercise, ...]:
     folder = importlib.import_module(f"{package}.exercises")
     names = [f"{folder.__name__}.{info.name}" for info in pkgutil.iter_modules(folder.__path__)]
     found = [exercise_in(importlib.import_module(name), lesson.name) for name in names]
-    slots = list(inspect.signature(lesson.run).parameters)
+    slots = lesson.form.slots
     for exercise in found:
-        if exercise.contract.slot not in slots[1:]:
+        if exercise.contract.slot not in slots:
             raise InputError(
                 f"exercise {exercise.name}: run of lesson {lesson.name} has no keyword"
-                f" {exercise.contract.slot!r}; it has: {', '.join(slots[1:]) or 'none'}"
+                f" {exercise.contract.slot!r}; it has: {', '.join(slots) or 'none'}"
             )
         if exercise.contract.preset is not None:
             try:

@@ -2,6 +2,7 @@
 steps of a run.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
@@ -15,6 +16,11 @@ from workbench.words.axis import Axis, axis, labelled, value_axis
 
 NARROW_BAR = 0.96
 """How much of the room between two bars a bar takes."""
+
+
+def slug(title: str) -> str:
+    """Return the name of a chart, as page.md writes it: `Rotation error` is `rotation-error`."""
+    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
 
 
 def axes_of(xs: Sequence[np.ndarray], ys: Sequence[np.ndarray]) -> tuple[Axis, Axis]:
@@ -62,7 +68,13 @@ def chart_of(curves: Sequence[Curve]) -> dict[str, Any]:
     outlines = [outline(curve) for curve in curves]
     across, up = axes_of([x for x, _ in outlines], [y for _, y in outlines])
     title, label = titled(curves)
-    drawn = {"kind": "curves", "title": title, "xLabel": curves[0].x_label, "yLabel": label}
+    drawn = {
+        "kind": "curves",
+        "name": slug(curves[0].chart),
+        "title": title,
+        "xLabel": curves[0].x_label,
+        "yLabel": label,
+    }
     return drawn | {
         "x": asdict(across),
         "y": asdict(up),
@@ -99,7 +111,13 @@ def series_charts(series: Mapping[str, Series], known: int) -> dict[str, Any]:
         scalar = lines[0].scalar
         head, label = labelled(chart, scalar.unit, scalar.log)
         across, up = axes_of([steps], [plotted_values(one.scalar, one.values) for one in lines])
-        found[chart] = {"head": head, "yLabel": label, "x": asdict(across), "y": asdict(up)}
+        found[chart] = {
+            "name": slug(chart),
+            "head": head,
+            "yLabel": label,
+            "x": asdict(across),
+            "y": asdict(up),
+        }
     return found
 
 

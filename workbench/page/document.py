@@ -6,9 +6,11 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from workbench.knobs import fields_of
 from workbench.lesson import Lesson
 from workbench.page.article import PLACE
 from workbench.page.lessons import lesson_data
+from workbench.story import Story, story_data
 from workbench.words.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
@@ -36,6 +38,20 @@ LIVE = (*SCENE, "files.js", "edited.js", "returning.js", "live.js")
 """The scripts that feed the page from a server."""
 RECORDED = (*SCENE, "shelf.js", "sweeps.js", "recorded.js")
 """The scripts that feed the page from recorded runs, on a site and in a notebook."""
+STORY_SCRIPTS = (
+    "storyplot.js",
+    "storyparts.js",
+    "storychart.js",
+    "storystage.js",
+    "storywords.js",
+    "storyask.js",
+    "story.js",
+)
+"""The scripts of the story, before `page.js`."""
+STORY_STYLES = ("story.css", "storystage.css")
+FONTS = ("source-serif-4-latin-wght-normal.woff2", "source-serif-4-latin-wght-italic.woff2")
+"""The letters of the story, beside its styles."""
+STORY_FILES = (*STORY_STYLES, *FONTS, *STORY_SCRIPTS)
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 """Steps a second of Play, as a page offers them."""
 VERBS = (
@@ -60,8 +76,9 @@ def lesson_document(
     more: Mapping[str, Any] | None = None,
     alone: tuple[str, str] | None = None,
     still: str = "",
+    story: Story | None = None,
 ) -> str:
-    """Return the document of a lesson.
+    """Return the document of a lesson: its story, where one is told, and its workbench.
 
     Args:
         lesson: What it is about.
@@ -76,26 +93,63 @@ def lesson_document(
         alone: Of a page that shows one run and no article, its title and the address of the
             lesson's page, if it has one.
         still: The address of a picture that stands for the scene where no script runs.
+        story: The lesson's story; only for a document with a root.
     """
     data = lesson_data(lesson) | ({} if home == "live" else {"knobs": []})
-    scripts = (*(LIVE if home == "live" else RECORDED), *SCRIPTS)
-    constants = {"LESSON": data} | dict(more or {})
+    scripts = _scripts(home, told=story is not None)
+    constants = (
+        {"LESSON": data}
+        | ({} if story is None else {"STORY": story_data(lesson, story)})
+        | dict(more or {})
+    )
     heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
+    told = story is not None
     text = (
         _alone(heading, alone[1])
         if alone
-        else _article(article, home, data, opening=opening, ending=ending)
+        else _article(article, home, data, opening=opening, ending=ending, told=told)
     )
+    face = "story" if told else "bench"
+    math = root is not None or not alone
     return (
-        f"{document_head(heading, lesson.summary, root, more=head, math=root is not None or not alone)}"  # noqa: E501
+        f"{document_head(heading, lesson.summary, root, more=head, math=math, told=told)}"
         f'<body{" class=alone" if alone else ""} data-home="{home}"'
-        f' data-lesson="{escape(lesson.name)}">'
-        f'<a class="skip" href="#stage">To the stage</a><main>{text}'
+        f' data-lesson="{escape(lesson.name)}" data-face="{face}">'
+        f"{_face(lesson, story)}"
+        f'<a class="skip" href="#stage">To the stage</a><main>{_told(story)}{text}'
         f'<div id="side">{_stage(still)}</div></main>'
         + _third_parties(root)
         + f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"  # noqa: E501
         + "".join(_script(root, name) for name in scripts)
         + "</body></html>\n"
+    )
+
+
+def _scripts(home: str, *, told: bool) -> tuple[str, ...]:
+    *others, page = SCRIPTS
+    return (
+        *(LIVE if home == "live" else RECORDED),
+        *others,
+        *(STORY_SCRIPTS if told else ()),
+        page,
+    )
+
+
+def _told(story: Story | None) -> str:
+    return "" if story is None else f'<div id="story">{story.html}</div>'
+
+
+def _face(lesson: Lesson, story: Story | None) -> str:
+    """Return the script that opens the workbench where the address names a run, a step or a
+    param; before any picture.
+    """
+    if story is None:
+        return ""
+    keys = in_script(["preset", "step", *(field.name for field in fields_of(lesson.params))])
+    return (
+        "<script>if (new URLSearchParams(location.hash.slice(1)).has('run') || "
+        f"{keys}.some((key) => new URLSearchParams(location.search).has(key))) "
+        "document.body.dataset.face = 'bench';</script>"
     )
 
 
@@ -130,7 +184,10 @@ def bare(file: Path) -> str:
     return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 
 
-def _article(article: str, home: str, data: dict[str, Any], *, opening: str, ending: str) -> str:
+def _article(
+    article: str, home: str, data: dict[str, Any], *, opening: str, ending: str, told: bool
+) -> str:
+    """Return the text of the workbench; beside a story its experiments and exercises come first."""
     questions = "".join(_question(question) for question in data["questions"])
     presets = "".join(
         f'<li><button type="button" data-run="{escape(preset["name"])}"'
@@ -143,9 +200,13 @@ def _article(article: str, home: str, data: dict[str, Any], *, opening: str, end
         if presets
         else ""
     )
+    before, _, after = article.partition(PLACE)
+    if told:
+        words = f'<div class="wb">{before}</div>{chosen}{ending}<div class="wb">{after}</div>'
+    else:
+        words = f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}'
     return (
-        f'<article id="article">{_top("Geometry workbench", _course(home))}{opening}<div'
-        f' class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}<section'
+        f'<article id="article">{_top("Geometry workbench", _course(home))}{opening}{words}<section'
         ' class="s-run" id="this-run" hidden><h2>This run</h2></section><details'
         ' id="text"><summary>Text of this run</summary><p></p><ol start="0"></ol></details><nav'
         ' id="around" aria-label="Lessons before and after"'
@@ -173,7 +234,7 @@ def in_script(value: Any) -> str:
 
 
 def document_head(
-    title: str, summary: str, root: str | None, *, more: str, math: bool = True
+    title: str, summary: str, root: str | None, *, more: str, math: bool = True, told: bool = False
 ) -> str:
     """Return the head of a document of ours."""
     return (
@@ -181,7 +242,10 @@ def document_head(
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<title>{escape(title)}</title><meta name="description" content="{escape(summary)}">'
         '<link rel="icon" href="data:,">'
-        + "".join(_style(root, name) for name in (*STYLES, *([MATH] if math else [])))
+        + "".join(
+            _style(root, name)
+            for name in (*STYLES, *(STORY_STYLES if told else ()), *([MATH] if math else []))
+        )
         + f"{more}</head>"
     )
 

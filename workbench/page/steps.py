@@ -6,7 +6,7 @@ import base64
 import hashlib
 import threading
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -16,6 +16,7 @@ from workbench.machinery.images import webp
 from workbench.page.charts import chart_of, series_charts, series_of, table_html
 from workbench.page.code import moment_data, source_html
 from workbench.page.legend import bar_html, legend_html
+from workbench.page.plots import plot_of
 from workbench.run.timeline import Step, Timeline
 from workbench.scene import Curve, Field, Picture, Scene, Table, in_space
 
@@ -105,7 +106,14 @@ class Steps:
     def whole(self) -> dict[str, Any]:
         """Return all of a finished run."""
         steps = [self.step(k) for k in range(len(self.timeline))]
-        return {"steps": steps, **self.series(), "things": self.things, "end": self.end()}
+        return {
+            "steps": steps,
+            **self.series(),
+            "things": self.things,
+            "end": self.end(),
+            "places": self.places(),
+            "idle": self.timeline.idle(),
+        }
 
     def end(self) -> int | None:
         """Return the last step of the run itself where tries of other starts follow it; None where
@@ -131,9 +139,11 @@ class Steps:
         """Return the numbers of what stands beside a scene: pictures and tables, then charts."""
         found: list[int] = []
         charts: dict[str, list[Curve]] = {}
+        plots: dict[str, list[Curve]] = {}
         for primitive in scene.values():
             if isinstance(primitive, Curve):
-                charts.setdefault(primitive.chart, []).append(primitive)
+                where = plots if primitive.part else charts
+                where.setdefault(primitive.chart, []).append(primitive)
             elif isinstance(primitive, Table):
                 text = table_html(primitive)
                 found.append(self._number({"kind": "html", "html": text}, text))
@@ -142,7 +152,42 @@ class Steps:
         for curves in charts.values():
             drawn = chart_of(curves)
             found.append(self._number(drawn, repr(drawn)))
+        for parts in plots.values():
+            drawn = plot_of(parts, lambda line: self._number(line, repr(line)))
+            found.append(self._number(drawn, repr(drawn)))
         return found
+
+    def wanted(self, step: Mapping[str, Any]) -> list[int]:
+        """Return the numbers of all things that a step needs, those that its things name before
+        these.
+        """
+        found: list[int] = []
+        for n in step["shown"]:
+            thing = self.things[n]
+            if isinstance(thing, dict) and thing["kind"] == "plot":
+                found += [*thing["whole"], *thing["seconds"]]
+            found.append(n)
+        return [*found, step["legend"]]
+
+    def places(self) -> list[tuple[int, str]]:
+        """Return the steps known so far that have a name for the slider: `start`, those that
+        captions name, `stop`.
+
+        `stop` is the end of the run itself, known once something follows it or the run is finished.
+        """
+        timeline = self.timeline
+        named = [
+            (k, step.caption.place) for k, step in enumerate(timeline.known()) if step.caption.place
+        ]
+        end = self.end()
+        if end is None and timeline.finished:
+            end = len(timeline) - 1
+        found = (
+            dict([(0, "start"), *named])
+            if named and named[0][0] == 0
+            else {0: "start", **dict(named)}
+        )
+        return sorted((found | ({} if end is None else {end: "stop"})).items())
 
     def _picture(self, picture: Picture) -> int:
         """Return the number of a picture: one with the arrays of an earlier step is not looked at

@@ -5,6 +5,7 @@ here.
 import base64
 import json
 from collections.abc import Mapping
+from html import escape
 from typing import Any
 
 from workbench.exercise.finding import exercises_of
@@ -17,6 +18,7 @@ from workbench.publish.manifest import Listed
 from workbench.publish.runs import PAGE, question_run
 from workbench.run.questions import answer
 from workbench.run.timeline import Timelines
+from workbench.story import story_of
 
 LESSONS = "lessons.js"
 """The file of a site that names all its lessons."""
@@ -73,6 +75,7 @@ def lesson_page(lesson: Lesson, known: Mapping[str, Any], head: str = "") -> str
         head=f'{head}<script src="../{LESSONS}"></script>',
         more={"RECORDED": known},
         still="picture.webp",
+        story=story_of(lesson, "site"),
     )
 
 
@@ -102,3 +105,16 @@ def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
         }
         found[question.name] = base64.b64encode(json.dumps(kept).encode()).decode()
     return found
+
+
+def leading_on(title: str, address: str) -> str:
+    """Return the page of a run that is in another lesson now: it leads there by itself, or by
+    its link.
+    """
+    place = escape(address)
+    return (
+        '<!doctype html><html lang="en"><head><meta'
+        f' charset="utf-8"><title>{escape(title)}</title><meta http-equiv="refresh" content="0;'
+        f' url={place}"><link rel="icon" href="data:,"></head><body><p>This run is part of <a'
+        f' href="{place}">{escape(title)}</a> now.</p></body></html>\n'
+    )

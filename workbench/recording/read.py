@@ -20,6 +20,7 @@ from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
 from workbench.machinery.version import __version__
+from workbench.moved import moved
 from workbench.recording.viewer_files import binary, quiet_environment
 from workbench.scene import Scalar
 
@@ -133,8 +134,14 @@ def reopening(
             not.
     """
     recording = open_recording(path)
-    lesson = _lesson_of(recording, given)
+    led = moved(recording.lesson, None, recording.params)
+    lesson = _lesson_of(recording, led.lesson, given)
+    told = recording.params if given is not None else led.values
     lines = []
+    if lesson.name != recording.lesson:
+        lines.append(
+            f"{path}: this run of {recording.lesson} is one of the lesson {lesson.name} now"
+        )
     if recording.version != __version__:
         lines.append(
             f"{path}: recorded by version {recording.version}, this is {__version__}; the run may"
@@ -147,7 +154,7 @@ def reopening(
         )
     fields = {field.name: field for field in knobs.fields_of(lesson.params)}
     values = {}
-    for name, value in recording.params.items():
+    for name, value in told.items():
         if name not in fields:
             lines.append(f"{path}: the lesson has no parameter {name} any more; left out")
             continue
@@ -168,11 +175,13 @@ def reopening(
     return lesson, knobs.make(lesson.params, values), lines
 
 
-def _lesson_of(recording: Recording, given: Lesson | None) -> Lesson:
+def _lesson_of(recording: Recording, name: str, given: Lesson | None) -> Lesson:
     """Return the lesson of a recording: the one given if it has the name, or the one that the
     catalogue has.
     """
-    name, path = recording.lesson, recording.path
+    path = recording.path
+    if given is not None and given.name == recording.lesson:
+        return given
     if given is not None and given.name != name:
         raise InputError(
             f"{path}: is a run of the lesson {name[:80]!r}, and the lesson given is {given.name!r}"

@@ -18,6 +18,7 @@ from workbench.lesson import Lesson, find
 from workbench.machinery.atomic import remove_leftovers, write_atomic
 from workbench.machinery.progress import Progress, bar
 from workbench.machinery.version import __version__
+from workbench.moved import moved
 from workbench.recording.columns import facts, send_captions, send_series
 from workbench.recording.contents import contents_of, to_json
 from workbench.recording.gather import unions
@@ -29,6 +30,7 @@ from workbench.recording.sink import RerunSink, document
 from workbench.recording.streams import application_id, stream_bytes
 from workbench.run.loading import load
 from workbench.run.timeline import Timeline
+from workbench.story import plain_text
 from workbench.words.typeset import wording
 
 
@@ -70,6 +72,9 @@ def record(
         InputError: If the inputs cannot be used, the run fails, or the file is there or cannot be
             written; then nothing has changed.
     """
+    if isinstance(lesson, str) and params is None:
+        led = moved(lesson, preset, values)
+        lesson, preset, values = led.lesson, led.preset, led.values
     found = (
         find(lesson)
         if isinstance(lesson, str)
@@ -173,7 +178,7 @@ def record_bytes(
             "run", facts(layout=to_json(contents, view), **_facts(timeline, preset))
         )
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        stream.log("page", document(plain_page(wording(lesson.text(), "site"))), static=True)
+        stream.log("page", document(plain_page(wording(plain_text(lesson), "site"))), static=True)
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
             send_series(stream, path, one, order=order)

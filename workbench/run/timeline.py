@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 
 from workbench.apart import told
+from workbench.cached import watched
 from workbench.errors import AuthorError, InputError
+from workbench.form import Look, States
 from workbench.knobs import Field, Pick, fields_of, in_words, paths_of
 from workbench.lesson import Lesson
 from workbench.machinery.authors import Blaming, at
@@ -87,6 +89,11 @@ class Timeline:
         self._steps: list[Step] = []
         self._series = Columns()
         self._slots = dict(slots or {})
+        self._form = lesson.form
+        self._read: set[str] = set()  # the fields of the params that the run has read
+        self._watched = watched(self.params, self._read.add)
+        self._subject: Any = None
+        self._states: list[Any] = []
         self._generator: Iterator[Any] | None = (
             None  # made with the first step: whatever `run` raises is told there
         )
@@ -124,6 +131,7 @@ class Timeline:
                 return self._end(in_words(str(error), self.lesson.params))
             self._shown |= scene
             self._series.add(scene)
+            self._states.append(state)
             self._steps.append(Step(state, scene, moment))
             if len(self._steps) >= self._most_steps:
                 self._end(f"The run was cut after {self._most_steps:,} steps.")
@@ -154,8 +162,22 @@ class Timeline:
         """Return the bytes of every array that the run holds, by the array's id."""
         return {key: array.nbytes for key, array in tuple(self._owners.items())}
 
-    def states(self) -> tuple[Any, ...]:
-        """Return all states, computing what is missing.
+    @property
+    def read(self) -> frozenset[str]:
+        """The fields of the params that the run has read so far."""
+        return frozenset(self._read)
+
+    def idle(self) -> tuple[str, ...]:
+        """Return the fields of the params that the run does not read, so that they have no effect
+        on it.
+
+        None is known before the run is finished.
+        """
+        names = (field.name for field in fields_of(self.lesson.params))
+        return tuple(name for name in names if name not in self._read) if self.finished else ()
+
+    def states(self) -> States:
+        """Return all states, with the params and the subject of the run, computing what is missing.
 
         Raises:
             InputError: If the run could not be carried to its end, with the reason.
@@ -163,7 +185,7 @@ class Timeline:
         self.complete()
         if self.stopped is not None:
             raise InputError(self.stopped)
-        return tuple(step.state for step in self._steps)
+        return States.of(self._states, params=self.params, subject=self._subject)
 
     def opening(self, who: str, step: int) -> int:
         """Return the index of the step where a run opens, as an author gave it: negative counts
@@ -195,7 +217,9 @@ class Timeline:
         run = self.lesson.run
         with Blaming(f"lesson {self.lesson.name}", run), listening() as last:
             if self._generator is None:
-                made = run(self.params, **self._slots)
+                self._subject = self._form.setup(self._watched)
+                self._freeze(self._subject)
+                made = self._form.run(self._watched, self._subject, **self._slots)
                 if not isinstance(made, Iterator):
                     wrong = f"run returned {_kind(made)}; it is a generator: `yield` each state"
                     raise AuthorError(f"lesson {self.lesson.name}: {at(run)}{wrong}")
@@ -211,7 +235,10 @@ class Timeline:
         """
         draw = self.lesson.draw
         with Blaming(f"lesson {self.lesson.name}", draw):
-            shown = draw(state)
+            past = tuple(self._states)
+            shown = self._form.draw(
+                Look(params=self._watched, subject=self._subject, now=state, past=past)
+            )
             wrong = _no_scene(shown)
             if wrong:
                 raise AuthorError(f"lesson {self.lesson.name}: {at(draw)}{wrong}")

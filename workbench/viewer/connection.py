@@ -204,14 +204,29 @@ class PageConnection:
         session, name, step = self.session, str(message.get("run", "")), message.get("step")
         if session is None:
             return
+        question = next((one for one in session.lesson.questions if one.name == name), None)
         if name == "default":
             session.reset()
+        elif question is not None:
+            session.open(session.lesson, question.params, 0)
         elif name:
             session.use_preset(name)
         if name:
             self._updates.aim.open(session.lesson, session.params)
+        if step == "stop":
+            step = await self._stop(session)
         if isinstance(step, int):
             session.open(session.lesson, session.params, step)
+
+    async def _stop(self, session: Session) -> int:
+        """Return the last step of the run itself; what tries other starts behind it is known
+        only once it is computed.
+        """
+        if session.lesson.tries is None:
+            return -1
+        await self._computed(session.timeline)
+        end = self.runs.steps(session.timeline).end()
+        return -1 if end is None else end
 
     async def change(self, message: Mapping[str, Any]) -> None:
         """Set params; files are not set from a browser."""
@@ -237,6 +252,8 @@ class PageConnection:
     async def predict(self, message: Mapping[str, Any]) -> None:
         """Compare a prediction with the run that answers, tell the page, and show that run; own
         files are put aside.
+
+        With `stay` the page shows it in its own time, such as a story, which plays it first.
         """
         session = self.session
         if session is None:
@@ -259,6 +276,8 @@ class PageConnection:
             return
         told = {"right": found.right, "truth": found.truth, "why": found.why, "reply": found.reply}
         await self._tell(tell="answer", question=question.name, **told)
+        if message.get("stay"):
+            return
         session.open(lesson, question.params, found.step)
         self._updates.aim.open(lesson, question.params)
 

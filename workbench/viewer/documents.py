@@ -15,6 +15,7 @@ from workbench.page.course import Card, course_document
 from workbench.page.document import lesson_document
 from workbench.page.exercise import exercises_html, watched_html
 from workbench.run import links
+from workbench.story import Story, story_of
 from workbench.viewer.terminal import tell_terminal
 
 ROOT = "page/"
@@ -82,15 +83,29 @@ def lesson_page(
         {"name": one.name, "title": one.title, "needs": one.needs} for one in in_order(lessons)
     ]
     opening, ending = (exercises, "") if own else ("", exercises)
+    story, trouble = (None, "") if own else _story(lesson)
     return lesson_document(
         lesson,
-        article,
+        trouble + article,
         home="live",
         root=ROOT,
         opening=opening,
         ending=ending,
         more={"COURSE": course},
+        story=story,
     )
+
+
+def _story(lesson: Lesson) -> tuple[Story | None, str]:
+    """Return a lesson's story if one is told, and what is wrong with it in its place."""
+    found: list[Story | None] = [None]
+
+    def read() -> str:
+        found[0] = story_of(lesson, "live")
+        return ""
+
+    trouble = _told(lesson, "story", read)
+    return found[0], trouble
 
 
 def in_order(lessons: Mapping[str, Lesson]) -> list[Lesson]:

@@ -27,7 +27,7 @@ from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, catalog
 from workbench.machinery.hosts import listening
 from workbench.page.code import source_html
-from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES, THIRD_PARTIES
+from workbench.page.document import LIVE, SCRIPTS, STATIC, STORY_FILES, STYLES, THIRD_PARTIES
 from workbench.page.thumbnail import thumbnail
 from workbench.run import links
 from workbench.viewer.addresses import Doors
@@ -42,7 +42,7 @@ from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
 from workbench.words.typeset import math_font_css
 
-FILES = (*STYLES, *LIVE, *SCRIPTS, THIRD_PARTIES)
+FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, THIRD_PARTIES)
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200

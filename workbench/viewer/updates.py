@@ -17,6 +17,7 @@ from workbench.run import links
 from workbench.run.links import show_command
 from workbench.run.session import Look, Session
 from workbench.run.timeline import Timeline
+from workbench.story.names import run_name
 from workbench.viewer.runs import Runs
 from workbench.viewer.terminal import tell_terminal
 from workbench.wire.packing import PageWire
@@ -113,15 +114,13 @@ class PageUpdates:
         params, lesson = look.params, look.lesson
         is_watched = watched is not None and watched.lesson is lesson
         said = {
-            "name": (
-                "default"
-                if params == lesson.params()
-                else getattr(lesson.preset_of(params), "name", "")
-            ),
+            "name": run_name(lesson, params),
             "params": values_of(params),
             "known": look.known,
             "finished": look.finished,
             "end": steps.end(),
+            "places": steps.places(),
+            "idle": look.timeline.idle(),
             "files": files_of(look.own),
             "aside": look.own is not params,
             "mark": first_difference(look.timeline.known()) if is_watched else None,
@@ -144,7 +143,7 @@ class PageUpdates:
                 "caption": trouble or look.caption.text,
                 "tone": "wrong" if trouble else look.caption.tone,
             }
-        wanted = [*step["shown"], step["legend"]]
+        wanted = steps.wanted(step)
         code = steps.code(look.k)
         if code is not None:
             state = look.timeline[look.k].state

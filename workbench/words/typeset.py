@@ -58,6 +58,31 @@ def page_html(markdown: str, picture: Callable[[str], str] | None = None) -> str
         return _sections(markdown)
 
 
+@contextlib.contextmanager
+def typesetting(file: Path | None) -> Iterator[None]:
+    """Let a parser be used, by one thread at a time; pictures are those below the folder of a
+    page's file.
+    """
+    picture = None if file is None else lambda name: _picture_data(file, name)
+    with _one_at_a_time, _pictures_by(picture):
+        yield
+
+
+TERM = re.compile(r"\[\[([a-z][\w/. ~-]*?)(?:\|([^\]|<]+))?\]\]")
+"""Words of a page that name a thing of the scene: its path, and what stands there or nothing."""
+
+
+def with_terms(text: str) -> str:
+    """Return the HTML of a page with its terms as elements: `[[source|the scan]]` names a thing
+    of the scene.
+    """
+    return TERM.sub(lambda found: _term(found[1], found[2] or found[1]), text)
+
+
+def _term(path: str, words: str) -> str:
+    return f'<span class="term" tabindex="0" data-thing="{html.escape(path)}">{words}</span>'
+
+
 def _sections(markdown: str) -> str:
     parts = re.split(r"(?m)^(?=## )", markdown)
     sections = [_parser().render(parts[0])] if parts[0].strip() else []
@@ -80,6 +105,11 @@ _one_at_a_time = threading.RLock()
 
 @functools.cache
 def _parser() -> Any:
+    return new_parser()
+
+
+def new_parser() -> Any:
+    """Return a parser of pages, with maths, tables and pictures; use it inside `typesetting`."""
     from markdown_it import MarkdownIt
     from mdit_py_plugins.dollarmath import dollarmath_plugin
 

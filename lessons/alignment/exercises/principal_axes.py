@@ -6,7 +6,8 @@ exercise.
 import numpy as np
 from jaxtyping import Float
 
-from lessons.alignment.exercises import GRADERS, STUDENTS, a_rotation
+from lessons.alignment.exercises import GRADERS, STUDENTS
+from workbench.data.lopsided import a_rotation
 from workbench.exercise import (
     Function,
     Verdict,

@@ -5,7 +5,8 @@ your function, there and back: see the presets 'Noise in both scans' and 'A mirr
 import numpy as np
 from jaxtyping import Float
 
-from lessons.alignment.exercises import GRADERS, STUDENTS, a_lopsided_cloud, a_rotation
+from lessons.pairs.exercises import GRADERS, STUDENTS
+from workbench.data.lopsided import a_lopsided_cloud, a_rotation
 from workbench.exercise import (
     Function,
     Verdict,
