@@ -12,6 +12,7 @@ BASE = {"workbench", "workbench.apart", "workbench.axis", "workbench.errors", "w
 DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
 FORM = DRAWING | {"workbench.cached", "workbench.captions", "workbench.form", "workbench.view"}
 LESSON = FORM | {
+    "workbench.chapters",
     "workbench.lesson",
     "workbench.presets",
     "workbench.loading",
@@ -34,6 +35,7 @@ ALLOWED = {
     "workbench.knobs": {"workbench.errors"},
     "workbench.numerals": set(),
     "workbench.certain": set(),
+    "workbench.chapters": set(),
     "workbench.geometry": MATHS,
     "workbench.algorithms": MATHS | {"workbench.algorithms"},
     "workbench.data": MATHS | {"workbench.data", "workbench.numerals"},
@@ -43,10 +45,10 @@ ALLOWED = {
     "workbench.form1": FORM,
     "workbench.presets": {"workbench.view"},
     "workbench.view": set(),
-    "workbench.lesson": FORM | {"workbench.form1", "workbench.presets"},
+    "workbench.lesson": FORM | {"workbench.form1", "workbench.presets", "workbench.chapters"},
     "workbench.timeline": LESSON,
     "workbench.loading": LESSON,
-    "workbench.listing": {"workbench.lesson"},
+    "workbench.listing": {"workbench.lesson", "workbench.chapters"},
     "workbench.links": LESSON,
     "workbench.picking": DRAWING,
     "workbench.typeset": BASE | {"workbench.atomic"},
@@ -66,6 +68,7 @@ ALLOWED = {
     "workbench.story": LESSON | {"workbench.story", "workbench.typeset"},
     "workbench.page": LESSON | {"workbench.page", "workbench.story", "workbench.images", "workbench.typeset",
                                 "workbench.numerals"},
+    "workbench.page.toy": {"workbench.data.rabbit_outline"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": LESSON | {
         "workbench.publish", "workbench.page", "workbench.story", "workbench.exercise",

@@ -37,7 +37,7 @@ def test_what_is_right_is_right_and_what_is_up_is_up():
         "moved": Points(np.zeros((1, 3)), "target", 0.2, T_world_moved),
     }
     picture = pixels(picture_of(scene, VIEW))
-    assert picture.shape == (200, 320, 4)
+    assert picture.shape == (300, 480, 4)
     assert middle_of(picture, "source") == pytest.approx((240, 100), abs=3)
     assert middle_of(picture, "truth") == pytest.approx((160, 50), abs=3)
     assert middle_of(picture, "target") == pytest.approx((80, 150), abs=3)

@@ -21,8 +21,10 @@ from workbench.scene import (
 )
 from workbench.timeline import Timeline
 
-SIZE = 320, 200
-FINER = 3  # drawn so many times as large, then made smaller: its edges are smooth
+SIZE = 480, 300
+FINER = 2  # drawn so many times as large, then made smaller: its edges are smooth
+
+THICK = 1.8  # pixels of the sheet to a width of 1
 
 
 def thumbnail(lesson: Lesson, timeline: Timeline | None = None) -> bytes:
@@ -149,7 +151,7 @@ def _lines(ends: np.ndarray, T: np.ndarray | None, rgba: np.ndarray, width: floa
     for pair, z, color in zip(uv, depth.mean(-1), rgba, strict=True):
         if np.isfinite(z) and np.abs(pair).max() < 20_000:
             place, c = tuple(map(tuple, pair)), tuple(int(value) for value in color)
-            yield z, lambda place=place, c=c: pen.draw.line(place, fill=c, width=round(0.6 * FINER * width))
+            yield z, lambda place=place, c=c: pen.draw.line(place, fill=c, width=round(THICK * width))
 
 
 def _faces(mesh: Mesh, pen: _Pen) -> Iterator[tuple]:

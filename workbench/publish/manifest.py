@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.atomic import remove_leftovers, write_atomic
+from workbench.chapters import MINUTES, NAMES
 from workbench.errors import InputError
 
 KEPT = ".published.json"
@@ -34,6 +35,8 @@ class Listed:
     summary: str
     order: float
     needs: tuple[str, ...] = ()
+    chapter: str = ""
+    minutes: int = MINUTES
 
 
 class Manifest:
@@ -149,8 +152,18 @@ def _texts(value: Any) -> list[str]:
     return texts
 
 
-def _listed(*, title: str, summary: str, order: float, needs: Iterable[str] = ()) -> Listed:
+def _listed(
+    *,
+    title: str,
+    summary: str,
+    order: float,
+    needs: Iterable[str] = (),
+    chapter: str = "",
+    minutes: int = MINUTES,
+) -> Listed:
     _texts([title, summary])
     if not all(map(NAME.fullmatch, needs)) or not abs(order) < 1e9:
         raise ValueError("no lesson")
-    return Listed(title, summary, order, tuple(needs))
+    if chapter not in ("", *NAMES) or not isinstance(minutes, int) or not 0 < minutes < 1e4:
+        raise ValueError("no lesson")
+    return Listed(title, summary, order, tuple(needs), chapter, minutes)

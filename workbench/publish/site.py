@@ -8,8 +8,10 @@ from urllib.parse import unquote, urlsplit
 import viser
 
 import workbench
+from workbench.chapters import place
 from workbench.errors import InputError
 from workbench.lesson import Lesson
+from workbench.page.course import FRONT_FILES
 from workbench.page.document import (
     FONTS,
     MATH,
@@ -107,7 +109,7 @@ def _publish(
     if others and manifest.made_by != made_by:
         raise InputError(f"{out}: its other lessons were published by another version; publish all of them again")
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson)]
-    shared = {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)}
+    shared = {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *FRONT_FILES, *RECORDED, *SCRIPTS)}
     told = [name for name in (*STORY_STYLES, *STORY_SCRIPTS) if (STATIC / name).is_file()]
     shared |= {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in told}
     shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in FONTS}
@@ -126,9 +128,10 @@ def _publish(
     for lesson in lessons:
         _write_page(manifest, lesson, timelines, canonical(base_url, f"{lesson.name}/"))
     listed = others | {
-        lesson.name: Listed(lesson.title, lesson.summary, lesson.order, lesson.needs) for lesson in lessons
+        lesson.name: Listed(lesson.title, lesson.summary, lesson.order, lesson.needs, lesson.chapter, lesson.minutes)
+        for lesson in lessons
     }
-    manifest.lessons = dict(sorted(listed.items(), key=lambda item: (item[1].order, item[0])))
+    manifest.lessons = dict(sorted(listed.items(), key=lambda item: place(item[1].chapter, item[1].order, item[0])))
     course = {
         COURSE_PAGE: course_page(manifest.lessons, canonical(base_url, "")),
         LESSONS: lessons_script(manifest.lessons),

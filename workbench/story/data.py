@@ -16,8 +16,8 @@ def story_data(lesson: Lesson, story: Story) -> dict[str, Any]:
     presets = {one.name for one in lesson.presets if one.view is not None}
     return {
         "title": story.title,
-        "chapter": story.chapter,
-        "minutes": story.minutes,
+        "chapter": lesson.chapter,
+        "minutes": lesson.minutes,
         "scenes": [
             {
                 "name": scene.name,
@@ -26,12 +26,8 @@ def story_data(lesson: Lesson, story: Story) -> dict[str, Any]:
             }
             for scene in story.scenes
         ],
-        "views": {
-            name: view_data(views[name]) for name in sorted(named | own | presets | {"default"})
-        },
-        "starts": {
-            name: place.data() | {"to": seen} for name, (place, seen) in story.starts.items()
-        },
+        "views": {name: view_data(views[name]) for name in sorted(named | own | presets | {"default"})},
+        "starts": {name: place.data() | {"to": seen} for name, (place, seen) in story.starts.items()},
         "places": {},
     }
 

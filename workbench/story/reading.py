@@ -20,8 +20,6 @@ from workbench.story.names import Names
 from workbench.story.words import Found, Words, count, element
 from workbench.typeset import inline_html, typesetting
 
-MINUTES = 20
-"""How long a story takes where page.md does not say it."""
 BEAT_TAGS = {
     "paragraph_open": "p",
     "bullet_list_open": "ul",
@@ -91,15 +89,14 @@ class _Reader:
 
     def read(self, parts: list[Section]) -> Story:
         """Return the story of a page's sections."""
-        title, chapter, minutes = self._names.lesson.title, "", MINUTES
+        title = self._names.lesson.title
         opening: Section | None = None
         reference: list[Section] = []
         for part in parts:
             given = part.attributes
             if part.level == 1:
                 title = _plain(part.title)
-                chapter = given.values.get("chapter", "")
-                minutes = self._minutes(given.values.get("minutes"), part.line)
+                self._no_fields(given, part.line)
             if reference or "reference" in given.classes:
                 reference.append(part)
             elif "turn" in given.classes:
@@ -110,24 +107,18 @@ class _Reader:
             elif part.level == 1:
                 opening = part
             elif part.level == 2:
-                raise self._names.wrong(
-                    part.line, f"the scene {part.title!r} has no name; write ## ... {{#name}}"
-                )
+                raise self._names.wrong(part.line, f"the scene {part.title!r} has no name; write ## ... {{#name}}")
         folded = self._reference(reference) if reference else ""
-        return Story(title, chapter, minutes, tuple(self._scenes), folded, self._starts)
+        return Story(title, tuple(self._scenes), folded, self._starts)
 
-    def _minutes(self, written: str | None, line: int) -> int:
-        if written is not None and not written.isdigit():
-            raise self._names.wrong(line, f"minutes={written} is no whole number")
-        return MINUTES if written is None else int(written)
+    def _no_fields(self, given: Attributes, line: int) -> None:
+        for name in ("chapter", "minutes"):
+            if name in given.values:
+                raise self._names.wrong(line, f"{name} is said by the lesson: Lesson({name}=...)")
 
-    def _scene(
-        self, part: Section, name: str, opening: Section | None, *, is_turn: bool = False
-    ) -> TextScene:
+    def _scene(self, part: Section, name: str, opening: Section | None, *, is_turn: bool = False) -> TextScene:
         if name in self._lines:
-            raise self._names.wrong(
-                part.line, f"line {self._lines[name]} has a scene {name!r} already"
-            )
+            raise self._names.wrong(part.line, f"line {self._lines[name]} has a scene {name!r} already")
         self._lines[name] = part.line
         here = self._moved(Place(), part.attributes, part.line)
         scene = _Scene(name, here)
@@ -163,9 +154,7 @@ class _Reader:
 
     def _words(self, scene: _Scene, block: Block, *, lead: bool) -> None:
         if block.text().startswith("{"):
-            raise self._names.wrong(
-                block.line, f"{block.text().splitlines()[0]!r} is not read as attributes"
-            )
+            raise self._names.wrong(block.line, f"{block.text().splitlines()[0]!r} is not read as attributes")
         scene.here = self._moved(scene.here, block.attributes, block.line)
         Words(self._names, scene.name, scene.found).resolve(block, scene.here)
         beat = scene.beat(block.line)
@@ -192,9 +181,7 @@ class _Reader:
         elif "what-if" in block.attributes.classes:
             scene.html.append(what_if(block, self._names, scene.found, scene.beat(block.line)))
         else:
-            raise self._names.wrong(
-                block.line, "a block between ::: is {.ask #question} or {.what-if}"
-            )
+            raise self._names.wrong(block.line, "a block between ::: is {.ask #question} or {.what-if}")
 
     def _ask(self, scene: _Scene, block: Block) -> None:
         given = block.attributes

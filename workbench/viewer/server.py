@@ -27,6 +27,7 @@ from workbench.exercise.watching import Watched
 from workbench.hosts import listening
 from workbench.lesson import Lesson, catalog
 from workbench.page.code import source_html
+from workbench.page.course import FRONT_FILES
 from workbench.page.document import LIVE, SCRIPTS, STATIC, STORY_FILES, STYLES, THIRD_PARTIES
 from workbench.page.thumbnail import thumbnail
 from workbench.typeset import math_font_css
@@ -41,7 +42,7 @@ from workbench.viewer.runs import MOST_BYTES, Runs
 from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
 
-FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, THIRD_PARTIES)
+FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, *FRONT_FILES, THIRD_PARTIES)
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200
