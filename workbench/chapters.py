@@ -12,17 +12,20 @@ class Chapter:
 
     @property
     def address(self) -> str:
-        """Its name in addresses."""
-        return self.name.lower()
+        """Its name in addresses; no other part of a page has it as its id."""
+        return f"chapter-{self.name.lower()}"
 
 
 CHAPTERS = (
     Chapter("Move", "Where things are, and how they get somewhere else."),
-    Chapter("Estimate", "Find the answer although every measurement is a little wrong, and some are all wrong."),
+    Chapter(
+        "Estimate",
+        "Find the answer although measurements are noisy and some of them are wrong.",
+    ),
     Chapter("See", "From the world into a picture, and back."),
     Chapter("Measure", "How far apart, how large and how curved things are."),
     Chapter("Connect", "Join neighbours, and let what they know spread."),
-    Chapter("Learn", "What a network can say about a shape, and what its training does not see."),
+    Chapter("Learn", "What a network can say of a shape, and what it cannot."),
 )
 """In course order."""
 MORE = Chapter("More", "Lessons of others.")

@@ -212,7 +212,9 @@ class Lesson(Generic[P, S]):
             return self.page.read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError) as error:
             why = getattr(error, "strerror", None) or "not UTF-8 text"
-            raise AuthorError(f"lesson {self.name}: its page {self.page.absolute()}: {why}") from None
+            raise AuthorError(
+                f"lesson {self.name}: its page {self.page.absolute()}: {why}"
+            ) from None
 
     def preset(self, name: str) -> Preset[P]:
         """Return a preset by name.
@@ -233,7 +235,9 @@ class Lesson(Generic[P, S]):
     def validated(self, params: P) -> P:
         """Return params when they are this lesson's and in range; raise InputError otherwise."""
         if not isinstance(params, self.params):
-            raise InputError(f"lesson {self.name} takes {self.params.__name__}, not {type(params).__name__}")
+            raise InputError(
+                f"lesson {self.name} takes {self.params.__name__}, not {type(params).__name__}"
+            )
         return validated(params)
 
 

@@ -41,9 +41,15 @@ def _head(module: ast.Module) -> Head | None:
     for statement in module.body:
         value = statement.value if isinstance(statement, ast.Assign | ast.AnnAssign) else None
         if isinstance(value, ast.Call) and getattr(value.func, "id", "") == "Lesson":
-            given = {word.arg: word.value.value for word in value.keywords if isinstance(word.value, ast.Constant)}
+            given = {
+                word.arg: word.value.value
+                for word in value.keywords
+                if isinstance(word.value, ast.Constant)
+            }
             order, name, summary = (given.get(word) for word in ("order", "name", "summary"))
             chapter = given.get("chapter", "")
-            if isinstance(order, int) and all(isinstance(text, str) for text in (name, summary, chapter)):
+            if isinstance(order, int) and all(
+                isinstance(text, str) for text in (name, summary, chapter)
+            ):
                 return place(chapter, order, name), summary
     return None

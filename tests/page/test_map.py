@@ -5,9 +5,17 @@ from itertools import combinations
 
 from workbench.chapters import NAMES
 from workbench.lesson import course
-from workbench.page.map import course_map, depths, rows
+from workbench.page.map import HEIGHT, WIDTH, course_map, depths, rows
 
-NEEDS = {"a": (), "b": ("a",), "c": (), "d": ("b", "c"), "e": ("a", "nowhere"), "f": ("g",), "g": ("f",)}
+NEEDS = {
+    "a": (),
+    "b": ("a",),
+    "c": (),
+    "d": ("b", "c"),
+    "e": ("a", "nowhere"),
+    "f": ("g",),
+    "g": ("f",),
+}
 CHAPTERS = {"One": ["a", "b", "c"], "Two": ["d", "e"], "More": ["f", "g"]}
 
 
@@ -24,7 +32,9 @@ def course_drawn() -> tuple[dict[str, tuple[str, ...]], dict[str, list[str]]]:
 def test_a_lesson_stands_right_of_all_that_it_needs():
     at = depths(NEEDS)
     assert [at[name] for name in "abcde"] == [0, 1, 0, 2, 1]
-    assert at["f"] < at["g"]  # a ring of needs: the one that stands first in the course waits for nobody
+    assert (
+        at["f"] < at["g"]
+    )  # a ring of needs: the one that stands first in the course waits for nobody
 
 
 def test_every_lesson_has_a_place_of_its_own_in_the_band_of_its_chapter():
@@ -33,8 +43,12 @@ def test_every_lesson_has_a_place_of_its_own_in_the_band_of_its_chapter():
         row, bands = rows(wanted, parts)
         column = depths(wanted)
         assert len({(column[name], row[name]) for name in wanted}) == len(wanted)
-        assert all(row[name] in bands[chapter] for chapter, names in parts.items() for name in names)
-        assert sorted(at for band in bands.values() for at in band) == list(range(max(row.values()) + 1))
+        assert all(
+            row[name] in bands[chapter] for chapter, names in parts.items() for name in names
+        )
+        assert sorted(at for band in bands.values() for at in band) == list(
+            range(max(row.values()) + 1)
+        )
 
 
 def test_the_map_links_every_lesson_and_draws_every_need_once():
@@ -61,8 +75,29 @@ def test_no_two_lines_from_different_lessons_lie_on_each_other():
         assert one == other or x != x_other or high <= low_other or high_other <= low, (one, other)
 
 
+def test_no_line_passes_behind_a_lesson():
+    needs, chapters = course_drawn()
+    for wanted, parts in ((NEEDS, CHAPTERS), (needs, chapters)):
+        html = drawn({name: name for name in wanted}, wanted, parts)
+        boxes = {
+            name: (int(x), int(y))
+            for name, x, y in re.findall(r'data-name="(\w+)"[^>]*><rect x="(\d+)" y="(\d+)"', html)
+        }
+        for one, other, path in re.findall(r'data-way="(\w+) (\w+)" d="([^"]*)"', html):
+            end = boxes[other][1] + HEIGHT // 2
+            start = (
+                int(re.findall(r"V\d+Q(\d+)", path)[0]) if "V" in path else boxes[one][0] + WIDTH
+            )
+            behind = [
+                name
+                for name, (x, y) in boxes.items()
+                if y < end < y + HEIGHT and start < x + WIDTH and x < boxes[other][0]
+            ]
+            assert behind == [], (one, other)
+
+
 def test_a_long_title_has_two_lines_and_is_read_as_one():
-    html = drawn({name: "Coordinates and their poles" for name in NEEDS})
+    html = drawn(dict.fromkeys(NEEDS, "Coordinates and their poles"))
     assert html.count("<tspan") == 2 * len(NEEDS)
     assert "Coordinates and their poles" in re.sub(r"<[^>]*>", "", html)
 

@@ -38,9 +38,9 @@ def test_what_is_right_is_right_and_what_is_up_is_up():
     }
     picture = pixels(picture_of(scene, VIEW))
     assert picture.shape == (300, 480, 4)
-    assert middle_of(picture, "source") == pytest.approx((240, 100), abs=3)
-    assert middle_of(picture, "truth") == pytest.approx((160, 50), abs=3)
-    assert middle_of(picture, "target") == pytest.approx((80, 150), abs=3)
+    assert middle_of(picture, "source") == pytest.approx((360, 150), abs=4)
+    assert middle_of(picture, "truth") == pytest.approx((240, 75), abs=4)
+    assert middle_of(picture, "target") == pytest.approx((120, 225), abs=4)
 
 
 def test_the_nearer_hides_the_farther_and_what_is_behind_the_eye_is_left_out():
@@ -49,7 +49,7 @@ def test_the_nearer_hides_the_farther_and_what_is_behind_the_eye_is_left_out():
         "far": Points(np.array([[0.0, 1.0, 0.0], [0.0, -5.0, 0.0]]), "target", 0.3),
     }
     picture = pixels(picture_of(scene, VIEW))
-    assert np.abs(picture[100, 160, :3] - PALETTE["source"]).max() < 20
+    assert np.abs(picture[150, 240, :3] - PALETTE["source"]).max() < 20
 
 
 @pytest.mark.parametrize("lesson", [fake.lesson, *catalog().values()], ids=lambda lesson: lesson.name)

@@ -1,4 +1,4 @@
-"""The course page: a first toy, where to begin, every lesson as a card in its chapter, and the map of what builds on what."""
+"""The course page: a first toy, where to begin, lessons as cards in their chapters, and the map."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -10,11 +10,11 @@ from workbench.page.document import THIRD_PARTIES, document_head
 from workbench.page.map import course_map
 from workbench.page.toy import toy_html
 
-WELCOME = (
-    "Geometry and 3D vision, one algorithm at a time: see it work, move it with your hands, and write it yourself."
-)
+WELCOME = "Geometry and 3D vision, one algorithm at a time: see it work, move it with your hands, and write it yourself."
 FRONT_FILES = ("front.css", "front.js")
 """The page's own styles and script, beside those of every page."""
+SHORT = 2
+"""Lessons of a chapter that leaves room for another beside it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +31,9 @@ class Card:
     minutes: int = MINUTES
 
 
-def course_document(cards: Iterable[Card], *, root: str, trouble: str | None = None, head: str = "") -> str:
+def course_document(
+    cards: Iterable[Card], *, root: str, trouble: str | None = None, head: str = ""
+) -> str:
     """Return the document of the course.
 
     Args:
@@ -42,18 +44,25 @@ def course_document(cards: Iterable[Card], *, root: str, trouble: str | None = N
     """
     cards = list(cards)
     titles = {card.name: card.title for card in cards}
-    chapters = [(chapter, list(own)) for chapter, own in groupby(cards, key=lambda card: chapter_of(card.chapter))]
+    chapters = [
+        (chapter, list(own))
+        for chapter, own in groupby(cards, key=lambda card: chapter_of(card.chapter))
+    ]
     said = f'<p class="trouble" role="alert">{escape(trouble)}</p>' if trouble else ""
     styles, script = FRONT_FILES
     head = f'<link rel="stylesheet" href="{root}{styles}">{head}'
-    skip = f'<a class="skip" href="#{chapters[0][0].address}">To the lessons</a>' if chapters else ""
+    skip = (
+        f'<a class="skip" href="#{chapters[0][0].address}">To the lessons</a>' if chapters else ""
+    )
     return (
         f"{document_head('Geometry workbench', WELCOME, root, head, math=False)}"
         f'<body class="front">{skip}{_hero(cards, said)}{_line(chapters)}<main id="course">'
         + "".join(_chapter(chapter, own, titles) for chapter, own in chapters)
         + f"{_map(chapters)}</main>"
         f'<footer><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its licences</a></footer>'
-        + "".join(f'<script src="{root}{name}"></script>' for name in ("tools.js", "progress.js", script))
+        + "".join(
+            f'<script src="{root}{name}"></script>' for name in ("tools.js", "progress.js", script)
+        )
         + "</body></html>\n"
     )
 
@@ -78,15 +87,17 @@ def _hero(cards: list[Card], said: str) -> str:
 
 def _line(chapters: list[tuple[Chapter, list[Card]]]) -> str:
     links = "".join(
-        f'<a href="#{chapter.address}">{chapter.name} <span>{len(own)}</span></a>' for chapter, own in chapters
+        f'<a href="#{chapter.address}">{chapter.name} <span>{len(own)}</span></a>'
+        for chapter, own in chapters
     )
     return f'<nav class="line" aria-label="Chapters"><div>{links}</div></nav>' if links else ""
 
 
 def _chapter(chapter: Chapter, cards: list[Card], titles: dict[str, str]) -> str:
     shown = "".join(_card(card, titles) for card in cards)
+    short = " short" if len(cards) <= SHORT else ""
     return (
-        f'<section class="chapter" id="{chapter.address}" tabindex="-1"><header><h2>{chapter.name}</h2>'
+        f'<section class="chapter{short}" id="{chapter.address}" tabindex="-1"><header><h2>{chapter.name}</h2>'
         f'<p>{escape(chapter.line)}</p></header><ul class="cards">{shown}</ul></section>'
     )
 

@@ -1,7 +1,8 @@
 """The map of a course: which lesson builds on which, drawn from what the lessons themselves say.
 
-Every chapter has a band of rows. A lesson stands right of all that it needs. Its lines turn only in the gaps between columns,
-where each lesson that others need has a track of its own: no two lines lie on each other.
+Every chapter has a band of rows. A lesson stands right of all that it needs. Its lines turn only in
+the gaps between columns, where each lesson that others need has a track of its own: no two lines
+lie on each other.
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,6 +14,8 @@ ACROSS, DOWN = 40, 14
 LEFT, BETWEEN = 92, 16
 """The width of the chapters' names, and what parts two chapters."""
 ROUND = 7
+TRACKS = 5
+"""Lines side by side between two columns."""
 LONGEST = 19
 """Signs on a line of a box."""
 
@@ -35,7 +38,8 @@ def rows(
 ) -> tuple[dict[str, int], dict[str, range]]:
     """Return in which row each lesson stands, counted from 0, and which rows each chapter has.
 
-    A lesson takes the row of what it needs in its chapter where that is free, else the first free one.
+    A lesson takes the row of what it needs in its chapter, else the first; neither in its place nor
+    on the way to it stands another.
     """
     column = depths(needs)
     row: dict[str, int] = {}
@@ -44,8 +48,15 @@ def rows(
     for chapter, names in chapters.items():
         taken: set[tuple[int, int]] = set()
         for name in sorted(names, key=lambda name: column[name]):
-            wanted = [row[one] for one in needs[name] if one in row and one in names]
-            free = (at for at in [*wanted, *range(top, top + len(names))] if (column[name], at) not in taken)
+            behind = [one for one in needs[name] if column.get(one, column[name]) < column[name]]
+            first = min((column[one] for one in behind), default=column[name] - 1)
+            cells = range(first + 1, column[name] + 1)  # its own, and those that its lines cross
+            same = [row[one] for one in behind if one in names]
+            free = (
+                at
+                for at in [*same, *range(top, top + len(names))]
+                if taken.isdisjoint((one, at) for one in cells)
+            )
             row[name] = next(free)
             taken.add((column[name], row[name]))
         end = max((row[name] for name in names), default=top - 1) + 1
@@ -63,7 +74,9 @@ def course_map(
     """Return the map as links in an SVG; empty where no lesson builds on another.
 
     Args:
-        titles, needs, addresses: By the lesson's name, in course order.
+        titles: By the lesson's name, in course order.
+        needs: The lessons that each builds on, likewise.
+        addresses: Of the lessons' pages, likewise.
         chapters: The names of the lessons of each chapter, in course order.
     """
     column = depths(needs)
@@ -76,7 +89,9 @@ def course_map(
     wide = LEFT + (max(column.values()) + 1) * (WIDTH + ACROSS) - ACROSS + 2
     high = max(y.values()) + HEIGHT + 8
     lines = "".join(_lines(needs, column, x, y))
-    boxes = "".join(_box(name, titles[name], addresses[name], needs[name], x[name], y[name]) for name in column)
+    boxes = "".join(
+        _box(name, titles[name], addresses[name], needs[name], x[name], y[name]) for name in column
+    )
     stripes = "".join(
         _stripe(chapter, 1 + rows_[0] * (HEIGHT + DOWN) + i * BETWEEN, len(rows_), wide)
         for i, (chapter, rows_) in enumerate(bands.items())
@@ -90,22 +105,25 @@ def course_map(
 
 
 def _lines(
-    needs: Mapping[str, Sequence[str]], column: Mapping[str, int], x: Mapping[str, int], y: Mapping[str, int]
+    needs: Mapping[str, Sequence[str]],
+    column: Mapping[str, int],
+    x: Mapping[str, int],
+    y: Mapping[str, int],
 ) -> list[str]:
-    """Return a path for each need: along the row of the one or of the other, whichever is freer."""
-    taken = {(column[name], y[name]) for name in column}
+    """Return a path for each need: it turns behind what is needed, and runs along the other's row."""
     tracks: dict[int, list[str]] = {}
     drawn = []
     for name, wanted in needs.items():
-        for one in [one for one in wanted if one in column and column[one] < column[name]]:
-            between = range(column[one] + 1, column[name])
-            early, late = (sum((at, y[which]) in taken for at in between) for which in (name, one))
-            gap = column[one] + 1 if early <= late else column[name]
+        for one in [one for one in wanted if column.get(one, column[name]) < column[name]]:
+            gap = column[one] + 1
             used = tracks.setdefault(gap, [])
-            if one not in used:
+            if one not in used and y[one] != y[name]:
                 used.append(one)
-            turn = LEFT + gap * (WIDTH + ACROSS) - ACROSS + 7 + 6 * (used.index(one) % 5)
-            path = _path((x[one] + WIDTH, y[one] + HEIGHT // 2), turn, (x[name], y[name] + HEIGHT // 2))
+            track = used.index(one) % TRACKS if one in used else 0
+            turn = LEFT + gap * (WIDTH + ACROSS) - ACROSS + 8 + 6 * track
+            path = _path(
+                (x[one] + WIDTH, y[one] + HEIGHT // 2), turn, (x[name], y[name] + HEIGHT // 2)
+            )
             drawn.append(f'<path data-way="{escape(one)} {escape(name)}" d="{path}"/>')
     return drawn
 

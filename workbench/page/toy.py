@@ -43,4 +43,7 @@ def _rows() -> str:
     kinds = (("turned", "turned", "moved"), ("turned", "turned", "moved"), ("", "", ""))
     fixed = (("", "", ""), ("", "", ""), ("0", "0", "1"))
     rows = (zip(row, texts, strict=True) for row, texts in zip(kinds, fixed, strict=True))
-    return "".join("<tr>" + "".join(f'<td class="{kind}">{text}</td>' for kind, text in row) + "</tr>" for row in rows)
+    return "".join(
+        "<tr>" + "".join(f'<td class="{kind}">{text}</td>' for kind, text in row) + "</tr>"
+        for row in rows
+    )

@@ -170,7 +170,7 @@ def _write_page(manifest: Manifest, lesson: Lesson, timelines: Timelines, addres
     if manifest.runs.get(key) == digest and all(map(manifest.is_ours, names)):
         return
     known = recorded(lesson, runs_of(lesson)[0], root="../", runs="runs/", answers=answers(lesson, timelines))
-    picture = thumbnail(lesson, timelines.get(lesson, lesson.params()))
+    picture = thumbnail(lesson, timelines)
     manifest.runs.pop(key, None)
     manifest.write(dict(zip(names, (lesson_page(lesson, known, address).encode(), picture), strict=True)))
     manifest.runs[key] = digest

@@ -8,7 +8,9 @@ _VALUE = r'(?:"[^"\n]*"|[^\s"{}]*)'
 _ONE = rf"(?:#[\w-]+|\.[\w-]+|[\w-]+={_VALUE})"
 BRACES = re.compile(rf"\{{\s*({_ONE}(?:\s+{_ONE})*)\s*\}}")
 """Attributes in braces; what stands in them is the first group."""
-HEADING = re.compile(rf"^(?P<words>.*?)\s*(?:\{{\s*(?P<attributes>{_ONE}(?:\s+{_ONE})*)\s*\}})?\s*$")
+HEADING = re.compile(
+    rf"^(?P<words>.*?)\s*(?:\{{\s*(?P<attributes>{_ONE}(?:\s+{_ONE})*)\s*\}})?\s*$"
+)
 """A heading's words, and the attributes behind them, if it has any."""
 
 

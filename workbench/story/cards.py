@@ -84,7 +84,9 @@ def what_if(block: Block, names: Names, found: Found, beat: int) -> str:
         if said:
             lines.append(said)
     if not title or not picks:
-        raise names.wrong(block.line, "a what-if has a title (### ...) and picks ([words](run:preset))")
+        raise names.wrong(
+            block.line, "a what-if has a title (### ...) and picks ([words](run:preset))"
+        )
     view = names.view(block.attributes.values.get("camera", ""), block.line)
     line = " ".join(lines)
     given = {

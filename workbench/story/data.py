@@ -26,8 +26,12 @@ def story_data(lesson: Lesson, story: Story) -> dict[str, Any]:
             }
             for scene in story.scenes
         ],
-        "views": {name: view_data(views[name]) for name in sorted(named | own | presets | {"default"})},
-        "starts": {name: place.data() | {"to": seen} for name, (place, seen) in story.starts.items()},
+        "views": {
+            name: view_data(views[name]) for name in sorted(named | own | presets | {"default"})
+        },
+        "starts": {
+            name: place.data() | {"to": seen} for name, (place, seen) in story.starts.items()
+        },
         "places": {},
     }
 

@@ -69,7 +69,9 @@ def story_parser() -> Any:
     from mdit_py_plugins.container import container_plugin
 
     parser = new_parser().use(attrs_plugin, spans=True).use(attrs_block_plugin)
-    return parser.use(container_plugin, CARD, validate=lambda info, *_: info.strip().startswith("{"))
+    return parser.use(
+        container_plugin, CARD, validate=lambda info, *_: info.strip().startswith("{")
+    )
 
 
 def in_home(markdown: str, home: str) -> str:
@@ -134,4 +136,6 @@ def _taken(token: Any) -> Attributes:
     name = str(attributes.pop("id", ""))
     kept = {key: value for key, value in token.attrs.items() if key in ("start", "style")}
     token.attrs = kept
-    return Attributes(name, classes, {key: str(value) for key, value in attributes.items() if key not in kept})
+    return Attributes(
+        name, classes, {key: str(value) for key, value in attributes.items() if key not in kept}
+    )

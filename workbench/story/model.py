@@ -64,7 +64,9 @@ class Told:
     values: tuple[Value, ...] = ()
     series: tuple[tuple[str, str, int], ...] = ()  # (run, name, line)
     knobs: tuple[tuple[str, int], ...] = ()
-    places: tuple[tuple[Place, int], ...] = ()  # of beats and links; a link has its run and step alone
+    places: tuple[
+        tuple[Place, int], ...
+    ] = ()  # of beats and links; a link has its run and step alone
 
 
 @dataclass(frozen=True)

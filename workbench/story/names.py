@@ -31,7 +31,9 @@ class Names:
 
     def wrong(self, line: int, what: str) -> AuthorError:
         """Return the error of a line of page.md."""
-        return AuthorError(f"lesson {self.lesson.name}: {place(str(self.lesson.page), line)}: {what}")
+        return AuthorError(
+            f"lesson {self.lesson.name}: {place(str(self.lesson.page), line)}: {what}"
+        )
 
     def run(self, name: str, line: int) -> str:
         """Return the name by which all homes know a run: what has equal params is one."""
@@ -59,7 +61,9 @@ class Names:
         if text == "stop":
             return "stop"
         if not re.fullmatch(r"-?\d{1,6}", text):
-            raise self.wrong(line, f"{written!r} is no step; write a number, start, stop, or -1 for the last one")
+            raise self.wrong(
+                line, f"{written!r} is no step; write a number, start, stop, or -1 for the last one"
+            )
         return int(text)
 
     def moment(self, written: str, line: int) -> tuple[str, StepName | None]:
@@ -91,7 +95,9 @@ class Names:
     def question(self, name: str, line: int) -> Question:
         """Return a question that there is."""
         if name not in self.questions:
-            raise self.wrong(line, f"there is no question {name!r}; {not_among(name, self.questions)}")
+            raise self.wrong(
+                line, f"there is no question {name!r}; {not_among(name, self.questions)}"
+            )
         return self.questions[name]
 
     def role(self, name: str, line: int) -> str:

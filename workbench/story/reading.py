@@ -107,7 +107,9 @@ class _Reader:
             elif part.level == 1:
                 opening = part
             elif part.level == 2:
-                raise self._names.wrong(part.line, f"the scene {part.title!r} has no name; write ## ... {{#name}}")
+                raise self._names.wrong(
+                    part.line, f"the scene {part.title!r} has no name; write ## ... {{#name}}"
+                )
         folded = self._reference(reference) if reference else ""
         return Story(title, tuple(self._scenes), folded, self._starts)
 
@@ -116,9 +118,13 @@ class _Reader:
             if name in given.values:
                 raise self._names.wrong(line, f"{name} is said by the lesson: Lesson({name}=...)")
 
-    def _scene(self, part: Section, name: str, opening: Section | None, *, is_turn: bool = False) -> TextScene:
+    def _scene(
+        self, part: Section, name: str, opening: Section | None, *, is_turn: bool = False
+    ) -> TextScene:
         if name in self._lines:
-            raise self._names.wrong(part.line, f"line {self._lines[name]} has a scene {name!r} already")
+            raise self._names.wrong(
+                part.line, f"line {self._lines[name]} has a scene {name!r} already"
+            )
         self._lines[name] = part.line
         here = self._moved(Place(), part.attributes, part.line)
         scene = _Scene(name, here)
@@ -154,7 +160,9 @@ class _Reader:
 
     def _words(self, scene: _Scene, block: Block, *, lead: bool) -> None:
         if block.text().startswith("{"):
-            raise self._names.wrong(block.line, f"{block.text().splitlines()[0]!r} is not read as attributes")
+            raise self._names.wrong(
+                block.line, f"{block.text().splitlines()[0]!r} is not read as attributes"
+            )
         scene.here = self._moved(scene.here, block.attributes, block.line)
         Words(self._names, scene.name, scene.found).resolve(block, scene.here)
         beat = scene.beat(block.line)
@@ -181,7 +189,9 @@ class _Reader:
         elif "what-if" in block.attributes.classes:
             scene.html.append(what_if(block, self._names, scene.found, scene.beat(block.line)))
         else:
-            raise self._names.wrong(block.line, "a block between ::: is {.ask #question} or {.what-if}")
+            raise self._names.wrong(
+                block.line, "a block between ::: is {.ask #question} or {.what-if}"
+            )
 
     def _ask(self, scene: _Scene, block: Block) -> None:
         given = block.attributes

@@ -135,5 +135,9 @@ def count(block: Block) -> int:
 
 def element(tag: str, attributes: dict[str, object], html: str) -> str:
     """Return an element; attributes that are None or empty are left out."""
-    given = "".join(f' {key}="{escape(str(value))}"' for key, value in attributes.items() if value not in (None, ""))
+    given = "".join(
+        f' {key}="{escape(str(value))}"'
+        for key, value in attributes.items()
+        if value not in (None, "")
+    )
     return f"<{tag}{given}>{html}</{tag}>"

@@ -230,8 +230,7 @@ class Server:
             return PlainTextResponse("no such picture", 404)
         kept, making = self._pictures.get(lesson.name, (None, None))
         if making is None or kept is not lesson:  # made once for all who ask
-            timeline = self.runs.timelines.get(lesson, lesson.params())
-            making = asyncio.create_task(self.runs.keeping.do(thumbnail, lesson, timeline))
+            making = asyncio.create_task(self.runs.keeping.do(thumbnail, lesson, self.runs.timelines))
             self._pictures[lesson.name] = lesson, making
         try:
             picture = await asyncio.shield(making)
