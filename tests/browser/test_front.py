@@ -120,8 +120,7 @@ def test_a_finger_moves_it_and_scrolls_beside_it(front, chromium, server):
     page.wait_for_function("([x, y]) => toy.x < x - 0.1 && toy.y > y + 0.1", arg=[x, y])
     assert page.evaluate("scrollY") == 0
     box = page.locator("#toy svg").bounding_box()
-    beside = {"x": box["x"] + 12, "y": box["y"] + 200, "yDistance": -120, "gestureSourceType": "touch"}
-    session.send("Input.synthesizeScrollGesture", beside)
+    drag((box["x"] + 12, box["y"] + 200), (0, -120))
     page.wait_for_function("scrollY > 40")
     page.close()
 

@@ -33,6 +33,10 @@ const toy = {
     this.start = { x, y, turn: degrees * Math.PI / 180 };
     Object.assign(this, this.start);
     this.svg.addEventListener("pointerdown", (event) => this.took(event));
+    // a finger on orange moves it, and scrolls beside it; touch-action is not heard within an SVG
+    this.svg.addEventListener("touchstart", (event) => {
+      if (this.part(event.target) && event.touches.length === 1) event.preventDefault();
+    }, { passive: false });
     this.svg.addEventListener("pointermove", (event) => this.held && this.dragged(this.at(event)));
     for (const kind of ["pointerup", "pointercancel"])
       this.svg.addEventListener(kind, () => this.held && this.let());
@@ -46,8 +50,10 @@ const toy = {
     return [place.x, -place.y];
   },
 
+  part: (target) => ["ring", "grab"].find((name) => target.classList.contains(name)),
+
   took(event) {
-    const kind = ["ring", "grab"].find((name) => event.target.classList.contains(name));
+    const kind = this.part(event.target);
     if (!kind || event.button) return;
     event.preventDefault();
     this.svg.focus({ preventScroll: true });
