@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from workbench import __version__
 from workbench.errors import InputError, not_among, one_line
@@ -313,6 +313,10 @@ def publish(
     ] = (),
     base_url: Annotated[str | None, Option("The address the site will have.", "URL")] = None,
     force: Annotated[bool, Option("Replace files that publish did not write, or that were changed since.")] = False,
+    recordings: Annotated[
+        Literal["all", "linked", "none"],
+        Option("Of which runs: all, those that a text names, or none.", "all|linked|none"),
+    ] = "linked",
 ) -> None:
     """Write static tutorial pages that play in any browser, without Python."""
     from workbench.progress import bar
@@ -328,7 +332,15 @@ def publish(
             raise InputError(f"{given[one.name]} and {word} are both named {one.name!r}: a site has one of a name")
         given[one.name] = word
     with bar(sys.stderr, "Publishing") as progress:
-        files = publish_site(out, chosen, base_url=base_url, force=force, remove_others=not names, progress=progress)
+        files = publish_site(
+            out,
+            chosen,
+            base_url=base_url,
+            force=force,
+            remove_others=not names,
+            recordings=recordings,
+            progress=progress,
+        )
     sys.stdout.write(sizes_told(out, files, swept_files(chosen)) + "\n")
 
 

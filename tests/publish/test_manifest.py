@@ -154,7 +154,7 @@ def test_a_lesson_that_is_no_more_goes_and_what_others_put_there_stays(out):
 
 def test_a_run_that_is_no_more_goes(out):
     wanted = replace(TINY, presets=(replace_preset(),))
-    site.publish(out, [wanted])
+    site.publish(out, [wanted], recordings="all")
     assert (out / "fake" / "runs" / "fake-half.rrd").exists()
     site.publish(out, [TINY])
     assert sorted(os.listdir(out / "fake" / "runs")) == ["default.html", "default.js", "fake.rrd"]

@@ -25,7 +25,7 @@ SMALL = replace(fake.lesson, presets=fake.lesson.presets[:1])
 @pytest.fixture(scope="module")
 def published(tmp_path_factory):
     out = tmp_path_factory.mktemp("site")
-    files = site.publish(out, [SMALL], base_url="https://example.org/course/")
+    files = site.publish(out, [SMALL], base_url="https://example.org/course/", recordings="all")
     return out, dict(files)
 
 
@@ -95,7 +95,7 @@ SWEPT = replace(
 
 
 def test_a_sweep_is_a_knob_whose_runs_are_shared_with_presets_and_the_default():
-    found = [(run.name, run.file, run.recorded) for run in runs.runs_of(SWEPT)]
+    found = [(run.name, run.file, run.recorded) for run in runs.runs_of(SWEPT, "all")]
     assert found == [
         ("default", "default", True),
         ("half", "half", True),
@@ -130,6 +130,29 @@ def test_runs_of_a_sweep_are_published_without_a_recording(tmp_path):
     }
     assert data_of(tmp_path, "colors.role")["recording"] is None
     assert data_of(tmp_path, "colors.role")["command"] == "workbench show fake.py --colors=role"
+
+
+def test_a_sweep_of_another_run_has_the_params_of_that_run():
+    other = replace(SMALL, sweeps=(Sweep("steps", (2, 3), run="half"),))
+    found = {run.name: run for run in runs.runs_of(other)}
+    half = other.preset("half").params
+    assert found["half/steps:2"].params == replace(half, steps=2)
+    assert found["half/steps:2"].file == "half_steps.2"
+    (dial,) = runs.sweep_data(other)
+    assert (dial["knob"], dial["run"], dial["runs"][-1]) == ("steps", "half", "half")
+
+
+@pytest.mark.parametrize(
+    ("recordings", "found"),
+    [("all", {"default", "half", "far"}), ("linked", {"default", "far"}), ("none", set())],
+)
+def test_recordings_are_of_all_runs_of_those_that_the_text_names_or_of_none(tmp_path, recordings, found):
+    page = tmp_path / "page.md"
+    page.write_text("# A\n\nThe [far](run:far@2) run.\n", encoding="utf-8")
+    half = SMALL.presets[0]
+    far = replace(half, name="far", params=replace(half.params, angle=31.0))
+    lesson = replace(SMALL, page=page, presets=(half, far), questions=())
+    assert {run.name for run in runs.runs_of(lesson, recordings) if run.recorded} == found
 
 
 def test_two_runs_that_would_have_one_file_are_refused(tmp_path, rendered):
@@ -173,12 +196,12 @@ def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered, monk
     pages = []
     original = site.lesson_page
     monkeypatch.setattr(site, "lesson_page", lambda *args: pages.append(args[-1]) or original(*args))
-    site.publish(out, [SMALL])
-    site.publish(out, [SMALL])
+    site.publish(out, [SMALL], recordings="all")
+    site.publish(out, [SMALL], recordings="all")
     assert pages == [""]  # once without the address that it had
     assert rendered == []
     other = replace(SMALL, presets=(replace(SMALL.presets[0], params=fake.Params(angle=170.0)),))
-    site.publish(out, [other])
+    site.publish(out, [other], recordings="all")
     assert rendered == ["fake/half"]
 
 

@@ -9,10 +9,13 @@ from workbench.authoring.promises import ONLY_LIVE, Found, Subject, length_of, o
 from workbench.authors import place
 from workbench.errors import AuthorError, InputError
 from workbench.page.article import LINK, TERM, article_html
+from workbench.story import has_story
 from workbench.typeset import page_of
 
 PARTS = ("Conventions", "Watch", "Predict", "Break it", "Your turn", "Pitfalls", "References")
-"""What a page has, among other parts."""
+"""What a page without a story has, among other parts."""
+STORY_PARTS = ("Your turn", "Conventions", "Pitfalls", "References")
+"""What a page with a story has beside its scenes."""
 WORDS = (350, 1100)
 LEFTOVER = 60
 """Characters of a line that nobody writes by chance as the scaffold has it."""
@@ -26,8 +29,9 @@ def the_page_has_its_parts(subject: Subject) -> Found:
         yield f"{subject.who}: it has no page; page=Path(__file__).with_name('page.md') gives it one"
         return
     text, where = lesson.text(), f"{subject.who}: {lesson.page}"
-    yield length_of(f"{where}: the page", len(text.split()), WORDS, "words")
-    for part in PARTS:
+    tells = has_story(lesson)
+    yield None if tells else length_of(f"{where}: the page", len(text.split()), WORDS, "words")
+    for part in STORY_PARTS if tells else PARTS:
         yield None if part.lower() in text.lower() else f"{where}: the page has no part {part!r}"
     try:
         page_of(text, lesson.page)

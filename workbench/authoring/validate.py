@@ -18,7 +18,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from workbench.authoring import knob_promises, own_data, page_promises, view_promises  # noqa: F401 each adds to OF_LESSONS
+from workbench.authoring import (  # noqa: F401 each adds to OF_LESSONS
+    knob_promises,
+    own_data,
+    page_promises,
+    story_promises,
+    view_promises,
+)
 from workbench.authoring.exercise_promises import OF_EXERCISES
 from workbench.authoring.promises import OF_LESSONS, SECONDS, Found, Subject
 from workbench.authors import described, is_ours, place

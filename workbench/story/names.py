@@ -27,7 +27,9 @@ class Names:
         self.lesson, self.home = lesson, home
         self.fields: Mapping[str, Field] = {field.name: field for field in fields_of(lesson.params)}
         self.questions: Mapping[str, Question] = {one.name: one for one in lesson.questions}
-        self._swept = {sweep.knob for sweep in lesson.sweeps}
+        self._swept = {
+            (sweep.knob, run_name(lesson, lesson.run_params(sweep.run))) for sweep in lesson.sweeps
+        }
 
     def wrong(self, line: int, what: str) -> AuthorError:
         """Return the error of a line of page.md."""
@@ -106,9 +108,9 @@ class Names:
             raise self.wrong(line, f"there is no colour role {name!r}; {not_among(name, PALETTE)}")
         return name
 
-    def can_turn(self, knob: str) -> bool:
-        """Tell whether this home can set a knob: a live one computes, another has the values of its sweep."""
-        return self.home == "live" or knob in self._swept
+    def can_turn(self, knob: str, run: str) -> bool:
+        """Tell whether this home can set a knob of a run: a live one computes, another has the values of its sweep."""
+        return self.home == "live" or (knob, run) in self._swept
 
 
 def run_name(lesson: Lesson, params: Any) -> str:

@@ -21,7 +21,7 @@ class Found:
 
     values: list[Value] = field(default_factory=list)
     series: list[tuple[str, str, int]] = field(default_factory=list)
-    knobs: list[tuple[str, int]] = field(default_factory=list)
+    knobs: list[tuple[str, str, int]] = field(default_factory=list)
     places: list[tuple[Place, int]] = field(default_factory=list)
 
     def told(self) -> Told:
@@ -75,7 +75,7 @@ class Words:
         given = {key: str(value) for key, value in token.attrs.items()}
         roles = given.pop("class", "").split()
         if "knob" in given:
-            return self._knob(token, given["knob"], words, line)
+            return self._knob(token, given["knob"], words, line, here)
         if "steps" in given:
             self._found.series.append((here.run, given["steps"], line))
             token.attrs = {
@@ -90,11 +90,11 @@ class Words:
         token.attrs = {"class": " ".join(self._names.role(role, line) for role in roles)}
         return bool(roles)
 
-    def _knob(self, token: Any, name: str, words: str, line: int) -> bool:
+    def _knob(self, token: Any, name: str, words: str, line: int, here: Place) -> bool:
         self._names.knob(name, line)
-        self._found.knobs.append((name, line))
+        self._found.knobs.append((here.run, name, line))
         token.attrs = {"class": "num", "data-knob": name, "data-unit": unit_in(words)}
-        return self._names.can_turn(name)
+        return self._names.can_turn(name, here.run)
 
     def _value(self, token: Any, given: dict[str, str], words: str, line: int, here: Place) -> None:
         run, step = here.run, here.step

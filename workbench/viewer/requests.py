@@ -34,7 +34,8 @@ class Requests:
         """Note a request; it takes the place of an earlier one of its kind."""
         verb = request["verb"]
         if verb in ANEW and (verb != "run" or request.get("run")):
-            self._waiting = {kind: one for kind, one in self._waiting.items() if kind[0] not in ANEW | MOVES}
+            stale = (ANEW if verb == "open" else ANEW - {"open"}) | MOVES  # a run is one of the lesson that was opened
+            self._waiting = {kind: one for kind, one in self._waiting.items() if kind[0] not in stale}
         kind = verb, str(request.get("question", ""))[:100] if verb == "predict" else ""
         before = self._waiting.pop(kind, None)
         if verb == "change" and before is not None:
