@@ -152,7 +152,7 @@ def test_it_leads_back_to_where_one_was(front):
     assert again.get_attribute("href") == "?lesson=pairs#springs"
     card = page.locator("[data-card=pairs]")
     assert card.locator(".done").inner_text() == "3 of 7 scenes"
-    box, bar = card.locator(".bar i").bounding_box(), card.locator(".bar").bounding_box()
+    box, bar = card.locator(".bar span").bounding_box(), card.locator(".bar").bounding_box()
     assert box["width"] / bar["width"] == pytest.approx(3 / 7, abs=0.01)
     page.evaluate("seen => kept.set('scenes pairs', seen)", {**seen, "seen": list("abcdefg")})
     page.reload()

@@ -109,7 +109,7 @@ def _card(card: Card, titles: dict[str, str]) -> str:
         f'<li data-card="{escape(card.name)}">'
         f'<img src="{escape(card.picture)}" alt="" width="480" height="300" loading="lazy">'
         f'<h3><a href="{escape(card.address)}">{escape(card.title)}</a></h3><p>{escape(card.summary)}</p>'
-        f'<p class="facts">{facts}<span class="done"></span></p><div class="bar" hidden><i></i></div></li>'
+        f'<p class="facts">{facts}<span class="done"></span></p><div class="bar" hidden><span></span></div></li>'
     )
 
 

@@ -29,7 +29,7 @@ const progress = {
       const done = this.of(card.dataset.card), bar = $(".bar", card);
       $(".done", card).textContent = done?.said ?? "";
       bar.hidden = !done?.share;
-      $("i", bar).style.width = `${100 * (done?.share ?? 0)}%`;
+      $("span", bar).style.width = `${100 * (done?.share ?? 0)}%`;
       card.classList.toggle("all", Boolean(done?.all));
     }
     if ($("#again")) this.again();
