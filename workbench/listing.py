@@ -48,8 +48,11 @@ def _head(module: ast.Module) -> Head | None:
             }
             order, name, summary = (given.get(word) for word in ("order", "name", "summary"))
             chapter = given.get("chapter", "")
-            if isinstance(order, int) and all(
-                isinstance(text, str) for text in (name, summary, chapter)
+            if (
+                isinstance(order, int)
+                and isinstance(name, str)
+                and isinstance(summary, str)
+                and isinstance(chapter, str)
             ):
                 return place(chapter, order, name), summary
     return None
