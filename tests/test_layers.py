@@ -19,6 +19,7 @@ DRAWING = BASE | {"workbench.scene", "workbench.knobs"}
 FORM = DRAWING | {"workbench.cached", "workbench.captions", "workbench.form", "workbench.view"}
 RUN = {"timeline", "loading", "questions", "picking", "links", "session"}
 LESSON = FORM | {
+    "workbench.chapters",
     "workbench.lesson",
     "workbench.presets",
     "workbench.moved",
@@ -37,6 +38,7 @@ ALLOWED = {
     "workbench.words": MACHINERY | {"workbench.errors", "workbench.numerals", "workbench.tracing"},
     "workbench.scene": {"workbench.scene", "workbench.numerals"},
     "workbench.knobs": {"workbench.errors"},
+    "workbench.chapters": set(),
     "workbench.geometry": MATHS,
     "workbench.algorithms": MATHS | {"workbench.algorithms"},
     "workbench.data": MATHS | {"workbench.data", "workbench.numerals"},
@@ -46,8 +48,9 @@ ALLOWED = {
     "workbench.form1": FORM,
     "workbench.presets": {"workbench.view"},
     "workbench.view": set(),
+    "workbench.run.listing": {"workbench.lesson", "workbench.chapters"},
     "workbench.moved": set(),
-    "workbench.lesson": FORM | {"workbench.form1", "workbench.presets"},
+    "workbench.lesson": FORM | {"workbench.form1", "workbench.presets", "workbench.chapters"},
     "workbench.run": LESSON,
     "workbench.run.picking": DRAWING,
     "workbench.wire": LESSON | {"workbench.wire"},
@@ -62,6 +65,7 @@ ALLOWED = {
     "workbench.page": (
         LESSON | {"workbench.page", "workbench.story", "workbench.words", "workbench.numerals"}
     ),
+    "workbench.page.toy": {"workbench.data.rabbit_outline"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
     "workbench.publish": (
         LESSON

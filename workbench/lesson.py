@@ -12,7 +12,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar
 
-from workbench import form1
+from workbench import chapters, form1
 from workbench.cached import cached
 from workbench.captions import say
 from workbench.errors import AuthorError, InputError, LeftOutWarning, not_among
@@ -41,6 +41,7 @@ __all__ = [
     "find",
     "knob",
     "lesson_in",
+    "place_of",
     "say",
 ]
 
@@ -67,7 +68,10 @@ class Lesson(Generic[P, S]):
         draw: What one step looks like.
         slots: The names of these functions, where `run` passes on `**slots` and does not name them
             itself.
-        order: The place in the course.
+        order: The place in its chapter.
+        chapter: The chapter of the course that it belongs to: Move, Estimate, See, Measure, Connect
+            or Learn. Without one it stands behind them all.
+        minutes: How long it takes to go through.
         view: How the scene is first seen.
         views: Cameras of a story, by name.
         view_for: How runs of some params are first seen, where the presets' cameras do not say it;
@@ -92,6 +96,8 @@ class Lesson(Generic[P, S]):
     setup: Callable[[P], Any] | None = None
     slots: tuple[str, ...] = ()
     order: int
+    chapter: str = ""
+    minutes: int = chapters.MINUTES
     view: View = field(default_factory=View)
     views: Mapping[str, View] = field(default_factory=dict)
     view_for: Callable[[P], View | None] | None = None
@@ -117,6 +123,10 @@ class Lesson(Generic[P, S]):
         if self.page is not None and not isinstance(self.page, Path):
             finds = "Path(__file__).with_name(...) finds it beside the lesson"
             yield f": page is a Path, not {self.page!r}: {finds}"
+        if self.chapter not in ("", *chapters.NAMES):
+            yield f": chapter is one of {', '.join(chapters.NAMES)}, not {self.chapter!r}"
+        if not isinstance(self.minutes, int) or self.minutes < 1:
+            yield f": minutes is a whole number of minutes, not {self.minutes!r}"
         if self.setup is None:
             yield from form1.mistakes(self.run, self.draw)
         else:
@@ -277,11 +287,13 @@ def catalog() -> Mapping[str, Lesson]:
     return _in_order(found.values())
 
 
+def place_of(lesson: Lesson) -> tuple[int, float, str]:
+    """Return what lessons are sorted by in the course: chapter, place in it, name."""
+    return chapters.place(lesson.chapter, lesson.order, lesson.name)
+
+
 def _in_order(lessons: Iterable[Lesson]) -> Mapping[str, Lesson]:
-    return {
-        lesson.name: lesson
-        for lesson in sorted(lessons, key=lambda lesson: (lesson.order, lesson.name))
-    }
+    return {lesson.name: lesson for lesson in sorted(lessons, key=place_of)}
 
 
 def find(name: str) -> Lesson:

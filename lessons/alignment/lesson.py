@@ -24,12 +24,15 @@ def run(
 lesson = Lesson(
     name="alignment",
     title="Principal axes",
-    summary="A cloud carries a frame of its own, but its axes have no signs.",
+    summary="A cloud of points has axes of its own, but nothing says which end of an axis is its "
+    "front.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=800,
+    order=500,
+    chapter="Estimate",
+    minutes=15,
     needs=("icp",),
     view=VIEW,
     presets=PRESETS,

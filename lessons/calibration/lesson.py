@@ -118,16 +118,16 @@ def endings(state: State, corner: float | None) -> Iterator[State]:
 lesson = Lesson(
     name="calibration",
     title="Calibration",
-    summary=(
-        "A camera from pictures of a board: two equations a view, one refinement of all, and an"
-        " honest ± of f."
-    ),
+    summary="Photographs of a chessboard tell what a camera's lens does. See how sure of it you "
+    "can be.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1500,
-    needs=("pinhole",),
+    order=900,
+    chapter="See",
+    minutes=25,
+    needs=("pinhole", "fitting"),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -64,16 +64,16 @@ def side_by_side(lefts: Iterator[Flow], rights: Iterator[Flow]) -> Iterator[tupl
 lesson = Lesson(
     name="chamfer_emd",
     title="Chamfer and earth mover's",
-    summary=(
-        "When are two shapes close? One cloud flows down two distances: see where each of them"
-        " leads it."
-    ),
+    summary="Two ways to say how far one cloud of points is from another: partners may be "
+    "shared, or they may not.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=600,
-    needs=("icp",),
+    order=1800,
+    chapter="Measure",
+    minutes=25,
+    needs=("distances",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

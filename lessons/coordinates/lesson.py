@@ -97,16 +97,16 @@ def moments(scale: float) -> np.ndarray:
 lesson = Lesson(
     name="coordinates",
     title="Coordinates and their poles",
-    summary=(
-        "Coordinates name points, and every system has places where names fail. One number more"
-        " names infinity."
-    ),
+    summary="Every system of coordinates breaks down somewhere. Walk to these places, and see "
+    "what one more number adds.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1000,
-    needs=("pinhole",),
+    order=200,
+    chapter="Move",
+    minutes=20,
+    needs=("transforms",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -98,14 +98,16 @@ def with_mistake(
 lesson = Lesson(
     name="curvature",
     title="Curvature of a mesh",
-    summary=(
-        "Angles that miss a full turn, a normal made of cotangents, and a sum that counts holes."
-    ),
+    summary="On flat paper the angles around a point add up to 360°. On a curved surface they "
+    "may not.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=500,
+    order=1600,
+    chapter="Measure",
+    minutes=25,
+    needs=("measures",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -139,16 +139,16 @@ def _mean_lowest(now: Matching) -> float:
 lesson = Lesson(
     name="disparity",
     title="Disparity and depth",
-    summary=(
-        "Shift one picture over the other until it fits: two eyes measure depth, and know where"
-        " they cannot."
-    ),
+    summary="Shift one picture over the other until they agree. How far each pixel moved tells "
+    "how far away it is.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=700,
-    needs=("pinhole",),
+    order=1300,
+    chapter="See",
+    minutes=20,
+    needs=("epipolar",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -40,16 +40,15 @@ def run(
 lesson = Lesson(
     name="distances",
     title="Distances",
-    summary=(
-        "What is near, by which distance and along what: a claim, and how far off it is can be"
-        " measured."
-    ),
+    summary="Which point is the nearest depends on how you measure, and on the ground you have "
+    "to cross.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1200,
-    needs=("graphs",),
+    order=1700,
+    chapter="Measure",
+    minutes=20,
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

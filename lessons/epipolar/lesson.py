@@ -133,15 +133,15 @@ def views_of(params: Params) -> TwoViews:
 lesson = Lesson(
     name="epipolar",
     title="Epipolar geometry",
-    summary=(
-        "A pixel of one picture is a line of the other, and eight such pairs hold the motion"
-        " between two cameras."
-    ),
+    summary="A point in one picture lies on a known line in the other. Eight pairs of points "
+    "tell how the camera moved.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1600,
+    order=1200,
+    chapter="See",
+    minutes=25,
     needs=("pinhole", "ransac"),
     view=VIEW,
     presets=PRESETS,

@@ -40,15 +40,14 @@ def run(
 lesson = Lesson(
     name="features",
     title="Features and descriptors",
-    summary=(
-        "Find the same place twice: descriptors that do not change with a motion vote for one, from"
-        " any start."
-    ),
+    summary="Describe a place by its surroundings, and find it again in another scan or picture.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1800,
+    order=1100,
+    chapter="See",
+    minutes=25,
     needs=("icp", "ransac"),
     view=VIEW,
     presets=PRESETS,

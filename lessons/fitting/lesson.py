@@ -59,15 +59,16 @@ def run(
 lesson = Lesson(
     name="fitting",
     title="Fitting",
-    summary=(
-        "Walk down the sum of squares: which distance, from where, and how far a point may pull."
-    ),
+    summary="Find the circle or the plane that suits noisy points best, and see how hard one far "
+    "point pulls at it.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1400,
-    needs=("ransac",),
+    order=600,
+    chapter="Estimate",
+    minutes=25,
+    needs=("pairs",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

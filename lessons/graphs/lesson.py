@@ -47,15 +47,16 @@ def run(
 lesson = Lesson(
     name="graphs",
     title="Graphs and their spectra",
-    summary=(
-        "Neighbours become a matrix, and its slow eigenvectors cut and smooth; a graph network is"
-        " one such step."
-    ),
+    summary="Join neighbouring points and write the edges into a matrix. It finds thin places "
+    "and smooths noise.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1100,
+    order=1900,
+    chapter="Connect",
+    minutes=25,
+    needs=("distances",),
     view=VIEW,
     view_for=lambda params: BALL if params.mesh or params.cloud else None,
     presets=PRESETS,

@@ -56,17 +56,17 @@ def draw(look: Look) -> Scene:
 lesson = Lesson(
     name="icp",
     title="Iterative closest point",
-    summary=(
-        "Two scans find each other by matching nearest points, moving, and matching again, or they"
-        " settle in a convincing wrong place."
-    ),
+    summary="Two scans find each other: match, move, match again. Sometimes they settle in the "
+    "wrong place.",
     page=Path(__file__).with_name("page.md"),
     params=Input,
     setup=setup,
     run=run,
     draw=draw,
-    order=300,
-    needs=("transforms", "pairs"),
+    order=400,
+    chapter="Estimate",
+    minutes=20,
+    needs=("pairs",),
     view=VIEW,
     views=VIEWS,
     presets=PRESETS,

@@ -40,12 +40,15 @@ def run(
 lesson = Lesson(
     name="learning",
     title="Learning geometry",
-    summary="When geometry is the loss: what a network cannot say, and what its loss does not see.",
+    summary="Train small networks on shapes. See what their output cannot say and what their "
+    "loss does not notice.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1900,
+    order=2000,
+    chapter="Learn",
+    minutes=25,
     needs=("transforms", "chamfer_emd"),
     view=VIEW,
     presets=PRESETS,

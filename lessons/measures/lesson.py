@@ -130,14 +130,15 @@ def _ball(subject: Subject) -> tuple[np.ndarray, float]:
 lesson = Lesson(
     name="measures",
     title="Area and volume",
-    summary=(
-        "Sums over faces, over cells, over throws of dice: each has an error with a law of its own."
-    ),
+    summary="Add up faces, cells or random throws to get an area or a volume, and see how large "
+    "the error of each sum is.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1300,
+    order=1500,
+    chapter="Measure",
+    minutes=20,
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -67,13 +67,18 @@ def draw(look: Look) -> Scene:
 lesson = Lesson(
     name="pairs",
     title="Pairs and rubber bands",
-    summary="If every point knows its partner, the best motion is computed, not searched for.",
+    summary=(
+        "When every point knows its partner, the best motion can be computed. Nothing has to "
+        "be searched for."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Input,
     setup=setup,
     run=run,
     draw=draw,
-    order=250,
+    order=300,
+    chapter="Estimate",
+    minutes=15,
     needs=("transforms",),
     view=VIEW,
     views=VIEWS,

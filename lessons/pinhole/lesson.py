@@ -77,14 +77,15 @@ def compare(shot: Shot, now: pinhole.State) -> tuple[float, int, int, int]:
 lesson = Lesson(
     name="pinhole",
     title="The pinhole camera",
-    summary=(
-        "From world point to pixel in five steps, and what each step's classic mistake looks like."
-    ),
+    summary="Five steps take a point of the world to a pixel. Each step has its own typical "
+    "mistake.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=200,
+    order=800,
+    chapter="See",
+    minutes=20,
     needs=("transforms",),
     view=VIEW,
     presets=PRESETS,

@@ -114,15 +114,15 @@ def sampled(params: Params, subject: Subject) -> Iterator[Sampled]:
 lesson = Lesson(
     name="pose",
     title="Pose from points",
-    summary=(
-        "Three known points leave up to four places for the camera, one more chooses, and all"
-        " together average."
-    ),
+    summary="Three known points in a picture leave up to four places for the camera. Find the "
+    "one where it stood.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1700,
+    order=1000,
+    chapter="See",
+    minutes=25,
     needs=("pinhole", "ransac"),
     view=VIEW,
     view_for=lambda params: LOOKS["box" if params.sightings else params.target].view,

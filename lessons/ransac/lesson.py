@@ -197,14 +197,16 @@ lesson = Lesson(
     name="ransac",
     title="RANSAC",
     summary=(
-        "Guess from few points, count who agrees, keep the best: fits that outliers cannot drag"
-        " off."
+        "Guess a shape from a few points, count how many others agree, and keep the best guess."
     ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=400,
+    order=700,
+    chapter="Estimate",
+    minutes=20,
+    needs=("fitting",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

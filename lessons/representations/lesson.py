@@ -51,15 +51,15 @@ def run(
 lesson = Lesson(
     name="representations",
     title="One object, many forms",
-    summary=(
-        "Points, triangles, bits, distances, patches, a network: each answers one question at once"
-        " and pays elsewhere."
-    ),
+    summary="Points, triangles, voxels, a network: each way to store an object answers some "
+    "questions at once.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=900,
+    order=1400,
+    chapter="Measure",
+    minutes=25,
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -73,13 +73,11 @@ def _build(
             by_all=changes(body.measures, after),
             trail=trail,
             complete=complete,
-            ghosts=(
-                undo_ghosts_of(params, body, now.T_world_body, A)
-                if undone
-                else ghosts
-                if complete
-                else ()
-            ),
+            ghosts=undo_ghosts_of(params, body, now.T_world_body, A)
+            if undone
+            else ghosts
+            if complete
+            else (),
             left=float(np.linalg.norm(p_now - p_shaped, axis=1).max()) if undone else float("nan"),
         )
         before = after
@@ -171,15 +169,15 @@ def _gone(way: Way, now: between.State, before: between.State, p_point: np.ndarr
 lesson = Lesson(
     name="transforms",
     title="Transforms",
-    summary=(
-        "The same motion, many numbers: build a 4×4 matrix factor by factor, and blend two poses in"
-        " five ways."
-    ),
+    summary="A 4×4 matrix turns, moves and stretches a body. Build one factor by factor, then go "
+    "from one pose to another.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
     order=100,
+    chapter="Move",
+    minutes=20,
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

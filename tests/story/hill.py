@@ -100,6 +100,8 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=1,
+    chapter="Move",
+    minutes=5,
     view=View(eye=(0.3, -6.0, 2.0), target=(0.0, 0.0, 0.8)),
     views={
         "front": View(eye=(0.0, -5.0, 0.8), target=(0.0, 0.0, 0.8)),

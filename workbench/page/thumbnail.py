@@ -4,12 +4,14 @@ images, seen by a View.
 
 import io
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from PIL import Image, ImageDraw
 
+from workbench.errors import AuthorError
 from workbench.lesson import Lesson, View
-from workbench.run.timeline import Timeline
+from workbench.run.timeline import Timeline, Timelines
 from workbench.scene import (
     PALETTE,
     Axes,
@@ -22,22 +24,46 @@ from workbench.scene import (
     color_rows,
     in_space,
 )
+from workbench.story import story_of
+from workbench.story.names import views_of
 
-SIZE = 320, 200
-FINER = 3  # drawn so many times as large, then made smaller: its edges are smooth
+SIZE = 480, 300
+FINER = 2  # drawn so many times as large, then made smaller: its edges are smooth
+
+THICK = 1.8  # pixels of the sheet to a width of 1
 
 
-def thumbnail(lesson: Lesson, timeline: Timeline | None = None) -> bytes:
-    """Return a picture of a lesson's default run, WebP, transparent where nothing is.
+def thumbnail(lesson: Lesson, timelines: Timelines | None = None) -> bytes:
+    """Return a picture of a lesson, WebP, transparent where nothing is: where its story begins,
+    else of its default run.
 
     Args:
         lesson: Of what.
-        timeline: Its default run, where it is known already; computed to where the picture is
-            taken.
+        timelines: Where runs are kept; computed anew without.
     """
-    timeline = timeline or Timeline(lesson, lesson.params())
-    step = telling_step(lesson, timeline.complete())
-    return picture_of(timeline[step].scene, lesson.view)
+    timelines = timelines or Timelines()
+    begun = _story_begins(lesson)
+    params, step, view = (lesson.params(), None, lesson.view) if begun is None else begun
+    timeline = timelines.get(lesson, params).complete()
+    k = telling_step(lesson, timeline) if step is None else step
+    return picture_of(timeline[min(k, len(timeline) - 1)].scene, view)
+
+
+def _story_begins(lesson: Lesson) -> tuple[Any, int | None, View] | None:
+    """Return params, step and camera of what a story's first words stand beside; None without
+    one.
+    """
+    try:
+        story = story_of(lesson, "live")
+    except AuthorError:  # told on its page
+        return None
+    if story is None or not story.scenes:
+        return None
+    place = story.scenes[0].beats[0]
+    named = [*lesson.presets, *lesson.questions]
+    params = next((one.params for one in named if one.name == place.run), lesson.params())
+    step = -1 if place.step == "stop" else int(place.step)
+    return params, step, views_of(lesson).get(place.view) or lesson.view_of(params)
 
 
 def telling_step(lesson: Lesson, timeline: Timeline) -> int:
@@ -56,9 +82,8 @@ def telling_step(lesson: Lesson, timeline: Timeline) -> int:
 def picture_of(scene: Scene, view: View, size: tuple[int, int] = SIZE) -> bytes:
     """Return a scene as a WebP image with a transparent ground."""
     file = io.BytesIO()
-    drawn(scene, view, size).save(
-        file, "WEBP", quality=82
-    )  # what method 6 saves, 3 %, takes a hundred times as long
+    # what method 6 saves, 3 %, takes a hundred times as long
+    drawn(scene, view, size).save(file, "WEBP", quality=80, alpha_quality=60)
     return file.getvalue()
 
 
@@ -182,9 +207,7 @@ def _lines(
             place, c = tuple(map(tuple, pair)), tuple(int(value) for value in color)
             yield (
                 z,
-                lambda place=place, c=c: pen.draw.line(
-                    place, fill=c, width=round(0.6 * FINER * width)
-                ),
+                lambda place=place, c=c: pen.draw.line(place, fill=c, width=round(THICK * width)),
             )
 
 

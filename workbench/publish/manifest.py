@@ -16,6 +16,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from workbench.chapters import MINUTES, NAMES
 from workbench.errors import InputError
 from workbench.machinery.atomic import remove_leftovers, write_atomic
 
@@ -40,6 +41,8 @@ class Listed:
     summary: str
     order: float
     needs: tuple[str, ...] = ()
+    chapter: str = ""
+    minutes: int = MINUTES
 
 
 class Manifest:
@@ -174,8 +177,18 @@ def _texts(value: Any) -> list[str]:
     return texts
 
 
-def _listed(*, title: str, summary: str, order: float, needs: Iterable[str] = ()) -> Listed:
+def _listed(
+    *,
+    title: str,
+    summary: str,
+    order: float,
+    needs: Iterable[str] = (),
+    chapter: str = "",
+    minutes: int = MINUTES,
+) -> Listed:
     _texts([title, summary])
     if not all(map(NAME.fullmatch, needs)) or not abs(order) < 1e9:
         raise ValueError("no lesson")
-    return Listed(title, summary, order, tuple(needs))
+    if chapter not in ("", *NAMES) or not isinstance(minutes, int) or not 0 < minutes < 1e4:
+        raise ValueError("no lesson")
+    return Listed(title, summary, order, tuple(needs), chapter, minutes)

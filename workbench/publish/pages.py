@@ -33,6 +33,8 @@ def course_page(lessons: Mapping[str, Listed], head: str = "") -> str:
                 title=one.title,
                 summary=one.summary,
                 needs=one.needs,
+                chapter=one.chapter,
+                minutes=one.minutes,
                 address=f"{name}/index.html",
                 picture=f"{name}/picture.webp",
             )

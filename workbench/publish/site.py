@@ -9,11 +9,13 @@ from urllib.parse import unquote, urlsplit
 
 import viser
 
+from workbench.chapters import place
 from workbench.errors import InputError
 from workbench.lesson import Lesson
 from workbench.machinery.progress import Progress
 from workbench.machinery.version import __version__
 from workbench.moved import runs_led_on
+from workbench.page.course import FRONT_FILES
 from workbench.page.document import (
     FONTS,
     MATH,
@@ -152,7 +154,8 @@ def _publish(
         )
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson, recordings)]
     shared = {
-        f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STYLES, *RECORDED, *SCRIPTS)
+        f"{PAGE}/{name}": bare(STATIC / name).encode()
+        for name in (*STYLES, *FRONT_FILES, *RECORDED, *SCRIPTS)
     }
     shared |= {
         f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STORY_STYLES, *STORY_SCRIPTS)
@@ -175,10 +178,14 @@ def _publish(
     for lesson in lessons:
         _write_page(manifest, lesson, timelines, address=canonical(base_url, f"{lesson.name}/"))
     listed = others | {
-        lesson.name: Listed(lesson.title, lesson.summary, lesson.order, lesson.needs)
+        lesson.name: Listed(
+            lesson.title, lesson.summary, lesson.order, lesson.needs, lesson.chapter, lesson.minutes
+        )
         for lesson in lessons
     }
-    manifest.lessons = dict(sorted(listed.items(), key=lambda item: (item[1].order, item[0])))
+    manifest.lessons = dict(
+        sorted(listed.items(), key=lambda item: place(item[1].chapter, item[1].order, item[0]))
+    )
     course = {
         COURSE_PAGE: course_page(manifest.lessons, canonical(base_url, "")),
         LESSONS: lessons_script(manifest.lessons),
@@ -246,7 +253,7 @@ def _write_page(manifest: Manifest, lesson: Lesson, timelines: Timelines, *, add
     known = recorded(
         lesson, runs_of(lesson)[0], root="../", runs="runs/", answers=answers(lesson, timelines)
     )
-    picture = thumbnail(lesson, timelines.get(lesson, lesson.params()))
+    picture = thumbnail(lesson, timelines)
     manifest.runs.pop(key, None)
     manifest.write(
         dict(zip(names, (lesson_page(lesson, known, address).encode(), picture), strict=True))

@@ -7,20 +7,25 @@ from importlib.machinery import PathFinder
 from importlib.metadata import entry_points
 from pathlib import Path
 
+from workbench.chapters import place
+
+Head = tuple[tuple[int, float, str], str]
+"""A lesson's place in the course, and its summary."""
+
 
 def listed() -> str:
     """Return a line per lesson in course order: its name and its summary."""
     heads = _heads()
     if heads is None:
-        from workbench.lesson import catalog
+        from workbench.lesson import catalog, place_of
 
-        heads = [(lesson.order, lesson.name, lesson.summary) for lesson in catalog().values()]
-    width = max((len(name) for _, name, _ in heads), default=0)
-    return "".join(f"{name:<{width}}  {summary}\n" for _, name, summary in sorted(heads))
+        heads = [(place_of(lesson), lesson.summary) for lesson in catalog().values()]
+    width = max((len(name) for (*_, name), _ in heads), default=0)
+    return "".join(f"{name:<{width}}  {summary}\n" for (*_, name), summary in sorted(heads))
 
 
-def _heads() -> list[tuple[int, str, str]] | None:
-    """Return (order, name, summary) of all lessons, None where that cannot be told without running
+def _heads() -> list[Head] | None:
+    """Return place and summary of all lessons, None where that cannot be told without running
     their code.
     """
     package = PathFinder.find_spec("lessons")
@@ -36,7 +41,7 @@ def _heads() -> list[tuple[int, str, str]] | None:
     return heads
 
 
-def _head(module: ast.Module) -> tuple[int, str, str] | None:
+def _head(module: ast.Module) -> Head | None:
     for statement in module.body:
         value = statement.value if isinstance(statement, ast.Assign | ast.AnnAssign) else None
         if isinstance(value, ast.Call) and getattr(value.func, "id", "") == "Lesson":
@@ -46,6 +51,12 @@ def _head(module: ast.Module) -> tuple[int, str, str] | None:
                 if isinstance(word.value, ast.Constant)
             }
             order, name, summary = (given.get(word) for word in ("order", "name", "summary"))
-            if isinstance(order, int) and isinstance(name, str) and isinstance(summary, str):
-                return order, name, summary
+            chapter = given.get("chapter", "")
+            if (
+                isinstance(order, int)
+                and isinstance(name, str)
+                and isinstance(summary, str)
+                and isinstance(chapter, str)
+            ):
+                return place(chapter, order, name), summary
     return None

@@ -18,8 +18,8 @@ def story_data(lesson: Lesson, story: Story) -> dict[str, Any]:
     presets = {one.name for one in lesson.presets if one.view is not None}
     return {
         "title": story.title,
-        "chapter": story.chapter,
-        "minutes": story.minutes,
+        "chapter": lesson.chapter,
+        "minutes": lesson.minutes,
         "scenes": [
             {
                 "name": scene.name,

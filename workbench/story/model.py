@@ -108,16 +108,12 @@ class Story:
 
     Args:
         title: The lesson's title.
-        chapter: The course's chapter; empty where page.md names none.
-        minutes: How long it takes.
         scenes: What is told, in order.
         reference: What stands folded behind it, as HTML.
         starts: Where each question is asked, with the place where its answer is seen.
     """
 
     title: str
-    chapter: str
-    minutes: int
     scenes: tuple[TextScene, ...]
     reference: str
     starts: Mapping[str, tuple[Place, StepName]]

@@ -21,8 +21,6 @@ from workbench.story.names import Names
 from workbench.story.words import Found, Words, count, element
 from workbench.words.typeset import inline_html, typesetting
 
-MINUTES = 20
-"""How long a story takes where page.md does not say it."""
 BEAT_TAGS = {
     "paragraph_open": "p",
     "bullet_list_open": "ul",
@@ -107,15 +105,14 @@ class _Reader:
 
     def read(self, parts: list[Section]) -> Story:
         """Return the story of a page's sections."""
-        title, chapter, minutes = self._names.lesson.title, "", MINUTES
+        title = self._names.lesson.title
         opening: Section | None = None
         reference: list[Section] = []
         for part in parts:
             given = part.attributes
             if part.level == 1:
                 title = _plain(part.title)
-                chapter = given.values.get("chapter", "")
-                minutes = self._minutes(given.values.get("minutes"), part.line)
+                self._no_fields(given, part.line)
             if reference or "reference" in given.classes:
                 reference.append(part)
             elif "turn" in given.classes:
@@ -130,12 +127,12 @@ class _Reader:
                     part.line, f"the scene {part.title!r} has no name; write ## ... {{#name}}"
                 )
         folded = self._reference(reference) if reference else ""
-        return Story(title, chapter, minutes, tuple(self._scenes), folded, self._starts)
+        return Story(title, tuple(self._scenes), folded, self._starts)
 
-    def _minutes(self, written: str | None, line: int) -> int:
-        if written is not None and not written.isdigit():
-            raise self._names.wrong(line, f"minutes={written} is no whole number")
-        return MINUTES if written is None else int(written)
+    def _no_fields(self, given: Attributes, line: int) -> None:
+        for name in ("chapter", "minutes"):
+            if name in given.values:
+                raise self._names.wrong(line, f"{name} is said by the lesson: Lesson({name}=...)")
 
     def _scene(
         self, part: Section, name: str, opening: Section | None, *, is_turn: bool = False

@@ -8,7 +8,7 @@ from html import escape
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
 from workbench.exercise.watching import Watched
-from workbench.lesson import Lesson
+from workbench.lesson import Lesson, place_of
 from workbench.machinery.authors import Blaming
 from workbench.page.article import PLACE, article_html
 from workbench.page.course import Card, course_document
@@ -29,6 +29,8 @@ def course_page(lessons: Mapping[str, Lesson], trouble: str | None = None) -> st
             title=lesson.title,
             summary=lesson.summary,
             needs=lesson.needs,
+            chapter=lesson.chapter,
+            minutes=lesson.minutes,
             address=address(lesson, "", None),
             picture=f"picture/{lesson.name}",
         )
@@ -110,7 +112,7 @@ def _story(lesson: Lesson) -> tuple[Story | None, str]:
 
 def in_order(lessons: Mapping[str, Lesson]) -> list[Lesson]:
     """Return lessons in course order."""
-    return sorted(lessons.values(), key=lambda lesson: (lesson.order, lesson.name))
+    return sorted(lessons.values(), key=place_of)
 
 
 def address(lesson: Lesson, run: str, step: int | None) -> str:

@@ -27,6 +27,7 @@ from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, catalog
 from workbench.machinery.hosts import listening
 from workbench.page.code import source_html
+from workbench.page.course import FRONT_FILES
 from workbench.page.document import LIVE, SCRIPTS, STATIC, STORY_FILES, STYLES, THIRD_PARTIES
 from workbench.page.thumbnail import thumbnail
 from workbench.run import links
@@ -42,7 +43,7 @@ from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
 from workbench.words.typeset import math_font_css
 
-FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, THIRD_PARTIES)
+FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, *FRONT_FILES, THIRD_PARTIES)
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200
@@ -248,8 +249,9 @@ class Server:
             return PlainTextResponse("no such picture", 404)
         kept, making = self._pictures.get(lesson.name, (None, None))
         if making is None or kept is not lesson:  # made once for all who ask
-            timeline = self.runs.timelines.get(lesson, lesson.params())
-            making = asyncio.create_task(self.runs.keeping.do(thumbnail, lesson, timeline))
+            making = asyncio.create_task(
+                self.runs.keeping.do(thumbnail, lesson, self.runs.timelines)
+            )
             self._pictures[lesson.name] = lesson, making
         try:
             picture = await asyncio.shield(making)

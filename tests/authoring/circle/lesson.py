@@ -123,6 +123,8 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=900,
+    chapter="Estimate",
+    minutes=5,
     view=View(eye=(0.4, 0.3, 4.5), target=(0.4, 0.3, 0.0)),
     presets=PRESETS,
     questions=QUESTIONS,

@@ -61,6 +61,8 @@ lesson = Lesson(
     run=run,
     draw=draw,
     order=900,
+    chapter="Estimate",
+    minutes=6,
     view=View(eye=(0.9, -1.1, 0.9), target=TARGET),
     views={"wide": View(eye=(1.9, -1.8, 1.5), target=(0.5, 0.0, 0.4))},
     presets=PRESETS,
