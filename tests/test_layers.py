@@ -83,6 +83,7 @@ ALLOWED = {
         LESSON
         | {
             "workbench.viewer",
+            "workbench.story",
             "workbench.page",
             "workbench.wire",
             "workbench.words",

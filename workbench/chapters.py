@@ -56,6 +56,6 @@ def place(chapter: str, order: float, name: str) -> tuple[int, float, str]:
         ...         place("Move", 100, "transforms"),
         ...     ]
         ... )
-        [(0, 100, 'transforms'), (2, 800, 'pinhole'), (6, 1, 'theirs')]
+        [(0, 1, 'turns'), (2, 800, 'pinhole'), (6, 1, 'theirs')]
     """
     return [*CHAPTERS, MORE].index(chapter_of(chapter)), order, name

@@ -112,10 +112,11 @@ def _card(card: Card, titles: dict[str, str]) -> str:
     facts = f"{card.minutes} min" + (f" · after {escape(', '.join(before))}" if before else "")
     return (
         f'<li data-card="{escape(card.name)}"><img src="{escape(card.picture)}" alt="" width="480"'
-        ' height="300" loading="lazy"><h3><a'
-        f' href="{escape(card.address)}">{escape(card.title)}</a></h3><p>{escape(card.summary)}</p><p'
-        f' class="facts">{facts}<span class="done"></span></p><div class="bar"'
-        " hidden><span></span></div></li>"
+        ' height="300" loading="lazy">'
+        f'<h3><a href="{escape(card.address)}">{escape(card.title)}</a></h3>'
+        f"<p>{escape(card.summary)}</p>"
+        f'<p class="facts">{facts}<span class="done"></span></p>'
+        '<div class="bar" hidden><span></span></div></li>'
     )
 
 
