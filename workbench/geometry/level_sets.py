@@ -1,5 +1,4 @@
-"""Where a field on a grid has a value: lines in the plane, and in space the surface where it is
-zero, by marching cubes with the places on the grid's edges made by a function.
+"""Where a field on a grid has a value: lines in the plane, and the surface where it is zero.
 
 Reference: Lorensen and Cline, Marching cubes, SIGGRAPH 1987. Lewiner et al., Efficient
 implementation of marching cubes' cases with topological guarantees, JGT 8(2), 2003.
@@ -25,11 +24,7 @@ def edge_crossings(
 ) -> Float[np.ndarray, "n 3"]:
     """Return where a field that is linear along each edge is zero, m.
 
-    Args:
-        p_a: One end of each edge, m.
-        p_b: The other end, m.
-        f_a: The field at `p_a`.
-        f_b: The field at `p_b`, of the other sign; where both are zero the middle is returned.
+    `f_a` and `f_b` have different signs; where both are zero the middle is returned.
 
     Examples:
         >>> edge_crossings(
@@ -52,12 +47,7 @@ def level_lines(
 
     Args:
         values: The field at the points of a grid, a row for each y.
-        levels: The values.
         low: x and y of the first point, m.
-        spacing: From point to point, m.
-
-    Returns:
-        Both ends of each segment; none where the field has no such value.
 
     Examples:
         >>> level_lines(
@@ -74,22 +64,15 @@ def level_lines(
 def level_surface(
     values: Float[np.ndarray, "x y z"], grid: Grid, edge_crossings: EdgeCrossings = edge_crossings
 ) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Return the surface where a field is zero, its faces counterclockwise seen from where the
-    field is positive.
+    """Return the surface where a field is zero, its faces outwards: towards positive values.
+
+    Both arrays are empty where the field has one sign or the grid is one cell thin. A vertex that
+    marching cubes puts inside a cell, to keep ambiguous cells watertight, stays there.
 
     Args:
         values: The field at the middles of the cells.
-        grid: The cells, metres.
         edge_crossings: Places the vertices: asked once for all edges between middles of different
             sign.
-
-    Returns:
-        Vertices, m, and faces; both empty where the field has one sign or the grid is one cell
-        thin.
-
-    Note:
-        A vertex that marching cubes puts inside a cell, to keep ambiguous cells watertight, stays
-        where it put it.
     """
     if min(values.shape) < 2 or not values.min() < 0 <= values.max():
         return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)

@@ -1,5 +1,4 @@
-"""Fast point feature histograms: how the normals around a point turn, as 33 numbers that no rigid
-motion changes.
+"""Fast point feature histograms: how the normals around a point turn, as 33 numbers.
 
 Reference: Rusu, Blodow and Beetz, Fast Point Feature Histograms (FPFH) for 3D Registration, ICRA
 2009, sections II and III.
@@ -25,25 +24,12 @@ def pair_angles(
     p_j: Float[np.ndarray, "k 3"],
     n_j: Float[np.ndarray, "k 3"],
 ) -> Float[np.ndarray, "k 3"]:
-    """Return of each pair of points with normals how the second normal turns against a frame at the
-    first point.
+    """Return of each pair how the second normal turns against a frame at the first point.
 
-    Source is the point whose normal is nearer to the line between the two, so that their order does
-    not count. With its normal u, the unit line d from it to the other point, v = (d x u) / |d x u|
+    Source is the point whose normal is nearer to the line between the two, the first where both are
+    as near. With its normal u, the unit line d from it to the other point, v = (d x u) / |d x u|
     and w = u x v, and the other's normal n, a row holds theta = atan2(w n, u n), alpha = v n and
-    phi = u d.
-
-    Args:
-        p_i: The first points, metres.
-        n_i: Their unit normals.
-        p_j: The second points.
-        n_j: Their unit normals.
-
-    Returns:
-        Rows (theta in radians, alpha, phi). Where both normals are as near to the line, the first
-        point is the source. All three are 0 where the line runs along the source's normal, or the
-        points coincide: no frame is there.
-
+    phi = u d. All are 0 where the line runs along u, or the points coincide.
     Reference: Rusu, Blodow and Beetz 2009, eq. 1 and 2.
 
     Examples:
@@ -80,24 +66,16 @@ def fpfh(
     radius: float,
     pair_angles: PairAngles = pair_angles,
 ) -> Float[np.ndarray, "n 33"]:
-    """Return one descriptor per point: its own histograms, and those of its neighbours weighted by
-    nearness.
+    """Return one descriptor per point: its histograms, and those of neighbours by nearness.
+
+    Rows are 33 numbers, none negative; zeros for a point without neighbours. A neighbour counts by
+    one over its squared distance, as in PCL and Open3D; the paper (eq. 3) writes one over the
+    distance. Which of the two sides the normals face counts.
 
     Args:
-        p: Points, metres.
-        n: Their unit normals. Which of the two sides they face counts.
         radius: Of a neighbourhood, metres.
-        pair_angles: The angles of pairs; each pair of neighbours is asked for once; where both
-            normals are as near to the line, once for each of its points.
-
-    Returns:
-        Rows of 33 numbers, none negative; zeros for a point without neighbours.
-
-    Note:
-        A neighbour counts by one over its squared distance, as in PCL and Open3D; the paper writes
-        one over the distance.
-
-    Reference: Rusu, Blodow and Beetz 2009, eq. 3.
+        pair_angles: Asked once for each pair of neighbours; where both normals are as near to the
+            line, once for each of its points.
     """
     count, pairs = len(p), pairs_within(p, radius)
     i, j = pairs.T

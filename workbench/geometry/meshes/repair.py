@@ -1,8 +1,6 @@
-"""Mends a triangle mesh without moving a point of its surface: repeats, turned faces, sheets that
-touch.
+"""Mends a triangle mesh without moving a point of it: repeats, turned faces, touching sheets.
 
-Nothing here refuses a mesh: what cannot be mended is left as it is, for
-`workbench.geometry.meshes.check_mesh` to name.
+What cannot be mended is left as it is, for `workbench.geometry.meshes.check_mesh` to name.
 """
 
 import numpy as np
@@ -16,9 +14,7 @@ Faces = Int[np.ndarray, "f 3"]
 
 
 def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
-    """Return the faces without those that name the same three vertices in the same sense once
-    more.
-    """
+    """Return the faces without those that name the same three vertices in the same sense again."""
     first = np.argmin(faces, axis=1)[:, None]
     started_alike = np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1)
     kept, _ = distinct_rows(started_alike)
@@ -26,8 +22,7 @@ def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
 
 
 def oriented(faces: Faces) -> Faces:
-    """Return the faces turned round until neighbours agree which side is outside; in each piece as
-    few as possible.
+    """Return the faces, as few turned as possible, so that neighbours agree which side is outside.
 
     A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an
     edge, stay as they are.
@@ -55,8 +50,7 @@ def oriented(faces: Faces) -> Faces:
 
 
 def split_where_sheets_touch(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Faces]:
-    """Return the mesh with a vertex for each fan of faces where several fans meet in one; new ones
-    come behind the old.
+    """Return the mesh with a vertex for each fan of faces that meet in one; new ones come last.
 
     Angles, areas and places stay; pieces that touched in a point are no longer connected there.
     """

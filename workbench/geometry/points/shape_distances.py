@@ -1,9 +1,10 @@
-"""Distances between two clouds that match each point to the nearest of the other cloud, each by its
-full name.
+"""Distances between two clouds that match each point to the nearest of the other cloud.
 
 All compare p_a (n, 3) with p_b (m, 3), metres, one frame, in any order of rows; the mean square of
-index pairs is the exception, and here to be seen failing. Distances that match one to one are in
-`workbench.algorithms.transport`.
+index pairs is the exception, and here to be seen failing. A cloud that is empty or not finite
+raises ValueError. Distances that match one to one are in `workbench.algorithms.transport`.
+
+Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1.
 """
 
 from collections.abc import Callable
@@ -30,12 +31,7 @@ _LARGE = 4000  # points from which threads and an order of queries gain more tha
 
 @dataclass(frozen=True, eq=False)
 class Nearest:
-    """Nearest neighbours both ways.
-
-    Attributes:
-        a_to_b, b_to_a: For each point, the index of the nearest point of the other cloud.
-        d_a, d_b: The distance to it, metres.
-    """
+    """The nearest point of the other cloud for each point, and the distance, both ways."""
 
     a_to_b: Int[np.ndarray, "n"]
     b_to_a: Int[np.ndarray, "m"]
@@ -55,11 +51,10 @@ class Nearest:
         return float(max(self.d_a.max(), self.d_b.max()))
 
     def f_score(self, max_distance: float) -> float:
-        """Return the harmonic mean of the shares of a and of b that lie within max_distance (m) of
-        the other cloud.
+        """Return the harmonic mean of the shares of a and b within max_distance (m) of the other.
 
         Reference: Knapitsch et al., Tanks and Temples, 2017, section 3.3: precision, recall and
-        their harmonic mean.
+        their mean.
         """
         precision, recall = (
             float(np.mean(self.d_a <= max_distance)),
@@ -69,17 +64,11 @@ class Nearest:
 
 
 def nearest_both_ways(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Nearest:
-    """Return the nearest neighbour of every point of each cloud in the other.
-
-    Args:
-        p_a: Points, metres.
-        p_b: Points in the same frame.
+    """Return the nearest neighbour of every point of each cloud in the other, one where several
+    are.
 
     Raises:
         ValueError: If a cloud is empty or holds coordinates that are not finite.
-
-    Note:
-        Of several nearest points, one is taken.
     """
     check_clouds(p_a, p_b)
     tree_a, tree_b = _tree(p_a), _tree(p_b)
@@ -91,13 +80,7 @@ def nearest_both_ways(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3
 def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
     """Return the mean, over the points of a, of the squared distance to the nearest point of b.
 
-    Args:
-        p_a: Points, metres.
-        p_b: Points in the same frame; the counts may differ.
-
-    Returns:
-        (1 / n) sum_i min_j |a_i - b_j|^2, in square metres. It is 0 when every point of a is a
-        point of b, however much of b has no point of a near it.
+    It is 0 when every point of a is a point of b, however much of b has no point of a near it.
 
     Raises:
         ValueError: If a cloud is empty or holds coordinates that are not finite.
@@ -110,20 +93,12 @@ def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> f
 def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
     """Return the two-sided Chamfer distance of squares and means: from a to b plus from b to a.
 
-    Args:
-        p_a: Points, metres.
-        p_b: Points in the same frame; the counts may differ.
-
-    Returns:
-        (1 / n) sum_i min_j |a_i - b_j|^2 + (1 / m) sum_j min_i |a_i - b_j|^2, in square metres.
-        Symmetric, not negative, 0 when each point of either cloud is a point of the other; no
-        metric, since the triangle inequality fails.
+    (1 / n) sum_i min_j |a_i - b_j|^2 + (1 / m) sum_j min_i |a_i - b_j|^2, in square metres, with
+    means in place of Fan et al.'s sums. Symmetric, 0 when each point of either cloud is a point of
+    the other; no metric, since the triangle inequality fails.
 
     Raises:
         ValueError: If a cloud is empty or holds coordinates that are not finite.
-
-    Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1, with means in
-    place of sums.
 
     Examples:
         >>> p_a = np.array([[0.0, 0, 0], [1, 0, 0]])
@@ -134,11 +109,7 @@ def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> flo
 
 
 def chamfer_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
-    """Return the gradient of `chamfer` with respect to p_a, metres.
-
-    Where a point has several nearest neighbours the distance has a kink, and the gradient is that
-    of the one taken.
-    """
+    """Return the gradient of `chamfer` by p_a, metres; at a kink, for the neighbour taken."""
     near = nearest_both_ways(p_a, p_b)
     slope = 2 / len(p_a) * (p_a - p_b[near.a_to_b])
     v = 2 / len(p_b) * (p_a[near.b_to_a] - p_b)
@@ -148,15 +119,15 @@ def chamfer_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
 
 
 def one_sided_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
-    """Return the gradient of `one_sided` from a to b with respect to p_a, metres."""
+    """Return the gradient of `one_sided` from a to b by p_a, metres."""
     check_clouds(p_a, p_b)
     a_to_b, _ = _query(_tree(p_b), p_a)
     return 2 / len(p_a) * (p_a - p_b[a_to_b])
 
 
 def hausdorff(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the Hausdorff distance: the largest distance from a point of either cloud to the
-    nearest of the other, metres.
+    """Return the Hausdorff distance, m: the largest from a point of either to the nearest of the
+    other.
 
     Raises:
         ValueError: As `chamfer`.
@@ -169,11 +140,6 @@ def f_score(
 ) -> float:
     """Return the F-score, 0 to 1, of two clouds at a distance in metres; see `Nearest.f_score`.
 
-    Args:
-        p_a: Points, metres.
-        p_b: Points in the same frame.
-        max_distance: Within which a point counts as near, metres.
-
     Raises:
         ValueError: As `chamfer`.
     """
@@ -181,13 +147,12 @@ def f_score(
 
 
 def index_mse(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the mean squared distance, in square metres, between rows of the same index.
+    """Return the mean squared distance, m², between rows of the same index.
+
+    It measures the order of the rows as much as the shapes: shuffle one cloud and it changes.
 
     Raises:
         ValueError: If the counts differ or a cloud is empty or not finite.
-
-    Note:
-        It measures the order of the rows as much as the shapes: shuffle one cloud and it changes.
     """
     check_clouds(p_a, p_b)
     if len(p_a) != len(p_b):
@@ -219,8 +184,8 @@ def _query(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the indices and distances of the nearest points.
 
-    Large clouds are visited in the order of their own tree, so that neighbouring queries touch the
-    same leaves.
+    Large clouds are visited in the order of their own tree: neighbouring queries touch the same
+    leaves.
     """
     if len(p) < _LARGE:
         d, indices = tree.query(p)
