@@ -2,6 +2,8 @@
 
 A plane cuts away whatever is not at a positive signed distance `ahead`; results come with the row
 of `p` that each piece comes from. `low` and `high` are opposite corners of a rectangle or box.
+
+Reference: Liang and Barsky, A new concept and method for line clipping, 1984.
 """
 
 import functools
@@ -38,10 +40,9 @@ def clip_triangles(
 def clip_to_rectangle(
     uv: Float[np.ndarray, "n 2 2"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Return from which to which share of its length each segment lies in a rectangle.
+    """Return from which to which share of its length, in [0, 1], each segment lies in a rectangle.
 
-    Shares are in [0, 1]; start is not below stop where a segment misses or has NaN ends.
-    Reference: Liang and Barsky, A new concept and method for line clipping, 1984.
+    Start is not below stop where a segment misses or has NaN ends (Liang and Barsky).
     """
     way = uv[:, 1] - uv[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -97,10 +98,7 @@ def clip_lines(
 def plane_in_box(
     plane: Float[np.ndarray, "4"], low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the corners, in order, of the part of a plane (a, b, c, d) inside a box.
-
-    A plane turned over, or rounded differently, has the same corners in the same order.
-    """
+    """Return the corners of a plane's part inside a box, in one order for it and its negative."""
     corners = np.array(
         [[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)]
     )
@@ -127,13 +125,10 @@ def cut_finely(
     low: Float[np.ndarray, "2"],
     high: Float[np.ndarray, "2"],
 ) -> tuple[Float[np.ndarray, "m c 3"], Int[np.ndarray, " m"]]:
-    """Return segments or triangles cut until their edges are short in a flat picture.
+    """Return segments or triangles cut until no edge is longer than `longest` in a flat picture.
 
-    Pieces outside the picture are dropped; each edge is halved at most 12 times.
-
-    Args:
-        flatten: Where points (n, 3) are in the flat picture, (n, 2).
-        longest: Length there that no edge of a piece exceeds.
+    `flatten` gives places there, (n, 2). Pieces outside are dropped; edges are halved at most 12
+    times.
     """
     source = np.arange(len(p))
     done = []

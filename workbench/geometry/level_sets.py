@@ -22,9 +22,7 @@ def edge_crossings(
     f_a: Float[np.ndarray, " n"],
     f_b: Float[np.ndarray, " n"],
 ) -> Float[np.ndarray, "n 3"]:
-    """Return where a field that is linear along each edge is zero, m.
-
-    `f_a` and `f_b` have different signs; where both are zero the middle is returned.
+    """Return where a field that is linear along each edge is zero; the middle if it is all zero.
 
     Examples:
         >>> edge_crossings(
@@ -43,16 +41,11 @@ def level_lines(
     low: Float[np.ndarray, "2"],
     spacing: float,
 ) -> Float[np.ndarray, "n 2 2"]:
-    """Return the segments in the plane along which a field has one of some values.
-
-    Args:
-        values: The field at the points of a grid, a row for each y.
-        low: x and y of the first point, m.
+    """Return the segments along which a field, a row for each y from `low`, has one of some values.
 
     Examples:
-        >>> level_lines(
-        ...     np.array([[0.0, 1.0], [0.0, 1.0]]), np.array([0.25]), np.zeros(2), 1.0
-        ... ).tolist()
+        >>> values = np.array([[0.0, 1.0], [0.0, 1.0]])
+        >>> level_lines(values, np.array([0.25]), np.zeros(2), 1.0).tolist()
         [[[0.25, 1.0], [0.25, 0.0]]]
     """
     from skimage.measure import find_contours
@@ -66,13 +59,9 @@ def level_surface(
 ) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
     """Return the surface where a field is zero, its faces outwards: towards positive values.
 
-    Both arrays are empty where the field has one sign or the grid is one cell thin. A vertex that
+    Values stand at the cells' middles. Both arrays are empty where the field has one sign or the
+    grid is one cell thin. `edge_crossings` places the vertices on all edges at once; one that
     marching cubes puts inside a cell, to keep ambiguous cells watertight, stays there.
-
-    Args:
-        values: The field at the middles of the cells.
-        edge_crossings: Places the vertices: asked once for all edges between middles of different
-            sign.
     """
     if min(values.shape) < 2 or not values.min() < 0 <= values.max():
         return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)

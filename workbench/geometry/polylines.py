@@ -14,8 +14,7 @@ def segments(p: Float[np.ndarray, "n d"], *, closed: bool = False) -> Float[np.n
 def between(
     p: Float[np.ndarray, "*n d"], q: Float[np.ndarray, "*k d"]
 ) -> Float[np.ndarray, "m 2 d"]:
-    """Return the segments from points to partners in the same row; a single point is partner of
-    all.
+    """Return the segments from points to partners in the same rows; a single one serves all.
 
     Examples:
         >>> between(np.array([0.0, 0.0]), np.array([1.0, 2.0])).tolist()
@@ -67,10 +66,7 @@ def sphere_rings(
 def near_arc(
     circle: Float[np.ndarray, "3"], reach: float, pieces: int = 96
 ) -> Float[np.ndarray, "n 2"]:
-    """Return the points of a circle (x, y, r), or of a large one the arc nearest to the origin.
-
-    The sign of the radius does not matter; half of the arc is at most `reach` long.
-    """
+    """Return points of a circle (x, y, ±r), or of a large one the arc nearest to the origin."""
     radius = max(abs(float(circle[2])), 1e-9)
     half = min(np.pi, reach / radius)
     turn = np.arctan2(-circle[1], -circle[0]) + np.linspace(-half, half, pieces + 1)
@@ -80,12 +76,7 @@ def near_arc(
 def cylinder_rings(
     p_axis: Float[np.ndarray, "3"], R_world_cylinder: Float[np.ndarray, "3 3"], radius: float
 ) -> Float[np.ndarray, "n 2 3"]:
-    """Return three rings of a cylinder and six lines along it, as segments; it is two radii long.
-
-    Args:
-        p_axis: The middle of its axis.
-        R_world_cylinder: Its third column is the axis.
-    """
+    """Return three rings of a cylinder, two radii long, and six lines along its z, as segments."""
     ring = radius * circle(48) @ R_world_cylinder[:, :2].T + p_axis
     up = radius * R_world_cylinder[:, 2]
     rings = np.concatenate([segments(ring + k * up) for k in (-1.0, 0.0, 1.0)])

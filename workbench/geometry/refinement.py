@@ -19,17 +19,11 @@ def levenberg_marquardt(
 ) -> Unknown:
     """Return the unknown near `start` whose residuals have the smallest sum of squares.
 
-    The damping scales with the diagonal of the normal matrix (Marquardt), so the answer does not
-    depend on the parameters' units. The cost never rises; a step that is singular or not finite has
-    failed.
+    `linearise` gives the residuals (n,) at an unknown and their Jacobian (n, k) by a small step;
+    `retract` the unknown that such a step leads to. The damping scales with the diagonal of the
+    normal matrix (Marquardt): units do not matter. The cost never rises. It stops when a step
+    lowers it by less than the share `tolerance`.
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 10.3.
-
-    Args:
-        linearise: Gives the residuals (n,) at an unknown, and their Jacobian (n, k) by a small
-            step.
-        retract: Gives the unknown that a small step (k,) leads to.
-        steps: Linear systems solved at most.
-        tolerance: Stop when a step lowers the cost by less than this fraction.
     """
     unknown, damping = start, 1e-6
     residuals, jacobian = linearise(unknown)

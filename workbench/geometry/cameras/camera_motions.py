@@ -53,9 +53,8 @@ def linearised(
 ) -> tuple[Float[np.ndarray, "*k m"], Float[np.ndarray, "*k m 6"]]:
     """Return the residuals, u and v of point after point, and their derivatives by a twist.
 
-    The twist is (v, w), metres and radians, in the camera's frame: T becomes exp(twist) T.
-    Reference: Hartley and Zisserman, A6.6; Solà et al. 2018, eq. 182 for the derivative of a moved
-    point.
+    The twist is (v, w), metres and radians, in the camera's frame: T becomes exp(twist) T (Hartley
+    and Zisserman, A6.6; Solà et al. 2018, eq. 182).
     """
     p_camera = (
         p_world @ np.swapaxes(Ts_camera_world[..., :3, :3], -1, -2)
@@ -77,10 +76,7 @@ def gauss_newton_step(
     p_world: Float[np.ndarray, "n 3"],
     xy: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the motion after one Gauss-Newton step on the squared reprojection errors.
-
-    A step that the points do not determine is the shortest of those that would do.
-    """
+    """Return the motion after one Gauss-Newton step, the shortest that does, on squared errors."""
     residuals, J = linearised(T_camera_world, p_world, xy)
     return exp_se3(-np.linalg.lstsq(J, residuals, rcond=None)[0]) @ T_camera_world
 
@@ -95,12 +91,8 @@ def refined(
 ) -> Float[np.ndarray, "k 4 4"]:
     """Return the nearby motions of least squared reprojection errors, by Levenberg-Marquardt.
 
-    The cost never rises. A step that brings a point behind the camera has failed.
-
-    Args:
-        Ts_camera_world: Where to begin, one for each problem, each with its points in front.
-        weights: How much each point's squared error counts; all alike if None.
-        steps: Linear systems solved at most.
+    The cost never rises. All points must be in front at the start; a step that brings one behind
+    the camera has failed. Weights count squared errors.
     """
     k = len(Ts_camera_world)
     p_mean = p_world.mean(axis=-2)
@@ -151,10 +143,9 @@ def dlt_motion(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the motion in the projection matrix that solves x × P X = 0 best.
 
-    Of points in one plane it gives any of the many matrices that fit. Centred, it also scales the
-    points (Hartley's normalisation).
-    Reference: Hartley and Zisserman, algorithm 7.1; the nearest rotation and the mean singular
-    value make a motion of it.
+    Points in one plane leave many. Centred, it also scales the points (Hartley's normalisation).
+    Reference: Hartley and Zisserman, algorithm 7.1, then the nearest rotation and mean singular
+    value.
 
     Raises:
         ValueError: If there are fewer than six points.
@@ -182,12 +173,11 @@ def sqpnp(
 ) -> Float[np.ndarray, "*k 4 4"]:
     """Return the motions that minimise the points' squared distances from their rays.
 
-    The translation is linear in the rotation, so the cost is a quadratic form in the nine entries
-    of R. From rotations near its lowest eigenvectors sequential quadratic programs go down along
-    the three directions in which a rotation can move. Points may lie in one plane, but not on one
+    The cost is a quadratic form in the nine entries of R. From rotations near its lowest
+    eigenvectors sequential quadratic programs go down. Points may lie in one plane, but not on one
     line.
-    Reference: Terzakis and Lourakis 2020, eq. 5 to 10 (the form) and section 3.2; steps are kept on
-    the rotations here.
+    Reference: Terzakis and Lourakis 2020, eq. 5 to 10 and 3.2; steps are kept on the rotations
+    here.
 
     Raises:
         ValueError: If there are fewer than three points.

@@ -26,12 +26,10 @@ def epnp(
     """Return the motions T_camera_world by EPnP: the best mix of N = 1 to 4 null vectors.
 
     Points of one plane have three control points and mixes of up to three vectors. Four points
-    leave four null vectors, so that only the distances between control points decide: six
-    equations, solved from a linear start by Gauss-Newton, that may end elsewhere. Leading
-    dimensions are problems that are solved side by side.
-    Reference: Lepetit, Moreno-Noguer and Fua 2009, 3.1 to 3.5. For N = 4 the linear start has the
-    products with the first weight alone as unknowns, as in the authors' program; the paper
-    relinearises.
+    leave four null vectors, so that only the control points' distances decide: six equations,
+    solved by Gauss-Newton from a linear start, that may end elsewhere.
+    Reference: Lepetit et al. 2009, 3.1 to 3.5. For N = 4 the linear start has the products with the
+    first weight alone as unknowns, as in the authors' program; the paper relinearises.
 
     Raises:
         ValueError: If there are fewer than four points, or they lie on one line.

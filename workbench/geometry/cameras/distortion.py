@@ -50,7 +50,6 @@ def distort(
 
     A negative k1 bends straight lines outwards (barrel), a positive one inwards (pincushion).
     Beyond `invertible_radius` the polynomial folds back: the values mean nothing for a real lens.
-    Reference: Brown 1971.
     """
     out = np.empty_like(xy_camera, dtype=float)
     for rows in chunks(len(xy_camera)):
@@ -60,10 +59,9 @@ def distort(
 
 
 def undistort(xy_distorted: Float[np.ndarray, "n 2"], lens: Distortion) -> Float[np.ndarray, "n 2"]:
-    """Return the ideal point that the lens moved to each given point, by Newton's method.
+    """Return the ideal point that the lens moved to each given point, to 1e-13, by Newton's method.
 
-    The residual is below 1e-13. A row is NaN where no point inside `invertible_radius` is moved
-    there.
+    NaN where no point inside `invertible_radius` is moved there.
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 11.1 (Newton) and 11.2 (damped).
 
     Examples:

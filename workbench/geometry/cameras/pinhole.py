@@ -33,9 +33,7 @@ OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 def intrinsics(
     f: float, cx: float, cy: float, *, fy: float | None = None, skew: float = 0.0
 ) -> Float[np.ndarray, "3 3"]:
-    """Return K from the focal length and the principal point, all in pixels.
-
-    `fy` differs from `f` for pixels that are not square; `skew` shifts u per unit of normalised y.
+    """Return K from focal length and principal point, pixels; skew shifts u per normalised y.
 
     Raises:
         ValueError: If a focal length is not positive and finite.
@@ -75,9 +73,7 @@ def crop_intrinsics(
 def resize_intrinsics(
     K: Float[np.ndarray, "3 3"], scale_u: float, scale_v: float
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the K of a picture whose width and height were multiplied by these factors.
-
-    The edge at -0.5 stays: u_new + 0.5 = scale_u (u + 0.5).
+    """Return the K of a picture resized by factors: u_new + 0.5 = scale_u (u + 0.5).
 
     Raises:
         ValueError: If a factor is not positive.
@@ -97,8 +93,8 @@ def look_at(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the T_camera_world of a camera at `eye` whose axis goes through `target`.
 
-    `up`, +Z by default, points upwards in the picture. Looking straight along it leaves the roll
-    open; then the world axis furthest from it takes its place.
+    `up`, +Z by default, points upwards in the picture; where one looks straight along it, the world
+    axis furthest from the view takes its place.
 
     Raises:
         ValueError: If eye and target coincide.
@@ -125,9 +121,7 @@ def look_at(
 
 
 def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "3"]:
-    """Return where the camera is in the world, metres: C = -R^T t.
-
-    Reference: Hartley and Zisserman, 6.1, eq. 6.7.
+    """Return where the camera is in the world, m: C = -R^T t (Hartley and Zisserman, eq. 6.7).
 
     Examples:
         >>> camera_center(look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3))).round(6).tolist()
@@ -164,12 +158,11 @@ def project(
     *,
     near: float = 0.0,
 ) -> Float[np.ndarray, "n 2"]:
-    """Return the pixels (u, v) = (column, row) at which a camera sees the points.
+    """Return the pixels (u, v) at which a camera sees the points (Hartley and Zisserman, eq. 6.8).
 
-    Pixels may lie outside the picture. A row is NaN where the point lies at or behind `near` (m),
-    or so far out that the lens folds (`invertible_radius`): dividing anyway would give a pixel that
-    looks valid.
-    Reference: Hartley and Zisserman, 6.1, eq. 6.8.
+    They may lie outside the picture. NaN where the point lies at or behind `near` (m), or so far
+    out that the lens folds (`invertible_radius`): dividing anyway would give a pixel that looks
+    valid.
 
     Examples:
         >>> p_world = np.array([[0.1, 0.0, 2.0], [0.0, 0.0, -1.0]])  # the second is behind
@@ -203,8 +196,7 @@ def project_orthographic(
 ) -> Float[np.ndarray, "n 2"]:
     """Return pixels of a parallel projection: (u, v, 1) = K (X, Y, 1), K in pixels per metre.
 
-    It is the limit of `project` with (K, T) from `dolly` as its factor grows; then f / Z is the
-    scale. Points behind the camera are seen too.
+    It is the limit of `project` with (K, T) from `dolly` as its factor grows, with scale f / Z.
     """
     xy = apply(T_camera_world, p_world)[:, :2]
     return xy @ K[:2, :2].T + K[:2, 2]
@@ -218,9 +210,8 @@ def dolly(
 ) -> tuple[Float[np.ndarray, "4 4"], Float[np.ndarray, "3 3"]]:
     """Return (T_camera_world, K) moved back along the axis with f lengthened by a factor.
 
-    The plane at `subject_depth` keeps its size, and is `factor` times as far away. As the factor
-    grows, the picture tends to the orthographic one with f / Z pixels per metre, at a rate of one
-    over the factor.
+    The plane at `subject_depth` keeps its size, and is `factor` times as far away. The picture
+    tends to the orthographic one with f / Z pixels per metre, at a rate of one over the factor.
     """
     T_back = T_camera_world.copy()
     T_back[2, 3] += (factor - 1.0) * subject_depth
@@ -246,9 +237,7 @@ def pixel_rays(
     *,
     distortion: Distortion = NONE,
 ) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "n 3"]]:
-    """Return the camera centre and the unit direction, in the world, along which each pixel looks.
-
-    A direction is NaN where the lens has no inverse.
+    """Return the camera centre and each pixel's unit direction, in the world; NaN as `normalize`.
 
     Examples:
         >>> K = intrinsics(500.0, 320.0, 240.0)
@@ -308,10 +297,8 @@ def vanishing_points(
     *,
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, "n 2"]:
-    """Return the pixel in which all lines of a world direction, of any length and sign, meet.
+    """Return the pixel in which lines of a world direction meet, NaN if parallel to the picture.
 
-    NaN for a direction parallel to the picture, whose lines stay parallel in it. Where the camera
-    is does not matter.
     Reference: Hartley and Zisserman, 8.6.1, eq. 8.15: v = K R d.
     """
     R_camera_world = T_camera_world[:3, :3]

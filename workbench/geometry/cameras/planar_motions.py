@@ -33,12 +33,11 @@ def planar_motions(
     """Return the two T_camera_world that a homography of a plane leaves at its middle, by IPPE.
 
     In no order. To first order about the middle of the points the two project alike; seen along the
-    plane's normal they are one. Points may be the same in all pictures, or each picture's own; `xy`
-    are normalised.
+    plane's normal they are one. Points may be the same in all pictures; `xy` are normalised.
     Reference: Collins and Bartoli 2014, eq. 8 to 13 (J, its singular value, both rotations).
 
     Raises:
-        ValueError: If there are fewer than four points, or they are not in one plane or all on one
+        ValueError: If there are fewer than four points, or they are not in one plane or on one
             line.
     """
     if p_world.shape[-2] < 4 or not is_flat(p_world):

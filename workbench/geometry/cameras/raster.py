@@ -124,13 +124,10 @@ def render(
     """Return the picture of the items as the camera sees them, and its depths.
 
     Of two things at the same depth the later wins; lines and points win from surfaces up to 0.2 %
-    nearer, so that a mesh does not bury its own edges.
-
-    Args:
-        near: Depth, m, at which segments and triangles are cut, and below which no point is drawn.
-        to_pixels: Draws in place of `project` with the camera above, which then only says what is
-            near and what is in front. Through a lens, what is three times as far out as the picture
-            reaches is left out.
+    nearer, so that a mesh does not bury its own edges. `near`, m, is where segments and triangles
+    are cut, and below which no point is drawn. `to_pixels` draws in place of `project`; the camera
+    then only says what is near and in front. Through a lens, what is three times as far out as the
+    picture reaches is left out then.
 
     Raises:
         ValueError: If the picture has no pixels or `near` is not positive.
@@ -155,12 +152,7 @@ def in_sight(
     *,
     depth: Float[np.ndarray, "h w"],
 ) -> Bool[np.ndarray, " n"]:
-    """Return which points of a scene's surfaces a picture of it, without a lens, shows.
-
-    Args:
-        depth: Of each pixel, as `render` gives it; it may differ from a point's by 2 %, as surfaces
-            lean.
-    """
+    """Return which points of surfaces a picture with this depth shows, without a lens, to 2 %."""
     uv, z = project(p_world, T_camera_world, K), depths(p_world, T_camera_world)
     h, w = depth.shape
     inside = np.asarray(((uv >= 1.0) & (uv <= np.array([w, h]) - 2.0)).all(axis=1))

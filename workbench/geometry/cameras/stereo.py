@@ -6,6 +6,8 @@ column x - d of the right one: the disparity d is positive, and grows towards th
 principal points differ, `doffs` = cx_right - cx_left, in pixels (Middlebury's word), and d + doffs
 takes the place of d. At d + doffs = 0 the rays are parallel and what they see is infinitely far;
 NaN, not 0, means unknown. f is in pixels of pictures of the size in which d was measured.
+
+Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1.
 """
 
 import math
@@ -57,11 +59,9 @@ class StereoCamera:
 def depth_from_disparity(
     d: Float[np.ndarray, "..."], f: float, baseline: float
 ) -> Float[np.ndarray, "..."]:
-    """Return the depth Z = f B / d, metres, that a disparity stands for.
+    """Return the depth Z = f B / d, metres, that a disparity stands for (Szeliski, eq. 12.1).
 
-    Zero gives infinity (parallel rays); NaN stays NaN, and a negative disparity gives NaN: nothing
-    in front of both cameras causes one.
-    Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1, eq. 12.1.
+    Zero gives infinity, NaN stays NaN, and a negative disparity gives NaN: nothing causes one.
 
     Examples:
         >>> depth_from_disparity(np.array([50.0, 25.0, 0.0]), f=500.0, baseline=0.2).tolist()
@@ -88,8 +88,7 @@ def depth_uncertainty(
 ) -> Float[np.ndarray, "..."]:
     """Return how far a small disparity error moves a depth: sigma_Z = Z² / (f B) sigma_d.
 
-    To first order, while the error is small beside d; `depth_interval` is exact.
-    Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1 (the derivative of eq. 12.1).
+    To first order; `depth_interval` is exact.
     """
     return depth * depth / (f * baseline) * disparity_error
 
@@ -97,10 +96,7 @@ def depth_uncertainty(
 def depth_interval(
     d: Float[np.ndarray, "..."], f: float, baseline: float, *, disparity_error: float
 ) -> tuple[Float[np.ndarray, "..."], Float[np.ndarray, "..."]]:
-    """Return the nearest and furthest depth within `disparity_error` pixels of a disparity, metres.
-
-    The latter is infinite where the error reaches a disparity of zero.
-    """
+    """Return the nearest and furthest depth within an error of a disparity, perhaps infinite."""
     near = depth_from_disparity(d + disparity_error, f, baseline)
     return near, depth_from_disparity(np.maximum(d - disparity_error, 0.0), f, baseline)
 

@@ -46,10 +46,8 @@ def three_point_lengths(
 ) -> tuple[Float[np.ndarray, "m 3"], Int[np.ndarray, " m"]]:
     """Return all lengths of three rays, metres, that put the points as far apart as they are.
 
-    Lengths are positive, up to four rows for a sample; points in one place or on one line give
-    none.
-    Reference: Haralick et al. 1994, eq. 8 (u from v) and 9 (v); Newton steps on their eq. 1 to 3
-    take off rounding.
+    Lengths are positive, up to four rows for a sample, none for points in one place or on one line.
+    Reference: Haralick et al. 1994, eq. 8 and 9, and Newton steps on their eq. 1 to 3.
     """
     sides, cosines = _sides_and_cosines(p_world, n_camera)
     with np.errstate(all="ignore"):
@@ -97,10 +95,7 @@ def motions_from_lengths(
     n_camera: Float[np.ndarray, "m 3 3"],
     s: Float[np.ndarray, "m 3"],
 ) -> Float[np.ndarray, "m 4 4"]:
-    """Return the T_camera_world that takes each three points to the ends of their rays.
-
-    The frames along the sides of the two congruent triangles give it; NaN for points on one line.
-    """
+    """Return the T_camera_world from three points to the ends of their rays; NaN on one line."""
     p_camera = n_camera * s[..., None]
     T = np.zeros((len(s), 4, 4))
     with np.errstate(all="ignore"):

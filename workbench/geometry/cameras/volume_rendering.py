@@ -22,11 +22,7 @@ def samples_on(
     count: int,
     shift: Float[np.ndarray, "r s"] | float = 0.5,
 ) -> tuple[Float[np.ndarray, "r s d"], float]:
-    """Return a point in each equal part of each ray's way, and the length of a part, m.
-
-    Args:
-        shift: Where in its part each lies, 0 to 1.
-    """
+    """Return a point in each equal part of each ray's way, shifted by a share, and the spacing."""
     spacing = (reach[1] - reach[0]) / count
     t = reach[0] + spacing * (np.arange(count) + shift) * np.ones((len(p), 1))
     return p[:, None] + t[:, :, None] * d[:, None], spacing
@@ -35,8 +31,7 @@ def samples_on(
 def ray_weights(density: Float[np.ndarray, "r s"], spacing: float) -> Float[np.ndarray, "r s"]:
     """Return how much each sample counts for its ray: w_i = T_i (1 - exp(-density_i spacing)).
 
-    T_i = exp(-spacing sum_{j<i} density_j) is the share of light that passes all samples before. A
-    row's sum is 1 minus what passes all of them (Mildenhall et al. 2020, eq. 3).
+    T_i = exp(-spacing sum_{j<i} density_j) is what passes all samples before (NeRF, eq. 3).
     """
     depth = spacing * density
     return np.exp(-(np.cumsum(depth, axis=1) - depth)) * -np.expm1(-depth)
@@ -61,8 +56,7 @@ def through_seen(
 ) -> tuple[Float[np.ndarray, "r s"], Float[np.ndarray, "r s 3"]]:
     """Return the gradients by densities and colours, given that by the colours that rays see.
 
-    By density_i it is spacing times (T_{i+1} c_i - sum_{j>i} w_j c_j - T_end behind): light that is
-    let through less, and what lies behind is seen less.
+    By density_i it is spacing times (T_{i+1} c_i - sum_{j>i} w_j c_j - T_end behind).
     """
     depth = spacing * density
     passed = np.exp(-np.cumsum(depth, axis=1))

@@ -68,14 +68,10 @@ def fpfh(
 ) -> Float[np.ndarray, "n 33"]:
     """Return one descriptor per point: its histograms, and those of neighbours by nearness.
 
-    Rows are 33 numbers, none negative; zeros for a point without neighbours. A neighbour counts by
-    one over its squared distance, as in PCL and Open3D; the paper (eq. 3) writes one over the
-    distance. Which of the two sides the normals face counts.
-
-    Args:
-        radius: Of a neighbourhood, metres.
-        pair_angles: Asked once for each pair of neighbours; where both normals are as near to the
-            line, once for each of its points.
+    Rows are 33 numbers, none negative; zeros without neighbours within `radius`, m. A neighbour
+    counts by one over its squared distance, as in PCL and Open3D; the paper (eq. 3) writes one over
+    the distance. `pair_angles` is asked once for each pair, or twice where both normals are as near
+    to the line. Which of the two sides the normals face counts.
     """
     count, pairs = len(p), pairs_within(p, radius)
     i, j = pairs.T

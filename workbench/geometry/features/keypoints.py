@@ -24,8 +24,7 @@ def gradient(image: Image, sigma: float = DERIVE) -> tuple[Image, Image]:
 def harris_response(image: Image) -> Image:
     """Return det(M) - 0.04 trace(M)^2: large at corners, negative at edges, near 0 elsewhere.
 
-    M holds the products of the derivatives along u and v, each smoothed by a Gaussian of 1.5 px
-    after multiplying (Harris and Stephens 1988, section 3).
+    M holds products of the derivatives, each smoothed by a Gaussian of 1.5 px (section 3).
     """
     g_u, g_v = gradient(image)
     a, b, c = (
@@ -38,10 +37,7 @@ def harris_response(image: Image) -> Image:
 def strongest(
     response: Image, count: int, *, apart: int = 4, border: int = 0
 ) -> Int[np.ndarray, "k 2"]:
-    """Return the pixels (u, v) of the largest positive local maxima, the strongest first.
-
-    A maximum is the largest within `apart` pixels along u and v, `border` pixels or more inside.
-    """
+    """Return the largest local maxima (u, v) within `apart` pixels, `border` inside, in order."""
     top = (response == scipy.ndimage.maximum_filter(response, 2 * apart + 1)) & (response > 0)
     inside = np.zeros_like(top)
     h, w = top.shape
@@ -69,17 +65,11 @@ def iss_keypoints(
     ratio: float = 0.975,
     fewest: int = 5,
 ) -> Int[np.ndarray, " k"]:
-    """Return the indices of salient points: spread three ways, most in the least of them.
+    """Return the indices of salient points: spread three ways, most in the least within `apart`.
 
-    The spread is about the point itself, as in the paper; Open3D takes it about the neighbours'
-    mean.
+    The spread within `radius` is about the point itself, as in the paper; Open3D takes it about the
+    neighbours' mean. Each variance is less than `ratio` times the next larger.
     Reference: Zhong 2009, section 2.1 (without its weights).
-
-    Args:
-        radius: Of a neighbourhood, metres.
-        apart: A keypoint is the most salient within this distance, metres.
-        ratio: Each variance must be less than this share of the next larger one.
-        fewest: Neighbours that a keypoint has at least.
     """
     i, j = pairs_within(p, radius).T
     v, count = p[j] - p[i], len(p)

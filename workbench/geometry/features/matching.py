@@ -16,13 +16,7 @@ _CELLS = 4_000_000  # distances at a time
 
 @dataclass(frozen=True, eq=False)
 class Nearest:
-    """The nearest descriptors of two sets, both ways.
-
-    Attributes:
-        index: For each of the first set the nearest of the second, at this `distance`.
-        second: How far the second nearest is; infinite where there is only one.
-        back: For each of the second set the nearest of the first.
-    """
+    """The nearest descriptor of the other set, both ways, and how far the two nearest are."""
 
     index: Int[np.ndarray, " n"]
     distance: Float[np.ndarray, " n"]
@@ -78,8 +72,6 @@ def mutual_matches(
 ) -> Int[np.ndarray, " n"]:
     """Return the nearest of b for each of a, or -1 where it fails the ratio or is not mutual.
 
-    The nearest must be nearer than `ratio` times the second nearest.
-
     Raises:
         ValueError: If a set is empty.
 
@@ -97,9 +89,7 @@ def filtered(
 ) -> Int[np.ndarray, "k 2"]:
     """Return rows (index in the first set, index in the second) of the matches a filter keeps.
 
-    Args:
-        ratio: How near the nearest must be, as a share of the distance of the second nearest.
-        mutual: Somebody's `mutual_matches`, which are taken where `how` is both.
+    `mutual`, somebody's `mutual_matches`, is taken where `how` is both.
 
     Raises:
         ValueError: If that answer names what is not there.

@@ -24,9 +24,8 @@ def tangent_angles(p: Outline) -> Float[np.ndarray, " n"]:
 def shape_contexts(p: Outline, *, along_tangent: bool) -> Float[np.ndarray, "n 60"]:
     """Return one histogram per point of a closed outline: shares of others in 5 rings, 12 sectors.
 
-    Distances count in means of all distances, so scale does not matter; beyond two they count
-    nowhere. Angles count from the x axis, or along the outline: then turns do not matter either.
-    Reference: Belongie, Malik and Puzicha 2002, section 3.1; 3.3.3 for the tangent.
+    Distances count in means of all distances, up to two, so scale does not matter. Angles count
+    from the x axis, or along the outline: then turns do not matter either (3.1 and 3.3.3).
     """
     n = len(p)
     v = p[None] - p[:, None]

@@ -18,13 +18,7 @@ BINS = 36
 
 @dataclass(frozen=True, eq=False)
 class Sift:
-    """The keypoints of one picture.
-
-    Attributes:
-        uv: Their places, pixels.
-        sigma: The standard deviation of the Gaussian that they stand out from, pixels.
-        angle: Their main directions, radians from u towards v, along which descriptors count.
-    """
+    """The keypoints of one picture: places and sizes in pixels, directions from u towards v."""
 
     uv: Float[np.ndarray, "n 2"]
     sigma: Float[np.ndarray, " n"]
@@ -33,10 +27,7 @@ class Sift:
 
 
 def sift(image: Image) -> Sift:
-    """Return the keypoints of a picture of 12 x 12 pixels or more; none where nothing stands out.
-
-    Reference: Otero and Delbracio 2014, without the oversampling of their section 2.2.
-    """
+    """Return the keypoints of a picture of 12 x 12 pixels or more, not doubled as Lowe's is."""
     from skimage.feature import SIFT
 
     found: Any = SIFT(upsampling=1, n_bins=BINS)  # what it holds is None until it has looked
@@ -56,10 +47,7 @@ def turned_patch(
 ) -> Float[np.ndarray, "side side"]:
     """Return the grey levels of a square around a place, turned so that a direction points right.
 
-    Args:
-        angle: The direction, radians from u towards v.
-        half: Half the square's side in the picture, pixels.
-        side: How many grey levels along each of its sides.
+    The direction is an angle from u towards v; `half` a side in pixels, `side` in samples.
     """
     across, down = np.meshgrid(np.linspace(-half, half, side), np.linspace(-half, half, side))
     c, s = np.cos(angle), np.sin(angle)

@@ -50,16 +50,10 @@ def torus_sdf(p: Queries, ring: float, tube: float) -> Float[np.ndarray, " n"]:
 class FaceTree:
     """A mesh sorted for distances: boxes around all faces, around both halves, and so on.
 
-    Coordinates come first and lie together: that is several times as fast to gather from as rows of
-    three.
-
-    Attributes:
-        corners: Its triangles in the order of the last boxes: (corner, coordinate, triangle), m;
-            the last one is repeated up to a power of two.
-        boxes: For each level the lowest and the highest corners of its boxes, (2, 3, 2^level); box
-            k holds boxes 2k and 2k + 1 of the next level, the last level one triangle each.
-        middles: Finds a triangle that is near.
-        columns: Tells inside from outside; None of a mesh that encloses nothing.
+    `corners` (corner, coordinate, triangle) are in the order of the last boxes, the last repeated
+    up to a power of two. `boxes` holds for each level the lowest and highest corners (2, 3,
+    2^level); box k holds boxes 2k and 2k + 1 of the next level. `columns` is None of a mesh that is
+    not closed. Triangles come last: that is several times as fast to gather from as rows of three.
     """
 
     corners: Float[np.ndarray, "3 3 f"]
@@ -90,10 +84,7 @@ def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
 
 
 def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
-    """Return the distance to the nearest triangle, m, negative where a closed mesh winds around.
-
-    Boxes that are farther than the triangle with the nearest middle are left out, level by level.
-    """
+    """Return the distance to the nearest triangle, m, negative where a closed mesh winds around."""
     near = np.asarray(mesh.middles.query(q)[1], dtype=np.int64).reshape(-1)
     columns_of_q = np.ascontiguousarray(q.T)
     best = _squared_distances(columns_of_q, mesh.corners.take(near, axis=2))

@@ -51,9 +51,7 @@ def grid_over(
     *,
     shift: Float[np.ndarray, "3"],
 ) -> Grid:
-    """Return a grid of cubes over a box, `cells` along its longest side.
-
-    One more along each axis covers the shift: how far the grid begins before the box, in cubes.
+    """Return a grid of cubes, `cells` along a box' longest side, begun `shift` cubes before it.
 
     Raises:
         ValueError: If there are no cells, or the box has no size.
@@ -66,10 +64,7 @@ def grid_over(
 
 
 def windings_on(p: Points, faces: Faces, grid: Grid) -> Int[np.ndarray, "x y z"]:
-    """Return the winding number of a closed mesh at the middle of every cell.
-
-    One vertical line through each column of cells serves all of its cells.
-    """
+    """Return the winding number of a closed mesh at the middle of every cell, column by column."""
     corners, (nx, ny, nz) = p[faces], grid.shape
     flat = (corners[:, :, :2] - grid.low[:2]) / grid.spacing[
         :2
@@ -100,10 +95,7 @@ def counted_volume(bits: Bits, spacing: Float[np.ndarray, "3"]) -> float:
 
 
 def counted_area(bits: Bits, spacing: Float[np.ndarray, "3"]) -> float:
-    """Return the area of the cell faces between full and empty, m^2; beyond the grid all is empty.
-
-    It does not converge to the area of what was made into voxels: of a ball it tends to 3/2 of it.
-    """
+    """Return the area of cell faces between full and empty, m^2: 3/2 of the area for fine balls."""
     walls = spacing.prod() / spacing
     return float(sum(walls[axis] * np.count_nonzero(_steps(bits, axis)) for axis in range(3)))
 

@@ -23,9 +23,6 @@ Join = Literal["union", "mutual", "directed"]
 def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.ndarray, "n {k}"]]:
     """Return the k nearest other points of every point, nearest first, and their distances.
 
-    A point is not its own neighbour, also where others lie at its place. Of equal distances any may
-    come first.
-
     Raises:
         ValueError: If there are not more than k points, or k is below 1.
     """
@@ -66,10 +63,7 @@ def joined(directed: Sparse, join: Join) -> Sparse:
 
 
 def knn_adjacency(p: Points, k: int) -> Float[np.ndarray, "n n"]:
-    """Return the dense adjacency, 0 or 1, of the (union) k-nearest neighbour graph.
-
-    Reference: von Luxburg 2007, section 2.2.
-    """
+    """Return the dense adjacency, 0 or 1, of the (union) k-nearest neighbour graph (2.2)."""
     rows, _ = neighbours(p, k)
     adjacency = np.zeros((len(p), len(p)))
     np.put_along_axis(adjacency, rows, 1.0, axis=1)
@@ -79,11 +73,7 @@ def knn_adjacency(p: Points, k: int) -> Float[np.ndarray, "n n"]:
 def graph_of(
     edges: Int[np.ndarray, "e 2"], count: int, weights: Float[np.ndarray, " e"] | None = None
 ) -> Sparse:
-    """Return the symmetric adjacency of undirected edges among `count` nodes.
-
-    Each edge stands once in either direction; weights of repeated ones add up, and are 1 by
-    default.
-    """
+    """Return the adjacency of undirected edges; weights, 1 by default, of repeated ones add up."""
     a, b = edges.T
     w = np.ones(len(edges)) if weights is None else weights
     both = np.concatenate([a, b]), np.concatenate([b, a])
@@ -129,11 +119,9 @@ def hops(
 
 
 def laplacian(adjacency: Matrix) -> Matrix:
-    """Return L = D - A, D holding the degrees: (L u)_i = sum_j A_ij (u_i - u_j).
+    """Return L = D - A, D holding the degrees: (L u)_i = sum_j A_ij (u_i - u_j) (section 3.1).
 
-    Of a symmetric A without negative weights it is positive semidefinite, and its eigenvalue 0
-    comes once for every connected component (von Luxburg 2007, section 3.1). Loops do not change
-    it.
+    Without negative weights its eigenvalue 0 comes once for every component; loops do not matter.
     """
     d = degrees(adjacency)
     if isinstance(adjacency, np.ndarray):
@@ -146,7 +134,7 @@ def propagation(adjacency: Matrix) -> Matrix:
 
     Its largest eigenvalue is 1, with the eigenvector D^(1/2) 1 on every component.
     Reference: Kipf and Welling, Semi-supervised classification with graph convolutional networks,
-    2017, 2.2.
+    2017.
     """
     if isinstance(adjacency, np.ndarray):
         looped = adjacency + 0.0  # a copy of floats
@@ -163,10 +151,7 @@ def propagation(adjacency: Matrix) -> Matrix:
 def gcn_layer(
     adjacency: Matrix, features: Float[np.ndarray, "n a"], weights: Float[np.ndarray, "a b"]
 ) -> Float[np.ndarray, "n b"]:
-    """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W): new features from the node's and neighbours'.
-
-    A is symmetric, without loops (Kipf and Welling 2017, eq. 2).
-    """
+    """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W) (Kipf and Welling 2017, eq. 2)."""
     return np.maximum(propagation(adjacency) @ (features @ weights), 0.0)
 
 
@@ -177,10 +162,7 @@ def cut_weight(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
 
 
 def conductance(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
-    """Return the weight of a cut over the smaller side's sum of degrees; NaN where a side has none.
-
-    Reference: Spielman, Spectral and algebraic graph theory, 2019, section 21.1.
-    """
+    """Return a cut's weight over the smaller side's sum of degrees (Spielman 2019, 21.1)."""
     d = degrees(adjacency)
     smaller = min(d[side].sum(), d[~side].sum())
     return cut_weight(adjacency, side) / smaller if smaller > 0 else float("nan")
@@ -191,11 +173,8 @@ def sweep(
 ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, " m"]]:
     """Return the nodes in ascending order of a value, and the conductances of the cuts along it.
 
-    Cut k has the first k + 1 nodes on one side. Where a side has no edges it is given 1, so that it
-    is not the best.
-    Reference: Spielman 2019, section 21.2 (Cheeger's inequality: the best of these cuts is at most
-    sqrt(2 nu_2), nu_2 being the second eigenvalue of the normalised Laplacian, where the values are
-    its second eigenvector over D^(1/2)).
+    Cut k has the first k + 1 nodes on one side; where a side has no edges it is given 1.
+    Reference: Spielman, Spectral and algebraic graph theory, 2019, 21.2 (Cheeger's inequality).
     """
     n = adjacency.shape[0]
     order = np.argsort(values, kind="stable")

@@ -12,9 +12,7 @@ def classical_scaling(
 ) -> Float[np.ndarray, "n {dims}"]:
     """Return points about the origin whose distances fit best in the sense of inner products.
 
-    Distances of points give these points but for a motion or a mirror. Axes come by falling
-    variance; each has the sign that makes its entry of largest size positive (Borg and Groenen,
-    section 12.1).
+    Axes come by falling variance; each has its entry of largest size positive (section 12.1).
     """
     squares = distances**2
     centred = squares - squares.mean(axis=0) - squares.mean(axis=1)[:, None] + squares.mean()
@@ -33,7 +31,6 @@ def stress_layout(
 ) -> Float[np.ndarray, "n {dims}"]:
     """Return points that lower the stress sum_ij (|p_i - p_j| - d_ij)^2, from classical scaling on.
 
-    Finite, symmetric distances; the stress never rises.
     Reference: Borg and Groenen 2005, section 8.6 (SMACOF), all weights being 1.
     """
     p, n = classical_scaling(distances, dims), len(distances)

@@ -22,13 +22,10 @@ Sparse: TypeAlias = scipy.sparse.csr_array
 
 @dataclass(frozen=True, eq=False)
 class Laplacian:
-    """An operator M^(-1) L on functions of the nodes, symmetric where they are weighted by masses.
+    """An operator M^(-1) L on functions of the nodes, L being symmetric with L 1 = 0.
 
-    Attributes:
-        matrix: L, symmetric, with L 1 = 0.
-        mass: The diagonal of M, positive: 1 for the plain graph Laplacian, the degrees for the
-            normalised (random walk) one (1 at a node without edges), the area of each vertex for
-            the cotangent Laplacian.
+    `mass`, the diagonal of M, is 1 for the plain graph Laplacian, the degrees for the normalised
+    (random walk) one (1 at a node without edges), the vertices' areas for the cotangent Laplacian.
     """
 
     matrix: Sparse
@@ -71,12 +68,10 @@ class Laplacian:
     def second(
         self, count: int = 2
     ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, " n"]]:
-        """Return the smallest eigenvalues, and a function of the second without the constant's
-        part.
+        """Return the smallest eigenvalues, and a function of the second orthogonal to constants.
 
-        A solver may return any mixture of the functions of one eigenvalue. Where 0 is double, the
-        graph being in two pieces, what is left has one value on each piece; with more it is not
-        determined.
+        Where 0 is double, the graph being in two pieces, it has one value on each piece; with more
+        it is not determined.
 
         Raises:
             ValueError: If `count` is not between 2 and the number of nodes.
@@ -101,9 +96,7 @@ def smallest_eigenpairs(
 ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "n {count}"]]:
     """Return the smallest eigenvalues, ascending, and unit eigenvectors of a semidefinite matrix.
 
-    Args:
-        shift: A number below 0 at which the matrix is inverted, by default near 0 for the size of
-            its diagonal. The closer to the wanted eigenvalues, the fewer solves.
+    It is inverted at `shift` below 0: the closer to the eigenvalues, the fewer solves.
 
     Raises:
         LinAlgError: If the matrix has negative eigenvalues or is not symmetric.

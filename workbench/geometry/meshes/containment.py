@@ -29,11 +29,7 @@ _MOST_CELLS = 256
 class Columns:
     """A mesh sorted into square columns along z: each knows the faces whose box touches it.
 
-    Attributes:
-        size: The edges of a column in x and y.
-        cells: How many columns stand along x, and along y.
-        faces: The faces of column 0, of column 1, and so on.
-        first: Where each column's faces begin in `faces`.
+    `faces` lists those of column 0, of column 1, and so on; each column's begin at `first`.
     """
 
     corners: Float[np.ndarray, "f 3 3"]
@@ -63,8 +59,7 @@ def columns(p: Points, faces: Faces) -> Columns:
 def windings(mesh: Columns, q: Queries) -> Int[np.ndarray, " n"]:
     """Return the winding number of a closed mesh around each point: 1 inside, 0 outside.
 
-    It is 2 where two solids overlap. Where the mesh is open it holds only below what is there of
-    it.
+    Where the mesh is open it holds only below what is there of it.
     """
     cell = np.floor((q[:, :2] - mesh.low) / mesh.size).astype(np.int64)
     over = ((cell >= 0) & (cell < mesh.cells)).all(axis=1)
@@ -91,11 +86,7 @@ def inside(p: Points, faces: Faces, q: Queries) -> Bool[np.ndarray, " n"]:
 def crossings(
     corners: Float[np.ndarray, "n 3 3"], xy: Float[np.ndarray, "n 2"]
 ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Return whether a vertical line crosses a triangle, pair by pair, and at which height.
-
-    1 where the triangle looks up, -1 where it looks down, 0 where the line misses it: then the
-    height means nothing.
-    """
+    """Return 1 (up), -1 (down) or 0 for vertical lines through triangles, and their heights."""
     x, y = xy.T
     (ax, bx, cx), (ay, by, cy) = np.ascontiguousarray(corners[:, :, :2].transpose(2, 1, 0))
     sign = np.zeros(len(xy), dtype=np.int64)
@@ -125,8 +116,7 @@ def crossings(
 def winding_numbers(p: Points, faces: Faces, q: Queries) -> Float[np.ndarray, " n"]:
     """Return the generalised winding number at each point: the solid angle of all faces over 4 pi.
 
-    Of a closed mesh it is whole; of an open one it changes smoothly, and more than one half still
-    means inside. It suits some thousand points, none on the surface.
+    Of a closed mesh it is whole; of an open one more than one half means inside.
 
     Examples:
         >>> p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])

@@ -31,15 +31,7 @@ PerVertex = Float[np.ndarray, " v"]
 
 @dataclass(frozen=True, eq=False)
 class Curvatures:
-    """Everything the two formulas give at each vertex.
-
-    Attributes:
-        areas: Mixed Voronoi area, m^2.
-        defects: Angle defect, radians: curvature times area, or the turning of the border.
-        normals: Angle-weighted outward unit normals.
-        gaussian: K = k1 k2.
-        mean: H = (k1 + k2) / 2.
-    """
+    """The mixed Voronoi area at each vertex, m^2, its angle defect, normal and curvatures."""
 
     areas: PerVertex
     defects: PerVertex
@@ -67,7 +59,7 @@ def angle_defects(p: Points, faces: Faces) -> PerVertex:
     """Return how much the angles around each vertex miss 2 pi, or pi on the border, radians.
 
     This is the integral of K over the vertex' area, or the turning of the border curve. All of them
-    add up to 2 pi chi (Gauss-Bonnet). See Meyer et al. 2003, equation 9.
+    add up to 2 pi chi (Gauss-Bonnet; Meyer et al. 2003, equation 9).
 
     Examples:
         >>> p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
@@ -85,10 +77,7 @@ def gaussian_curvature(p: Points, faces: Faces) -> PerVertex:
 
 
 def mean_curvature_normals(p: Points, faces: Faces) -> Points:
-    """Return 2 H n at each vertex: sum_j (cot a_ij + cot b_ij) (p_i - p_j) / (2 A_i), 1/m.
-
-    It points outward where H > 0; nan on the border (Meyer et al. 2003, equation 8).
-    """
+    """Return 2 H n: sum_j (cot a_ij + cot b_ij) (p_i - p_j) / (2 A_i) (Meyer et al., eq. 8)."""
     measured = corners(p, faces)
     return _mean_curvature_normals(measured, mixed_areas_of(measured), on_boundary(faces, len(p)))
 
@@ -112,10 +101,8 @@ def principal_curvatures(gaussian: PerVertex, mean: PerVertex) -> tuple[PerVerte
 def principal_directions(p: Points, faces: Faces, normals: Points) -> tuple[Points, Points]:
     """Return unit tangents along k1 and k2, of the tensor B that fits the edges' curvatures best.
 
-    Each edge tells the curvature in its direction d, kappa = 2 (p_i - p_j) . n / |p_i - p_j|^2, and
-    B minimises sum_j (d_j^T B d_j - kappa_j)^2. The sign of a direction means nothing; where k1 =
-    k2 the direction does neither.
-    Reference: Meyer et al. 2003, section 5.3, with equal weights.
+    An edge along d has kappa = 2 (p_i - p_j) . n / |p_i - p_j|^2, and B minimises sum_j (d_j^T B
+    d_j - kappa_j)^2 (Meyer et al., 5.3, equal weights). Signs mean nothing.
     """
     a, b = edges(faces).T
     i, j = np.concatenate([a, b]), np.concatenate([b, a])

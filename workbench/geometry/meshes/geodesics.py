@@ -26,10 +26,7 @@ def edge_lengths(p: Points, edges: Edges) -> Lengths:
 
 
 def length_graph(edges: Edges, lengths: Lengths, count: int) -> Sparse:
-    """Return the symmetric matrix of a graph's lengths; of edges given twice the shortest counts.
-
-    An edge of length 0 keeps its place in the matrix.
-    """
+    """Return the symmetric matrix of a graph's lengths, also of 0; repeated edges' shortest."""
     return _one_way(
         np.concatenate([edges, edges[:, ::-1]]), np.concatenate([lengths, lengths]), count
     )
@@ -66,8 +63,7 @@ def shortest_path(
 ) -> Int[np.ndarray, " k"]:
     """Return the nodes of a shortest way from the source to the goal; empty out of reach.
 
-    It is read back off the distances from the source. Every step goes to the neighbour over which
-    the goal is reached soonest; the way stops where none is nearer to the source.
+    It is read back off the distances from the source, and stops where no neighbour is nearer.
     """
     if not np.isfinite(distances[goal]):
         return np.empty(0, int)
@@ -89,9 +85,8 @@ def with_points_on_edges(
 ) -> tuple[Float[np.ndarray, "n 3"], Edges, Lengths]:
     """Return a graph whose ways also cross faces: points on every edge, joined across each face.
 
-    The vertices come first. With 0 points these are the mesh's own edges; the more there are, the
-    nearer the shortest way is to the true one over the faces, from above (Lanthier et al., 3.1, the
-    fixed placement).
+    The vertices come first. The more points, the nearer the shortest way is to the true one over
+    the faces, from above (Lanthier et al., 3.1, the fixed placement).
     """
     own = meshes.edges(faces)
     if count == 0:
@@ -154,10 +149,7 @@ _PLUS, _CROSS, _KNIGHT = ((0, 1), (1, 0)), ((1, 1), (1, -1)), ((1, 2), (2, 1), (
 def distance_past_wall(
     p: Float[np.ndarray, "n 2"], q: Float[np.ndarray, "2"], tip: Float[np.ndarray, "2"]
 ) -> Float[np.ndarray, " n"]:
-    """Return the shortest way from q to points of a plane with a wall straight below the tip.
-
-    The wall has no lower end; no point lies on it.
-    """
+    """Return the shortest way from q to points of a plane with a wall straight below the tip."""
     straight = np.linalg.norm(p - q, axis=1)
     across = (p[:, 0] - tip[0]) * (q[0] - tip[0]) < 0
     share = np.divide(tip[0] - q[0], p[:, 0] - q[0], out=np.zeros(len(p)), where=across)

@@ -26,9 +26,8 @@ STRAIGHT = 1e-9
 def intrinsic_delaunay(p: Points, faces: Faces) -> Corners:
     """Return the corners of the intrinsic Delaunay triangulation, each triangle laid out flat.
 
-    Of every edge inside, the two angles opposite it are at most pi together, so its cotangent
-    weight is not negative; an edge of the border may keep a negative one. Two vertices may be
-    joined twice, and one with itself. The mesh is one that `check_mesh` accepts.
+    Angles opposite an edge inside are at most pi together; an edge of the border may keep a
+    negative weight. Two vertices may be joined twice, and one with itself.
     """
     sides = _Sides(p, faces)
     waiting = list(range(len(sides.twin)))

@@ -19,12 +19,7 @@ MOST_EDGES = 64  # compared with each other for being parallel
 
 @dataclass(frozen=True, eq=False)
 class Measures:
-    """The measures of one mesh, in metres and radians.
-
-    Attributes:
-        volume: Negative where the faces are seen clockwise from outside; NaN for an open mesh.
-        directions: Unit directions of the first edges; zero for an edge without length.
-    """
+    """The measures of a mesh; volume is NaN if open, negative if inside out, `directions` unit."""
 
     lengths: Float[np.ndarray, "e"]
     angles: Float[np.ndarray, "f 3"]

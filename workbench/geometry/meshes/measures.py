@@ -30,18 +30,12 @@ def surface_area(p: Points, faces: Faces) -> float:
 
 
 def signed_volume(p: Points, faces: Faces) -> float:
-    """Return the volume inside a closed mesh, m^3, negative where it is turned inside out.
-
-    The sum is about the first vertex, so that no digits are lost far from the origin.
-    """
+    """Return the volume inside a closed mesh, m^3, about its first vertex; negative inside out."""
     return volume_about(p, faces, p[0])
 
 
 def volume_about(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> float:
-    """Return the sum of the signed tetrahedra between a point and all faces, m^3.
-
-    Of a closed mesh this is its volume wherever the point is; of an open mesh the point decides.
-    """
+    """Return the sum of the signed tetrahedra between a point, which decides if open, and faces."""
     total = 0.0
     for (ax, ay, az), (bx, by, bz), (cx, cy, cz) in _blocks(p, faces, origin):
         total += (
@@ -51,11 +45,7 @@ def volume_about(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> flo
 
 
 def tetrahedra(p: Points, faces: Faces, origin: Float[np.ndarray, "3"]) -> Float[np.ndarray, " f"]:
-    """Return the signed volume of the tetrahedron between a point and each face, m^3.
-
-    It is positive where the point lies behind the face: a . (b x c) / 6, the corners seen from
-    there.
-    """
+    """Return the volume a . (b x c) / 6 from a point to each face, positive from behind, m^3."""
     a, b, c = (p - origin)[faces].transpose(1, 0, 2)
     return np.einsum("fx,fx->f", a, np.cross(b, c)) / 6
 
@@ -92,8 +82,6 @@ def volume_centroid(p: Points, faces: Faces) -> Float[np.ndarray, "3"]:
 
 def encloses(faces: Faces) -> bool:
     """Return whether each edge runs as often there as back, so that the volume is defined.
-
-    A hole or a face that is turned round leaves edges without a partner.
 
     Examples:
         >>> encloses(np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))

@@ -42,10 +42,7 @@ def edge_energy(p: Points, edges: Int[np.ndarray, "e 2"]) -> Energy:
 def normal_energy(
     p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]
 ) -> Energy:
-    """Return the mean of 1 - n · m over pairs of faces with normals n and m, and its gradient.
-
-    A face without area has the normal 0, and moves nothing.
-    """
+    """Return the mean of 1 - n · m over pairs of faces with normals n and m, and its gradient."""
     a, b, c = (p[faces[:, k]] for k in range(3))
     N = np.cross(b - a, c - a)
     length = np.maximum(np.linalg.norm(N, axis=1, keepdims=True), _NO_AREA)

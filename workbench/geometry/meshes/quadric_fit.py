@@ -38,10 +38,7 @@ class Quadrics:
     neighbours: Int[np.ndarray, " v"]
 
     def curvatures(self) -> tuple[PerVertex, PerVertex]:
-        """Return K in 1/m^2 and H in 1/m; positive H bends away from the normal.
-
-        Reference: do Carmo, Differential Geometry of Curves and Surfaces, 3.3, example 5.
-        """
+        """Return K in 1/m^2 and H in 1/m (do Carmo, Curves and Surfaces, 3.3, example 5)."""
         _, fx, fy, a, fxy, b = self.coefficients.T
         fxx, fyy, w2 = 2 * a, 2 * b, 1 + fx**2 + fy**2
         gaussian = (fxx * fyy - fxy**2) / w2**2
@@ -61,16 +58,13 @@ class Quadrics:
 
 
 def fit_quadrics(p: Points, faces: Faces, rings: int = 2) -> Quadrics:
-    """Return a quadric at every vertex, fitted by least squares to vertices up to `rings` edges
-    away.
+    """Return a quadric at every vertex, by least squares over vertices up to `rings` edges away.
 
     A neighbour at distance r counts exp(-(r / r_rms)^2), r_rms being the root mean square of all of
-    them. More rings forgive more noise and blur more; 2 give about 18 neighbours. On the border all
-    neighbours lie on one side. With fewer than six vertices in reach, or all of them on a conic,
-    the row is nan.
+    them. More rings forgive more noise and blur more; 2 give about 18 neighbours. With fewer than
+    six vertices in reach, or all of them on a conic, the row is nan.
     Reference: Cazals and Pouget, Estimating differential quantities using polynomial fitting of
-    osculating jets, 2005, theorem 3 (degree 2: K and H converge with the first power of the
-    distance).
+    osculating jets, 2005, theorem 3 (degree 2: K and H converge with the distance).
 
     Raises:
         ValueError: If `rings` is below 1.

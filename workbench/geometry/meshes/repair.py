@@ -24,8 +24,7 @@ def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
 def oriented(faces: Faces) -> Faces:
     """Return the faces, as few turned as possible, so that neighbours agree which side is outside.
 
-    A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an
-    edge, stay as they are.
+    A piece with one side only, and a mesh with more than two faces at an edge, stay as they are.
     """
     half, f = half_edges(faces), len(faces)
     keys = edge_keys(half)
@@ -50,10 +49,7 @@ def oriented(faces: Faces) -> Faces:
 
 
 def split_where_sheets_touch(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Faces]:
-    """Return the mesh with a vertex for each fan of faces that meet in one; new ones come last.
-
-    Angles, areas and places stay; pieces that touched in a point are no longer connected there.
-    """
+    """Return the mesh with a vertex for each fan of faces that meet in one; new ones come last."""
     fan_vertex, fan = corner_fans(faces)
     # The first fan of each vertex keeps it, the others get new ones.
     order = np.argsort(fan_vertex, kind="stable")

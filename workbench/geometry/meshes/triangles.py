@@ -27,11 +27,9 @@ BLOCK = 8192
 class Corners:
     """The measures of which formulas on a mesh are made: corner k of face i in row k, column i.
 
-    Attributes:
-        edges: For x, y and z the edge opposite each corner, counterclockwise round its face, m.
-        dots: The dot product of the two edges that leave the corner, m^2.
-        normals: The cross product of two edges of each face, outwards, as long as twice its area.
-        count: How many vertices the mesh has.
+    `edges` are opposite each corner, counterclockwise (x, y, z first); `dots` the products of the
+    two edges that leave it; `normals` point outwards, as long as twice the area; `count` the
+    vertices.
     """
 
     vertices: Int[np.ndarray, "3 f"]
@@ -111,8 +109,7 @@ def face_normals(p: Points, faces: Faces) -> Float[np.ndarray, "f 3"]:
 def vertex_normals(p: Points, faces: Faces) -> Float[np.ndarray, "v 3"]:
     """Return unit normals at the vertices: the face normals around, weighted by their angle there.
 
-    Unlike the mean over the faces, they do not depend on how a flat piece was cut into triangles
-    (Thuermer and Wuethrich). A vertex without faces, or whose faces cancel, gets zero.
+    They do not depend on how a flat piece was cut into triangles. Zero without faces.
     """
     return normals_at_vertices(corners(p, faces))
 
@@ -202,7 +199,7 @@ def distinct_rows(
 ) -> tuple[Int[np.ndarray, " u"], Int[np.ndarray, " n"]]:
     """Return where each distinct row is found first, in order, and of each row which it is.
 
-    It is what `np.unique` finds along rows, whose sorting lets no other thread run.
+    `np.unique` finds the same, but its sorting lets no other thread run.
 
     Examples:
         >>> distinct_rows(np.array([[2, 0], [1, 5], [2, 0]]))
@@ -218,10 +215,7 @@ def distinct_rows(
 
 
 def welded(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
-    """Return the mesh with one vertex per place, without collapsed faces and unused vertices.
-
-    Files often list a vertex once per face or texture, which would make borders.
-    """
+    """Return the mesh with one vertex per place, without collapsed faces and unused vertices."""
     first, name = distinct_rows(p)
     at, faces = p[first], name[faces]
     a, b, c = faces.T
@@ -307,8 +301,7 @@ def _check_vertices(p: Points, faces: Faces) -> None:
 def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " c"]]:
     """Return the vertex of every fan, and the fan of every corner: all corners 0, then 1, then 2.
 
-    A fan is a set of corners at one vertex, each sharing an edge with the next. On a surface each
-    vertex has one fan.
+    A fan is a set of corners at one vertex, each sharing an edge with the next; a surface has one.
     """
     half, f = half_edges(faces), len(faces)
     keys = edge_keys(half)

@@ -31,13 +31,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """An affine map taken apart: stretch first, then mirror at the origin, rotate, translate.
-
-    Attributes:
-        mirror: -1 where the map turns right hands into left ones, else +1.
-        stretch: Symmetric and positive semidefinite, with the factors along its eigenvectors as
-            eigenvalues.
-    """
+    """An affine map: symmetric stretch, then mirror at the origin (±1), rotation, translation."""
 
     translation: Float[np.ndarray, "3"]
     rotation: Float[np.ndarray, "3 3"]
@@ -91,10 +85,7 @@ def reflection(normal: Float[np.ndarray, "3"]) -> Map:
 
 
 def perspective(slope: Float[np.ndarray, "3"]) -> Map:
-    """Return the projective map that divides every point by w = 1 + slope . p.
-
-    It keeps straight lines straight, but not parallel: lines along d meet at d / (slope . d).
-    """
+    """Return the projective map by w = 1 + slope . p: lines along d meet at d / (slope . d)."""
     H = np.eye(4)
     H[3, :3] = slope
     return H
@@ -140,8 +131,7 @@ def decompose(A: Map) -> Parts:
     """Return the rotation, mirror, stretch and translation of an affine map by polar decomposition.
 
     Where the stretch flattens (det = 0) the rotation is one of many.
-    Reference: Shoemake and Duff, Matrix animation and polar decomposition, 1992: M = T F R S, F =
-    +-1.
+    Reference: Shoemake and Duff, Matrix animation and polar decomposition, 1992: M = T F R S.
 
     Raises:
         ValueError: If the last row is not (0, 0, 0, 1): a projective map has no such parts.

@@ -1,9 +1,11 @@
 """Least-squares alignment of paired points: rigid, similarity, affine, and point to plane.
 
 Pairs are rows of `p_target` and `p_source`, each in its own frame, with one weight of at least zero
-per pair, all equal when left out. Moments are taken about the first pair and in chunks that stay in
-cache: about the origin they would lose all digits for clouds far from it (a degree of rotation at
-an offset of 1e6), and centring whole copies first takes three times as long.
+per pair, all equal when left out. Functions of pairs raise ValueError where there are none, their
+numbers differ, a number is not finite, or weights are not usable. Moments are taken about the first
+pair and in chunks that stay in cache: about the origin they would lose all digits for clouds far
+from it (a degree of rotation at an offset of 1e6), and centring whole copies first takes three
+times as long.
 """
 
 from dataclasses import dataclass
@@ -29,10 +31,6 @@ def align_rigid(
     Reference: Umeyama, Least-squares estimation of transformation parameters between two point
     patterns, 1991, eq. 39-43 with scale 1; Kabsch 1976 and 1978.
 
-    Raises:
-        ValueError: If there are no pairs, their numbers differ, a number is not finite, or the
-            weights are not usable.
-
     Examples:
         >>> p_source = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
         >>> T_target_source = align_rigid(p_source + np.array([2.0, 0.0, 0.0]), p_source)
@@ -49,13 +47,9 @@ def align_similarity(
     p_source: Float[np.ndarray, "n 3"],
     weights: Float[np.ndarray, "n"] | None = None,
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the T_target_source made of rotation, one scale and translation that fits pairs best.
+    """Return the T_target_source of rotation, one scale and translation that fits pairs best.
 
-    Source points that all coincide say nothing about scale: it is 1 then.
-    Reference: Umeyama 1991, eq. 39-43.
-
-    Raises:
-        ValueError: As `align_rigid`.
+    Source points that all coincide give scale 1 (Umeyama 1991, eq. 39-43).
 
     Examples:
         >>> p_source = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
@@ -73,13 +67,8 @@ def similarity_scale(
 ) -> float:
     """Return how many times larger the target is than the source, by least squares.
 
-    Noise in the source makes it too small (regression dilution), so that there and back do not
-    multiply to 1. Source points that all coincide give 1.
-    Reference: Umeyama 1991, eq. 42; Fuller, Measurement Error Models, 1987, 1.1.1, for the
-    dilution.
-
-    Raises:
-        ValueError: As `align_rigid`.
+    Noise in the source makes it too small (regression dilution: Fuller, Measurement Error Models,
+    1987, 1.1.1). Source points that all coincide give 1 (Umeyama 1991, eq. 42).
 
     Examples:
         >>> round(similarity_scale(2.5 * np.eye(3) + 1.0, np.eye(3)), 6)
@@ -98,9 +87,6 @@ def align_affine(
 
     Directions which the source points do not span (flat or collinear clouds) are left as they are:
     the normal equations A C_ss = C_ts are solved for A - I.
-
-    Raises:
-        ValueError: As `align_rigid`.
     """
     m = _moments(p_target, p_source, weights)
     A = np.eye(3) + (m.cross - m.source) @ np.linalg.pinv(m.source, rcond=1e-12, hermitian=True)
@@ -114,10 +100,9 @@ def point_to_plane_step(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the small motion that brings points closest to the tangent planes at their partners.
 
-    Minimises the sum of ((p_source + w x p_source + v - p_target) . n_target)^2 over w and v, and
-    returns the proper rotation by w with v, to be composed on the left. All is in the target frame;
-    `p_source` is moved by the motion so far. Directions in which the planes hold nothing (sliding
-    along a plane, turning a sphere) get no motion.
+    Minimises the sum of ((p_source + w x p_source + v - p_target) . n_target)^2, all in the target
+    frame, and returns the proper rotation by w with v, to be composed on the left. Directions in
+    which the planes hold nothing (sliding along a plane, turning a sphere) get no motion.
     Reference: Low, Linear least-squares optimization for point-to-plane ICP surface registration,
     2004, eq. 8-10; the error is that of Chen and Medioni 1992.
 
@@ -150,33 +135,24 @@ def point_to_plane_step(
 
 
 def nearest_rotation(A: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the rotation nearest to each matrix in the least-squares sense.
-
-    A matrix of rank below 2 leaves the answer open; any one of them is returned.
-    """
+    """Return a rotation nearest to each matrix in the least-squares sense."""
     U, _, Vt = np.linalg.svd(A)
     U[..., 2] *= np.sign(np.linalg.det(U) * np.linalg.det(Vt))[..., None]  # no reflection
     return U @ Vt
 
 
 def degrees_between(T: Float[np.ndarray, "n n"], other: Float[np.ndarray, "n n"]) -> float:
-    """Return the angle between the rotations in two motions, 3x3 or 4x4, degrees in [0, 180].
-
-    Of a map that scales or shears it is the nearest rotation that counts.
-    """
+    """Return the angle between two maps' nearest rotations, 3x3 or 4x4, degrees in [0, 180]."""
     R, R_other = nearest_rotation(T[:3, :3]), nearest_rotation(other[:3, :3])
     return float(np.degrees(rotation_angle(R @ R_other.T)))
 
 
 @dataclass(frozen=True)
 class MotionError:
-    """How far a motion is from the true one; all NaN where that is not known.
+    """How far a motion is from the true one, degrees and metres; all NaN where that is unknown.
 
-    Attributes:
-        rotation: Degrees.
-        translation: How far the mean of the points is off, metres.
-        displacement: Root mean square distance of the points from where they belong, metres: it
-            holds all of the error, also a wrong scale.
+    `translation` is that of the points' mean; `displacement`, their root mean square distance from
+    where they belong, holds all of the error, also a wrong scale.
     """
 
     rotation: float

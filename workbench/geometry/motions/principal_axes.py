@@ -16,10 +16,8 @@ Axes = Float[np.ndarray, "3 3"]
 def centroid_and_covariance(p: Cloud) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3 3"]]:
     """Return the mean of points and their covariance about it, (1/n) sum (p - m)(p - m)^T, m^2.
 
-    Moments are taken about the first point: about the origin they would lose all digits for clouds
-    far from it.
-    Reference: Chan, Golub and LeVeque, Algorithms for computing the sample variance, 1983 (shifted
-    data).
+    Moments are taken about the first point, or they would lose all digits far from the origin.
+    Reference: Chan, Golub and LeVeque, Algorithms for computing the sample variance, 1983.
 
     Raises:
         ValueError: If there is no point, or a number is not finite.
@@ -46,11 +44,8 @@ def principal_axes(p: Cloud) -> Axes:
     """Return the directions of largest, middle and least variance as columns of a rotation.
 
     Any two columns may be turned round. Equal variances leave their directions open too.
-    Reference: Pearson, On lines and planes of closest fit to systems of points in space, 1901;
-    Jolliffe, Principal Component Analysis, 2nd ed., 1.1.
-
-    Raises:
-        ValueError: If there is no point, or a number is not finite.
+    Reference: Pearson, On lines and planes of closest fit, 1901; Jolliffe, Principal Component
+    Analysis, 1.1.
     """
     return ordered(*np.linalg.eigh(centroid_and_covariance(p)[1]))[1]
 
@@ -74,11 +69,7 @@ def right_handed_frames(axes: Axes) -> Float[np.ndarray, "k 3 3"]:
 
 
 def third_moments(axes: Axes, p: Cloud) -> Float[np.ndarray, "3"]:
-    """Return the mean of the cubed coordinates along each axis, about the centroid, m^3.
-
-    They tell an axis' two ends apart: 0 where a shape is symmetric, and a sign by chance for a
-    sample of it.
-    """
+    """Return the mean cubed coordinates along each axis, m^3, which tell an axis' ends apart."""
     along = (p - p.mean(axis=0)) @ axes
     return np.einsum("ij,ij,ij->j", along, along, along) / len(p)
 
@@ -86,18 +77,15 @@ def third_moments(axes: Axes, p: Cloud) -> Float[np.ndarray, "3"]:
 def canonical_signs(axes: Axes, p: Cloud) -> Axes:
     """Return the axes with signs that turn with the cloud: third moments of axes 1 and 2 >= 0.
 
-    Axis 3 is their cross product.
-    Reference: Bro, Acar and Kolda, Resolving the sign ambiguity in the singular value
-    decomposition, 2008, ask the data likewise, with other sums.
+    Reference: Bro, Acar and Kolda, Resolving the sign ambiguity in the SVD, 2008, with other sums.
     """
     return right_handed(axes * np.where(third_moments(axes, p) < 0, -1.0, 1.0))
 
 
 def largest_entry_signs(axes: Axes) -> Axes:
-    """Return the axes with the largest entry of each positive, the third as the cross product.
+    """Return the axes with the largest entry of 1 and 2 positive, as scikit-learn's svd_flip.
 
-    The rule of many libraries (scikit-learn's svd_flip). It looks at coordinates, not at the cloud:
-    the signs change as soon as the cloud was turned.
+    It looks at coordinates, not at the cloud: signs change as soon as the cloud was turned.
     """
     largest = np.abs(axes).argmax(axis=0)
     return right_handed(axes * np.where(axes[largest, np.arange(3)] < 0, -1.0, 1.0))

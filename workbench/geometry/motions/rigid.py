@@ -80,8 +80,6 @@ def across(
 def rotation_angle(R: Float[np.ndarray, "3 3"]) -> float:
     """Return the angle of a rotation in [0, pi] radians, exact at both ends.
 
-    The arc cosine of the trace alone would lose digits there.
-
     Examples:
         >>> round(rotation_angle(exp_so3(np.array([0.0, 0.0, 0.5]))), 6)
         0.5
@@ -118,9 +116,7 @@ def turns(w: Float[np.ndarray, "*k 3"]) -> Float[np.ndarray, "*k 3 3"]:
 
 
 def log_so3(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3"]:
-    """Return the rotation vector of R, of length at most pi, such that `exp_so3` gives R back.
-
-    At half a turn both signs of the axis are right, and one of them is returned.
+    """Return the rotation vector of R, one of length at most pi such that `exp_so3` gives R back.
 
     Examples:
         >>> log_so3(exp_so3(np.array([0.1, -0.2, 0.3]))).round(6).tolist()

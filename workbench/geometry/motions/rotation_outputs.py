@@ -27,14 +27,9 @@ _FLAT = 1e-3  # radians: below, a series is taken for (a - sin a) / a³
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Representation:
-    """One way to write rotations as numbers.
+    """One way to write rotations as numbers: those of no turn, a decoder, its pullback.
 
-    Attributes:
-        start: The numbers of no turn, (k,).
-        decode: Makes rotations (n, d, d) of numbers (n, k).
-        pullback: Returns the gradient by the numbers, given them and the gradient by R.
-        numbers: The numbers that are asked for where the loss is on them: a choice where several
-            mean one rotation.
+    `numbers` are asked for where the loss is on them: a choice where several mean one rotation.
     """
 
     start: Float[np.ndarray, " k"]
@@ -44,22 +39,16 @@ class Representation:
 
 
 def rotation_from_six(y: Float[np.ndarray, "n 6"]) -> Float[np.ndarray, "n 3 3"]:
-    """Return the rotations whose first two columns are two vectors each, orthonormal by
-    Gram-Schmidt.
+    """Return the rotations with two vectors, made orthonormal (Gram-Schmidt), as first columns.
 
-    The first three numbers give the first column, the last three the second; the third is their
-    product. Vectors that are zero or parallel give what is not finite (Zhou et al. 2019, eq. 15).
+    Vectors that are zero or parallel give what is not finite (Zhou et al. 2019, eq. 15).
     """
     u, v, _, _, _ = _six(y)
     return np.stack([u, v, np.cross(u, v)], axis=2)
 
 
 def degrees_apart(R: Rotations, other: Rotations) -> Float[np.ndarray, " n"]:
-    """Return the angle between each two matrices, degrees, from the length of their difference.
-
-    180 is the most, also of a matrix that is not finite; of one that is no rotation it is an angle
-    in name only.
-    """
+    """Return the angle between each two matrices, from their difference, up to 180 degrees."""
     half = np.linalg.norm(R - other, axis=(1, 2)) / np.sqrt(8)
     return np.degrees(2 * np.arcsin(np.clip(np.nan_to_num(half, nan=1.0), 0, 1)))
 
@@ -256,9 +245,8 @@ def random_rotations(
 ) -> tuple[Rotations, Float[np.ndarray, "n w"]]:
     """Return uniformly random rotations by at most an angle, and their angles or rotation vectors.
 
-    `dimension` is 2 or 3, `largest` at most pi.
-    Reference: Miles, On random rotations in R^3, Biometrika 1965: in space the angle has the
-    density (1 - cos a) / pi.
+    Reference: Miles, On random rotations in R^3, Biometrika 1965: an angle's density is (1 - cos a)
+    / pi.
     """
     if dimension == 2:
         a = rng.uniform(-largest, largest, (count, 1))

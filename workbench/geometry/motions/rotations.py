@@ -4,7 +4,12 @@ All stand for the matrix `R_a_b` that takes coordinates of frame b to frame a. A
 positive counter-clockwise about their axis (right-hand rule). Quaternions are (w, x, y, z). An
 Euler order is three letters, with one angle for each. Lower case turns about the fixed axes of the
 world, one after the other; upper case about the body's own axes, carried along by the earlier
-turns. So "xyz" with (a, b, c) is Rz(c) Ry(b) Rx(a), and "XYZ" is Rx(a) Ry(b) Rz(c).
+turns. So "xyz" with (a, b, c) is Rz(c) Ry(b) Rx(a), and "XYZ" is Rx(a) Ry(b) Rz(c). Another order
+raises ValueError.
+
+Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq.
+2.14. Diebel, Representing Attitude, 2006, 5.1; his R takes world to body. Solà, Quaternion
+kinematics for the error-state Kalman filter, 2017, 2.5.
 """
 
 from typing import Literal, get_args
@@ -51,10 +56,7 @@ _LOCKED = (
 def rotation_from_axis_angle(
     axis: Float[np.ndarray, "3"], angle: float
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the rotation by an angle about an axis of any length through the origin (Rodrigues).
-
-    Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq.
-    2.14.
+    """Return the rotation by an angle about an axis of any length (Rodrigues; Murray et al., 2.14).
 
     Raises:
         ValueError: If the axis is zero or not finite; it names no direction.
@@ -71,11 +73,7 @@ def rotation_from_axis_angle(
 
 
 def axis_angle_from_rotation(R: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, "3"], float]:
-    """Return the unit axis and the angle in [0, pi] of a rotation.
-
-    The identity turns about no axis in particular; x is returned. At half a turn both signs of the
-    axis are right.
-    """
+    """Return the unit axis, x for the identity, and the angle in [0, pi] of a rotation."""
     w = log_so3(R)
     largest = np.abs(w).max()
     if largest == 0.0:
@@ -90,13 +88,7 @@ def rotation_about(axis: Axis, angle: float) -> Float[np.ndarray, "3 3"]:
 
 
 def euler_to_matrix(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3 3"]:
-    """Return the rotation that three successive turns make.
-
-    Reference: Diebel, Representing Attitude, 2006, section 5.1; his R takes world to body, ours
-    body to world.
-
-    Raises:
-        ValueError: If the order is not one of the 24.
+    """Return the rotation that three successive turns make (Diebel 2006, 5.1).
 
     Examples:
         >>> angles = np.array([0.1, 0.2, 0.3])
@@ -111,13 +103,9 @@ def euler_to_matrix(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[
 def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.ndarray, "3"]:
     """Return three angles that make this rotation, in the order of the letters.
 
-    The middle angle is in [-pi/2, pi/2] where the three letters differ and in [0, pi] where the
-    first comes back; the other two are in [-pi, pi]. In gimbal lock only the sum or the difference
-    of the outer angles is determined; the last one is then zero. The third turn leaves its own axis
-    alone, so where R takes that axis gives the first two angles.
-
-    Raises:
-        ValueError: If the order is not one of the 24.
+    The middle angle is in [-pi/2, pi/2] where the three letters differ, in [0, pi] where the first
+    comes back; the others are in [-pi, pi]. In gimbal lock only the sum or the difference of the
+    outer angles is determined; the last one is then zero.
 
     Examples:
         >>> R = euler_to_matrix(np.array([0.1, 0.2, 0.3]), "ZYX")
@@ -145,11 +133,7 @@ def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.
 
 
 def euler_axes(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3 3"]:
-    """Return the directions in the world, one per row, about which the angles turn the body now.
-
-    A small change of the angles turns it by the rotation vector `change @ euler_axes(angles,
-    order)`.
-    """
+    """Return the axes in the world, as rows: a change of angles turns by `change @ axes`."""
     (i, j, k), carried = _letters(order)
     if not carried:
         i, k = k, i
@@ -168,9 +152,7 @@ def gimbal_margin(angles: Float[np.ndarray, "3"], order: EulerOrder) -> float:
 def locked_family(
     angles: Float[np.ndarray, "3"], order: EulerOrder, turns: Float[np.ndarray, "n"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the triples that make the same rotation as these angles in gimbal lock.
-
-    The first angle differs by each of `turns`; the third makes up for it.
+    """Return triples of the same rotation in gimbal lock, the first angles differing by `turns`.
 
     Raises:
         ValueError: If the angles are not in gimbal lock, where no such family exists.
@@ -191,10 +173,7 @@ def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.
 def triple_past_lock(
     angles: Float[np.ndarray, "3"], order: EulerOrder, turn: float
 ) -> Float[np.ndarray, "3"]:
-    """Return the nearest triple that turns the body further in the direction lost in gimbal lock.
-
-    That direction is at right angles to all axes of the angles: no small change turns about it.
-    """
+    """Return the nearest triple that turns the body on in the direction lost in gimbal lock."""
     first, second, _ = euler_axes(angles, order)
     R = exp_so3(turn * np.cross(first, second)) @ euler_to_matrix(angles, order)
     found = matrix_to_euler(R, order)
@@ -224,9 +203,7 @@ def quaternion_from_matrix(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"
 
 
 def matrix_from_quaternion(q: Float[np.ndarray, "4"]) -> Float[np.ndarray, "3 3"]:
-    """Return the rotation of a quaternion (w, x, y, z) of any length.
-
-    Reference: Solà, Quaternion kinematics for the error-state Kalman filter, 2017, section 2.5.
+    """Return the rotation of a quaternion (w, x, y, z) of any length (Solà 2017, 2.5).
 
     Raises:
         ValueError: If the quaternion is zero or not finite.
@@ -265,8 +242,8 @@ def great_circle(
 ) -> Float[np.ndarray, "4"]:
     """Return the unit quaternion at the fraction t of the arc between two, signs as they are.
 
-    q and -q are one rotation but two points of the sphere: with the wrong one of them the arc is
-    the long way round. Opposite quaternions have no one arc between them; the start is returned.
+    With q and -q, one rotation, the arc may be the long way; of opposite ones the start is
+    returned.
     Reference: Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985.
     """
     angle = 2.0 * np.arctan2(np.linalg.norm(q_end - q_start), np.linalg.norm(q_end + q_start))
@@ -281,8 +258,6 @@ def slerp(
     q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float
 ) -> Float[np.ndarray, "4"]:
     """Return the unit quaternion at the fraction t of the shortest turn, at constant speed.
-
-    Half a turn can go either way round; the signs of the two quaternions decide.
 
     Examples:
         >>> q_start, q_end = (quaternion_from_matrix(rotation_about("z", a)) for a in (0.0, 0.8))

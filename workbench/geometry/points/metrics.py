@@ -26,11 +26,8 @@ def distance_of(
 ) -> Distance:
     """Return the function that gives distances of points row by row, or to a single row.
 
-    Args:
-        metric: `p` is (sum |x|^p)^(1/p), `p-sum` the same without the root, `squared` the square of
-            Euclid's, `cosine` one minus the cosine of the angle at the origin.
-        order: The exponent p > 0. Below 1 `p` is no metric, above 1 `p-sum` is none.
-        covariance: For `mahalanobis`; the identity where it is left out.
+    `p` is (sum |x|^p)^(1/p), p being `order`, no metric below 1; `p-sum` leaves out the root;
+    `cosine` is one minus the cosine at the origin. The covariance is the identity by default.
     """
     match metric:
         case "euclid":
@@ -65,9 +62,6 @@ def mahalanobis(
     p: Points, mean: Float[np.ndarray, " d"], covariance: Covariance
 ) -> Float[np.ndarray, " n"]:
     """Return points' distances from the mean in standard deviations along them, sqrt(v^T C^-1 v).
-
-    Raises:
-        ValueError: If the covariance is not positive definite.
 
     Examples:
         >>> p = np.array([[1.0, -1.0], [1.0, 1.0]])
@@ -106,10 +100,7 @@ def whitening(covariance: Covariance) -> Covariance:
 
 
 def radius_of_share(share: float, dims: int) -> float:
-    """Return how far from the mean a share of a normal distribution lies, in standard deviations.
-
-    The squared distance has the chi-squared distribution with `dims` degrees of freedom.
-    """
+    """Return how far from the mean a share of a normal distribution lies, in its deviations."""
     return float(np.sqrt(2 * scipy.special.gammaincinv(dims / 2, share)))
 
 
@@ -130,12 +121,10 @@ def robust_mean_and_covariance(
 ) -> tuple[Float[np.ndarray, " d"], Covariance]:
     """Return mean and covariance of the half with the smallest covariance determinant (MCD).
 
-    Every start draws d + 1 of the points, some more than 2 d; a C-step takes the half of all points
-    that is nearest by Mahalanobis, and never raises the determinant. The result is scaled so that
-    the median distance is that of a normal distribution; mean and covariance of all points within
-    its 97.5 % radius are returned.
-    Reference: Rousseeuw and Van Driessen, A fast algorithm for the minimum covariance determinant
-    estimator, 1999.
+    Every start draws d + 1 points; a C-step takes the half that is nearest by Mahalanobis, and
+    never raises the determinant. The result is scaled to the median distance of a normal
+    distribution; mean and covariance of all points within its 97.5 % radius are returned.
+    Reference: Rousseeuw and Van Driessen, A fast algorithm for the MCD estimator, 1999.
 
     Raises:
         ValueError: If half of the points lie in a hyperplane.
@@ -169,9 +158,6 @@ def robust_mean_and_covariance(
 def triangle_excess(
     distance: Distance, a: Points, b: Points, *, c: Points
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
-    """Return how much longer the way a-c is than a-b-c, and the three distances ab, bc, ac.
-
-    A positive excess breaks the triangle inequality.
-    """
+    """Return how much longer a-c is than a-b-c, as in no metric, and the distances ab, bc, ac."""
     ab, bc, ac = distance(a, b), distance(b, c), distance(a, c)
     return ac - ab - bc, np.column_stack([ab, bc, ac])

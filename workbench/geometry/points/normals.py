@@ -23,13 +23,8 @@ def point_normals(
 ) -> Float[np.ndarray, "n 3"]:
     """Return one unit normal per point, by principal components of its k nearest, itself included.
 
-    Collinear or coinciding neighbours leave the normal open: some unit vector orthogonal to the
-    line, or any (Hoppe et al. 1992, 3.2).
-
-    Args:
-        viewpoint: What normals face (a scanner's position); left out, they face away from the mean.
-        spread: Normals of points whose neighbours lie along a line (`on_a_line`) are 0, unless all
-            are.
+    Normals face the viewpoint, or away from the mean. With `spread` those of points whose
+    neighbours lie along a line (`on_a_line`) are 0, unless all are. Hoppe et al. 1992, 3.2.
 
     Raises:
         ValueError: If there are fewer than 3 points, k is below 3, or a coordinate is not finite.
@@ -51,9 +46,8 @@ def point_normals(
 def on_a_line(covariances: Float[np.ndarray, "6 n"]) -> Bool[np.ndarray, "n"]:
     """Return of neighbourhoods whether their points lie along a line: a normal means nothing then.
 
-    They do where the second of the principal variances is at most a fifth of the largest, as on one
-    ring of a lidar scan. Coinciding points count as a line. Rows are xx, yy, zz, xy, xz, yz, up to
-    a factor.
+    The second variance is at most a fifth of the largest then, as on one ring of a lidar scan. Rows
+    are xx, yy, zz, xy, xz, yz, up to a factor.
     """
     xx, yy, zz, xy, xz, yz = covariances
     variances = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).T)
@@ -63,9 +57,8 @@ def on_a_line(covariances: Float[np.ndarray, "6 n"]) -> Bool[np.ndarray, "n"]:
 def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
     """Return lambda_0 / (lambda_0 + lambda_1 + lambda_2) of the covariance: 0 flat, at most 1/3.
 
-    It is 0 too for points at one place.
     Reference: Pauly, Gross and Kobbelt, Efficient simplification of point-sampled surfaces, 2002,
-    equation 4.
+    eq. 4.
     """
     values = np.linalg.eigvalsh(np.cov(p.T))
     return float(values[0] / values.sum()) if values.sum() > 0 else 0.0

@@ -38,8 +38,8 @@ def places_on_faces(
 ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
     """Return on which faces such points lie, and the shares of the corners in each point.
 
-    The first number picks the face, each as likely as it is large. With s the square root of the
-    second and t the third, the point is (1 - s) a + s (1 - t) b + s t c.
+    The first number picks the face by area; with s the square root of the second and t the third,
+    the point is (1 - s) a + s (1 - t) b + s t c.
     """
     a, b, c = p[faces].transpose(1, 0, 2)
     n = np.cross(b - a, c - a)
@@ -53,15 +53,10 @@ def places_on_faces(
 def unit_points(
     count: int, dimension: int, draw: Draw, *, rng: np.random.Generator
 ) -> Float[np.ndarray, "n d"]:
-    """Return points in the unit cube.
+    """Return points in the unit cube: on their own, one in each of equal cubes, or Sobol's.
 
-    Args:
-        count: How many. Stratified: the nearest power k^d. Sobol: the nearest power of two, as the
-            sequence is even at these lengths only.
-        dimension: d.
-        draw: Each on its own, one in each of equal cubes, or the sequence of Sobol, its digits
-            flipped.
-        rng: Chance.
+    Their number is the nearest power k^d for cubes, of two for Sobol: the sequence is even then.
+    Sobol's binary digits are flipped by chance.
 
     Raises:
         ValueError: If more than three dimensions of the sequence of Sobol are asked for.
@@ -81,10 +76,9 @@ def unit_points(
 def sobol(count: int, dimension: int) -> Int[np.ndarray, "n d"]:
     """Return the first points of the sequence of Sobol in up to 3 dimensions, times 2^32.
 
-    Any 2^k of them that follow each other from a multiple of 2^k on lie one in each of 2^k equal
-    boxes, however the cube is cut into boxes by powers of two along x, y or both.
+    Any 2^k from a multiple of 2^k on lie one in each of 2^k equal boxes, cut by powers of two.
     Reference: Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections,
-    SIAM J. Sci. Comput. 30, 2008: the recurrence of the direction numbers and its first values.
+    2008.
 
     Raises:
         ValueError: If there are more dimensions.
@@ -106,9 +100,7 @@ def sobol(count: int, dimension: int) -> Int[np.ndarray, "n d"]:
 
 
 def volume_by_chance(inside: Bool[np.ndarray, " n"], box_volume: float) -> tuple[float, float]:
-    """Return the volume of which these points of a box lie inside, and its standard error, m^3.
-
-    The share of hits is binomial: its variance is share (1 - share) / n.
+    """Return the volume of which these points of a box lie inside, and its (binomial) error, m^3.
 
     Raises:
         ValueError: If there are no points.
@@ -135,10 +127,7 @@ def ball_share(dimension: int) -> float:
 def lines_through_ball(
     count: int, centre: Float[np.ndarray, "3"], radius: float, *, rng: np.random.Generator
 ) -> Float[np.ndarray, "n 2 3"]:
-    """Return the ends of chords of a ball, all lines that meet it being as likely, m.
-
-    Two points drawn evenly on the sphere do it.
-    """
+    """Return the ends of chords of a ball, all lines that meet it being as likely, m."""
     ends = rng.standard_normal((count, 2, 3))
     return centre + radius * ends / np.linalg.norm(ends, axis=2, keepdims=True)
 

@@ -51,11 +51,7 @@ class Nearest:
         return float(max(self.d_a.max(), self.d_b.max()))
 
     def f_score(self, max_distance: float) -> float:
-        """Return the harmonic mean of the shares of a and b within max_distance (m) of the other.
-
-        Reference: Knapitsch et al., Tanks and Temples, 2017, section 3.3: precision, recall and
-        their mean.
-        """
+        """Return the harmonic mean of the shares within a distance (Knapitsch et al. 2017, 3.3)."""
         precision, recall = (
             float(np.mean(self.d_a <= max_distance)),
             float(np.mean(self.d_b <= max_distance)),
@@ -64,12 +60,7 @@ class Nearest:
 
 
 def nearest_both_ways(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Nearest:
-    """Return the nearest neighbour of every point of each cloud in the other, one where several
-    are.
-
-    Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite.
-    """
+    """Return the nearest neighbour of every point of each cloud in the other."""
     check_clouds(p_a, p_b)
     tree_a, tree_b = _tree(p_a), _tree(p_b)
     a_to_b, d_a = _query(tree_b, p_a, tree_a)
@@ -78,13 +69,7 @@ def nearest_both_ways(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3
 
 
 def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the mean, over the points of a, of the squared distance to the nearest point of b.
-
-    It is 0 when every point of a is a point of b, however much of b has no point of a near it.
-
-    Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite.
-    """
+    """Return the mean, over the points of a, of the squared distance to the nearest point of b."""
     check_clouds(p_a, p_b)
     _, d = _query(_tree(p_b), p_a)
     return DEFINITIONS["mean of squares"](d)
@@ -93,12 +78,7 @@ def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> f
 def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
     """Return the two-sided Chamfer distance of squares and means: from a to b plus from b to a.
 
-    (1 / n) sum_i min_j |a_i - b_j|^2 + (1 / m) sum_j min_i |a_i - b_j|^2, in square metres, with
-    means in place of Fan et al.'s sums. Symmetric, 0 when each point of either cloud is a point of
-    the other; no metric, since the triangle inequality fails.
-
-    Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite.
+    Fan et al., with means for sums. It is no metric, since the triangle inequality fails.
 
     Examples:
         >>> p_a = np.array([[0.0, 0, 0], [1, 0, 0]])
@@ -126,30 +106,19 @@ def one_sided_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
 
 
 def hausdorff(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the Hausdorff distance, m: the largest from a point of either to the nearest of the
-    other.
-
-    Raises:
-        ValueError: As `chamfer`.
-    """
+    """Return the Hausdorff distance, m: the largest of all nearest distances, both ways."""
     return nearest_both_ways(p_a, p_b).hausdorff()
 
 
 def f_score(
     p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"], max_distance: float
 ) -> float:
-    """Return the F-score, 0 to 1, of two clouds at a distance in metres; see `Nearest.f_score`.
-
-    Raises:
-        ValueError: As `chamfer`.
-    """
+    """Return the F-score, 0 to 1, of two clouds at a distance in metres; see `Nearest.f_score`."""
     return nearest_both_ways(p_a, p_b).f_score(max_distance)
 
 
 def index_mse(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the mean squared distance, m², between rows of the same index.
-
-    It measures the order of the rows as much as the shapes: shuffle one cloud and it changes.
+    """Return the mean squared distance, m², between rows: it measures their order as well.
 
     Raises:
         ValueError: If the counts differ or a cloud is empty or not finite.
@@ -182,11 +151,7 @@ def _tree(p: np.ndarray) -> "scipy.spatial.KDTree":
 def _query(
     tree: "scipy.spatial.KDTree", p: np.ndarray, tree_of_p: "scipy.spatial.KDTree | None" = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the indices and distances of the nearest points.
-
-    Large clouds are visited in the order of their own tree: neighbouring queries touch the same
-    leaves.
-    """
+    """Return the indices and distances of the nearest points, in tree order where they are many."""
     if len(p) < _LARGE:
         d, indices = tree.query(p)
         return np.asarray(indices), np.asarray(d)

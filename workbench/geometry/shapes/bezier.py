@@ -64,8 +64,7 @@ def raised_patch(control: Float[np.ndarray, "3 3 d"]) -> Float[np.ndarray, "4 4 
 def quarter_circles(rational: bool) -> Float[np.ndarray, "4 k 3"]:
     """Return the unit circle as four arcs, each some control points (w x, w y, w).
 
-    Rational arcs are exact, quadratic with three control points; else they are cubic polynomials
-    with four, which meet the circle at the ends and in the middle.
+    Rational arcs are quadratic and exact, the others cubic and right at ends and middle.
     """
     if rational:
         w = np.sqrt(0.5)
@@ -81,13 +80,9 @@ def quarter_circles(rational: bool) -> Float[np.ndarray, "4 k 3"]:
 
 
 def torus_patches(ring: float, tube: float, rational: bool) -> Float[np.ndarray, "16 k k 4"]:
-    """Return a torus around z as 16 patches with control points (w x, w y, w z, w).
+    """Return a torus as 16 patches (w x, w y, w z, w): u goes around z, v around the tube.
 
-    u goes around z, v around the tube. Rational patches are exact and biquadratic, others bicubic.
-
-    Args:
-        ring: From the origin to the middle of the tube, m.
-        tube: The radius of the tube, m.
+    Rational patches are exact and biquadratic, others bicubic.
     """
     arcs = quarter_circles(rational)
     patches = []

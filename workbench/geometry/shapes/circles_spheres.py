@@ -45,11 +45,7 @@ def sphere_from_points(p: Float[np.ndarray, "*k 4 3"]) -> Float[np.ndarray, "*k 
 def costs_of_centers(
     p: Float[np.ndarray, "n d"], p_centers: Float[np.ndarray, "k d"]
 ) -> Float[np.ndarray, " k"]:
-    """Return for each centre the least sum of squared distances of points to a sphere about it, m².
-
-    The best radius is the mean of the ways to the points, so the sum is n times their variance
-    (Gander et al., section 3).
-    """
+    """Return for each centre the sum of squared distances to its best sphere (Gander et al., 3)."""
     columns, ways, squares = (
         np.ascontiguousarray(p_centers.T),
         np.zeros(len(p_centers)),
@@ -69,14 +65,10 @@ def fit_sphere(
 ) -> Float[np.ndarray, " d+1"]:
     """Return the circle or sphere with the smallest weighted sum of squared distances.
 
-    The algebraic fit, which is linear and makes short arcs too small, starts Levenberg-Marquardt on
-    the distances. Points of a line or a plane give a very large circle or sphere, or NaN.
+    Levenberg-Marquardt goes on from `start`, by default the algebraic fit, which makes short arcs
+    too small. Points of a line or a plane give a very large one, or NaN.
     Reference: Kåsa, A circle fitting procedure and its error analysis, 1976 (the start); Gander et
-    al., section 3 (the distances).
-
-    Args:
-        weights: How much each point's squared distance counts; all alike if None.
-        start: Where to start instead of at the algebraic fit.
+    al., 3.
 
     Raises:
         ValueError: If fewer than d + 1 points have a positive weight.
@@ -109,10 +101,7 @@ def fit_sphere(
 def linearise_sphere(
     sphere: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "*m n d"]
 ) -> tuple[Float[np.ndarray, "*r n"], Float[np.ndarray, "*r n c"]]:
-    """Return signed distances of points from spheres, and their slopes by centre and radius.
-
-    A point at the centre has slopes 0 by the centre (Gander et al., section 3).
-    """
+    """Return signed distances from spheres, and their slopes by centre and radius (Gander, 3)."""
     v = p - sphere[..., None, :-1]
     length = np.sqrt(np.square(v).sum(-1))
     slopes = -v / np.where(length > 0.0, length, np.inf)[..., None]

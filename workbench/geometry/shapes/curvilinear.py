@@ -71,15 +71,9 @@ def _azimuth(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class Coordinates:
-    """A system of three coordinates.
+    """A system of three coordinates, both ways, its density, and a solid of 1 m about the origin.
 
-    Attributes:
-        angles: Which of them are angles.
-        of_points: Takes points (n, 3) to coordinates (n, 3).
-        density: Takes coordinates to the volume of a small cell over the product of its three
-            sides.
-        solid: Lowest and highest coordinates of a solid about the origin, 1 m from it to its sides.
-        volume: Of that solid, m^3.
+    `density` is the volume of a small cell over the product of its three sides.
     """
 
     names: tuple[str, str, str]
@@ -145,11 +139,7 @@ def volume_of_cells(
     *,
     cells: int = 24,
 ) -> tuple[float, float]:
-    """Return the volume between coordinates as a sum over cells, m^3, and that sum without density.
-
-    Args:
-        cells: Along each coordinate; each cell counts with the density at its middle.
-    """
+    """Return the volume between coordinates, m^3, as a sum over cells, and without density."""
     middles = [
         a + (b - a) * (np.arange(cells) + 0.5) / cells for a, b in zip(low, high, strict=True)
     ]
@@ -161,9 +151,8 @@ def volume_of_cells(
 def read_as(numbers: Float[np.ndarray, "3"], convention: Convention) -> Float[np.ndarray, "3"]:
     """Return the (r, polar, azimuth) that a radius and two angles mean.
 
-    ISO: (r, polar, azimuth). Mathematics: (r, azimuth, polar), as MathWorld and many textbooks have
-    it. Elevation: (r, azimuth, elevation), the last from the x-y plane upwards, as in astronomy and
-    in MATLAB's `sph2cart`.
+    ISO: (r, polar, azimuth). Mathematics: (r, azimuth, polar), as MathWorld has it. Elevation: (r,
+    azimuth, elevation) with the last from the x-y plane upwards, as in MATLAB's `sph2cart`.
     """
     r, first, second = numbers
     if convention == "ISO":

@@ -4,6 +4,9 @@ Convention: (x, y, z, u, v, w, r): a point of the axis, its unit direction, and 
 Sliding the point along the axis, or scaling the direction, changes nothing, so a small step has
 five numbers: two shifts across the axis (metres), two tilts of it (radians), and the change of
 radius.
+
+Reference: Lukács, Martin and Marshall, Faithful least-squares fitting of spheres, cylinders, cones
+and tori, 1998.
 """
 
 import numpy as np
@@ -15,13 +18,7 @@ from workbench.geometry.motions import across
 def linearise_cylinder(
     cylinder: Float[np.ndarray, "*k 7"], p: Float[np.ndarray, "*m n 3"]
 ) -> tuple[Float[np.ndarray, "*r n"], Float[np.ndarray, "*r n 5"]]:
-    """Return signed distances of points from cylinders, negative inside, and slopes by a small
-    step.
-
-    A point on the axis has no slope but that by the radius.
-    Reference: Lukács, Martin and Marshall, Faithful least-squares fitting of spheres, cylinders,
-    cones and tori, 1998.
-    """
+    """Return signed distances of points from cylinders and their slopes by a small step."""
     n_axis = cylinder[..., 3:6]
     u, v = across(n_axis)
     w = p - cylinder[..., None, :3]

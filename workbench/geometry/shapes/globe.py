@@ -5,7 +5,7 @@ north pole, +X to latitude 0, longitude 0.
 
 Reference: Veness, Movable Type Scripts, "Calculate distance, bearing and more between
 latitude/longitude points". Snyder, Map Projections: A Working Manual, USGS 1395, 1987, eq. 3-28 and
-5-3. Torge, Geodesy, 3rd ed., 4.1.
+5-3. Torge, Geodesy, 3rd ed., 4.1. Mardia and Jupp, Directional Statistics, 2000.
 """
 
 from dataclasses import dataclass
@@ -35,10 +35,9 @@ def places_of_units(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
 def great_circle_distance(
     a: Float[np.ndarray, "n 2"], b: Float[np.ndarray, "n 2"], radius: float = EARTH_RADIUS
 ) -> Float[np.ndarray, " n"]:
-    """Return the shortest ways along a sphere from places to those in the same rows of another.
+    """Return the shortest ways along a sphere between places in the same rows (Snyder, 5-3a).
 
-    It is exact for a millimetre and for antipodes alike, in the unit of the radius.
-    Reference: Snyder, eq. 5-3a in its half-angle form, taken with both sine and cosine.
+    Half angles, with both sine and cosine, make it exact for a millimetre and for antipodes alike.
     """
     north, east = np.radians(b - a).T
     lat_a, lat_b = np.radians(a[:, 0]), np.radians(b[:, 0])
@@ -68,9 +67,7 @@ def great_circle_places(
 
 
 def mean_place(places: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2"]:
-    """Return the place below the mean of the unit vectors, also across the date line.
-
-    Reference: Mardia and Jupp, Directional Statistics, 2000, 9.2.
+    """Return the place below the mean of the unit vectors (Mardia and Jupp 2000, 9.2).
 
     Raises:
         ValueError: If the vectors cancel, as for antipodes.

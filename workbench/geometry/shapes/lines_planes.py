@@ -12,10 +12,7 @@ _FLAT = 1e-9
 
 
 def line_from_points(p: Float[np.ndarray, "*k 2 2"]) -> Float[np.ndarray, "*k 3"]:
-    """Return the line through each pair of points; its normal is the direction turned left.
-
-    Points that coincide give a row of NaN.
-    """
+    """Return the line through each two points, its normal to the left; NaN where they coincide."""
     v = p[..., 1, :] - p[..., 0, :]
     normal = _unit(np.stack([-v[..., 1], v[..., 0]], axis=-1), smallest=0.0)
     return _through(normal, p.mean(axis=-2))
@@ -24,8 +21,7 @@ def line_from_points(p: Float[np.ndarray, "*k 2 2"]) -> Float[np.ndarray, "*k 3"
 def plane_from_points(p: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 4"]:
     """Return the plane through each three points, counter-clockwise seen from its normal's side.
 
-    Points on one line give a row of NaN. They count as such when the triangle's area is below a
-    billionth of its squared longest side.
+    NaN on one line: where the area is below a billionth of the squared longest side.
 
     Examples:
         >>> plane_from_points(np.array([[0.0, 0, 2], [1, 0, 2], [0, 1, 2]])).tolist()  # z = 2
@@ -42,12 +38,8 @@ def fit_hyperplane(
 ) -> Float[np.ndarray, " d+1"]:
     """Return the line (d = 2) or plane (d = 3) of least weighted squared perpendicular distances.
 
-    The largest entry of the normal is positive. Points that leave a choice (all on one line in
-    space) give one of the planes that fit.
+    The largest entry of the normal is positive. One of many where the points leave a choice.
     Reference: Pearson, On lines and planes of closest fit to systems of points in space, 1901.
-
-    Args:
-        weights: How much each point's squared distance counts; all alike if None.
 
     Raises:
         ValueError: If fewer than d points have a positive weight.
@@ -66,14 +58,11 @@ def fit_hyperplane(
 
 
 def regression_line(p: Float[np.ndarray, "n 2"], on: int) -> Float[np.ndarray, "3"]:
-    """Return the line of least squared distances along one axis: ordinary regression.
+    """Return the line of least squared distances along one axis, column `on` being exact.
 
-    Errors in the exact column make the line too flat against its axis, by v / (v + σ²) in the
-    slope, v being the variance of the true values there. They must not all be one value.
+    Errors of variance σ² there make the slope too small, by v / (v + σ²), v being that of true
+    values.
     Reference: Fuller, Measurement error models, 1987, section 1.1.
-
-    Args:
-        on: The column taken as exact: 0 makes upright distances small (y on x), 1 level ones.
     """
     q = p - p.mean(axis=0)
     slope = q[:, on] @ q[:, 1 - on] / (q[:, on] @ q[:, on])

@@ -14,10 +14,7 @@ from jaxtyping import Float
 def meet(
     lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points (x, y, w) where lines cross those in the same rows.
-
-    Parallels meet at w = 0, a line and itself give (0, 0, 0). The same product joins points by a
-    line.
+    """Return the points (x, y, w) where lines cross those in the same rows, or lines of points.
 
     Examples:
         >>> meet(np.array([[1.0, 0, -2]]), np.array([[0.0, 1, -3]])).tolist()  # x = 2 and y = 3
@@ -35,10 +32,7 @@ def map_lines(
 
 
 def cross_ratio(t: Float[np.ndarray, "4"]) -> float:
-    """Return (t3 - t1)(t4 - t2) / ((t3 - t2)(t4 - t1)), which no homography of a line changes.
-
-    Reference: Hartley and Zisserman, 2.5, eq. 2.18, up to the order of the points.
-    """
+    """Return (t3 - t1)(t4 - t2) / ((t3 - t2)(t4 - t1)), which no homography changes (eq. 2.18)."""
     a, b, c, d = t
     return float((c - a) * (d - b) / ((c - b) * (d - a)))
 
@@ -46,10 +40,7 @@ def cross_ratio(t: Float[np.ndarray, "4"]) -> float:
 def angle_between_rays(
     p_h: Float[np.ndarray, "n 3"], q_h: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, " n"]:
-    """Return the angles between homogeneous vectors, radians: 0 where both are the same point.
-
-    Factors do not matter. NaN where one of them is (0, 0, 0) or not finite.
-    """
+    """Return the angles between homogeneous vectors up to sign, radians; NaN where one is zero."""
     with np.errstate(all="ignore"):
         p, q = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (p_h, q_h))
         return np.arctan2(np.linalg.norm(np.cross(p, q), axis=1), np.abs((p * q).sum(axis=1)))

@@ -50,9 +50,9 @@ def fundamental_from_cameras(
 def epipolar_lines(
     F: Float[np.ndarray, "3 3"], uv_first: Float[np.ndarray, "n 2"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the line (a, b, c), (a, b) a unit normal, in the second image of each first pixel.
+    """Return the second image's lines (a, b, c) of first pixels, NaN at the epipole.
 
-    A pixel at the epipole has a row of NaN. For lines in the first image pass `F.T`.
+    (a, b) is a unit normal. For lines in the first image pass `F.T`.
     """
     lines = homogeneous(uv_first) @ F.T
     lengths = np.linalg.norm(lines[:, :2], axis=1, keepdims=True)
@@ -67,10 +67,9 @@ def sampson_distances(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
-    """Return how far, to first order and in pixels, each match must move to satisfy F.
+    """Return how far, to first order, each match must move to satisfy F, pixels (HZ eq. 11.9).
 
-    The sign is that of `uv_second_h.T @ F @ uv_first_h`; both pixels share the movement. Works in
-    the precision of its input (HZ eq. 11.9, its square root).
+    The sign is that of `uv_second_h.T @ F @ uv_first_h`. Works in the precision of its input.
     """
     x, y = homogeneous(uv_first).T, homogeneous(uv_second).T
     lines_y = (F.reshape(-1, 3) @ x).reshape(*F.shape[:-2], 3, -1)
@@ -85,11 +84,10 @@ def sampson_distances(
 def fundamentals_from_seven(
     uv_first: Float[np.ndarray, "*k 7 2"], uv_second: Float[np.ndarray, "*k 7 2"]
 ) -> Float[np.ndarray, "*k 3 3 3"]:
-    """Return the one or three fundamental matrices through each sample of seven matches.
+    """Return the one or three fundamental matrices through each seven matches (HZ 11.1.2).
 
     The seven constraints leave a line of matrices, G + root D; its singular ones are the roots of a
-    cubic. Rows of NaN take the place of roots that are not real, and of samples whose constraints
-    are not independent (HZ 11.1.2).
+    cubic. NaN for roots that are not real, and constraints that are not independent.
     """
     T = normalising_similarity(np.concatenate([uv_first, uv_second]).reshape(-1, 2))
     x, y = homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ T.T
@@ -119,7 +117,7 @@ def orientation_agrees(
 ) -> Bool[np.ndarray, "*k s"]:
     """Return of each matrix whether all m matches can lie in front of both cameras, or all behind.
 
-    A match agrees when `epipole x uv_second_h` and `F @ uv_first_h` point the same way.
+    Then `epipole x uv_second_h` and `F @ uv_first_h` point the same way.
     Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the
     Oriented Epipolar Constraint, ICPR 2004, eq. 2.
     """
@@ -138,11 +136,10 @@ def fit_fundamental(
     uv_second: Float[np.ndarray, "n 2"],
     weights: Float[np.ndarray, " n"] | None = None,
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the fundamental matrix of matches by the normalised eight-point algorithm.
+    """Return the fundamental matrix of weighted matches by the normalised eight-point algorithm.
 
-    It minimises an algebraic error and then drops the smallest singular value; `refine_fundamental`
-    goes on to pixels. Matches of one plane, or of a camera that only turned, give one of many
-    solutions. Weights count squared errors.
+    It minimises an algebraic error; `refine_fundamental` goes on to pixels. Matches of one plane,
+    or of a camera that only turned, give one of many solutions.
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997.
 
     Raises:
@@ -179,10 +176,7 @@ def rank_two(F: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
 
 
 def epipoles(F: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
-    """Return the epipoles (u, v, w) in both images, unit vectors: F e = 0 and F' e' = 0.
-
-    Each is the picture of the other camera's centre. Where w is 0 it lies at infinity, and the
-    lines are parallel (HZ 9.2.4).
+    """Return the epipoles (u, v, w) in both images, F e = 0 and F' e' = 0 (HZ 9.2.4).
 
     Examples:
         >>> first, _ = epipoles(np.array([[0.0, -1.0, 5.0], [1.0, 0.0, -3.0], [-5.0, 3.0, 0.0]]))
@@ -203,10 +197,10 @@ def refine_fundamental(
 ) -> Float[np.ndarray, "3 3"]:
     """Return the matrix of rank two near `F` with the smallest sum of squared Sampson distances.
 
-    The unknown is F = U diag(cos a, sin a, 0) V': two rotations and an angle, seven numbers for
-    seven degrees of freedom. Never worse than `F` with its smallest singular value dropped.
+    The unknown is F = U diag(cos a, sin a, 0) V': two rotations and an angle. Never worse than `F`
+    with its smallest singular value dropped.
     Reference: Bartoli and Sturm, Nonlinear Estimation of the Fundamental Matrix with Minimal
-    Parameters, PAMI 2004, section 4; the distance is HZ eq. 11.9.
+    Parameters, PAMI 2004, section 4.
     """
     root = np.ones(len(uv_first)) if weights is None else np.sqrt(weights)
     T = normalising_similarity(np.concatenate([uv_first, uv_second]))
@@ -252,8 +246,7 @@ def sampson_slopes(
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "9 n"]]:
     """Return the signed Sampson distances, and their slopes by the nine entries of F.
 
-    x and y are homogeneous pixels with last entry 1, one match per column, `outer` their
-    `outer_products(y, x)`, which do not change while F does (HZ eq. 11.9, differentiated).
+    x and y are homogeneous pixels in columns, `outer` their unchanging `outer_products(y, x)`.
     """
     lines_y, lines_x = F @ x, F.T @ y
     lines_y[2] = lines_x[2] = 0.0
@@ -265,9 +258,8 @@ def sampson_slopes(
 
 
 def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarray, "*k 3"]:
-    """Return the real roots of a x^3 + b x^2 + c x + d, in closed form; NaN where one is not real.
+    """Return the real roots of a x^3 + b x^2 + c x + d, NaN for others, and all NaN where a = 0.
 
-    A leading coefficient of zero gives NaN only.
     Reference: Press et al., Numerical Recipes, 3rd ed., 5.6, eq. 5.6.10 to 5.6.18.
     """
     with np.errstate(all="ignore"):

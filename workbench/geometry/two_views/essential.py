@@ -27,10 +27,7 @@ def essential_from_fundamental(
     K_first: Float[np.ndarray, "3 3"],
     K_second: Float[np.ndarray, "3 3"],
 ) -> Float[np.ndarray, "3 3"]:
-    """Return E = K'^T F K, of Frobenius norm one (HZ eq. 9.12).
-
-    Of an estimated F the two large singular values differ: see `equal_singular_values`.
-    """
+    """Return E = K'^T F K, of Frobenius norm one (HZ eq. 9.12); singular values may differ."""
     E = K_second.T @ F @ K_first
     return E / np.linalg.norm(E)
 
@@ -42,12 +39,10 @@ def equal_singular_values(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3
 
 
 def essential_to_poses(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4 4"]:
-    """Return the four T_second_first that an essential matrix allows, with |t| = 1.
+    """Return the four T_second_first of an essential matrix, |t| = 1 (HZ 9.6.2, result 9.19).
 
-    Two rotations, half a turn about the baseline apart: (R, t), (R, -t), (R', t), (R', -t). The
-    sign of E and its scale play no part. R is the smaller turn, and t points along (1, 0.61, 0.37):
-    equal singular values leave U and V open. Estimates stand for the nearest essential matrix (HZ
-    9.6.2, result 9.19).
+    Two rotations, half a turn about the baseline apart: (R, t), (R, -t), (R', t), (R', -t). R is
+    the smaller turn, and t points along (1, 0.61, 0.37): equal singular values leave U and V open.
     """
     U, _, Vt = np.linalg.svd(E)
     U, Vt = U * np.copysign(1.0, np.linalg.det(U)), Vt * np.copysign(1.0, np.linalg.det(Vt))
@@ -67,8 +62,7 @@ def refine_motion(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the motion near this one, |t| = 1, of least squared Sampson distances of matches.
 
-    Five unknowns: a turn of R (three) and of t (two). A seven-number fundamental matrix has two
-    more than the cameras have, which makes a pose out of it less certain (HZ 11.4.3 and eq. 11.9).
+    Five unknowns: a turn of R (three) and of t (two) (HZ 11.4.3 and eq. 11.9).
 
     Raises:
         ValueError: If the translation is zero.

@@ -25,7 +25,6 @@ def homogeneous(p: Float[np.ndarray, "*k n d"]) -> Float[np.ndarray, "*k n d+1"]
 def normalising_similarity(uv: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray, "*k 3 3"]:
     """Return the similarity that brings the centroid to 0 and the mean distance from it to √2.
 
-    Points that all coincide are only moved, not scaled.
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997, section 5.
     """
     centroid = np.ones(uv.shape[-2]) @ uv / uv.shape[-2]  # quicker than the mean of columns
@@ -41,9 +40,7 @@ def normalising_similarity(uv: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray,
 def transform_pixels(
     H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray, "n 2"]
 ) -> Float[np.ndarray, "*k n 2"]:
-    """Return where each homography takes each pixel; NaN where it goes to infinity.
-
-    Works in the precision of its input.
+    """Return where each homography takes each pixel, in its precision; NaN at infinity.
 
     Examples:
         >>> H_b_a = np.array([[1.0, 0, 10], [0, 1, 0], [0, 0, 1]])  # ten columns to the right
@@ -60,11 +57,7 @@ def transform_pixels(
 def warped_grid(
     H_b_a: Float[np.ndarray, "3 3"], size: Float[np.ndarray, "2"], cells: int = 4, pieces: int = 8
 ) -> Float[np.ndarray, "n 2 2"]:
-    """Return a grid over image a of this width and height as segments in pixels of image b.
-
-    Each side of its squares is cut into pieces, so that it may be clipped and drawn piece by piece.
-    NaN where the homography takes an end to infinity.
-    """
+    """Return a grid over image a of this (width, height), cut in pieces, as segments in image b."""
     t, ticks = np.linspace(0.0, 1.0, cells * pieces + 1), np.linspace(0.0, 1.0, cells + 1)
     lines = [np.column_stack([np.full_like(t, x), t]) for x in ticks]
     lines += [line[:, ::-1] for line in lines]
@@ -89,10 +82,8 @@ def four_in_general_position(
 ) -> Bool[np.ndarray, "*k"]:
     """Return of each four matches whether some camera can see both quadrangles as one plane.
 
-    False where three pixels lie on one line in either image, and where only some of the four
-    triangles turn over: a real view keeps the orientation of all of them, or of none.
-    Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the
-    Oriented Epipolar Constraint, ICPR 2004 (the same idea for a homography).
+    False where three pixels lie on one line, and where only some of the four triangles turn over.
+    Reference: Chum, Werner and Matas, ICPR 2004 (the oriented constraint, here for a homography).
 
     Examples:
         >>> uv = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -105,11 +96,10 @@ def four_in_general_position(
 def homographies_from_four(
     uv_a: Float[np.ndarray, "*k 4 2"], uv_b: Float[np.ndarray, "*k 4 2"]
 ) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the homography through each sample of four matches, in closed form.
+    """Return the homography through each four matches in general position, else NaN.
 
     In image a, x3 = l0 x0 + l1 x1 + l2 x2; in image b, y3 = m0 y0 + m1 y1 + m2 y2. Then the sum of
-    (m_i / l_i) y_i (x_j × x_k)' takes all four pixels to their matches (HZ 2.3, example 2.12). NaN
-    where the four are not in general position.
+    (m_i / l_i) y_i (x_j × x_k)' takes all four pixels to their matches (HZ 2.3, example 2.12).
     """
     T = normalising_similarity(np.concatenate([uv_a, uv_b]).reshape(-1, 2))
     x, y = homogeneous(uv_a) @ T.T, homogeneous(uv_b) @ T.T
@@ -126,10 +116,9 @@ def fit_homography(
     uv_b: Float[np.ndarray, "n 2"],
     weights: Float[np.ndarray, " n"] | None = None,
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the homography of matches by the normalised direct linear transform.
+    """Return the homography of weighted matches by the normalised DLT (HZ algorithm 4.2).
 
-    It minimises an algebraic error; `refine_homography` goes on to pixels. Pixels that all lie on
-    one line give one of many solutions (HZ algorithm 4.2). Weights count squared errors.
+    It minimises an algebraic error; `refine_homography` goes on to pixels.
 
     Raises:
         ValueError: If there are fewer than four matches.
@@ -180,10 +169,7 @@ def refine_homography(
     weights: Float[np.ndarray, " n"] | None = None,
     steps: int = 10,
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the homography near `H_b_a` with the least sum of squared transfer distances in b.
-
-    At most `steps` linear systems are solved (HZ 4.2.2 and 4.5).
-    """
+    """Return the homography near `H_b_a` of least squared transfer distances (HZ 4.2.2, 4.5)."""
     root = np.ones(len(uv_a)) if weights is None else np.sqrt(weights)
     T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
     x, y = (

@@ -19,10 +19,7 @@ from workbench.geometry.two_views.homography import homogeneous
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Rectification:
-    """Two cameras turned so that rows correspond: rotations to the common frame, K, homographies.
-
-    Where the second camera stands left of the first, disparities are those of the second.
-    """
+    """Two cameras turned so that rows correspond; disparities are those of the left one."""
 
     R_rectified_first: Float[np.ndarray, "3 3"]
     R_rectified_second: Float[np.ndarray, "3 3"]
@@ -41,17 +38,12 @@ def rectify(
 ) -> Rectification:
     """Return the common orientation of two cameras, and the homographies that turn their pictures.
 
-    Where a camera sees the other the homography tears that picture: see `torn`. The translation may
-    have any scale.
-
-    Args:
-        keep_upright: Let x run against the baseline where the second camera stands left of the
-            first. Without it x always runs from the first camera to the second, as in the paper,
-            and such pictures come out upside down.
+    `keep_upright` lets x run against the baseline where the second camera stands left of the first.
+    In the paper x always runs from the first to the second; such pictures come out upside down.
+    Where a camera sees the other its picture is `torn`.
 
     Raises:
-        ValueError: If the cameras stand at one place, or the baseline runs along the mean of the
-            optical axes.
+        ValueError: If the cameras stand at one place, or the baseline runs along the optical axes.
     """
     R, t = T_second_first[:3, :3], T_second_first[:3, 3]
     length = np.linalg.norm(t)
@@ -100,9 +92,7 @@ def fitted(
     size_second: tuple[int, int],
     size: tuple[int, int],
 ) -> tuple[Float[np.ndarray, "3 3"], Float[np.ndarray, "3 3"]]:
-    """Return both homographies, scaled alike and moved so that both warped pictures fit in `size`.
-
-    Rows stay the same in both; sizes are (width, height).
+    """Return both homographies, scaled and moved alike so that both warped pictures fit in `size`.
 
     Raises:
         ValueError: If one of them is torn.
@@ -127,11 +117,7 @@ def warp(
     *,
     around: int = 255,
 ) -> UInt8[np.ndarray, "m k 3"]:
-    """Return the picture that a homography makes of another, bilinear, (width, height) being
-    `size`.
-
-    `around` is the grey of what the old one does not show.
-    """
+    """Return the (width, height) picture that a homography makes, bilinear, grey around it."""
     h, w = image.shape[:2]
     u, v = np.meshgrid(np.arange(size[0], dtype=float), np.arange(size[1], dtype=float))
     back = np.linalg.inv(H)

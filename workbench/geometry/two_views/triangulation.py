@@ -27,8 +27,7 @@ def triangulate(
 ) -> Float[np.ndarray, "n 3"]:
     """Return the points that fit the pixels best in the algebraic sense (DLT, HZ 12.2).
 
-    Nothing keeps a point in front of the cameras: nearly parallel rays may meet behind. Parallel
-    ones give coordinates that are huge, infinite or NaN.
+    Nearly parallel rays may meet behind; parallel ones give what is huge, infinite or NaN.
     """
     rows = [
         uv[:, k : k + 1] * P[2] - P[k]
@@ -47,9 +46,8 @@ def midpoints(
     xy_first: Float[np.ndarray, "n 2"],
     xy_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the middles of the shortest segments between rays, in the first camera's frame.
+    """Return the middles between normalised rays, in the first camera's frame; NaN if parallel.
 
-    Quick, and less exact; NaN where rays are parallel. `xy` are normalised.
     Reference: Hartley and Sturm, Triangulation, CVIU 1997, section 5.3.
     """
     R, t = T_second_first[:3, :3], T_second_first[:3, 3]
@@ -79,8 +77,7 @@ def triangulation_covariances(
 ) -> Float[np.ndarray, "n 3 3"]:
     """Return points' covariances, to first order, for a standard deviation of pixel coordinates.
 
-    In the squared unit of `p`; NaN where the two rays are parallel to the last digit.
-    Reference: HZ 5.2.2, result 5.10, and 12.6.
+    NaN where the two rays are parallel to the last digit (HZ 5.2.2, result 5.10, and 12.6).
     """
     slopes = []
     for P in (P_first, P_second):
