@@ -53,9 +53,8 @@ def intrinsics_from_constraints(rows: Float[np.ndarray, "m 6"]) -> Float[np.ndar
     b = np.linalg.svd(rows[:, _NO_SKEW])[2][-1]
     B = np.array([[b[0], 0.0, b[2]], [0.0, b[1], b[3]], [b[2], b[3], b[4]]])
     try:
-        K = np.linalg.inv(
-            np.linalg.cholesky(B if b[0] > 0 else -B).T
-        )  # B = (K^-T)(K^-1), K^-T lower triangular
+        # B = (K^-T)(K^-1), K^-T lower triangular
+        K = np.linalg.inv(np.linalg.cholesky(B if b[0] > 0 else -B).T)
     except np.linalg.LinAlgError:
         return None
     K /= K[2, 2]

@@ -194,9 +194,8 @@ def sqpnp(
     vectors = np.swapaxes(np.linalg.eigh(omega)[1][..., :_STARTS], -1, -2).reshape(
         len(p), _STARTS, 3, 3
     )
-    starts = (
-        vectors @ (np.swapaxes(q, 1, 2) @ q)[:, None]
-    )  # whose nearest rotation moves these points most alike
+    # Whose nearest rotation moves these points most alike
+    starts = vectors @ (np.swapaxes(q, 1, 2) @ q)[:, None]
     R = nearest_rotation(np.concatenate([starts, -starts], axis=1))
     rows, mean = np.arange(len(p))[:, None], q.mean(axis=1)
     for programs, kept in ((2, 2), (_PROGRAMS, 1)):

@@ -52,9 +52,8 @@ def epnp(
                 rows, :directions
             ]
             along = q[rows] @ np.swapaxes(arms, 1, 2)
-            lean = (along * along * along).sum(
-                axis=1
-            )  # either end of an axis would do: the heavier one
+            # Either end of an axis would do: the heavier one
+            lean = (along * along * along).sum(axis=1)
             T[rows] = _motions(q[rows], xy[rows], np.where(lean < 0.0, -1.0, 1.0)[..., None] * arms)
     T[:, :3, 3] -= (T[:, :3, :3] @ p_mean[..., None])[..., 0]
     return T.reshape(*batch, 4, 4)
@@ -63,9 +62,8 @@ def epnp(
 def _motions(q: np.ndarray, xy: np.ndarray, arms: np.ndarray) -> np.ndarray:
     """Return the motions for points about their mean, the arms' ends being control points too."""
     along = q @ np.swapaxes(arms / np.square(arms).sum(axis=-1, keepdims=True), 1, 2)
-    shares = np.concatenate(
-        [1.0 - along.sum(axis=-1, keepdims=True), along], axis=-1
-    )  # (k, n, c), barycentric
+    # (k, n, c), barycentric
+    shares = np.concatenate([1.0 - along.sum(axis=-1, keepdims=True), along], axis=-1)
     controls = np.concatenate([np.zeros_like(arms[:, :1]), arms], axis=1)
     vectors = _null_vectors(shares, xy)
     first, second = np.triu_indices(controls.shape[1], 1)
@@ -89,9 +87,8 @@ def _null_vectors(shares: np.ndarray, xy: np.ndarray) -> np.ndarray:
     blocks = (np.swapaxes(pairs, 1, 2) @ ray_forms(xy).reshape(k, n, 9)).reshape(k, c, c, 3, 3)
     MtM = blocks.transpose(0, 1, 3, 2, 4).reshape(k, 3 * c, 3 * c)
     nudge = np.trace(MtM, axis1=1, axis2=2)[:, None] * _NUDGE * np.arange(3 * c)
-    MtM[:, range(3 * c), range(3 * c)] += (
-        nudge  # of four points any basis would do: not rounding shall choose it
-    )
+    # Of four points any basis would do: not rounding shall choose it
+    MtM[:, range(3 * c), range(3 * c)] += nudge
     return np.swapaxes(np.linalg.eigh(MtM)[1][..., :c], 1, 2).reshape(k, c, c, 3)
 
 

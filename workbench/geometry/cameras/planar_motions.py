@@ -55,9 +55,8 @@ def planar_motions(
     R_ray = _turns_to(middle[..., 0])
     B = R_ray[..., :2, :2] - middle @ R_ray[..., 2:, :2]
     A = np.linalg.solve(B, J)
-    top = (
-        A / np.linalg.svd(A, compute_uv=False)[..., :1, None]
-    )  # the upper left of the rotation, relative to the ray
+    # The upper left of the rotation, relative to the ray
+    top = A / np.linalg.svd(A, compute_uv=False)[..., :1, None]
     rest = np.eye(2) - np.swapaxes(top, -1, -2) @ top
     b = np.sqrt(np.maximum(np.stack([rest[..., 0, 0], rest[..., 1, 1]], axis=-1), 0.0))
     b[..., 1] *= np.where(rest[..., 0, 1] < 0.0, -1.0, 1.0)

@@ -34,10 +34,11 @@ ToPixels = Callable[[np.ndarray], np.ndarray]
 PIECE = 0.06
 FAVOUR = 1.002
 STRAY = 3.0  # how far beyond the true picture a given camera model may look
+# Pixels that a row is longer at each end, so that neighbours leave no crack: straight, bent lens
 SLACK = (
     1e-6,
     0.1,
-)  # pixels that a row is longer at each end, so that neighbours leave no crack: straight, bent lens
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,9 +89,8 @@ class _Eye:
     height: int
     near: float
     bends: bool
-    window: (
-        np.ndarray
-    )  # (2, 2): lowest and highest x, y in normalised coordinates that can be in the picture
+    # (2, 2): lowest and highest x, y in normalised coordinates that can be in the picture
+    window: np.ndarray
 
     def flatten(self, p_world: np.ndarray) -> np.ndarray:
         """Return ideal normalised coordinates, those of a camera without lens."""

@@ -15,9 +15,8 @@ from jaxtyping import Float, Int
 from workbench.geometry.two_views.homography import homogeneous
 
 _REAL = 1e-6  # an imaginary part below this share of a root is rounding
-_SOLVED = (
-    1e-9  # how well, in shares of a triangle's largest side squared, the law of cosines has to hold
-)
+# How well, in shares of a triangle's largest side squared, the law of cosines has to hold
+_SOLVED = 1e-9
 _OPPOSITE = ((1, 2), (0, 2), (0, 1))  # the ends of the sides a, b, c
 _BAD = 1e300
 _TWOFOLD, _SAME = 1e-5, 1e-6

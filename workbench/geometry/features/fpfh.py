@@ -45,9 +45,8 @@ def pair_angles(
     phi = np.where(swap, -second, first)  # u d
     other = np.where(swap, -first, second)  # n d
     aligned = np.einsum("ij,ij->i", n_i, n_j)  # u n
-    triple = np.einsum(
-        "ij,ij->i", np.cross(d, n_i), n_j
-    )  # swaps of d and of the normals change its sign, each once
+    # Swaps of d and of the normals change its sign, each once
+    triple = np.einsum("ij,ij->i", np.cross(d, n_i), n_j)
     sine = np.sqrt(np.maximum(1.0 - phi * phi, 0.0))  # |d x u|
     framed = (sine > 1e-7) & (lengths > 0)
     sine = np.where(framed, sine, 1.0)

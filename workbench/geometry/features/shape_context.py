@@ -8,9 +8,8 @@ import numpy as np
 from jaxtyping import Float
 
 RINGS, SECTORS = 5, 12
-EDGES = np.geomspace(
-    0.125, 2.0, RINGS
-)  # of the rings, in mean distances; nearer points count to the first ring
+# Of the rings, in mean distances; nearer points count to the first ring
+EDGES = np.geomspace(0.125, 2.0, RINGS)
 
 Outline = Float[np.ndarray, "n 2"]
 

@@ -75,9 +75,8 @@ def windings_on(p: Points, faces: Faces, grid: Grid) -> Int[np.ndarray, "x y z"]
     i, j = (first[face] + across).T
     xy = grid.low[:2] + grid.spacing[:2] * (np.stack([i, j], axis=1) + 0.5)
     sign, height = crossings(corners[face], xy)
-    below = np.ceil((height - grid.low[2]) / grid.spacing[2] - 0.5).astype(
-        int
-    )  # so many middles lie below
+    # So many middles lie below
+    below = np.ceil((height - grid.low[2]) / grid.spacing[2] - 0.5).astype(int)
     hit = (sign != 0) & (below > 0)
     at = np.ravel_multi_index((i[hit], j[hit], np.minimum(below[hit], nz) - 1), grid.shape)
     steps = np.bincount(at, sign[hit], nx * ny * nz).reshape(grid.shape)

@@ -38,9 +38,8 @@ def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.nd
     d, found = np.empty((len(p), k + 1)), np.empty((len(p), k + 1), dtype=np.intp)
     d[order], found[order] = tree.query(p[order], k + 1)
     others = found != np.arange(len(p))[:, None]
-    others[others.all(axis=1), -1] = (
-        False  # so many points at one place that it did not find itself
-    )
+    # So many points at one place that it did not find itself
+    others[others.all(axis=1), -1] = False
     return found[others].reshape(len(p), k), d[others].reshape(len(p), k)
 
 

@@ -34,9 +34,8 @@ def stress_layout(
     Reference: Borg and Groenen 2005, section 8.6 (SMACOF), all weights being 1.
     """
     p, n = classical_scaling(distances, dims), len(distances)
-    p = p + 1e-3 * np.sin(np.arange(1.0, p.size + 1.0) ** 2).reshape(
-        p.shape
-    )  # nodes at one place would stay there
+    # Nodes at one place would stay there
+    p = p + 1e-3 * np.sin(np.arange(1.0, p.size + 1.0) ** 2).reshape(p.shape)
     for _ in range(iterations):
         apart = np.linalg.norm(p[:, None] - p, axis=2)
         ratio = np.divide(distances, apart, out=np.zeros((n, n)), where=apart > 0)

@@ -120,9 +120,8 @@ def smallest_eigenpairs(
         values, vectors = scipy.sparse.linalg.eigsh(
             matrix, count, sigma=at, OPinv=inverse, v0=_start(n)
         )
-    except (
-        RuntimeError
-    ) as error:  # a singular factor, or no convergence: the matrix is none that was asked for
+    # A singular factor, or no convergence: the matrix is none that was asked for
+    except RuntimeError as error:
         raise np.linalg.LinAlgError(str(error)) from None
     order = np.argsort(values)
     return values[order], vectors[:, order]

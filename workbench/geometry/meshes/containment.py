@@ -107,9 +107,8 @@ def crossings(
     off = n[:, 0] * (x[hit] - a[:, 0]) + n[:, 1] * (y[hit] - a[:, 1])
     plane = a[:, 2] - off / np.where(n[:, 2] == 0, 1.0, n[:, 2])
     lowest, highest = (end(end(a[:, 2], b[:, 2]), c[:, 2]) for end in (np.minimum, np.maximum))
-    height[hit] = np.clip(
-        plane, lowest, highest
-    )  # of an upright face, which is hit by rounding alone
+    # Of an upright face, which is hit by rounding alone
+    height[hit] = np.clip(plane, lowest, highest)
     return sign, height
 
 

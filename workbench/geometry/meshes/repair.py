@@ -42,9 +42,8 @@ def oriented(faces: Faces) -> Faces:
     count, piece = scipy.sparse.csgraph.connected_components(links, directed=False)
     as_they_are = np.bincount(piece[:f], minlength=count)
     turn = (as_they_are[piece[f:]] > as_they_are[piece[:f]]) & (piece[:f] != piece[f:])
-    tie = (as_they_are[piece[f:]] == as_they_are[piece[:f]]) & (
-        piece[f:] < piece[:f]
-    )  # either side of the piece will do
+    # Either side of the piece will do
+    tie = (as_they_are[piece[f:]] == as_they_are[piece[:f]]) & (piece[f:] < piece[:f])
     return np.where((turn | tie)[:, None], faces[:, ::-1], faces)
 
 

@@ -141,9 +141,8 @@ def decompose(A: Map) -> Parts:
     linear = A[:3, :3]
     mirror = -1 if np.linalg.det(linear) < 0 else 1
     R, S = scipy.linalg.polar(mirror * linear)
-    if (
-        np.linalg.det(R) < 0
-    ):  # only where det = 0: turn the flattened axis over, which the stretch does not feel
+    # Only where det = 0: turn the flattened axis over, which the stretch does not feel
+    if np.linalg.det(R) < 0:
         n = np.linalg.eigh(S)[1][:, 0]
         R = R @ (np.eye(3) - 2.0 * np.outer(n, n))
     return Parts(A[:3, 3], R, mirror, S)

@@ -116,9 +116,8 @@ def point_to_plane_step(
         (x, y, z), (a, b, c) = (
             np.ascontiguousarray(v.T) for v in (p_source[rows] - centre, n_target[rows])
         )
-        jacobian = np.stack(
-            [y * c - z * b, z * a - x * c, x * b - y * a, a, b, c]
-        )  # eq. 8: p x n and n of each pair
+        # Eq. 8: p x n and n of each pair
+        jacobian = np.stack([y * c - z * b, z * a - x * c, x * b - y * a, a, b, c])
         gap = np.einsum("ij,ij->i", p_target[rows] - p_source[rows], n_target[rows])
         normal_matrix += jacobian @ jacobian.T
         right_side += jacobian @ gap
@@ -126,10 +125,11 @@ def point_to_plane_step(
         raise ValueError("a point or a normal is not a finite number")
     size = np.sqrt(np.trace(normal_matrix[:3, :3]) / len(p_source)) or 1.0
     unit = np.array([size, size, size, 1.0, 1.0, 1.0])  # metres out of the rank decision
+    # Eq. 10
     x = (
         np.linalg.lstsq(normal_matrix / np.outer(unit, unit), right_side / unit, rcond=1e-12)[0]
         / unit
-    )  # eq. 10
+    )
     R = exp_so3(x[:3])
     return motion(R, centre + x[3:] - R @ centre)
 
@@ -200,9 +200,8 @@ def _moments(p_target: np.ndarray, p_source: np.ndarray, weights: np.ndarray | N
         raise ValueError(f"{len(weights)} weights for {len(p_source)} pairs")
     if weights is not None and not np.all(weights >= 0):
         raise ValueError("weights must be numbers of at least zero")
-    start = (
-        0 if weights is None else int(np.argmax(weights > 0))
-    )  # a pair without weight may be anywhere
+    # A pair without weight may be anywhere
+    start = 0 if weights is None else int(np.argmax(weights > 0))
     first_target, first_source = p_target[start], p_source[start]
     total, sum_target, sum_source = 0.0, np.zeros(3), np.zeros(3)
     cross, source = np.zeros((3, 3)), np.zeros((3, 3))

@@ -122,9 +122,8 @@ def _vector_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
     a, K = np.linalg.norm(y, axis=1)[:, None, None], skew(y)
     safe = np.maximum(a, _FLAT)
     third = np.where(a < _FLAT, 1 / 6 - a * a / 120, (safe - np.sin(safe)) / safe**3)
-    J = (
-        np.eye(3) + 0.5 * np.sinc(a / (2 * np.pi)) ** 2 * K + third * K @ K
-    )  # left Jacobian: dR = [J dy]x R
+    # Left Jacobian: dR = [J dy]x R
+    J = np.eye(3) + 0.5 * np.sinc(a / (2 * np.pi)) ** 2 * K + third * K @ K
     turn = slope @ turns(y).swapaxes(1, 2)
     w = np.stack([turn[:, k, j] - turn[:, j, k] for j, k in ((1, 2), (2, 0), (0, 1))], axis=1)
     return np.einsum("nij,ni->nj", J, w)

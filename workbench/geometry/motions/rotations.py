@@ -48,9 +48,8 @@ EulerOrder = Literal[
 ]
 EULER_ORDERS: tuple[EulerOrder, ...] = get_args(EulerOrder)
 
-_LOCKED = (
-    1e-12  # sine of the angle between the first and the third axis below which they count as one
-)
+# Sine of the angle between the first and the third axis below which they count as one
+_LOCKED = 1e-12
 
 
 def rotation_from_axis_angle(

@@ -137,9 +137,8 @@ def robust_mean_and_covariance(
         means = sets.mean(axis=1)
         v = sets - means[:, None]
         covariances = np.einsum("snd,sne->sde", v, v) / (kept.shape[1] - 1)
-        covariances += (
-            np.eye(d) * 1e-12 * np.trace(covariances, axis1=1, axis2=2).max()
-        )  # a start may be flat
+        # A start may be flat
+        covariances += np.eye(d) * 1e-12 * np.trace(covariances, axis1=1, axis2=2).max()
         v = p - means[:, None]
         squares = np.einsum("snd,sdn->sn", v, np.linalg.solve(covariances, v.transpose(0, 2, 1)))
         nearer = np.sort(np.argpartition(squares, half - 1, axis=1)[:, :half], axis=1)

@@ -68,9 +68,8 @@ def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndar
     """Yield rows of p and the covariances of their k nearest points, in chunks for the cache."""
     tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
     k = min(k, len(p))
-    for start in range(
-        0, len(p), CHUNK
-    ):  # in tree order, so that consecutive queries touch the same leaves
+    # In tree order, so that consecutive queries touch the same leaves
+    for start in range(0, len(p), CHUNK):
         rows = tree.indices[start : start + CHUNK]
         neighbours = np.asarray(tree.query(p[rows], k=k, workers=-1)[1])
         yield rows, _covariances(p, rows, neighbours)

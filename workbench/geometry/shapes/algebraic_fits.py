@@ -45,9 +45,8 @@ def fit_algebraic(
         return np.concatenate([center + origin[..., 0, :], radius[..., None]], axis=-1)
     unit = np.sqrt(mean_z)[..., None, None]  # lengths in which the points are of size one
     q, z = q / unit, z / np.square(unit[..., 0])
-    if (
-        kind == "Taubin"
-    ):  # the slope's constraint makes D what centres z, and leaves a plain least direction
+    # The slope's constraint makes D what centres z, and leaves a plain least direction
+    if kind == "Taubin":
         rows = np.concatenate([(z - 1.0)[..., None] / 2.0, q], axis=-1)
         a = np.linalg.svd(rows, full_matrices=False)[2][..., -1, :]
         A, B = a[..., 0] / 2.0, a[..., 1:]

@@ -33,9 +33,8 @@ def spherical_from_cartesian(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "
     """
     c = np.empty(p.shape)
     for k in range(0, len(p), CHUNK):
-        x, y, z = (
-            p[k : k + CHUNK].T + 0.0
-        )  # takes the sign of zeros away, which arctan2 would listen to
+        # Takes the sign of zeros away, which arctan2 would listen to
+        x, y, z = p[k : k + CHUNK].T + 0.0
         out = c[k : k + CHUNK]
         rho = np.hypot(x, y)
         out[:, 0] = np.hypot(rho, z)

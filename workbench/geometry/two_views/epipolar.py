@@ -164,9 +164,8 @@ def epipolar_constraints(
     x_h: Float[np.ndarray, "n 3"], y_h: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 9"]:
     """Return one row per match whose product with F, row by row, is y' F x (HZ eq. 11.3)."""
-    return outer_products(
-        y_h.T, x_h.T
-    ).T  # long columns: a match at a time is slower, most of all from columns
+    # Long columns: a match at a time is slower, most of all from columns
+    return outer_products(y_h.T, x_h.T).T
 
 
 def rank_two(F: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
@@ -204,10 +203,11 @@ def refine_fundamental(
     """
     root = np.ones(len(uv_first)) if weights is None else np.sqrt(weights)
     T = normalising_similarity(np.concatenate([uv_first, uv_second]))
+    # One match per column: sums over rows are quick
     x, y = (
         T @ homogeneous(uv_first).T,
         T @ homogeneous(uv_second).T,
-    )  # one match per column: sums over rows are quick
+    )
     outer = outer_products(y, x)
 
     def linearise(unknown: _Factors) -> tuple[np.ndarray, np.ndarray]:
@@ -272,9 +272,8 @@ def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarra
         alone = A + np.where(A == 0.0, 0.0, Q / A)
         single = np.stack([alone, np.full_like(b, np.nan), np.full_like(b, np.nan)])
         roots = np.moveaxis(np.where(three, trigonometric, single), 0, -1) - b[..., None] / 3.0
-        for _ in range(
-            2
-        ):  # the closed form cancels where a is small: two Newton steps put that right
+        # The closed form cancels where a is small: two Newton steps put that right
+        for _ in range(2):
             b_, c_, d_ = b[..., None], c[..., None], d[..., None]
             value = ((roots + b_) * roots + c_) * roots + d_
             slope = (3.0 * roots + 2.0 * b_) * roots + c_

@@ -172,14 +172,14 @@ def refine_homography(
     """Return the homography near `H_b_a` of least squared transfer distances (HZ 4.2.2, 4.5)."""
     root = np.ones(len(uv_a)) if weights is None else np.sqrt(weights)
     T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
+    # One match per column: sums over rows are quick
     x, y = (
         T_a @ homogeneous(uv_a).T,
         (T_b @ homogeneous(uv_b).T)[:2],
-    )  # one match per column: sums over rows are quick
+    )
     h = (T_b @ H_b_a @ np.linalg.inv(T_a)).ravel()
-    free = np.arange(9) != np.argmax(
-        np.abs(h)
-    )  # the scale is of no account, so the largest entry stays as it is
+    # The scale is of no account, so the largest entry stays as it is
+    free = np.arange(9) != np.argmax(np.abs(h))
 
     def linearise(h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         u, v, w = h.reshape(3, 3) @ x
