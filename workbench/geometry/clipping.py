@@ -1,5 +1,9 @@
-"""Cuts segments and triangles at the near plane, lines and planes at a window, and edges into short
-pieces.
+"""Cuts segments and triangles at planes, lines at windows, and edges into short pieces.
+
+A plane cuts away whatever is not at a positive signed distance `ahead`; results come with the row
+of `p` that each piece comes from. `low` and `high` are opposite corners of a rectangle or box.
+
+Reference: Liang and Barsky, A new concept and method for line clipping, 1984.
 """
 
 import functools
@@ -14,15 +18,7 @@ MOST_CUTS = 12
 def clip_segments(
     p: Float[np.ndarray, "n 2 3"], ahead: Float[np.ndarray, "n 2"]
 ) -> tuple[Float[np.ndarray, "m 2 3"], Int[np.ndarray, " m"]]:
-    """Return the part of each segment that lies ahead of a plane.
-
-    Args:
-        p: Both ends of each segment, in any frame.
-        ahead: Signed distance of each end from the plane; what is not positive is cut away.
-
-    Returns:
-        The cut segments, and the row of `p` that each comes from.
-    """
+    """Return the part of each segment that lies ahead of a plane."""
     kept = np.flatnonzero((ahead > 0).any(axis=1))
     p, ahead = p[kept], ahead[kept]
     crossing = _crossing(p[:, 0], p[:, 1], ahead[:, 0], ahead_b=ahead[:, 1])
@@ -32,15 +28,7 @@ def clip_segments(
 def clip_triangles(
     p: Float[np.ndarray, "n 3 3"], ahead: Float[np.ndarray, "n 3"]
 ) -> tuple[Float[np.ndarray, "m 3 3"], Int[np.ndarray, " m"]]:
-    """Return the part of each triangle that lies ahead of a plane: nothing, one triangle or two.
-
-    Args:
-        p: The corners of each triangle, in any frame.
-        ahead: Signed distance of each corner from the plane; what is not positive is cut away.
-
-    Returns:
-        The cut triangles, turning the same way round, and the row of `p` that each comes from.
-    """
+    """Return the part of each triangle ahead of a plane: up to two, turning the same way."""
     count = (ahead > 0).sum(axis=1)
     whole, tip, stump = (np.flatnonzero(count == number) for number in (3, 1, 2))
     a, _, _, ab, ac = _lone_corner_first(p[tip], ahead[tip], ahead[tip] > 0)
@@ -52,18 +40,9 @@ def clip_triangles(
 def clip_to_rectangle(
     uv: Float[np.ndarray, "n 2 2"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Return from which to which share of its length each segment lies in a rectangle.
+    """Return from which to which share of its length, in [0, 1], each segment lies in a rectangle.
 
-    Args:
-        uv: Both ends of each segment, pixels.
-        low: Lowest coordinates of the rectangle.
-        high: Its highest coordinates.
-
-    Returns:
-        Start and stop in [0, 1]; start is not below stop for a segment that misses the rectangle or
-        has NaN ends.
-
-    Reference: Liang and Barsky, A new concept and method for line clipping, 1984.
+    Start is not below stop where a segment misses or has NaN ends (Liang and Barsky).
     """
     way = uv[:, 1] - uv[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -76,13 +55,7 @@ def clip_to_rectangle(
 def segments_inside(
     ends: Float[np.ndarray, "n 2 d"], low: Float[np.ndarray, "d"], high: Float[np.ndarray, "d"]
 ) -> Float[np.ndarray, "m 2 d"]:
-    """Return the segments whose ends are both finite and inside a rectangle or box; nothing is cut.
-
-    Args:
-        ends: Both ends of each segment.
-        low: The corner of the box with the smallest coordinates.
-        high: The corner with the largest.
-    """
+    """Return the segments whose ends are both finite and inside a rectangle or box; none is cut."""
     return ends[(np.isfinite(ends) & (ends >= low) & (ends <= high)).all(axis=(1, 2))]
 
 
@@ -90,11 +63,6 @@ def cut_to_rectangle(
     ends: Float[np.ndarray, "n 2 2"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> Float[np.ndarray, "m 2 2"]:
     """Return the parts of segments inside a rectangle; nothing of those whose ends are not finite.
-
-    Args:
-        ends: Both ends of each segment.
-        low: The corner of the rectangle with the smallest coordinates.
-        high: The corner with the largest.
 
     Examples:
         >>> cut_to_rectangle(
@@ -111,13 +79,7 @@ def cut_to_rectangle(
 def clip_lines(
     lines: Float[np.ndarray, "n 3"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> Float[np.ndarray, "m 2 2"]:
-    """Return the parts of infinite lines inside a rectangle; of a line that misses it, nothing.
-
-    Args:
-        lines: (a, b, c) with a x + b y + c = 0 and a unit normal (a, b).
-        low: The corner of the rectangle with the smallest coordinates.
-        high: The corner with the largest.
-    """
+    """Return the parts of infinite lines (a, b, c), (a, b) a unit normal, inside a rectangle."""
     normals, offsets = lines[:, :2], lines[:, 2:]
     foot = -normals * offsets
     direction = np.column_stack([-normals[:, 1], normals[:, 0]])
@@ -136,15 +98,7 @@ def clip_lines(
 def plane_in_box(
     plane: Float[np.ndarray, "4"], low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the corners, in order, of the part of a plane inside a box; none where it passes by.
-
-    A plane turned over, or rounded differently, has the same corners in the same order.
-
-    Args:
-        plane: (a, b, c, d) with a x + b y + c z + d = 0.
-        low: The corner of the box with the smallest coordinates.
-        high: The corner with the largest.
-    """
+    """Return the corners of a plane's part inside a box, in one order for it and its negative."""
     corners = np.array(
         [[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)]
     )
@@ -171,19 +125,10 @@ def cut_finely(
     low: Float[np.ndarray, "2"],
     high: Float[np.ndarray, "2"],
 ) -> tuple[Float[np.ndarray, "m c 3"], Int[np.ndarray, " m"]]:
-    """Return segments or triangles with edges halved until all are short in a flat picture; those
-    outside it are dropped.
+    """Return segments or triangles cut until no edge is longer than `longest` in a flat picture.
 
-    Args:
-        p: Segments (c = 2) or triangles (c = 3), all ahead of the camera.
-        flatten: Where points (n, 3) are in the flat picture, (n, 2).
-        longest: Length there that no edge of a piece exceeds (each edge is halved at most 12
-            times).
-        low: Lowest coordinates of the part of the flat picture that matters.
-        high: Its highest coordinates.
-
-    Returns:
-        The pieces, and the row of `p` that each comes from.
+    `flatten` gives places there, (n, 2). Pieces outside are dropped; edges are halved at most 12
+    times.
     """
     source = np.arange(len(p))
     done = []
@@ -207,18 +152,14 @@ def cut_finely(
 def over_corners(
     choose: np.ufunc, rows: Float[np.ndarray, "n c *more"]
 ) -> Float[np.ndarray, "n *more"]:
-    """Return the minimum or maximum over the corners of each row; numpy's reduction is slow over so
-    few.
-    """
+    """Return the minimum or maximum over the few corners of each row, faster than numpy does."""
     return functools.reduce(choose, (rows[:, corner] for corner in range(rows.shape[1])))
 
 
 def _lone_corner_first(
     p: np.ndarray, ahead: np.ndarray, alone: np.ndarray
 ) -> tuple[np.ndarray, ...]:
-    """Turn triangles so that the corner alone on its side leads; return a, b, c and the crossings
-    on ab and ac.
-    """
+    """Return triangles a, b, c turned so that the lone corner leads, and the cuts on ab and ac."""
     turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
     a, b, c = np.take_along_axis(p, turn[:, :, None], axis=1).transpose(1, 0, 2)
     at_a, at_b, at_c = np.take_along_axis(ahead, turn, axis=1).T
@@ -228,9 +169,7 @@ def _lone_corner_first(
 def _crossing(
     p_a: np.ndarray, p_b: np.ndarray, ahead_a: np.ndarray, *, ahead_b: np.ndarray
 ) -> np.ndarray:
-    """Return where segments a-b cross the plane at which `ahead` is zero; anything for those that
-    do not.
-    """
+    """Return where segments a-b cross the plane at which `ahead` is zero, if they do."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return p_a + (ahead_a / (ahead_a - ahead_b))[:, None] * (p_b - p_a)
 

@@ -1,5 +1,4 @@
-"""What pictures of a flat board say of a camera, in closed form: Zhang's constraints, poses, a
-first lens.
+"""What pictures of a flat board say of a camera, in closed form: constraints, poses, a lens.
 
 A board lies in the plane Z = 0 of its own frame, so a picture of it is a homography H ~ K [r1 r2
 t], which takes (X, Y) in metres to pixels. That r1 and r2 are orthonormal makes two equations for B
@@ -18,16 +17,11 @@ _NO_SKEW = [0, 2, 3, 4, 5]  # the columns of B11, B22, B13, B23, B33: without sk
 
 
 def constraint_rows(H_image_board: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "2 6"]:
-    """Return the rows v12 and v11 - v22 of a view: their products with b = (B11, B12, B22, B13,
-    B23, B33) are zero.
-
-    Reference: Zhang 2000, eq. 7 and 8.
+    """Return v12 and v11 - v22 of a view, whose products with B are zero (Zhang, eq. 7 and 8).
 
     Examples:
-        >>> rows = constraint_rows(
-        ...     np.array([[500.0, 0, 320], [0, 500, 240], [0, 0, 1]])
-        ... )  # straight ahead, K itself
-        >>> rows[0].tolist()
+        >>> K = np.array([[500.0, 0, 320], [0, 500, 240], [0, 0, 1]])  # straight ahead
+        >>> constraint_rows(K)[0].tolist()
         [0.0, 250000.0, 0.0, 0.0, 0.0, 0.0]
     """
     h1, h2 = H_image_board[:, 0], H_image_board[:, 1]
@@ -49,22 +43,18 @@ def _products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def intrinsics_from_constraints(rows: Float[np.ndarray, "m 6"]) -> Float[np.ndarray, "3 3"] | None:
-    """Return the camera without skew whose B makes all products with the rows smallest, or None
-    where there is none.
+    """Return the camera without skew that fits the rows best, or None where there is none.
 
-    None where fewer than four rows are given (two views), where a value is not finite, and where
-    the B that is found is not positive definite: no camera sees such views.
-
-    Reference: Zhang 2000, 3.1 and appendix B; K by Cholesky's factors instead of his formulas.
+    None for fewer than four rows (two views), values that are not finite, or a B that is not
+    positive definite (Zhang 2000, 3.1 and appendix B; K by Cholesky's factors).
     """
     if len(rows) < 4 or not np.isfinite(rows).all():
         return None
     b = np.linalg.svd(rows[:, _NO_SKEW])[2][-1]
     B = np.array([[b[0], 0.0, b[2]], [0.0, b[1], b[3]], [b[2], b[3], b[4]]])
     try:
-        K = np.linalg.inv(
-            np.linalg.cholesky(B if b[0] > 0 else -B).T
-        )  # B = (K^-T)(K^-1), K^-T lower triangular
+        # B = (K^-T)(K^-1), K^-T lower triangular
+        K = np.linalg.inv(np.linalg.cholesky(B if b[0] > 0 else -B).T)
     except np.linalg.LinAlgError:
         return None
     K /= K[2, 2]
@@ -74,21 +64,12 @@ def intrinsics_from_constraints(rows: Float[np.ndarray, "m 6"]) -> Float[np.ndar
 def pose_from_homography(
     K: Float[np.ndarray, "3 3"], H_image_board: Float[np.ndarray, "3 3"]
 ) -> Float[np.ndarray, "4 4"]:
-    """Return T_camera_board, metres, with the board before the camera.
+    """Return T_camera_board, metres, with the board before the camera (Zhang 2000, 3.1).
 
-    K^-1 H is [r1 r2 t] up to a scale, which makes r1 and r2 one long on average; of the two signs
-    one has the board's origin at a positive depth. Noise leaves r1 and r2 not quite orthogonal: the
-    nearest rotation takes their place.
-
-    Args:
-        K: Intrinsics, pixels.
-        H_image_board: The view's homography, from metres of the board to pixels, of any scale and
-            sign.
+    r1 and r2 of K^-1 H are made one long on average; the nearest rotation takes their place.
 
     Raises:
         ValueError: If K cannot be inverted, or the homography is zero.
-
-    Reference: Zhang 2000, 3.1, and appendix C.
     """
     try:
         r1, r2, t = np.linalg.solve(K, H_image_board).T
@@ -110,20 +91,10 @@ def linear_lens(
     uv: Float[np.ndarray, "k n 2"],
     terms: int = 2,
 ) -> Float[np.ndarray, " terms"]:
-    """Return the radial coefficients k1, k2, ... that explain best, by linear least squares, how
-    far pixels are off.
+    """Return the radial k1, k2, ... that explain best how far pixels are off (Zhang, eq. 13).
 
     Camera and poses stay as they are. They were found as if there were no lens, and have taken up
     most of what it does: the coefficients come out far too small, or with the other sign.
-
-    Args:
-        K: Intrinsics, pixels.
-        Ts_camera_board: Poses of the board.
-        p_board: Its points, metres.
-        uv: Their pixels in every view.
-        terms: How many coefficients.
-
-    Reference: Zhang 2000, 3.3, eq. 13.
     """
     p = np.concatenate([apply(T, p_board) for T in Ts_camera_board])
     xy = p[:, :2] / p[:, 2:]
@@ -134,10 +105,7 @@ def linear_lens(
 
 
 def reprojection_rms(residuals: Float[np.ndarray, "n 2"]) -> float:
-    """Return the root of the mean squared length of the residuals, pixels: per point, so sqrt(2)
-    times that per coordinate.
-
-    Reference: OpenCV's calibrateCamera returns this number.
+    """Return the root mean squared length of residuals, pixels, as OpenCV's calibrateCamera does.
 
     Examples:
         >>> reprojection_rms(np.array([[3.0, 4.0], [5.0, 0.0]]))

@@ -1,9 +1,9 @@
-"""Where a camera was that saw many known points: by the direct linear transform, by SQPnP, and by
-least squares.
+"""Where a camera was that saw many known points: by DLT, by SQPnP, and by least squares.
 
-All functions take world points in metres and normalised image coordinates (X/Z, Y/Z), and give
-T_camera_world. Points are taken relative to their mean first, so that coordinates of a map lose no
-digits. Leading dimensions are problems that are solved side by side.
+All functions take world points in metres and their observed normalised image coordinates (X/Z,
+Y/Z), and give T_camera_world. Points are taken relative to their mean first, so that coordinates of
+a map lose no digits; `centred=False` leaves that out. Leading dimensions are problems that are
+solved side by side.
 
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 7.1 (DLT) and appendix 6
 (Levenberg-Marquardt); Terzakis and Lourakis, A Consistently Fast and Globally Optimal Solution to
@@ -25,14 +25,7 @@ def reprojection_errors(
     p_world: Float[np.ndarray, "*j n 3"],
     xy: Float[np.ndarray, "*i n 2"],
 ) -> Float[np.ndarray, "*k n"]:
-    """Return how far each point is seen from where it was observed, in units of the image plane;
-    infinite from behind.
-
-    Args:
-        Ts_camera_world: One motion or several.
-        p_world: The points, metres.
-        xy: Where they were observed.
-    """
+    """Return how far each point is seen from where it was observed; infinite from behind."""
     p_camera = (
         p_world @ np.swapaxes(Ts_camera_world[..., :3, :3], -1, -2)
         + Ts_camera_world[..., None, :3, 3]
@@ -47,14 +40,7 @@ def rms_reprojection(
     p_world: Float[np.ndarray, "*j n 3"],
     xy: Float[np.ndarray, "*i n 2"],
 ) -> Float[np.ndarray, "*k"]:
-    """Return the root mean square of the reprojection errors of each motion; infinite where a point
-    is behind it.
-
-    Args:
-        Ts_camera_world: One motion or several.
-        p_world: The points, metres.
-        xy: Where they were observed.
-    """
+    """Return the root mean square reprojection error of each motion; infinite from behind."""
     return np.asarray(
         np.sqrt(np.square(reprojection_errors(Ts_camera_world, p_world, xy)).mean(axis=-1))
     )
@@ -65,18 +51,10 @@ def linearised(
     p_world: Float[np.ndarray, "*k n 3"],
     xy: Float[np.ndarray, "*k n 2"],
 ) -> tuple[Float[np.ndarray, "*k m"], Float[np.ndarray, "*k m 6"]]:
-    """Return the residuals, u and v of point after point, and their derivatives by a twist composed
-    on the left.
+    """Return the residuals, u and v of point after point, and their derivatives by a twist.
 
-    The twist is (v, w), metres and radians, in the camera's frame: T becomes exp(twist) T.
-
-    Args:
-        Ts_camera_world: One motion or several.
-        p_world: The points, metres.
-        xy: Where they were observed.
-
-    Reference: Hartley and Zisserman, 2nd ed., A6.6; Solà et al. 2018, eq. 182 for the derivative of
-    a moved point.
+    The twist is (v, w), metres and radians, in the camera's frame: T becomes exp(twist) T (Hartley
+    and Zisserman, A6.6; Solà et al. 2018, eq. 182).
     """
     p_camera = (
         p_world @ np.swapaxes(Ts_camera_world[..., :3, :3], -1, -2)
@@ -98,16 +76,7 @@ def gauss_newton_step(
     p_world: Float[np.ndarray, "n 3"],
     xy: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the motion after one Gauss-Newton step on the squared reprojection errors.
-
-    Args:
-        T_camera_world: The motion before.
-        p_world: The points, metres; three at least.
-        xy: Where they were observed.
-
-    Note:
-        A step that the points do not determine is the shortest of those that would do.
-    """
+    """Return the motion after one Gauss-Newton step, the shortest that does, on squared errors."""
     residuals, J = linearised(T_camera_world, p_world, xy)
     return exp_se3(-np.linalg.lstsq(J, residuals, rcond=None)[0]) @ T_camera_world
 
@@ -120,19 +89,10 @@ def refined(
     weights: Float[np.ndarray, " n"] | None = None,
     steps: int = 30,
 ) -> Float[np.ndarray, "k 4 4"]:
-    """Return the motions near those given whose squared reprojection errors are least, by
-    Levenberg-Marquardt.
+    """Return the nearby motions of least squared reprojection errors, by Levenberg-Marquardt.
 
-    Args:
-        Ts_camera_world: Where to begin, one for each problem, each with its points in front.
-        p_world: The points, metres: the same for all, or each problem's own.
-        xy: Where they were observed, likewise.
-        weights: How much each point's squared error counts; all alike if None.
-        steps: Linear systems solved at most.
-
-    Note:
-        The cost never rises. A step that brings a point behind the camera counts as one that
-        failed.
+    The cost never rises. All points must be in front at the start; a step that brings one behind
+    the camera has failed. Weights count squared errors.
     """
     k = len(Ts_camera_world)
     p_mean = p_world.mean(axis=-2)
@@ -181,24 +141,14 @@ def refined(
 def dlt_motion(
     p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "n 2"], *, centred: bool = True
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the motion in the projection matrix that solves x × P X = 0 best, by the direct linear
-    transform.
+    """Return the motion in the projection matrix that solves x × P X = 0 best.
 
-    Args:
-        p_world: Six points or more, not in one plane, metres.
-        xy: Where they were observed.
-        centred: Take the points relative to their mean and scale them (Hartley's normalisation), as
-            one should.
+    Points in one plane leave many. Centred, it also scales the points (Hartley's normalisation).
+    Reference: Hartley and Zisserman, algorithm 7.1, then the nearest rotation and mean singular
+    value.
 
     Raises:
         ValueError: If there are fewer than six points.
-
-    Note:
-        Of points in one plane it gives any of the many matrices that fit, and a motion that means
-        nothing.
-
-    Reference: Hartley and Zisserman, 2nd ed., 7.1 and algorithm 7.1; the nearest rotation and the
-    mean singular value make a motion of it.
     """
     if len(p_world) < 6:
         raise ValueError(f"the direct linear transform needs 6 points, not {len(p_world)}")
@@ -221,23 +171,16 @@ def dlt_motion(
 def sqpnp(
     p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"], *, centred: bool = True
 ) -> Float[np.ndarray, "*k 4 4"]:
-    """Return the motions that minimise the points' squared distances from their rays, by sequential
-    quadratic programs.
+    """Return the motions that minimise the points' squared distances from their rays.
 
-    The translation is linear in the rotation, so the cost is a quadratic form in the nine entries
-    of R. From rotations near its lowest eigenvectors each program goes down along the three
-    directions in which a rotation can move.
-
-    Args:
-        p_world: Three points or more, not on one line, metres; they may lie in one plane.
-        xy: Where they were observed.
-        centred: Take the points relative to their mean, as one should.
+    The cost is a quadratic form in the nine entries of R. From rotations near its lowest
+    eigenvectors sequential quadratic programs go down. Points may lie in one plane, but not on one
+    line.
+    Reference: Terzakis and Lourakis 2020, eq. 5 to 10 and 3.2; steps are kept on the rotations
+    here.
 
     Raises:
         ValueError: If there are fewer than three points.
-
-    Reference: Terzakis and Lourakis 2020, eq. 5 to 10 (the form) and section 3.2; steps are kept on
-    the rotations here.
     """
     if p_world.shape[-2] < 3:
         raise ValueError(f"three points at least are needed, not {p_world.shape[-2]}")
@@ -251,9 +194,8 @@ def sqpnp(
     vectors = np.swapaxes(np.linalg.eigh(omega)[1][..., :_STARTS], -1, -2).reshape(
         len(p), _STARTS, 3, 3
     )
-    starts = (
-        vectors @ (np.swapaxes(q, 1, 2) @ q)[:, None]
-    )  # whose nearest rotation moves these points most alike
+    # Whose nearest rotation moves these points most alike
+    starts = vectors @ (np.swapaxes(q, 1, 2) @ q)[:, None]
     R = nearest_rotation(np.concatenate([starts, -starts], axis=1))
     rows, mean = np.arange(len(p))[:, None], q.mean(axis=1)
     for programs, kept in ((2, 2), (_PROGRAMS, 1)):
@@ -274,8 +216,7 @@ _STARTS, _PROGRAMS = 4, 15
 
 
 def ray_forms(xy: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray, "*k n 3 3"]:
-    """Return C with p' C p = (X - x Z)^2 + (Y - y Z)^2: how far each p = (X, Y, Z) is from its ray,
-    times its depth.
+    """Return C with p' C p = (X - x Z)^2 + (Y - y Z)^2: squared distance from a ray times depth.
 
     Examples:
         >>> p = np.array([0.5, 0.0, 2.0])
@@ -292,9 +233,7 @@ def ray_forms(xy: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray, "*k n 3 3"]:
 
 
 def _quadratic_form(q: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return omega (k, 9, 9), the cost being r' omega r of R's rows r, and (k, 3, 9) that takes r
-    to t.
-    """
+    """Return omega (k, 9, 9), the cost being r' omega r of R's rows, and (k, 3, 9) from r to t."""
     n, C = q.shape[1], ray_forms(xy)
     flat = C.reshape(len(q), n, 9)
     outer = (q[..., :, None] * q[..., None, :]).reshape(len(q), n, 9)
@@ -310,9 +249,7 @@ def _quadratic_form(q: np.ndarray, xy: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 
 def _programs(omega: np.ndarray, R: np.ndarray, most: int) -> np.ndarray:
-    """Minimise the forms, again and again, in the three directions in which each rotation can
-    move.
-    """
+    """Minimise the forms repeatedly in the three directions in which each rotation can move."""
     R, of_problem = R.copy().reshape(-1, 3, 3), np.repeat(np.arange(len(R)), R.shape[1])
     going = np.arange(len(R))
     for _ in range(most):
@@ -329,9 +266,7 @@ def _programs(omega: np.ndarray, R: np.ndarray, most: int) -> np.ndarray:
 
 
 def _retracted(T: np.ndarray, twist: np.ndarray) -> np.ndarray:
-    """Move by twists, composed on the left, to first order in their turns' share of the
-    translation.
-    """
+    """Move by twists, composed on the left, to first order in the translation."""
     moved = T.copy()
     R = turns(twist[..., 3:])
     moved[..., :3, :] = R @ T[..., :3, :]

@@ -1,11 +1,10 @@
-"""Where a camera was that saw four points or more: EPnP, which asks for four control points in
-place of the points.
+"""Where a camera was that saw four points or more: EPnP, by four control points.
 
 Every point is a weighted sum of the control points, in the world and in the camera's frame alike.
 That each point lies on its ray is linear in the control points' coordinates x in the camera's
-frame: M x = 0. So x is a mix of the null vectors of M, and of its lowest ones where there is noise,
-and the mix is the one that puts the control points as far apart as they are. The cost of all this
-grows with the number of points, and no faster.
+frame: M x = 0. So x is a mix of the null vectors of M, or of its lowest ones where there is noise,
+and the mix is the one that keeps the control points' distances. The cost grows with the number of
+points.
 
 Reference: Lepetit, Moreno-Noguer and Fua, EPnP: An Accurate O(n) Solution to the PnP Problem, IJCV
 81, 2009.
@@ -24,27 +23,16 @@ _STEPS, _NUDGE = 10, 1e-12
 def epnp(
     p_world: Float[np.ndarray, "*k n 3"], xy: Float[np.ndarray, "*k n 2"]
 ) -> Float[np.ndarray, "*k 4 4"]:
-    """Return the motions T_camera_world by EPnP: mixes of N = 1 to 4 null vectors, of which the
-    best reprojects best.
+    """Return the motions T_camera_world by EPnP: the best mix of N = 1 to 4 null vectors.
 
-    Points of one plane have three control points and mixes of up to three vectors. Leading
-    dimensions are problems that are solved side by side.
-
-    Args:
-        p_world: Four points or more, not on one line, metres.
-        xy: Their normalised image coordinates.
+    Points of one plane have three control points and mixes of up to three vectors. Four points
+    leave four null vectors, so that only the control points' distances decide: six equations,
+    solved by Gauss-Newton from a linear start, that may end elsewhere.
+    Reference: Lepetit et al. 2009, 3.1 to 3.5. For N = 4 the linear start has the products with the
+    first weight alone as unknowns, as in the authors' program; the paper relinearises.
 
     Raises:
         ValueError: If there are fewer than four points, or they lie on one line.
-
-    Note:
-        Four points leave four null vectors, so that only the distances between control points
-        decide: six equations, solved from a linear start by Gauss-Newton, that may end elsewhere.
-        From six points on there is one null vector.
-
-    Reference: Lepetit, Moreno-Noguer and Fua 2009, 3.1 to 3.5. For N = 4 the linear start has the
-    products with the first weight alone as unknowns, as in the authors' program; the paper
-    relinearises.
     """
     if p_world.shape[-2] < 4:
         raise ValueError(f"EPnP takes four points or more, not {p_world.shape[-2]}")
@@ -64,22 +52,18 @@ def epnp(
                 rows, :directions
             ]
             along = q[rows] @ np.swapaxes(arms, 1, 2)
-            lean = (along * along * along).sum(
-                axis=1
-            )  # either end of an axis would do: the heavier one
+            # Either end of an axis would do: the heavier one
+            lean = (along * along * along).sum(axis=1)
             T[rows] = _motions(q[rows], xy[rows], np.where(lean < 0.0, -1.0, 1.0)[..., None] * arms)
     T[:, :3, 3] -= (T[:, :3, :3] @ p_mean[..., None])[..., 0]
     return T.reshape(*batch, 4, 4)
 
 
 def _motions(q: np.ndarray, xy: np.ndarray, arms: np.ndarray) -> np.ndarray:
-    """Return the motions for points about their mean; control points are the mean and the ends of
-    the arms from it.
-    """
+    """Return the motions for points about their mean, the arms' ends being control points too."""
     along = q @ np.swapaxes(arms / np.square(arms).sum(axis=-1, keepdims=True), 1, 2)
-    shares = np.concatenate(
-        [1.0 - along.sum(axis=-1, keepdims=True), along], axis=-1
-    )  # (k, n, c), barycentric
+    # (k, n, c), barycentric
+    shares = np.concatenate([1.0 - along.sum(axis=-1, keepdims=True), along], axis=-1)
     controls = np.concatenate([np.zeros_like(arms[:, :1]), arms], axis=1)
     vectors = _null_vectors(shares, xy)
     first, second = np.triu_indices(controls.shape[1], 1)
@@ -97,24 +81,19 @@ def _motions(q: np.ndarray, xy: np.ndarray, arms: np.ndarray) -> np.ndarray:
 
 
 def _null_vectors(shares: np.ndarray, xy: np.ndarray) -> np.ndarray:
-    """Return the lowest vectors of M' M, as many as control points (c), each as so many places: (k,
-    c, c, 3).
-    """
+    """Return the lowest vectors of M' M, one per control point, as places: (k, c, c, 3)."""
     k, n, c = shares.shape
     pairs = (shares[..., :, None] * shares[..., None, :]).reshape(k, n, c * c)
     blocks = (np.swapaxes(pairs, 1, 2) @ ray_forms(xy).reshape(k, n, 9)).reshape(k, c, c, 3, 3)
     MtM = blocks.transpose(0, 1, 3, 2, 4).reshape(k, 3 * c, 3 * c)
     nudge = np.trace(MtM, axis1=1, axis2=2)[:, None] * _NUDGE * np.arange(3 * c)
-    MtM[:, range(3 * c), range(3 * c)] += (
-        nudge  # of four points any basis would do: not rounding shall choose it
-    )
+    # Of four points any basis would do: not rounding shall choose it
+    MtM[:, range(3 * c), range(3 * c)] += nudge
     return np.swapaxes(np.linalg.eigh(MtM)[1][..., :c], 1, 2).reshape(k, c, c, 3)
 
 
 def _start(products: np.ndarray, squared: np.ndarray, N: int) -> np.ndarray:
-    """Return weights of the first N vectors, by equations that are linear in the products of two
-    weights (3.3).
-    """
+    """Return weights of the first N vectors, by linear equations in their products (3.3)."""
     c = products.shape[1]
     a, b = np.triu_indices(N) if c > N else (np.zeros(N, int), np.arange(N))
     L = np.where(a == b, 1.0, 2.0) * np.swapaxes(products[:, a, b], 1, 2)
@@ -132,9 +111,7 @@ def _start(products: np.ndarray, squared: np.ndarray, N: int) -> np.ndarray:
 
 
 def _downhill(weights: np.ndarray, products: np.ndarray, squared: np.ndarray) -> np.ndarray:
-    """Take Gauss-Newton steps on the squared distances between the control points, from several
-    starts (3.5).
-    """
+    """Take Gauss-Newton steps on control points' squared distances from several starts (3.5)."""
     c, along = products.shape[1], np.moveaxis(products, 3, 1)
     for _ in range(_STEPS):
         half = (along @ weights[..., None, :, None])[..., 0]

@@ -1,7 +1,8 @@
 """Lens distortion: where radial and tangential terms move a ray, and how to move it back.
 
 All functions act on normalised image coordinates `xy_camera` = (X/Z, Y/Z), never on pixels. With r²
-= x² + y² and q = (p2, p1) the model (Brown, 1971; OpenCV's first five coefficients) is
+= x² + y² and q = (p2, p1) the model (Brown, Close-range camera calibration, 1971; OpenCV's first
+five coefficients, signs and order) is
 
     xy' = xy g(r²) + 2 (q·xy) xy + q r²,    g(s) = 1 + k1 s + k2 s² + k3 s³.                     (1)
 
@@ -25,9 +26,7 @@ SOLVED = 1e-13  # largest residual of a solved row, in normalised units (focal l
 
 
 class Distortion(NamedTuple):
-    """The coefficients of a lens, without unit, in OpenCV's order; all zero keeps straight lines
-    straight.
-    """
+    """The coefficients of a lens, in OpenCV's order; all zero keeps straight lines straight."""
 
     k1: float = 0.0
     k2: float = 0.0
@@ -49,21 +48,8 @@ def distort(
 ) -> Float[np.ndarray, "n 2"]:
     """Return where the lens puts each ideal image point (eq. 1).
 
-    Args:
-        xy_camera: Ideal normalised coordinates X/Z and Y/Z, without unit.
-        k1: Radial coefficient of r²; negative bends straight lines outwards (barrel), positive
-            inwards (pincushion).
-        k2: Radial coefficient of r⁴.
-        p1: Tangential coefficient, acting along y.
-        p2: Tangential coefficient, acting along x.
-        k3: Radial coefficient of r⁶.
-
-    Returns:
-        Distorted normalised coordinates. Beyond `invertible_radius` the polynomial folds back
-        towards the middle: the values are still computed, and mean nothing for a real lens.
-
-    Reference: Brown, Close-range camera calibration, 1971; the same signs and order as OpenCV's
-    calib3d.
+    A negative k1 bends straight lines outwards (barrel), a positive one inwards (pincushion).
+    Beyond `invertible_radius` the polynomial folds back: the values mean nothing for a real lens.
     """
     out = np.empty_like(xy_camera, dtype=float)
     for rows in chunks(len(xy_camera)):
@@ -73,20 +59,10 @@ def distort(
 
 
 def undistort(xy_distorted: Float[np.ndarray, "n 2"], lens: Distortion) -> Float[np.ndarray, "n 2"]:
-    """Return the ideal point that the lens moved to each given point: the inverse of `distort`, by
-    Newton's method.
+    """Return the ideal point that the lens moved to each given point, to 1e-13, by Newton's method.
 
-    Args:
-        xy_distorted: Normalised coordinates as measured, without unit.
-        lens: Its coefficients.
-
-    Returns:
-        Ideal normalised coordinates, with a residual below 1e-13. A row is NaN where no point
-        inside `invertible_radius` is moved there: that part of the picture shows nothing that the
-        model can explain.
-
-    Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 11.1 (Newton) and 11.2 (damped
-    where it must be).
+    NaN where no point inside `invertible_radius` is moved there.
+    Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 11.1 (Newton) and 11.2 (damped).
 
     Examples:
         >>> lens = Distortion(k1=-0.2)
@@ -110,9 +86,7 @@ def undistort(xy_distorted: Float[np.ndarray, "n 2"], lens: Distortion) -> Float
 
 
 def is_invertible(xy_camera: Float[np.ndarray, "n 2"], lens: Distortion) -> Bool[np.ndarray, " n"]:
-    """Return which ideal points lie in the disc where the lens model is one-to-one; NaN rows do
-    not.
-    """
+    """Return which ideal points lie in the disc where the lens is one-to-one; NaN rows do not."""
     radius = invertible_radius(lens)
     return np.einsum("ni,ni->n", xy_camera, xy_camera) < radius * radius
 
@@ -121,14 +95,10 @@ def is_invertible(xy_camera: Float[np.ndarray, "n 2"], lens: Distortion) -> Bool
 def invertible_radius(lens: Distortion) -> float:
     """Return the radius of the largest disc of ideal points on which the lens model is one-to-one.
 
-    Along a ray at angle φ from q = (p2, p1), in the frame of that ray, with a = |q| cos φ and b =
-    |q| sin φ, the Jacobian of eq. 1 is [[A + 6 a r, 2 b r], [2 b r, g + 2 a r]] with A = d(r g)/dr.
-    The disc ends at the first r at which its determinant is zero for some φ: at φ = π, or where the
-    determinant, quadratic in a, has its minimum.
-
-    Returns:
-        A normalised radius (the tangent of an angle to the optical axis); infinity where the model
-        never folds.
+    Infinity where the model never folds. Along a ray at angle φ from q = (p2, p1), in the frame of
+    that ray, with a = |q| cos φ and b = |q| sin φ, the Jacobian of eq. 1 is [[A + 6 a r, 2 b r], [2
+    b r, g + 2 a r]] with A = d(r g)/dr. The disc ends at the first r at which its determinant is
+    zero for some φ: at φ = π, or where the determinant, quadratic in a, has its minimum.
     """
     k1, k2, p1, p2, k3 = lens
     r = np.polynomial.Polynomial([0.0, 1.0])
@@ -169,17 +139,7 @@ def bend(
     p2: float,
     k3: float,
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Return x' and y' of eq. 1, from columns.
-
-    Args:
-        x: Ideal normalised x.
-        y: Ideal normalised y.
-        k1: As in `distort`.
-        k2: As in `distort`.
-        p1: As in `distort`.
-        p2: As in `distort`.
-        k3: As in `distort`.
-    """
+    """Return x' and y' of eq. 1, from columns."""
     s = x * x + y * y
     factor = 1.0 + s * (k1 + s * (k2 + s * k3))
     if p1 or p2:
@@ -189,9 +149,7 @@ def bend(
 
 
 def _slopes(x, y, k1: float, k2: float, p1: float, p2: float, k3: float):
-    """Return the three different entries of the Jacobian of eq. 1: d x'/d x, d x'/d y = d y'/d x, d
-    y'/d y.
-    """
+    """Return d x'/d x, d x'/d y = d y'/d x and d y'/d y of eq. 1."""
     s = x * x + y * y
     factor = 1.0 + s * (k1 + s * (k2 + s * k3))
     growth = 2.0 * (k1 + s * (2.0 * k2 + s * (3.0 * k3)))
@@ -201,9 +159,7 @@ def _slopes(x, y, k1: float, k2: float, p1: float, p2: float, k3: float):
 
 
 def _newton(target_x, target_y, lens: Distortion):
-    """Take plain Newton steps from the targets themselves; return x, y and which rows have
-    arrived.
-    """
+    """Take plain Newton steps from the targets; return x, y and which rows have arrived."""
     x, y = target_x.copy(), target_y.copy()
     with np.errstate(all="ignore"):
         for _ in range(NEWTON_STEPS):
@@ -224,9 +180,7 @@ def _newton(target_x, target_y, lens: Distortion):
 
 
 def _damped_newton(target_x, target_y, lens: Distortion, *, radius: float):
-    """Start from the middle; take a step only if it stays in the disc and descends, else halve it.
-    NaN: no answer.
-    """
+    """Descend from the middle within the disc, halving steps that do not; NaN: no answer."""
     x, y, length = np.zeros_like(target_x), np.zeros_like(target_x), np.ones_like(target_x)
     size = np.hypot(target_x, target_y)
     miss = size.copy()
@@ -254,9 +208,7 @@ def _miss(x, y, target_x, *, target_y, lens: Distortion):
 
 
 def _positive_roots(polynomial: np.polynomial.Polynomial) -> list[float]:
-    """Return the real positive roots, in rising order; a double root counts although rounding
-    splits it.
-    """
+    """Return the real positive roots, rising; rounding may split a double root."""
     roots = polynomial.trim(0.0).roots()
     real = roots[np.abs(roots.imag) < 1e-7 * (1 + np.abs(roots.real))].real
     return sorted(float(root) for root in real if root > 0)

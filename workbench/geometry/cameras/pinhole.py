@@ -1,8 +1,9 @@
 """Pinhole cameras: from world points to pixels and back to rays.
 
-Conventions (OpenCV's): the camera frame has +X right, +Y down, +Z forward; a pixel is (u, v) =
+Conventions (OpenCV's): the camera frame has +X right, +Y down, +Z forward; a pixel `uv` is (u, v) =
 (column, row) and pixel centres are at integers, so a picture of width w spans u from -0.5 to w -
-0.5. The motion `T_camera_world` takes world points into the camera frame. One point goes
+0.5. The motion `T_camera_world` takes world points, metres, into the camera frame; K is in pixels;
+a depth is Z, not the length of a ray. One point goes
 
     p_camera = R p_world + t,   xy = (X/Z, Y/Z),   xy' = distort(xy),   (u, v, 1) = K (x', y', 1).
 
@@ -26,22 +27,13 @@ from workbench.geometry.cameras.distortion import (
 from workbench.geometry.motions import across, apply, inverse, motion
 
 OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
-"""Takes points of an OpenCV camera frame to the OpenGL frame of the same camera (+Y up, looking
-along -Z).
-"""
+"""Takes points of an OpenCV camera frame to OpenGL's (+Y up, looking along -Z)."""
 
 
 def intrinsics(
     f: float, cx: float, cy: float, *, fy: float | None = None, skew: float = 0.0
 ) -> Float[np.ndarray, "3 3"]:
-    """Return K from the focal length and the principal point, all in pixels.
-
-    Args:
-        f: Focal length along u; also along v unless `fy` is given.
-        cx: Column of the principal point, where the optical axis meets the picture.
-        cy: Row of the principal point.
-        fy: Focal length along v, for pixels that are not square.
-        skew: Shift of u per unit of normalised y; zero for real sensors.
+    """Return K from focal length and principal point, pixels; skew shifts u per normalised y.
 
     Raises:
         ValueError: If a focal length is not positive and finite.
@@ -57,7 +49,7 @@ def intrinsics(
 
 
 def focal_from_field_of_view(angle: float, size: int) -> float:
-    """Return the focal length in pixels at which `size` pixels span this angle (radians, below pi).
+    """Return the focal length in pixels at which `size` pixels span this angle, radians.
 
     Raises:
         ValueError: If the angle is not between 0 and pi.
@@ -74,29 +66,14 @@ def focal_from_field_of_view(angle: float, size: int) -> float:
 def crop_intrinsics(
     K: Float[np.ndarray, "3 3"], left: float, top: float
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the K of the part of a picture whose pixel (0, 0) was (left, top): only the principal
-    point moves.
-
-    Args:
-        K: Intrinsics of the whole picture, pixels.
-        left: Its column that becomes column 0.
-        top: Its row that becomes row 0.
-    """
+    """Return the K of the part of a picture whose pixel (0, 0) was (left, top)."""
     return np.array([[1.0, 0.0, -left], [0.0, 1.0, -top], [0.0, 0.0, 1.0]]) @ K
 
 
 def resize_intrinsics(
     K: Float[np.ndarray, "3 3"], scale_u: float, scale_v: float
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the K of a picture whose width and height were multiplied by these factors.
-
-    Pixel centres are at integers, so it is the edge at -0.5 that stays: u_new + 0.5 = scale_u (u +
-    0.5).
-
-    Args:
-        K: Intrinsics of the old picture, pixels.
-        scale_u: New width over old width.
-        scale_v: New height over old height.
+    """Return the K of a picture resized by factors: u_new + 0.5 = scale_u (u + 0.5).
 
     Raises:
         ValueError: If a factor is not positive.
@@ -114,26 +91,17 @@ def look_at(
     p_world_target: Float[np.ndarray, "3"],
     n_world_up: Float[np.ndarray, "3"] | None = None,
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the T_camera_world of a camera at `eye` whose axis goes through `target`, with `up`
-    upwards in the picture.
+    """Return the T_camera_world of a camera at `eye` whose axis goes through `target`.
 
-    Args:
-        p_world_eye: Camera centre, metres.
-        p_world_target: A point that shall be seen at the principal point.
-        n_world_up: Direction that points up in the picture; +Z where it is not given.
+    `up`, +Z by default, points upwards in the picture; where one looks straight along it, the world
+    axis furthest from the view takes its place.
 
     Raises:
         ValueError: If eye and target coincide.
 
-    Note:
-        Looking straight along `up` leaves the roll open; then the world axis furthest from it takes
-        its place.
-
     Examples:
         >>> T_camera_world = look_at(np.array([0.0, -5.0, 0.0]), np.zeros(3))
-        >>> (T_camera_world @ np.array([0.0, 0.0, 0.0, 1.0]))[:3].round(
-        ...     6
-        ... ).tolist()  # the target: 5 m ahead
+        >>> apply(T_camera_world, np.zeros(3)).round(6).tolist()  # the target: 5 m ahead
         [0.0, 0.0, 5.0]
     """
     up = np.array([0.0, 0.0, 1.0]) if n_world_up is None else n_world_up
@@ -153,10 +121,7 @@ def look_at(
 
 
 def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "3"]:
-    """Return where the camera is in the world, metres: C = -R^T t, the point that it takes to its
-    own origin.
-
-    Reference: Hartley and Zisserman, 6.1, eq. 6.7.
+    """Return where the camera is in the world, m: C = -R^T t (Hartley and Zisserman, eq. 6.7).
 
     Examples:
         >>> camera_center(look_at(np.array([0.0, -5.0, 1.0]), np.zeros(3))).round(6).tolist()
@@ -169,21 +134,14 @@ def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray,
 def depths(
     p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"]
 ) -> Float[np.ndarray, " n"]:
-    """Return Z in the camera frame, metres: the distance along the optical axis, not along the
-    ray.
-    """
+    """Return Z in the camera frame, metres: along the optical axis, not along the ray."""
     return p_world @ T_camera_world[2, :3] + T_camera_world[2, 3]
 
 
 def in_front(
     p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"], near: float = 0.0
 ) -> Bool[np.ndarray, " n"]:
-    """Return which points have a depth above `near`; NaN rows have not.
-
-    Args:
-        p_world: Points, metres.
-        T_camera_world: World-to-camera motion, metres.
-        near: Depth that must be exceeded, metres.
+    """Return which points have a depth above `near`, metres; NaN rows have not.
 
     Examples:
         >>> in_front(np.array([[0.0, 0.0, 2.0], [0.0, 0.0, -2.0]]), np.eye(4)).tolist()
@@ -200,26 +158,14 @@ def project(
     *,
     near: float = 0.0,
 ) -> Float[np.ndarray, "n 2"]:
-    """Return the pixels (u, v) = (column, row) at which a camera sees the points.
+    """Return the pixels (u, v) at which a camera sees the points (Hartley and Zisserman, eq. 6.8).
 
-    Args:
-        p_world: Points, metres.
-        T_camera_world: World-to-camera motion, metres.
-        K: Intrinsics, pixels.
-        distortion: The lens.
-        near: Depth in metres that a point must exceed to be seen.
-
-    Returns:
-        Pixels, also outside the picture. A row is NaN where the point lies at or behind `near`, or
-        so far out that the lens model folds (`invertible_radius`): dividing anyway would give a
-        pixel that looks valid.
-
-    Reference: Hartley and Zisserman, 6.1, eq. 6.8.
+    They may lie outside the picture. NaN where the point lies at or behind `near` (m), or so far
+    out that the lens folds (`invertible_radius`): dividing anyway would give a pixel that looks
+    valid.
 
     Examples:
-        >>> p_world = np.array(
-        ...     [[0.1, 0.0, 2.0], [0.0, 0.0, -1.0]]
-        ... )  # the second is behind the camera
+        >>> p_world = np.array([[0.1, 0.0, 2.0], [0.0, 0.0, -1.0]])  # the second is behind
         >>> project(p_world, np.eye(4), intrinsics(500.0, 319.5, 239.5)).round(6).tolist()
         [[344.5, 239.5], [nan, nan]]
     """
@@ -248,16 +194,9 @@ def project_orthographic(
     T_camera_world: Float[np.ndarray, "4 4"],
     K: Float[np.ndarray, "3 3"],
 ) -> Float[np.ndarray, "n 2"]:
-    """Return pixels of a parallel projection: (u, v, 1) = K (X, Y, 1), depth plays no part.
+    """Return pixels of a parallel projection: (u, v, 1) = K (X, Y, 1), K in pixels per metre.
 
-    Args:
-        p_world: Points, metres; those behind the camera are seen too.
-        T_camera_world: World-to-camera motion, metres.
-        K: Here its focal lengths are pixels per metre.
-
-    Note:
-        It is the limit of `project` with (K, T) from `dolly` as its factor grows; then f / Z is the
-        scale.
+    It is the limit of `project` with (K, T) from `dolly` as its factor grows, with scale f / Z.
     """
     xy = apply(T_camera_world, p_world)[:, :2]
     return xy @ K[:2, :2].T + K[:2, 2]
@@ -269,18 +208,10 @@ def dolly(
     subject_depth: float,
     factor: float,
 ) -> tuple[Float[np.ndarray, "4 4"], Float[np.ndarray, "3 3"]]:
-    """Return the camera moved back along its axis with f lengthened, so that the plane of the
-    subject keeps its size.
+    """Return (T_camera_world, K) moved back along the axis with f lengthened by a factor.
 
-    Args:
-        T_camera_world: World-to-camera motion, metres.
-        K: Intrinsics, pixels.
-        subject_depth: Depth of the plane that keeps its size, metres.
-        factor: New depth of that plane over the old one; the focal length grows by it too.
-
-    Returns:
-        The new T_camera_world and K. As the factor grows, the picture tends to the orthographic one
-        with f / Z pixels per metre, at a rate of one over the factor.
+    The plane at `subject_depth` keeps its size, and is `factor` times as far away. The picture
+    tends to the orthographic one with f / Z pixels per metre, at a rate of one over the factor.
     """
     T_back = T_camera_world.copy()
     T_back[2, 3] += (factor - 1.0) * subject_depth
@@ -292,17 +223,7 @@ def dolly(
 def normalize(
     uv: Float[np.ndarray, "n 2"], K: Float[np.ndarray, "3 3"], distortion: Distortion = NONE
 ) -> Float[np.ndarray, "n 2"]:
-    """Return ideal normalised coordinates of pixels: K and then the lens undone; NaN where the lens
-    has no inverse.
-
-    Args:
-        uv: Pixels (column, row).
-        K: Intrinsics, pixels.
-        distortion: The lens.
-
-    Returns:
-        (X/Z, Y/Z), without unit.
-    """
+    """Return ideal normalised coordinates (X/Z, Y/Z) of pixels; NaN where the lens folds."""
     y = (uv[:, 1] - K[1, 2]) / K[1, 1]
     x = (uv[:, 0] - K[0, 2] - K[0, 1] * y) / K[0, 0]
     xy = np.stack([x, y], axis=1)
@@ -316,22 +237,11 @@ def pixel_rays(
     *,
     distortion: Distortion = NONE,
 ) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "n 3"]]:
-    """Return the camera centre and the unit direction, in the world, along which each pixel looks.
-
-    Args:
-        uv: Pixels (column, row).
-        T_camera_world: World-to-camera motion, metres.
-        K: Intrinsics, pixels.
-        distortion: The lens.
-
-    Returns:
-        The centre in the world, metres; and one direction per pixel, NaN where the lens has no
-        inverse.
+    """Return the camera centre and each pixel's unit direction, in the world; NaN as `normalize`.
 
     Examples:
-        >>> centre, n_world = pixel_rays(
-        ...     np.array([[320.0, 240.0]]), np.eye(4), intrinsics(500.0, 320.0, 240.0)
-        ... )
+        >>> K = intrinsics(500.0, 320.0, 240.0)
+        >>> centre, n_world = pixel_rays(np.array([[320.0, 240.0]]), np.eye(4), K)
         >>> centre.tolist(), n_world.tolist()
         ([0.0, 0.0, 0.0], [[0.0, 0.0, 1.0]])
     """
@@ -349,21 +259,12 @@ def back_project(
     K: Float[np.ndarray, "3 3"],
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the world points, metres, that are seen at these pixels at these depths Z (not ray
-    lengths).
-
-    Args:
-        uv: Pixels (column, row).
-        depth: Depth Z of each, metres.
-        T_camera_world: World-to-camera motion, metres.
-        K: Intrinsics, pixels.
-        distortion: The lens.
+    """Return the world points, metres, that are seen at these pixels at these depths Z.
 
     Examples:
         >>> K = intrinsics(500.0, 319.5, 239.5)
-        >>> back_project(np.array([[344.5, 239.5]]), np.array([2.0]), np.eye(4), K).round(
-        ...     6
-        ... ).tolist()
+        >>> p_world = back_project(np.array([[344.5, 239.5]]), np.array([2.0]), np.eye(4), K=K)
+        >>> p_world.round(6).tolist()
         [[0.1, 0.0, 2.0]]
     """
     xy = normalize(uv, K, distortion)
@@ -378,19 +279,11 @@ def ray_lengths(
     *,
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, " n"]:
-    """Return the distance from the camera centre of points at these depths, metres: Z sqrt(1 + x² +
-    y²).
-
-    Args:
-        uv: Pixels (column, row).
-        depth: Depth Z of each, metres.
-        K: Intrinsics, pixels.
-        distortion: The lens.
+    """Return the distance from the camera centre of points at these depths: Z sqrt(1 + x² + y²).
 
     Examples:
-        >>> ray_lengths(
-        ...     np.array([[620.0, 640.0]]), np.array([2.0]), intrinsics(500.0, 320.0, 240.0)
-        ... ).round(6).tolist()
+        >>> K = intrinsics(500.0, 320.0, 240.0)
+        >>> ray_lengths(np.array([[620.0, 640.0]]), np.array([2.0]), K).round(6).tolist()
         [2.828427]
     """
     xy = normalize(uv, K, distortion)
@@ -404,18 +297,7 @@ def vanishing_points(
     *,
     distortion: Distortion = NONE,
 ) -> Float[np.ndarray, "n 2"]:
-    """Return the pixel in which all lines of a world direction meet: the picture of the point at
-    infinity.
-
-    Args:
-        v_world: Directions of any length; v and -v share their point.
-        T_camera_world: World-to-camera motion; only its rotation matters, where the camera is does
-            not.
-        K: Intrinsics, pixels.
-        distortion: The lens.
-
-    Returns:
-        Pixels; NaN for a direction parallel to the picture, whose lines stay parallel in it.
+    """Return the pixel in which lines of a world direction meet, NaN if parallel to the picture.
 
     Reference: Hartley and Zisserman, 8.6.1, eq. 8.15: v = K R d.
     """
@@ -434,14 +316,7 @@ def sphere_outline(
     *,
     n: int = 96,
 ) -> Float[np.ndarray, "n 3"]:
-    """Return n points of the circle in which the camera's rays touch a sphere, metres; in the
-    picture it is an ellipse.
-
-    Args:
-        p_world_center: Centre of the sphere, metres.
-        radius: Its radius, metres.
-        T_camera_world: World-to-camera motion, metres.
-        n: How many points.
+    """Return n points of the circle, metres, in which the camera's rays touch a sphere.
 
     Raises:
         ValueError: If the camera is inside the sphere.

@@ -1,5 +1,4 @@
-"""Where a camera was that saw points of one plane: the two answers that fit nearly alike where
-perspective is weak.
+"""Where a camera was that saw points of one plane: two answers where perspective is weak.
 
 Reference: Collins and Bartoli, Infinitesimal Plane-Based Pose Estimation, 2014, section 3.
 """
@@ -15,8 +14,7 @@ FLAT = 1e-3
 
 
 def is_flat(p_world: Float[np.ndarray, "*k n 3"]) -> bool:
-    """Return whether points lie in one plane (and not all on one line), those of each problem of
-    several.
+    """Return whether the points of each problem lie in one plane, and not all on one line.
 
     Examples:
         >>> square = np.array([[0.0, 0, 5], [1, 0, 5], [1, 1, 5], [0, 1, 5]])
@@ -32,25 +30,15 @@ def is_flat(p_world: Float[np.ndarray, "*k n 3"]) -> bool:
 def planar_motions(
     p_world: Float[np.ndarray, "*j n 3"], xy: Float[np.ndarray, "*k n 2"]
 ) -> Float[np.ndarray, "*k 2 4 4"]:
-    """Return the two T_camera_world that a homography of a plane leaves at its middle, by IPPE, in
-    no order.
+    """Return the two T_camera_world that a homography of a plane leaves at its middle, by IPPE.
 
-    To first order about the middle of the points the two project alike; what tells them apart is
-    perspective. Leading dimensions are pictures that are solved side by side.
-
-    Args:
-        p_world: Four points or more of one plane, metres: the same in all pictures, or each
-            picture's own.
-        xy: Their normalised image coordinates.
+    In no order. To first order about the middle of the points the two project alike; seen along the
+    plane's normal they are one. Points may be the same in all pictures; `xy` are normalised.
+    Reference: Collins and Bartoli 2014, eq. 8 to 13 (J, its singular value, both rotations).
 
     Raises:
-        ValueError: If there are fewer than four points, or they are not in one plane or all on one
+        ValueError: If there are fewer than four points, or they are not in one plane or on one
             line.
-
-    Note:
-        Seen along the plane's normal the two are one.
-
-    Reference: Collins and Bartoli 2014, eq. 8 to 13 (J, its singular value, both rotations).
     """
     if p_world.shape[-2] < 4 or not is_flat(p_world):
         raise ValueError(
@@ -67,9 +55,8 @@ def planar_motions(
     R_ray = _turns_to(middle[..., 0])
     B = R_ray[..., :2, :2] - middle @ R_ray[..., 2:, :2]
     A = np.linalg.solve(B, J)
-    top = (
-        A / np.linalg.svd(A, compute_uv=False)[..., :1, None]
-    )  # the upper left of the rotation, relative to the ray
+    # The upper left of the rotation, relative to the ray
+    top = A / np.linalg.svd(A, compute_uv=False)[..., :1, None]
     rest = np.eye(2) - np.swapaxes(top, -1, -2) @ top
     b = np.sqrt(np.maximum(np.stack([rest[..., 0, 0], rest[..., 1, 1]], axis=-1), 0.0))
     b[..., 1] *= np.where(rest[..., 0, 1] < 0.0, -1.0, 1.0)

@@ -3,8 +3,7 @@
 Everything becomes fragments (pixel, 1/Z, colour); of the fragments of one pixel the nearest wins.
 What crosses the near plane is cut there in the world, before anything is divided by a depth. Where
 the lens bends lines, what is long in the picture is cut into short pieces first, so that the camera
-model only ever has to move points: it is a function from world points to pixels, and any such
-function can draw the picture.
+model is any function from world points to pixels.
 
 Reference: Foley, van Dam, Feiner and Hughes, Computer Graphics, 2nd ed., 3.6 (scan conversion) and
 15.4 (z-buffer).
@@ -35,10 +34,11 @@ ToPixels = Callable[[np.ndarray], np.ndarray]
 PIECE = 0.06
 FAVOUR = 1.002
 STRAY = 3.0  # how far beyond the true picture a given camera model may look
+# Pixels that a row is longer at each end, so that neighbours leave no crack: straight, bent lens
 SLACK = (
     1e-6,
     0.1,
-)  # pixels that a row is longer at each end, so that neighbours leave no crack: straight, bent lens
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,9 +73,7 @@ Item = MeshItem | SegmentItem | PointItem
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """What the camera sees: colours, and the depth Z in metres of each pixel, infinite where there
-    is nothing.
-    """
+    """What the camera sees: colours, and the depth Z of each pixel, m, infinite for nothing."""
 
     colors: UInt8[np.ndarray, "h w 3"]
     depth: Float[np.ndarray, "h w"]
@@ -91,9 +89,8 @@ class _Eye:
     height: int
     near: float
     bends: bool
-    window: (
-        np.ndarray
-    )  # (2, 2): lowest and highest x, y in normalised coordinates that can be in the picture
+    # (2, 2): lowest and highest x, y in normalised coordinates that can be in the picture
+    window: np.ndarray
 
     def flatten(self, p_world: np.ndarray) -> np.ndarray:
         """Return ideal normalised coordinates, those of a camera without lens."""
@@ -103,9 +100,7 @@ class _Eye:
 
 @dataclass(frozen=True, eq=False)
 class _Fragments:
-    """Candidates for pixels: flat pixel index, 1/Z, and the row of `colors` that each belongs
-    to.
-    """
+    """Candidates for pixels: flat pixel index, 1/Z, and the row of `colors` of each."""
 
     pixel: np.ndarray
     inverse_depth: np.ndarray
@@ -128,20 +123,11 @@ def render(
 ) -> Image:
     """Return the picture of the items as the camera sees them, and its depths.
 
-    Args:
-        items: What to draw; of two things at exactly the same depth the later wins. Lines and
-            points win from surfaces up to 0.2 % nearer, so that a mesh does not bury its own edges.
-        T_camera_world: World-to-camera motion, metres.
-        K: Intrinsics, pixels; pixel centres are at integers.
-        width: Columns of the picture.
-        height: Rows of the picture.
-        distortion: The lens.
-        near: Depth in metres at which segments and triangles are cut, and below which points are
-            not drawn.
-        background: Colour where there is nothing.
-        to_pixels: Draws in place of `project` with the arguments above, which then only say what is
-            near and what is in front of what. Through a lens, what is three times as far out as the
-            picture reaches is left out.
+    Of two things at the same depth the later wins; lines and points win from surfaces up to 0.2 %
+    nearer, so that a mesh does not bury its own edges. `near`, m, is where segments and triangles
+    are cut, and below which no point is drawn. `to_pixels` draws in place of `project`; the camera
+    then only says what is near and in front. Through a lens, what is three times as far out as the
+    picture reaches is left out then.
 
     Raises:
         ValueError: If the picture has no pixels or `near` is not positive.
@@ -166,16 +152,7 @@ def in_sight(
     *,
     depth: Float[np.ndarray, "h w"],
 ) -> Bool[np.ndarray, " n"]:
-    """Return which points of a scene's surfaces its picture shows: those inside of it with nothing
-    nearer in their pixel.
-
-    Args:
-        p_world: The points, metres.
-        T_camera_world: The motion of the camera that took the picture, without a lens.
-        K: Its intrinsics, pixels.
-        depth: Of each pixel, as `render` gives it; it may differ from a point's by 2 %, as surfaces
-            lean.
-    """
+    """Return which points of surfaces a picture with this depth shows, without a lens, to 2 %."""
     uv, z = project(p_world, T_camera_world, K), depths(p_world, T_camera_world)
     h, w = depth.shape
     inside = np.asarray(((uv >= 1.0) & (uv <= np.array([w, h]) - 2.0)).all(axis=1))
@@ -209,9 +186,7 @@ def _draw_points(item: PointItem, eye: _Eye) -> _Fragments:
 
 
 def _draw_segments(item: SegmentItem, eye: _Eye) -> _Fragments:
-    """Cut segments at the near plane, into short ones if the lens bends, and step along them pixel
-    by pixel.
-    """
+    """Cut segments at the near plane, and short if the lens bends; step along them by pixels."""
     ahead = depths(item.p_world.reshape(-1, 3), eye.T_camera_world).reshape(-1, 2) - eye.near
     uv, w, owner = _project(*clip_segments(item.p_world, ahead), eye)
     size = np.array([eye.width, eye.height])
@@ -236,9 +211,7 @@ def _draw_segments(item: SegmentItem, eye: _Eye) -> _Fragments:
 
 
 def _draw_mesh(item: MeshItem, eye: _Eye) -> _Fragments:
-    """Cut triangles at the near plane, into small ones if the lens bends, and fill them row by
-    row.
-    """
+    """Cut triangles at the near plane, and small if the lens bends; fill them row by row."""
     ahead = depths(item.p_world, eye.T_camera_world) - eye.near
     uv, w, owner = _project(*clip_triangles(item.p_world[item.faces], ahead[item.faces]), eye)
     return _fill(uv, w, owner, colors=item.colors, eye=eye)
@@ -247,9 +220,7 @@ def _draw_mesh(item: MeshItem, eye: _Eye) -> _Fragments:
 def _project(
     p_world: np.ndarray, owner: np.ndarray, eye: _Eye
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return pixels and 1/Z of the corners of segments or triangles, cut where the lens bends them,
-    and their owners.
-    """
+    """Return pixels and 1/Z of the corners, cut where the lens bends them, and their owners."""
     corners = p_world.shape[1]
     if eye.bends:
         p_world, row = cut_finely(p_world, eye.flatten, PIECE, *eye.window)
@@ -274,9 +245,7 @@ def _stamp(uv, inverse_depth, owner, colors, width: int, eye: _Eye) -> _Fragment
 
 
 def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
-    """Fill triangles: for each row the columns between the edges, and 1/Z, which is affine in the
-    picture.
-    """
+    """Fill triangles row by row between their edges; 1/Z is affine in the picture."""
     with np.errstate(invalid="ignore"):
         low, high = over_corners(np.minimum, uv), over_corners(np.maximum, uv)
         in_picture = ((high >= 0) & (low <= np.array([eye.width, eye.height]) - 1)).all(axis=1)
@@ -317,9 +286,7 @@ def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
 
 
 def _ragged(counts: Int[np.ndarray, " n"]) -> tuple[Int[np.ndarray, " m"], Int[np.ndarray, " m"]]:
-    """Return, for n rows of different lengths laid end to end, the row of each entry and its place
-    in the row.
-    """
+    """Return, for n rows laid end to end, the row of each entry and its place in the row."""
     row = np.repeat(np.arange(len(counts)), counts)
     first = np.cumsum(counts) - counts
     return row, np.arange(len(row)) - first[row]

@@ -1,11 +1,13 @@
-"""Depth from a rectified pair of pictures: a disparity becomes a depth, a point, and an error bar.
+"""Depth from a rectified pair of pictures: a disparity becomes a depth, a point, an error bar.
 
 Conventions: both cameras look along +Z (OpenCV frame, metres), the right one stands `baseline`
-metres along +X of the left one, rows of the two pictures correspond. What the left picture shows in
-column x is in column x - d of the right one: the disparity d is positive, and grows towards the
-cameras. Where the principal points differ, `doffs` is how far: cx_right - cx_left, in pixels
-(Middlebury's word), and d + doffs takes the place of d. At d + doffs = 0 the rays are parallel and
-what they see is infinitely far; NaN, not 0, means unknown.
+metres along +X of the left one, rows correspond. What the left picture shows in column x is in
+column x - d of the right one: the disparity d is positive, and grows towards the cameras. Where the
+principal points differ, `doffs` = cx_right - cx_left, in pixels (Middlebury's word), and d + doffs
+takes the place of d. At d + doffs = 0 the rays are parallel and what they see is infinitely far;
+NaN, not 0, means unknown. f is in pixels of pictures of the size in which d was measured.
+
+Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1.
 """
 
 import math
@@ -19,13 +21,7 @@ from workbench.geometry.cameras.pinhole import back_project, intrinsics, resize_
 
 @dataclass(frozen=True)
 class StereoCamera:
-    """A rectified pair of cameras, seen from the left one.
-
-    Attributes:
-        f: Focal length of both, pixels.
-        cx, cy: Principal point of the left camera, pixels.
-        baseline: Distance between the two centres, metres.
-        doffs: cx_right - cx_left, pixels.
+    """A rectified pair of cameras, seen from the left one: pixels, and the baseline in metres.
 
     Raises:
         ValueError: If the focal length or the baseline is not positive and finite.
@@ -49,15 +45,11 @@ class StereoCamera:
         return intrinsics(self.f, self.cx, self.cy)
 
     def depth(self, d: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
-        """Return the depths, metres, of disparities as they were measured: `depth_from_disparity`
-        of d + doffs.
-        """
+        """Return the depths, metres, of disparities as they were measured, without doffs."""
         return depth_from_disparity(d + self.doffs, self.f, self.baseline)
 
     def shrunk(self, k: int) -> "StereoCamera":
-        """Return the cameras of pictures with blocks of k x k pixels averaged: all but the baseline
-        shrinks.
-        """
+        """Return the cameras of pictures with blocks of k x k pixels averaged."""
         K = resize_intrinsics(self.K, 1.0 / k, 1.0 / k)
         return StereoCamera(
             float(K[0, 0]), float(K[0, 2]), float(K[1, 2]), self.baseline, self.doffs / k
@@ -67,19 +59,9 @@ class StereoCamera:
 def depth_from_disparity(
     d: Float[np.ndarray, "..."], f: float, baseline: float
 ) -> Float[np.ndarray, "..."]:
-    """Return the depth Z = f B / d that a disparity stands for: the nearer, the larger the shift.
+    """Return the depth Z = f B / d, metres, that a disparity stands for (Szeliski, eq. 12.1).
 
-    Args:
-        d: Disparities x_left - x_right, pixels (with doffs added where the principal points
-            differ).
-        f: Focal length, pixels, of pictures of the size in which d was measured.
-        baseline: Distance between the cameras, metres.
-
-    Returns:
-        Depths along the optical axis, metres. Zero gives infinity (parallel rays); NaN stays NaN,
-        and a negative disparity gives NaN: nothing in front of both cameras causes one.
-
-    Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1, eq. 12.1.
+    Zero gives infinity, NaN stays NaN, and a negative disparity gives NaN: nothing causes one.
 
     Examples:
         >>> depth_from_disparity(np.array([50.0, 25.0, 0.0]), f=500.0, baseline=0.2).tolist()
@@ -92,13 +74,7 @@ def depth_from_disparity(
 def disparity_from_depth(
     depth: Float[np.ndarray, "..."], f: float, baseline: float
 ) -> Float[np.ndarray, "..."]:
-    """Return the disparity d = f B / Z, pixels, of points at these depths, metres; infinity gives
-    0.
-
-    Args:
-        depth: Depths, metres.
-        f: Focal length, pixels.
-        baseline: Distance between the cameras, metres.
+    """Return the disparity d = f B / Z, pixels, of points at these depths; infinity gives 0.
 
     Examples:
         >>> disparity_from_depth(np.array([2.0, np.inf]), 400.0, 0.1).tolist()
@@ -110,19 +86,9 @@ def disparity_from_depth(
 def depth_uncertainty(
     depth: Float[np.ndarray, "..."], f: float, baseline: float, *, disparity_error: float
 ) -> Float[np.ndarray, "..."]:
-    """Return how far a small disparity error moves a depth, metres: sigma_Z = Z² / (f B) sigma_d.
+    """Return how far a small disparity error moves a depth: sigma_Z = Z² / (f B) sigma_d.
 
-    Args:
-        depth: Depths, metres.
-        f: Focal length, pixels.
-        baseline: Distance between the cameras, metres.
-        disparity_error: Standard deviation of the disparity, pixels.
-
-    Note:
-        It is the first-order term, good while the error is small beside d; `depth_interval` is
-        exact.
-
-    Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1 (the derivative of eq. 12.1).
+    To first order; `depth_interval` is exact.
     """
     return depth * depth / (f * baseline) * disparity_error
 
@@ -130,17 +96,7 @@ def depth_uncertainty(
 def depth_interval(
     d: Float[np.ndarray, "..."], f: float, baseline: float, *, disparity_error: float
 ) -> tuple[Float[np.ndarray, "..."], Float[np.ndarray, "..."]]:
-    """Return the nearest and furthest depth within `disparity_error` pixels of a disparity, metres.
-
-    Args:
-        d: Disparities, pixels, doffs added where the principal points differ.
-        f: Focal length, pixels.
-        baseline: Distance between the cameras, metres.
-        disparity_error: The error of a disparity, pixels.
-
-    Returns:
-        Nearest, then furthest; the latter is infinite where the error reaches a disparity of zero.
-    """
+    """Return the nearest and furthest depth within an error of a disparity, perhaps infinite."""
     near = depth_from_disparity(d + disparity_error, f, baseline)
     return near, depth_from_disparity(np.maximum(d - disparity_error, 0.0), f, baseline)
 
@@ -148,17 +104,7 @@ def depth_interval(
 def depth_cloud(
     depth: Float[np.ndarray, "h w"], camera: StereoCamera
 ) -> tuple[Float[np.ndarray, "n 3"], Bool[np.ndarray, "h w"]]:
-    """Return the points seen by the pixels whose depth is known and finite, and which pixels those
-    are.
-
-    Args:
-        depth: Depth per pixel, metres; NaN is unknown, infinity has no point.
-        camera: Its left camera took the picture.
-
-    Returns:
-        Points in the left camera's frame, metres, row by row of the picture; and the mask that gave
-        them.
-    """
+    """Return the points, in the left camera's frame, of pixels of finite depth, and the mask."""
     seen = np.isfinite(depth) & (depth > 0)
     v, u = np.nonzero(seen)
     return back_project(
@@ -169,14 +115,7 @@ def depth_cloud(
 def points_on_ray(
     uv: tuple[float, float], depth: Float[np.ndarray, " n"], camera: StereoCamera
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points at these depths, metres, on the ray of one left pixel (column, row), in the
-    left camera's frame.
-
-    Args:
-        uv: A left pixel (column, row).
-        depth: Depths, metres.
-        camera: Its left camera took the picture.
-    """
+    """Return the points at these depths on the ray of one left pixel, in the left frame."""
     return back_project(
         np.broadcast_to(np.array(uv, float), (len(depth), 2)), depth, np.eye(4), K=camera.K
     )

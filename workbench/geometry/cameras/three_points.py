@@ -1,8 +1,9 @@
-"""Where a camera was that saw three known points: the P3P problem, solved for many samples at once.
+"""Where a camera was that saw three known points: the P3P problem, for many samples at once.
 
-Notation: s are the lengths of the three rays, from the camera's centre to the points; a, b, c the
-sides of the triangle of the points, opposite to the first, second and third; u = s2 / s1 and v = s3
-/ s1.
+Notation: `n_camera` are the unit rays on which `p_world`, metres, are seen; s the lengths of the
+three rays; a, b, c the sides of the triangle of the points, opposite to the first, second and
+third; u = s2 / s1 and v = s3 / s1. A sample may have several solutions: with them comes the sample
+of each.
 
 Reference: Haralick, Lee, Ottenberg and Nölle, Review and Analysis of Solutions of the Three Point
 Perspective Pose Estimation Problem, 1994, sections 2 and 3.1 (Grunert 1841).
@@ -14,17 +15,15 @@ from jaxtyping import Float, Int
 from workbench.geometry.two_views.homography import homogeneous
 
 _REAL = 1e-6  # an imaginary part below this share of a root is rounding
-_SOLVED = (
-    1e-9  # how well, in shares of a triangle's largest side squared, the law of cosines has to hold
-)
+# How well, in shares of a triangle's largest side squared, the law of cosines has to hold
+_SOLVED = 1e-9
 _OPPOSITE = ((1, 2), (0, 2), (0, 1))  # the ends of the sides a, b, c
 _BAD = 1e300
 _TWOFOLD, _SAME = 1e-5, 1e-6
 
 
 def unit_rays(xy: Float[np.ndarray, "*k 2"]) -> Float[np.ndarray, "*k 3"]:
-    """Return the unit vectors, in the camera's frame, along which normalised image coordinates
-    look.
+    """Return the unit vectors, in the camera's frame, of normalised image coordinates.
 
     Examples:
         >>> unit_rays(np.array([[0.0, 0.0], [0.75, 0.0]])).round(6).tolist()
@@ -37,36 +36,17 @@ def unit_rays(xy: Float[np.ndarray, "*k 2"]) -> Float[np.ndarray, "*k 3"]:
 def quartics(
     p_world: Float[np.ndarray, "k 3 3"], n_camera: Float[np.ndarray, "k 3 3"]
 ) -> Float[np.ndarray, "k 5"]:
-    """Return Grunert's quartics in v = s3 / s1, the coefficient of the highest power first.
-
-    Args:
-        p_world: Samples of three points, metres.
-        n_camera: The unit rays on which they are seen.
-
-    Reference: Haralick et al. 1994, eq. 9.
-    """
+    """Return Grunert's quartics in v = s3 / s1, highest power first (Haralick et al., eq. 9)."""
     return _quartics(*_sides_and_cosines(p_world, n_camera))
 
 
 def three_point_lengths(
     p_world: Float[np.ndarray, "k 3 3"], n_camera: Float[np.ndarray, "k 3 3"]
 ) -> tuple[Float[np.ndarray, "m 3"], Int[np.ndarray, " m"]]:
-    """Return all lengths of three rays that put the points as far from each other as they are,
-    metres.
+    """Return all lengths of three rays, metres, that put the points as far apart as they are.
 
-    Args:
-        p_world: Samples of three points, metres.
-        n_camera: The unit rays on which they are seen.
-
-    Returns:
-        The lengths (s1, s2, s3), all positive, up to four rows for a sample; and to which sample
-        each row belongs.
-
-    Note:
-        Points in one place or on one line give none.
-
-    Reference: Haralick et al. 1994, eq. 8 (u from v) and 9 (v); Newton steps on their eq. 1 to 3
-    take off rounding.
+    Lengths are positive, up to four rows for a sample, none for points in one place or on one line.
+    Reference: Haralick et al. 1994, eq. 8 and 9, and Newton steps on their eq. 1 to 3.
     """
     sides, cosines = _sides_and_cosines(p_world, n_camera)
     with np.errstate(all="ignore"):
@@ -114,18 +94,7 @@ def motions_from_lengths(
     n_camera: Float[np.ndarray, "m 3 3"],
     s: Float[np.ndarray, "m 3"],
 ) -> Float[np.ndarray, "m 4 4"]:
-    """Return the T_camera_world that takes each three points to the ends of their rays; NaN where
-    they are on one line.
-
-    Args:
-        p_world: Samples of three points, metres.
-        n_camera: The unit rays on which they are seen.
-        s: The lengths of the rays, metres, as `three_point_lengths` gives them.
-
-    Note:
-        The two triangles are congruent, so the frames along their sides do what a least-squares fit
-        does more slowly.
-    """
+    """Return the T_camera_world from three points to the ends of their rays; NaN on one line."""
     p_camera = n_camera * s[..., None]
     T = np.zeros((len(s), 4, 4))
     with np.errstate(all="ignore"):
@@ -138,15 +107,9 @@ def motions_from_lengths(
 def p3p(
     p_world: Float[np.ndarray, "k 3 3"], xy: Float[np.ndarray, "k 3 2"]
 ) -> tuple[Float[np.ndarray, "m 4 4"], Int[np.ndarray, " m"]]:
-    """Return all T_camera_world from which three points are seen where they are seen, and of which
-    sample each is.
+    """Return all T_camera_world from which three points are seen at these normalised coordinates.
 
-    Args:
-        p_world: Samples of three points, metres.
-        xy: Their normalised image coordinates.
-
-    Returns:
-        None to four motions for a sample, each with all three points in front; mostly two.
+    None to four motions for a sample, mostly two, each with all three points in front.
 
     Examples:
         >>> p_world = np.array([[[0.0, 1, 0], [-0.8, -0.6, 0], [0.8, -0.6, 0]]])
@@ -171,9 +134,7 @@ def solution_counts(
 
 
 def _sides_and_cosines(p_world: np.ndarray, n_camera: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the squared sides a, b, c (3, k), and the cosines of the angles between the rays to
-    their ends.
-    """
+    """Return the squared sides a, b, c (3, k), and the cosines between the rays to their ends."""
     sides = np.stack([np.square(p_world[:, i] - p_world[:, j]).sum(axis=-1) for i, j in _OPPOSITE])
     return sides, np.stack([(n_camera[:, i] * n_camera[:, j]).sum(axis=-1) for i, j in _OPPOSITE])
 
@@ -200,9 +161,7 @@ def _quartics(sides: np.ndarray, cosines: np.ndarray) -> np.ndarray:
 def _polished(
     s: np.ndarray, sides: np.ndarray, cosines: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Take Newton steps on the law of cosines of the three sides; return the lengths and what is
-    left of it.
-    """
+    """Take Newton steps on the law of cosines; return the lengths and what is left of it."""
     left = np.full(len(s), np.inf)
     for _ in range(3):
         ends = [
@@ -225,9 +184,7 @@ def _polished(
 
 
 def _frames(p: np.ndarray) -> np.ndarray:
-    """Return the axes of each triangle as columns: along its first side, in its plane, and
-    across.
-    """
+    """Return the axes of each triangle: along its first side, in its plane, and across."""
     e1 = p[:, 1] - p[:, 0]
     e1 = e1 / np.linalg.norm(e1, axis=1, keepdims=True)
     e3 = np.cross(e1, p[:, 2] - p[:, 0])

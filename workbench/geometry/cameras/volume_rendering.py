@@ -1,5 +1,6 @@
-"""What a ray sees of a medium that emits and absorbs, sampled along it, and the gradient back to
-density and colour.
+"""What a ray sees of a medium that emits and absorbs, and the gradient to density and colour.
+
+Spacings and reaches are metres, densities 1/m and not negative; samples go from near to far.
 
 Reference: Mildenhall et al., NeRF, ECCV 2020, eq. 3; Max, Optical models for direct volume
 rendering, 1995, section 4.
@@ -21,33 +22,16 @@ def samples_on(
     count: int,
     shift: Float[np.ndarray, "r s"] | float = 0.5,
 ) -> tuple[Float[np.ndarray, "r s d"], float]:
-    """Return so many points on each ray, one in each equal part of its way, and the length of a
-    part, m.
-
-    Args:
-        p: Where the rays begin.
-        d: Their unit directions.
-        reach: From where to where on the rays, m.
-        count: How many.
-        shift: Where in its part each lies, 0 to 1.
-    """
+    """Return a point in each equal part of each ray's way, shifted by a share, and the spacing."""
     spacing = (reach[1] - reach[0]) / count
     t = reach[0] + spacing * (np.arange(count) + shift) * np.ones((len(p), 1))
     return p[:, None] + t[:, :, None] * d[:, None], spacing
 
 
 def ray_weights(density: Float[np.ndarray, "r s"], spacing: float) -> Float[np.ndarray, "r s"]:
-    """Return how much each sample counts in what its ray sees: w_i = T_i (1 - exp(-density_i
-    spacing)).
+    """Return how much each sample counts for its ray: w_i = T_i (1 - exp(-density_i spacing)).
 
-    T_i = exp(-spacing sum_{j<i} density_j) is the share of light that passes all samples before. A
-    row's sum is 1 minus what passes all of them.
-
-    Args:
-        density: Of r rays at s samples from near to far, 1/m, not negative.
-        spacing: Between samples, m.
-
-    Reference: Mildenhall et al. 2020, eq. 3.
+    T_i = exp(-spacing sum_{j<i} density_j) is what passes all samples before (NeRF, eq. 3).
     """
     depth = spacing * density
     return np.exp(-(np.cumsum(depth, axis=1) - depth)) * -np.expm1(-depth)
@@ -56,13 +40,7 @@ def ray_weights(density: Float[np.ndarray, "r s"], spacing: float) -> Float[np.n
 def seen(
     weights: Float[np.ndarray, "r s"], color: Float[np.ndarray, "r s 3"], behind: float = 1.0
 ) -> Float[np.ndarray, "r 3"]:
-    """Return the colours of rays, of which what passes all samples sees the background.
-
-    Args:
-        weights: As of `ray_weights`.
-        color: Of each sample.
-        behind: The background, grey.
-    """
+    """Return the colours of rays: what passes all samples sees the grey background."""
     return np.einsum("rs,rsc->rc", weights, color) + behind * (
         1 - weights.sum(axis=1, keepdims=True)
     )
@@ -76,17 +54,9 @@ def through_seen(
     spacing: float,
     behind: float = 1.0,
 ) -> tuple[Float[np.ndarray, "r s"], Float[np.ndarray, "r s 3"]]:
-    """Return the gradients by densities and colours, given that by the colours that the rays see.
+    """Return the gradients by densities and colours, given that by the colours that rays see.
 
-    By density_i it is spacing times (T_{i+1} c_i - sum_{j>i} w_j c_j - T_end behind): light that is
-    let through less, and what lies behind is seen less.
-
-    Args:
-        slope: The gradient by what is seen.
-        density: Of the samples, 1/m.
-        color: Of the samples.
-        spacing: Between them, m.
-        behind: The background.
+    By density_i it is spacing times (T_{i+1} c_i - sum_{j>i} w_j c_j - T_end behind).
     """
     depth = spacing * density
     passed = np.exp(-np.cumsum(depth, axis=1))

@@ -1,5 +1,4 @@
-"""Fast point feature histograms: how the normals around a point turn, as 33 numbers that no rigid
-motion changes.
+"""Fast point feature histograms: how the normals around a point turn, as 33 numbers.
 
 Reference: Rusu, Blodow and Beetz, Fast Point Feature Histograms (FPFH) for 3D Registration, ICRA
 2009, sections II and III.
@@ -25,25 +24,12 @@ def pair_angles(
     p_j: Float[np.ndarray, "k 3"],
     n_j: Float[np.ndarray, "k 3"],
 ) -> Float[np.ndarray, "k 3"]:
-    """Return of each pair of points with normals how the second normal turns against a frame at the
-    first point.
+    """Return of each pair how the second normal turns against a frame at the first point.
 
-    Source is the point whose normal is nearer to the line between the two, so that their order does
-    not count. With its normal u, the unit line d from it to the other point, v = (d x u) / |d x u|
+    Source is the point whose normal is nearer to the line between the two, the first where both are
+    as near. With its normal u, the unit line d from it to the other point, v = (d x u) / |d x u|
     and w = u x v, and the other's normal n, a row holds theta = atan2(w n, u n), alpha = v n and
-    phi = u d.
-
-    Args:
-        p_i: The first points, metres.
-        n_i: Their unit normals.
-        p_j: The second points.
-        n_j: Their unit normals.
-
-    Returns:
-        Rows (theta in radians, alpha, phi). Where both normals are as near to the line, the first
-        point is the source. All three are 0 where the line runs along the source's normal, or the
-        points coincide: no frame is there.
-
+    phi = u d. All are 0 where the line runs along u, or the points coincide.
     Reference: Rusu, Blodow and Beetz 2009, eq. 1 and 2.
 
     Examples:
@@ -59,9 +45,8 @@ def pair_angles(
     phi = np.where(swap, -second, first)  # u d
     other = np.where(swap, -first, second)  # n d
     aligned = np.einsum("ij,ij->i", n_i, n_j)  # u n
-    triple = np.einsum(
-        "ij,ij->i", np.cross(d, n_i), n_j
-    )  # swaps of d and of the normals change its sign, each once
+    # Swaps of d and of the normals change its sign, each once
+    triple = np.einsum("ij,ij->i", np.cross(d, n_i), n_j)
     sine = np.sqrt(np.maximum(1.0 - phi * phi, 0.0))  # |d x u|
     framed = (sine > 1e-7) & (lengths > 0)
     sine = np.where(framed, sine, 1.0)
@@ -80,24 +65,12 @@ def fpfh(
     radius: float,
     pair_angles: PairAngles = pair_angles,
 ) -> Float[np.ndarray, "n 33"]:
-    """Return one descriptor per point: its own histograms, and those of its neighbours weighted by
-    nearness.
+    """Return one descriptor per point: its histograms, and those of neighbours by nearness.
 
-    Args:
-        p: Points, metres.
-        n: Their unit normals. Which of the two sides they face counts.
-        radius: Of a neighbourhood, metres.
-        pair_angles: The angles of pairs; each pair of neighbours is asked for once; where both
-            normals are as near to the line, once for each of its points.
-
-    Returns:
-        Rows of 33 numbers, none negative; zeros for a point without neighbours.
-
-    Note:
-        A neighbour counts by one over its squared distance, as in PCL and Open3D; the paper writes
-        one over the distance.
-
-    Reference: Rusu, Blodow and Beetz 2009, eq. 3.
+    Rows are 33 numbers, none negative; zeros without neighbours within `radius`, m. A neighbour
+    counts by one over its squared distance, as in PCL and Open3D; the paper (eq. 3) writes one over
+    the distance. `pair_angles` is asked once for each pair, or twice where both normals are as near
+    to the line. Which of the two sides the normals face counts.
     """
     count, pairs = len(p), pairs_within(p, radius)
     i, j = pairs.T

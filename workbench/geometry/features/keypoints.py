@@ -16,28 +16,15 @@ HARRIS = 0.04
 
 
 def gradient(image: Image, sigma: float = DERIVE) -> tuple[Image, Image]:
-    """Return the derivatives of a smoothed picture along u and along v, grey levels per pixel
-    (Sobel's, over 8).
-
-    Args:
-        image: Grey levels.
-        sigma: Standard deviation of the smoothing, pixels.
-    """
+    """Return the derivatives of a smoothed picture along u and v, grey levels per pixel."""
     smooth = scipy.ndimage.gaussian_filter(image, sigma)
     return scipy.ndimage.sobel(smooth, axis=1) / 8.0, scipy.ndimage.sobel(smooth, axis=0) / 8.0
 
 
 def harris_response(image: Image) -> Image:
-    """Return det(M) - 0.04 trace(M)^2 of every pixel: large at corners, negative at edges, near 0
-    where nothing is.
+    """Return det(M) - 0.04 trace(M)^2: large at corners, negative at edges, near 0 elsewhere.
 
-    M holds the products of the derivatives along u and v, each smoothed by a Gaussian of 1.5 px
-    after multiplying.
-
-    Args:
-        image: Grey levels.
-
-    Reference: Harris and Stephens 1988, section 3.
+    M holds products of the derivatives, each smoothed by a Gaussian of 1.5 px (section 3).
     """
     g_u, g_v = gradient(image)
     a, b, c = (
@@ -50,14 +37,7 @@ def harris_response(image: Image) -> Image:
 def strongest(
     response: Image, count: int, *, apart: int = 4, border: int = 0
 ) -> Int[np.ndarray, "k 2"]:
-    """Return the pixels (u, v) of the largest local maxima of a response, the strongest first.
-
-    Args:
-        response: One number per pixel; only positive ones count.
-        count: At most so many.
-        apart: A maximum is the largest within so many pixels along u and v.
-        border: None lies nearer to the border than this, pixels.
-    """
+    """Return the largest local maxima (u, v) within `apart` pixels, `border` inside, in order."""
     top = (response == scipy.ndimage.maximum_filter(response, 2 * apart + 1)) & (response > 0)
     inside = np.zeros_like(top)
     h, w = top.shape
@@ -68,14 +48,7 @@ def strongest(
 
 
 def patches(image: Image, uv: Int[np.ndarray, "n 2"], side: int) -> Float[np.ndarray, "n d"]:
-    """Return the grey levels around pixels, smoothed, minus their mean, of length 1: brightness and
-    contrast do not count.
-
-    Args:
-        image: Grey levels.
-        uv: Pixels, at least half a side from the border.
-        side: Odd, pixels.
-    """
+    """Return smoothed grey levels around pixels, of mean 0 and length 1; `side` is odd."""
     smooth, d = scipy.ndimage.gaussian_filter(image, DERIVE), np.arange(side) - side // 2
     found = smooth[uv[:, 1, None, None] + d[:, None], uv[:, 0, None, None] + d].reshape(
         len(uv), side * side
@@ -92,20 +65,10 @@ def iss_keypoints(
     ratio: float = 0.975,
     fewest: int = 5,
 ) -> Int[np.ndarray, " k"]:
-    """Return the indices of salient points: spread three different ways, and the largest around in
-    the least.
+    """Return the indices of salient points: spread three ways, most in the least within `apart`.
 
-    The spread is about the point itself, as in the paper. Open3D takes it about the neighbours'
-    mean, which is another detector: few of its keypoints are these.
-
-    Args:
-        p: Points, metres.
-        radius: Of a neighbourhood, metres.
-        apart: A keypoint is the most salient within this distance, metres.
-        ratio: The second variance must be less than this share of the first, and the third of the
-            second.
-        fewest: Neighbours that a keypoint has at least.
-
+    The spread within `radius` is about the point itself, as in the paper; Open3D takes it about the
+    neighbours' mean. Each variance is less than `ratio` times the next larger.
     Reference: Zhong 2009, section 2.1 (without its weights).
     """
     i, j = pairs_within(p, radius).T

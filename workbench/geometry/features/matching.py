@@ -1,8 +1,7 @@
 """Which descriptors belong together: the nearest, and which of these a filter keeps.
 
-References: Lowe, Distinctive Image Features from Scale-Invariant Keypoints, 2004, section 7.1 (the
-ratio); Deriche, Zhang, Luong and Faugeras, Robust recovery of the epipolar geometry, 1994 (both
-ways round).
+References: Lowe, Distinctive Image Features from Scale-Invariant Keypoints, 2004, 7.1 (the ratio);
+Deriche et al., Robust recovery of the epipolar geometry, 1994 (both ways round).
 """
 
 from dataclasses import dataclass
@@ -17,14 +16,7 @@ _CELLS = 4_000_000  # distances at a time
 
 @dataclass(frozen=True, eq=False)
 class Nearest:
-    """The nearest descriptors of two sets, both ways.
-
-    Attributes:
-        index: For each of the first set the nearest of the second.
-        distance: How far apart they are.
-        second: How far the second nearest is; infinite where there is only one.
-        back: For each of the second set the nearest of the first.
-    """
+    """The nearest descriptor of the other set, both ways, and how far the two nearest are."""
 
     index: Int[np.ndarray, " n"]
     distance: Float[np.ndarray, " n"]
@@ -32,9 +24,7 @@ class Nearest:
     back: Int[np.ndarray, " m"]
 
     def kept(self, how: Filter, ratio: float) -> Bool[np.ndarray, " n"]:
-        """Return which nearest ones a filter keeps; `ratio` is between the distances, not their
-        squares.
-        """
+        """Return which nearest ones a filter keeps; `ratio` is between unsquared distances."""
         keep = np.ones(len(self.index), bool)
         if how in ("ratio", "both"):
             keep &= self.distance < ratio * self.second
@@ -80,22 +70,14 @@ def nearest_both_ways(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) 
 def mutual_matches(
     a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float
 ) -> Int[np.ndarray, " n"]:
-    """Return for each descriptor of a the nearest of b, or -1 where that one is not much nearer, or
-    nearest both ways.
-
-    Args:
-        a: Descriptors.
-        b: Descriptors of the other set.
-        ratio: The nearest must be nearer than this share of the distance of the second nearest.
+    """Return the nearest of b for each of a, or -1 where it fails the ratio or is not mutual.
 
     Raises:
         ValueError: If a set is empty.
-    Reference: Lowe 2004, section 7.1.
 
     Examples:
-        >>> mutual_matches(
-        ...     np.array([[0.0], [5.0], [5.2]]), np.array([[0.3], [5.1], [9.0]]), 0.9
-        ... ).tolist()
+        >>> a, b = np.array([[0.0], [5.0], [5.2]]), np.array([[0.3], [5.1], [9.0]])
+        >>> mutual_matches(a, b, 0.9).tolist()
         [0, 1, -1]
     """
     found = nearest_both_ways(a, b)
@@ -105,16 +87,9 @@ def mutual_matches(
 def filtered(
     found: Nearest, how: Filter, ratio: float, mutual: Int[np.ndarray, " n"] | None = None
 ) -> Int[np.ndarray, "k 2"]:
-    """Return rows (index in the first set, index in the second) of the matches that a filter keeps,
-    in order.
+    """Return rows (index in the first set, index in the second) of the matches a filter keeps.
 
-    Args:
-        found: The nearest of both sets.
-        how: Keep all, those much nearer than the second nearest, those nearest both ways, or those
-            that are both.
-        ratio: How near the nearest must be, as a share of the distance of the second nearest.
-        mutual: Somebody's answer as `mutual_matches` gives it, which is then taken where `how` is
-            both.
+    `mutual`, somebody's `mutual_matches`, is taken where `how` is both.
 
     Raises:
         ValueError: If that answer names what is not there.

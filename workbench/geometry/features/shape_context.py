@@ -8,34 +8,23 @@ import numpy as np
 from jaxtyping import Float
 
 RINGS, SECTORS = 5, 12
-EDGES = np.geomspace(
-    0.125, 2.0, RINGS
-)  # of the rings, in mean distances; nearer points count to the first ring
+# Of the rings, in mean distances; nearer points count to the first ring
+EDGES = np.geomspace(0.125, 2.0, RINGS)
 
 Outline = Float[np.ndarray, "n 2"]
 
 
 def tangent_angles(p: Outline) -> Float[np.ndarray, " n"]:
-    """Return the direction of a closed outline at each of its points, radians, from the point
-    before to the next.
-    """
+    """Return a closed outline's direction at its points, from before to after, radians."""
     along = np.roll(p, -1, axis=0) - np.roll(p, 1, axis=0)
     return np.arctan2(along[:, 1], along[:, 0])
 
 
 def shape_contexts(p: Outline, *, along_tangent: bool) -> Float[np.ndarray, "n 60"]:
-    """Return one histogram per point of a closed outline: the shares of the others in 5 rings times
-    12 sectors.
+    """Return one histogram per point of a closed outline: shares of others in 5 rings, 12 sectors.
 
-    Distances count in means of all distances, so scale does not matter. Points beyond two means
-    count nowhere.
-
-    Args:
-        p: Points in order round the outline, two at least, in any unit.
-        along_tangent: Count angles from the outline's direction at the point, not from the x axis:
-            then a turn of the outline does not matter either.
-
-    Reference: Belongie, Malik and Puzicha 2002, section 3.1; 3.3.3 for the tangent.
+    Distances count in means of all distances, up to two, so scale does not matter. Angles count
+    from the x axis, or along the outline: then turns do not matter either (3.1 and 3.3.3).
     """
     n = len(p)
     v = p[None] - p[:, None]
@@ -56,9 +45,6 @@ def shape_contexts(p: Outline, *, along_tangent: bool) -> Float[np.ndarray, "n 6
 def context_costs(
     a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]
 ) -> Float[np.ndarray, "n m"]:
-    """Return how different histograms are, from 0 to 1: half the chi-squared distance of each pair.
-
-    Reference: Belongie, Malik and Puzicha 2002, section 3.1.
-    """
+    """Return half the chi-squared distance of each pair of histograms, from 0 to 1 (3.1)."""
     sums, off = a[:, None] + b, a[:, None] - b
     return 0.5 * (off * off / np.where(sums > 0, sums, 1.0)).sum(axis=-1)

@@ -1,5 +1,4 @@
-"""SIFT's keypoints of a picture, by scikit-image: places with a size and a direction of their own,
-described along it.
+"""SIFT's keypoints of a picture, by scikit-image: places with a size and a direction.
 
 References: Lowe, Distinctive Image Features from Scale-Invariant Keypoints, 2004, sections 3 to 6;
 Otero and Delbracio, Anatomy of the SIFT Method, IPOL 2014, which scikit-image follows.
@@ -19,14 +18,7 @@ BINS = 36
 
 @dataclass(frozen=True, eq=False)
 class Sift:
-    """The keypoints of one picture.
-
-    Attributes:
-        uv: Their places, pixels.
-        sigma: Their sizes: the standard deviation of the Gaussian that they stand out from, pixels.
-        angle: Their main directions, radians from u towards v.
-        descriptors: What is around them, counted along that direction.
-    """
+    """The keypoints of one picture: places and sizes in pixels, directions from u towards v."""
 
     uv: Float[np.ndarray, "n 2"]
     sigma: Float[np.ndarray, " n"]
@@ -35,14 +27,7 @@ class Sift:
 
 
 def sift(image: Image) -> Sift:
-    """Return the keypoints of a picture; none where no place stands out. The picture is not doubled
-    first, as Lowe's is.
-
-    Args:
-        image: Grey levels, 12 pixels wide and high at least.
-
-    Reference: Otero and Delbracio 2014, without the oversampling of their section 2.2.
-    """
+    """Return the keypoints of a picture of 12 x 12 pixels or more, not doubled as Lowe's is."""
     from skimage.feature import SIFT
 
     found: Any = SIFT(upsampling=1, n_bins=BINS)  # what it holds is None until it has looked
@@ -60,15 +45,9 @@ def sift(image: Image) -> Sift:
 def turned_patch(
     image: Image, uv: Float[np.ndarray, "2"], angle: float, *, half: float, side: int
 ) -> Float[np.ndarray, "side side"]:
-    """Return the grey levels of a square around a place, turned so that a direction points to the
-    right.
+    """Return the grey levels of a square around a place, turned so that a direction points right.
 
-    Args:
-        image: Grey levels; beyond its border the last pixel goes on.
-        uv: The square's middle, pixels.
-        angle: The direction, radians from u towards v.
-        half: Half the square's side in the picture, pixels.
-        side: How many grey levels along each of its sides.
+    The direction is an angle from u towards v; `half` a side in pixels, `side` in samples.
     """
     across, down = np.meshgrid(np.linspace(-half, half, side), np.linspace(-half, half, side))
     c, s = np.cos(angle), np.sin(angle)

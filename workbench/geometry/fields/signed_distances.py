@@ -1,5 +1,4 @@
-"""How far a point is from a surface, negative inside: in closed form, or from the triangles of a
-closed mesh.
+"""How far a point is from a surface, negative inside: closed forms, or triangles of a mesh.
 
 Reference: Quilez, Distance functions, iquilezles.org/articles/distfunctions (box, torus). Ericson,
 Real-Time Collision Detection, 2005, 5.1.5 (a point and a triangle), 6.2 (boxes in boxes).
@@ -18,20 +17,16 @@ Faces = Int[np.ndarray, "f 3"]
 Queries = Float[np.ndarray, "n 3"]
 
 _BLOCK = 1_000  # points that are looked at together: what they need stays near the processor
+# In which coordinates are summed; rounding, and so every recording, depends on it
 _ORDER = (
     0,
     2,
     1,
-)  # in which coordinates are summed; rounding, and so every recording, depends on it
+)
 
 
 def box_sdf(p: Queries, half_size: Float[np.ndarray, "3"]) -> Float[np.ndarray, " n"]:
-    """Return the signed distance to a box about the origin, its edges along the axes, m: negative
-    inside.
-
-    Args:
-        p: Points, m.
-        half_size: Half of its edges along x, y and z, m.
+    """Return the signed distance to a box about the origin, its edges along the axes, m.
 
     Examples:
         >>> box_sdf(np.array([[0.0, 0, 0], [4, 5, 0]]), np.array([1.0, 1.0, 1.0])).tolist()
@@ -43,12 +38,7 @@ def box_sdf(p: Queries, half_size: Float[np.ndarray, "3"]) -> Float[np.ndarray, 
 
 
 def torus_sdf(p: Queries, ring: float, tube: float) -> Float[np.ndarray, " n"]:
-    """Return the signed distance to a torus around z, m: negative inside.
-
-    Args:
-        p: Points, m.
-        ring: From the origin to the middle of the tube, m.
-        tube: The radius of the tube, m.
+    """Return the signed distance to a torus around z, m, with the radii of ring and tube.
 
     Examples:
         >>> torus_sdf(np.array([[1.0, 0, 0], [0, 0, 0]]), 1.0, 0.4).tolist()
@@ -59,19 +49,12 @@ def torus_sdf(p: Queries, ring: float, tube: float) -> Float[np.ndarray, " n"]:
 
 @dataclass(frozen=True, eq=False)
 class FaceTree:
-    """A mesh sorted for the question how far it is: boxes around all faces, around both halves of
-    them, and so on.
+    """A mesh sorted for distances: boxes around all faces, around both halves, and so on.
 
-    Coordinates come first and lie together: that is several times as fast to gather from as rows of
-    three.
-
-    Attributes:
-        corners: Its triangles in the order of the last boxes: (corner, coordinate, triangle), m;
-            the last one is repeated up to a power of two.
-        boxes: For each level the lowest and the highest corners of its boxes, (2, 3, 2^level); box
-            k holds boxes 2k and 2k + 1 of the next level, the last level one triangle each.
-        middles: Finds a triangle that is near.
-        columns: Tells inside from outside; None of a mesh that encloses nothing.
+    `corners` (corner, coordinate, triangle) are in the order of the last boxes, the last repeated
+    up to a power of two. `boxes` holds for each level the lowest and highest corners (2, 3,
+    2^level); box k holds boxes 2k and 2k + 1 of the next level. `columns` is None of a mesh that is
+    not closed. Triangles come last: that is several times as fast to gather from as rows of three.
     """
 
     corners: Float[np.ndarray, "3 3 f"]
@@ -81,13 +64,7 @@ class FaceTree:
 
 
 def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
-    """Return a mesh sorted for `mesh_sdf`; worth it once for many points.
-
-    Args:
-        p: Vertices, m.
-        faces: Counterclockwise seen from outside.
-        closed: Whether the mesh encloses something, so that there is an inside.
-    """
+    """Return a mesh sorted for `mesh_sdf`, worth it for many points; a closed one has an inside."""
     depth = max(len(faces) - 1, 0).bit_length()
     corners = p[faces][np.minimum(np.arange(2**depth), len(faces) - 1)]
     for level in range(depth):  # each group in halves, along the longest side of its middles
@@ -108,15 +85,7 @@ def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
 
 
 def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
-    """Return the distance of each point to the nearest triangle, m, negative where a closed mesh
-    winds around the point.
-
-    Boxes that are farther than the triangle with the nearest middle are left out, level by level.
-
-    Args:
-        mesh: The mesh. Of one that is not closed all distances are positive.
-        q: Points, m.
-    """
+    """Return the distance to the nearest triangle, m, negative where a closed mesh winds around."""
     near = np.asarray(mesh.middles.query(q)[1], dtype=np.int64).reshape(-1)
     columns_of_q = np.ascontiguousarray(q.T)
     best = _squared_distances(columns_of_q, mesh.corners.take(near, axis=2))

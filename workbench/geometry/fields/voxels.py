@@ -27,9 +27,7 @@ _QUADS = {  # of each axis: the corners of a cell's upper face, counterclockwise
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Cells in space: `low` is the lowest corner of the first cell, `spacing` a cell's edges along
-    x, y and z, metres.
-    """
+    """Cells in space: the lowest corner of the first cell, and a cell's edges, metres."""
 
     low: Float[np.ndarray, "3"]
     spacing: Float[np.ndarray, "3"]
@@ -53,14 +51,7 @@ def grid_over(
     *,
     shift: Float[np.ndarray, "3"],
 ) -> Grid:
-    """Return a grid of cubes over a box: so many fit into its longest side, and one more along each
-    axis covers the shift.
-
-    Args:
-        low: The lowest corner of the box, m.
-        high: Its highest corner, m.
-        cells: How many cubes its longest side is long.
-        shift: How far the grid begins before the box along each axis, in cubes from 0 to 1.
+    """Return a grid of cubes, `cells` along a box' longest side, begun `shift` cubes before it.
 
     Raises:
         ValueError: If there are no cells, or the box has no size.
@@ -73,15 +64,7 @@ def grid_over(
 
 
 def windings_on(p: Points, faces: Faces, grid: Grid) -> Int[np.ndarray, "x y z"]:
-    """Return the winding number of a closed mesh at the middle of every cell.
-
-    One vertical line through each column of cells serves all of its cells.
-
-    Args:
-        p: Vertices, m.
-        faces: Counterclockwise seen from outside.
-        grid: The cells.
-    """
+    """Return the winding number of a closed mesh at the middle of every cell, column by column."""
     corners, (nx, ny, nz) = p[faces], grid.shape
     flat = (corners[:, :, :2] - grid.low[:2]) / grid.spacing[
         :2
@@ -92,9 +75,8 @@ def windings_on(p: Points, faces: Faces, grid: Grid) -> Int[np.ndarray, "x y z"]
     i, j = (first[face] + across).T
     xy = grid.low[:2] + grid.spacing[:2] * (np.stack([i, j], axis=1) + 0.5)
     sign, height = crossings(corners[face], xy)
-    below = np.ceil((height - grid.low[2]) / grid.spacing[2] - 0.5).astype(
-        int
-    )  # so many middles lie below
+    # So many middles lie below
+    below = np.ceil((height - grid.low[2]) / grid.spacing[2] - 0.5).astype(int)
     hit = (sign != 0) & (below > 0)
     at = np.ravel_multi_index((i[hit], j[hit], np.minimum(below[hit], nz) - 1), grid.shape)
     steps = np.bincount(at, sign[hit], nx * ny * nz).reshape(grid.shape)
@@ -102,14 +84,7 @@ def windings_on(p: Points, faces: Faces, grid: Grid) -> Int[np.ndarray, "x y z"]
 
 
 def occupied(p: Points, faces: Faces, grid: Grid) -> Bits:
-    """Return which cells have their middle inside a closed mesh; solids that overlap count as their
-    union.
-
-    Args:
-        p: Vertices, m.
-        faces: Counterclockwise seen from outside.
-        grid: The cells.
-    """
+    """Return which cells have their middle inside a closed mesh, or inside overlapping solids."""
     return windings_on(p, faces, grid) != 0
 
 
@@ -119,26 +94,13 @@ def counted_volume(bits: Bits, spacing: Float[np.ndarray, "3"]) -> float:
 
 
 def counted_area(bits: Bits, spacing: Float[np.ndarray, "3"]) -> float:
-    """Return the area of the cell faces between full and empty, m^2; beyond the grid all is empty.
-
-    Note:
-        It does not converge to the area of what was made into voxels: of a ball it tends to 3/2 of
-        it.
-    """
+    """Return the area of cell faces between full and empty, m^2: 3/2 of the area for fine balls."""
     walls = spacing.prod() / spacing
     return float(sum(walls[axis] * np.count_nonzero(_steps(bits, axis)) for axis in range(3)))
 
 
 def counted_surface(bits: Bits, grid: Grid) -> tuple[Points, Faces]:
-    """Return the cell faces between full and empty as a closed mesh, two triangles each, outwards.
-
-    Args:
-        bits: The full cells.
-        grid: Where they are.
-
-    Returns:
-        Vertices, m, one for each place, and faces; both empty where no cell is full.
-    """
+    """Return the cell faces between full and empty as a closed mesh of triangles, outwards."""
     keys = []
     _, ny, nz = np.array(bits.shape) + 1
     for axis in range(3):
@@ -160,10 +122,6 @@ def counted_surface(bits: Bits, grid: Grid) -> tuple[Points, Faces]:
 def marched_surface(bits: Bits, grid: Grid) -> tuple[Points, Faces]:
     """Return the surface half-way between full and empty middles as a closed mesh, outwards.
 
-    Args:
-        bits: The full cells.
-        grid: Where they are.
-
     Raises:
         ValueError: If no cell is full.
     """
@@ -178,8 +136,6 @@ def marched_surface(bits: Bits, grid: Grid) -> tuple[Points, Faces]:
 
 
 def _steps(bits: Bits, axis: int) -> Int[np.ndarray, "a b c"]:
-    """Return 1 where a full cell follows an empty one along an axis, -1 where it ends, before each
-    cell and at the end.
-    """
+    """Return 1 where a full cell follows an empty one along an axis, -1 where it ends."""
     empty = [(int(k == axis), int(k == axis)) for k in range(3)]
     return np.diff(np.pad(bits, empty).astype(np.int8), axis=axis)

@@ -1,10 +1,8 @@
 """Graphs of points: adjacency, spectra and embeddings.
 
-- `adjacency`: graphs as matrices: neighbours of points, adjacency, components, Laplacians, cuts,
-  and how far apart nodes are.
-- `spectra`: eigenvalues and eigenvectors of Laplacians, whichever graph or mesh they belong to.
-- `embedding`: places for things of which only the distances are known: classical scaling, and a
-  layout of graphs by their stress.
+- `adjacency`: graphs as matrices: neighbours, components, Laplacians, cuts, distances.
+- `spectra`: eigenvalues and eigenvectors of Laplacians of any graph or mesh.
+- `embedding`: places for things of which only the distances are known.
 """
 
 from workbench.geometry.graphs.adjacency import (

@@ -1,9 +1,8 @@
-"""Graphs as matrices: neighbours of points, adjacency, components, Laplacians, cuts, and how far
-apart nodes are.
+"""Graphs as matrices: neighbours of points, components, Laplacians, cuts, distances.
 
 A graph of n nodes is its adjacency matrix A (n, n): A_ij is the weight of the edge from i to j, 0
-where there is none. It is symmetric unless it is said to be directed. Functions that say so take it
-dense or sparse and answer in kind.
+where there is none. It is symmetric unless it is said to be directed. A `Matrix` is dense or
+sparse, and so is the answer.
 
 Reference: von Luxburg, A tutorial on spectral clustering, Statistics and Computing 17, 2007,
 sections 2 and 3.
@@ -24,13 +23,6 @@ Join = Literal["union", "mutual", "directed"]
 def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.ndarray, "n {k}"]]:
     """Return the k nearest other points of every point, nearest first, and their distances.
 
-    A point is not its own neighbour, also where others lie at its place. Of equal distances any may
-    come first.
-
-    Args:
-        p: Points, n > k of them.
-        k: How many neighbours each has.
-
     Raises:
         ValueError: If there are not more than k points, or k is below 1.
     """
@@ -46,27 +38,22 @@ def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.nd
     d, found = np.empty((len(p), k + 1)), np.empty((len(p), k + 1), dtype=np.intp)
     d[order], found[order] = tree.query(p[order], k + 1)
     others = found != np.arange(len(p))[:, None]
-    others[others.all(axis=1), -1] = (
-        False  # so many points at one place that it did not find itself
-    )
+    # So many points at one place that it did not find itself
+    others[others.all(axis=1), -1] = False
     return found[others].reshape(len(p), k), d[others].reshape(len(p), k)
 
 
 def directed_graph(
     rows: Int[np.ndarray, "n k"], lengths: Float[np.ndarray, "n k"] | None = None
 ) -> Sparse:
-    """Return the directed graph with an edge from every point to each of its neighbours, of weight
-    1 or the length given.
-    """
+    """Return the directed graph from every point to its neighbours, weighted 1 or by lengths."""
     n, k = rows.shape
     weights = np.ones(n * k) if lengths is None else lengths.ravel()
     return scipy.sparse.csr_array((weights, rows.ravel(), np.arange(0, n * k + 1, k)), shape=(n, n))
 
 
 def joined(directed: Sparse, join: Join) -> Sparse:
-    """Return a directed graph with an edge where either end names the other (union), both do
-    (mutual), or as it is.
-    """
+    """Return the graph with edges that either end names (union), both do (mutual), or as it is."""
     if join == "directed":
         return directed
     back = directed.T.tocsr()
@@ -75,11 +62,7 @@ def joined(directed: Sparse, join: Join) -> Sparse:
 
 
 def knn_adjacency(p: Points, k: int) -> Float[np.ndarray, "n n"]:
-    """Return the dense symmetric adjacency, 0 or 1: an edge wherever one point is among the k
-    nearest others of the other.
-
-    Reference: von Luxburg 2007, section 2.2, the (union) k-nearest neighbour graph.
-    """
+    """Return the dense adjacency, 0 or 1, of the (union) k-nearest neighbour graph (2.2)."""
     rows, _ = neighbours(p, k)
     adjacency = np.zeros((len(p), len(p)))
     np.put_along_axis(adjacency, rows, 1.0, axis=1)
@@ -89,13 +72,7 @@ def knn_adjacency(p: Points, k: int) -> Float[np.ndarray, "n n"]:
 def graph_of(
     edges: Int[np.ndarray, "e 2"], count: int, weights: Float[np.ndarray, " e"] | None = None
 ) -> Sparse:
-    """Return the symmetric adjacency of undirected edges.
-
-    Args:
-        edges: Pairs of nodes, each edge once in either direction; weights of repeated ones add up.
-        count: How many nodes there are, joined or not.
-        weights: One per edge; 1 where it is left out.
-    """
+    """Return the adjacency of undirected edges; weights, 1 by default, of repeated ones add up."""
     a, b = edges.T
     w = np.ones(len(edges)) if weights is None else weights
     both = np.concatenate([a, b]), np.concatenate([b, a])
@@ -103,9 +80,7 @@ def graph_of(
 
 
 def edges_of(adjacency: Sparse) -> Int[np.ndarray, "e 2"]:
-    """Return every edge between two nodes once, smaller node first, in ascending order; of a
-    directed graph either way.
-    """
+    """Return every edge between two nodes once, smaller node first, in ascending order."""
     a, b = adjacency.nonzero()
     once = np.unique(
         np.minimum(a, b)[a != b].astype(np.int64) * adjacency.shape[0] + np.maximum(a, b)[a != b]
@@ -120,16 +95,12 @@ def one_way_share(directed: Sparse) -> float:
 
 
 def degrees(adjacency: Matrix) -> Float[np.ndarray, " n"]:
-    """Return the sum of weights at each node: how many neighbours it has, where all weights are
-    1.
-    """
+    """Return the sum of weights at each node: its number of neighbours, where all are 1."""
     return np.asarray(adjacency.sum(axis=1), dtype=float).ravel()
 
 
 def components(adjacency: Sparse) -> Int[np.ndarray, " n"]:
-    """Return the number of each node's connected component; 0 is the largest, and so on down.
-    Directions do not matter.
-    """
+    """Return the number of each node's connected component, either way; 0 is the largest."""
     _, names = scipy.sparse.csgraph.connected_components(adjacency, directed=False)
     sizes = np.bincount(names)
     rank = np.empty(len(sizes), dtype=np.intp)
@@ -140,22 +111,16 @@ def components(adjacency: Sparse) -> Int[np.ndarray, " n"]:
 def hops(
     adjacency: Sparse, sources: Int[np.ndarray, " s"] | None = None
 ) -> Float[np.ndarray, "s n"]:
-    """Return how many edges away every node is from each source, all nodes being sources by
-    default; inf out of reach.
-    """
+    """Return how many edges away every node is from each source (all nodes); inf out of reach."""
     return scipy.sparse.csgraph.dijkstra(
         adjacency, directed=False, unweighted=True, indices=sources
     )
 
 
 def laplacian(adjacency: Matrix) -> Matrix:
-    """Return L = D - A, D holding the degrees, dense or sparse as A is: (L u)_i = sum_j A_ij (u_i -
-    u_j).
+    """Return L = D - A, D holding the degrees: (L u)_i = sum_j A_ij (u_i - u_j) (section 3.1).
 
-    Of a symmetric A without negative weights it is symmetric and positive semidefinite, L 1 = 0,
-    and its eigenvalue 0 comes once for every connected component. Loops do not change it.
-
-    Reference: von Luxburg 2007, section 3.1.
+    Without negative weights its eigenvalue 0 comes once for every component; loops do not matter.
     """
     d = degrees(adjacency)
     if isinstance(adjacency, np.ndarray):
@@ -164,12 +129,11 @@ def laplacian(adjacency: Matrix) -> Matrix:
 
 
 def propagation(adjacency: Matrix) -> Matrix:
-    """Return D^(-1/2) (A + I) D^(-1/2), D holding the degrees of A + I, dense or sparse as A is.
+    """Return D^(-1/2) (A + I) D^(-1/2), D holding the degrees of A + I.
 
     Its largest eigenvalue is 1, with the eigenvector D^(1/2) 1 on every component.
-
     Reference: Kipf and Welling, Semi-supervised classification with graph convolutional networks,
-    2017, section 2.2.
+    2017.
     """
     if isinstance(adjacency, np.ndarray):
         looped = adjacency + 0.0  # a copy of floats
@@ -186,33 +150,18 @@ def propagation(adjacency: Matrix) -> Matrix:
 def gcn_layer(
     adjacency: Matrix, features: Float[np.ndarray, "n a"], weights: Float[np.ndarray, "a b"]
 ) -> Float[np.ndarray, "n b"]:
-    """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W): every node's new features out of its own and its
-    neighbours'.
-
-    Args:
-        adjacency: A, symmetric, without loops, dense or sparse.
-        features: X, one row per node.
-        weights: W, which takes old features to new ones.
-
-    Reference: Kipf and Welling 2017, eq. 2.
-    """
+    """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W) (Kipf and Welling 2017, eq. 2)."""
     return np.maximum(propagation(adjacency) @ (features @ weights), 0.0)
 
 
 def cut_weight(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
-    """Return the weight of all edges between a side and the rest; their number, where all weights
-    are 1.
-    """
+    """Return the weight of all edges between a side and the rest."""
     part = side.astype(float)
     return float(part @ (adjacency @ (1 - part)))
 
 
 def conductance(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
-    """Return the weight of a cut over the smaller of the two sides' sums of degrees; NaN where a
-    side has none.
-
-    Reference: Spielman, Spectral and algebraic graph theory, 2019, section 21.1.
-    """
+    """Return a cut's weight over the smaller side's sum of degrees (Spielman 2019, 21.1)."""
     d = degrees(adjacency)
     smaller = min(d[side].sum(), d[~side].sum())
     return cut_weight(adjacency, side) / smaller if smaller > 0 else float("nan")
@@ -221,15 +170,10 @@ def conductance(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:
 def sweep(
     adjacency: Sparse, values: Float[np.ndarray, " n"]
 ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, " m"]]:
-    """Return the nodes in ascending order of a value, and the conductance of each of the n - 1 cuts
-    along that order.
+    """Return the nodes in ascending order of a value, and the conductances of the cuts along it.
 
-    Cut k has the first k + 1 nodes on one side. Where a side has no edges it is given 1, so that it
-    is not the best. One pass over the edges finds all of them.
-
-    Reference: Spielman 2019, section 21.2 (Cheeger's inequality: the best of these cuts is at most
-    sqrt(2 nu_2), nu_2 being the second eigenvalue of the normalised Laplacian, where the values are
-    its second eigenvector over D^(1/2)).
+    Cut k has the first k + 1 nodes on one side; where a side has no edges it is given 1.
+    Reference: Spielman, Spectral and algebraic graph theory, 2019, 21.2 (Cheeger's inequality).
     """
     n = adjacency.shape[0]
     order = np.argsort(values, kind="stable")

@@ -1,5 +1,4 @@
-"""Places for things of which only the distances are known: classical scaling, and a layout of
-graphs by their stress.
+"""Places for things of which only the distances are known: classical scaling, stress layouts.
 
 Reference: Borg and Groenen, Modern multidimensional scaling, 2nd ed., 2005, chapters 8 and 12.
 """
@@ -11,14 +10,9 @@ from jaxtyping import Float
 def classical_scaling(
     distances: Float[np.ndarray, "n n"], dims: int
 ) -> Float[np.ndarray, "n {dims}"]:
-    """Return points whose distances fit the given ones best in the sense of inner products, about
-    the origin.
+    """Return points about the origin whose distances fit best in the sense of inner products.
 
-    Where the distances are those of points in so many dimensions, these are the points but for a
-    motion or a mirror. Axes come by falling variance; each has the sign that makes its entry of
-    largest size positive.
-
-    Reference: Borg and Groenen 2005, section 12.1.
+    Axes come by falling variance; each has its entry of largest size positive (section 12.1).
     """
     squares = distances**2
     centred = squares - squares.mean(axis=0) - squares.mean(axis=1)[:, None] + squares.mean()
@@ -35,20 +29,13 @@ def classical_scaling(
 def stress_layout(
     distances: Float[np.ndarray, "n n"], dims: int, iterations: int = 60
 ) -> Float[np.ndarray, "n {dims}"]:
-    """Return points that lower the stress sum_ij (|p_i - p_j| - d_ij)^2, from classical scaling on;
-    it never rises.
-
-    Args:
-        distances: Finite and symmetric, for instance how many edges apart the nodes of a graph are.
-        dims: 2 for a picture in the plane.
-        iterations: How many Guttman transforms.
+    """Return points that lower the stress sum_ij (|p_i - p_j| - d_ij)^2, from classical scaling on.
 
     Reference: Borg and Groenen 2005, section 8.6 (SMACOF), all weights being 1.
     """
     p, n = classical_scaling(distances, dims), len(distances)
-    p = p + 1e-3 * np.sin(np.arange(1.0, p.size + 1.0) ** 2).reshape(
-        p.shape
-    )  # nodes at one place would stay there
+    # Nodes at one place would stay there
+    p = p + 1e-3 * np.sin(np.arange(1.0, p.size + 1.0) ** 2).reshape(p.shape)
     for _ in range(iterations):
         apart = np.linalg.norm(p[:, None] - p, axis=2)
         ratio = np.divide(distances, apart, out=np.zeros((n, n)), where=apart > 0)

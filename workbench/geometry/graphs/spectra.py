@@ -22,27 +22,21 @@ Sparse: TypeAlias = scipy.sparse.csr_array
 
 @dataclass(frozen=True, eq=False)
 class Laplacian:
-    """An operator M^(-1) L on functions of the nodes, symmetric where functions are weighted by the
-    masses.
+    """An operator M^(-1) L on functions of the nodes, L being symmetric with L 1 = 0.
 
-    Attributes:
-        matrix: L, symmetric, with L 1 = 0.
-        mass: The diagonal of M, positive: 1 for the plain graph Laplacian, the degrees for the
-            normalised (random walk) one (1 at a node without edges), the area of each vertex for
-            the cotangent Laplacian of a mesh.
+    `mass`, the diagonal of M, is 1 for the plain graph Laplacian, the degrees for the normalised
+    (random walk) one (1 at a node without edges), the vertices' areas for the cotangent Laplacian.
     """
 
     matrix: Sparse
     mass: Float[np.ndarray, " n"]
 
     def __call__(self, u: np.ndarray) -> np.ndarray:
-        """Return M^(-1) L u, of one function (n,) or several (n, c): by how much each node is above
-        its neighbours.
-        """
+        """Return M^(-1) L u: by how much each node is above its neighbours."""
         return (self.matrix @ u) / (self.mass if u.ndim == 1 else self.mass[:, None])
 
     def symmetric(self) -> Sparse:
-        """Return M^(-1/2) L M^(-1/2), which has the same eigenvalues and is symmetric."""
+        """Return M^(-1/2) L M^(-1/2), which is symmetric and has the same eigenvalues."""
         scale = scipy.sparse.diags_array(1 / np.sqrt(self.mass))
         return (scale @ self.matrix @ scale).tocsr()
 
@@ -59,8 +53,7 @@ class Laplacian:
     def smallest(
         self, count: int
     ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "n {count}"]]:
-        """Return the smallest eigenvalues in ascending order, and their functions u: L u = lambda M
-        u, u^T M u = 1.
+        """Return the smallest eigenvalues, ascending, and functions: L u = lambda M u, u^T M u = 1.
 
         Functions of equal eigenvalues may come in any rotation, and every one with either sign.
 
@@ -75,12 +68,10 @@ class Laplacian:
     def second(
         self, count: int = 2
     ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, " n"]]:
-        """Return the smallest eigenvalues, and a function of the second that holds nothing of the
-        constant.
+        """Return the smallest eigenvalues, and a function of the second orthogonal to constants.
 
-        A solver may return any mixture of the functions of one eigenvalue. Where 0 is double, the
-        graph being in two pieces, what is left once the constant is taken out has one value on each
-        piece; with more pieces it is not determined.
+        Where 0 is double, the graph being in two pieces, it has one value on each piece; with more
+        it is not determined.
 
         Raises:
             ValueError: If `count` is not between 2 and the number of nodes.
@@ -103,18 +94,12 @@ class Laplacian:
 def smallest_eigenpairs(
     matrix: Sparse, count: int, shift: float | None = None
 ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "n {count}"]]:
-    """Return the smallest eigenvalues of a sparse symmetric positive semidefinite matrix,
-    ascending, and unit eigenvectors.
+    """Return the smallest eigenvalues, ascending, and unit eigenvectors of a semidefinite matrix.
 
-    Args:
-        matrix: Without negative eigenvalues but for rounding.
-        count: How many.
-        shift: A number below 0 at which the matrix is inverted, by default near 0 for the size of
-            its diagonal. The closer to the wanted eigenvalues, the fewer solves.
+    It is inverted at `shift` below 0: the closer to the eigenvalues, the fewer solves.
 
     Raises:
-        LinAlgError: If the matrix has negative eigenvalues or is not symmetric, so that none are
-            found.
+        LinAlgError: If the matrix has negative eigenvalues or is not symmetric.
     """
     n = matrix.shape[0]
     if n <= DENSE or count >= n - 1:
@@ -135,9 +120,8 @@ def smallest_eigenpairs(
         values, vectors = scipy.sparse.linalg.eigsh(
             matrix, count, sigma=at, OPinv=inverse, v0=_start(n)
         )
-    except (
-        RuntimeError
-    ) as error:  # a singular factor, or no convergence: the matrix is none that was asked for
+    # A singular factor, or no convergence: the matrix is none that was asked for
+    except RuntimeError as error:
         raise np.linalg.LinAlgError(str(error)) from None
     order = np.argsort(values)
     return values[order], vectors[:, order]

@@ -1,5 +1,4 @@
-"""How often a mesh winds around a point, hence which points are inside: by vertical rays, or by
-solid angles.
+"""How often a mesh winds around a point, hence which are inside: by vertical rays or solid angles.
 
 A ray upwards leaves the mesh through faces that look up (+1) and enters it through faces that look
 down (-1); the sum over all faces above a point is the winding number. Every edge decides by its own
@@ -28,16 +27,9 @@ _MOST_CELLS = 256
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """A mesh sorted into square columns along z: each knows the faces whose box, seen from above,
-    touches it.
+    """A mesh sorted into square columns along z: each knows the faces whose box touches it.
 
-    Attributes:
-        corners: The triangles, m.
-        low: The lowest x and y of the mesh.
-        size: The edges of a column in x and y.
-        cells: How many columns stand along x, and along y.
-        faces: The faces of column 0, of column 1, and so on.
-        first: Where each column's faces begin in `faces`.
+    `faces` lists those of column 0, of column 1, and so on; each column's begin at `first`.
     """
 
     corners: Float[np.ndarray, "f 3 3"]
@@ -65,12 +57,9 @@ def columns(p: Points, faces: Faces) -> Columns:
 
 
 def windings(mesh: Columns, q: Queries) -> Int[np.ndarray, " n"]:
-    """Return the winding number of a closed mesh around each point: 1 inside, 0 outside, 2 where
-    two solids overlap.
+    """Return the winding number of a closed mesh around each point: 1 inside, 0 outside.
 
-    Args:
-        mesh: The mesh in columns. Where it is open the number holds only below what is there of it.
-        q: Points, m.
+    Where the mesh is open it holds only below what is there of it.
     """
     cell = np.floor((q[:, :2] - mesh.low) / mesh.size).astype(np.int64)
     over = ((cell >= 0) & (cell < mesh.cells)).all(axis=1)
@@ -90,30 +79,14 @@ def windings(mesh: Columns, q: Queries) -> Int[np.ndarray, " n"]:
 
 
 def inside(p: Points, faces: Faces, q: Queries) -> Bool[np.ndarray, " n"]:
-    """Return which points a closed mesh winds around, in either sense.
-
-    Args:
-        p: Vertices, m.
-        faces: All counterclockwise seen from outside, or all clockwise; solids that overlap count
-            as their union.
-        q: Points, m.
-    """
+    """Return which points a closed mesh winds around, in either sense, or any of several solids."""
     return windings(columns(p, faces), q) != 0
 
 
 def crossings(
     corners: Float[np.ndarray, "n 3 3"], xy: Float[np.ndarray, "n 2"]
 ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Return whether a vertical line crosses a triangle, pair by pair, and at which height.
-
-    Args:
-        corners: Triangles, m.
-        xy: Where the lines stand, m.
-
-    Returns:
-        1 where the triangle looks up, -1 where it looks down, 0 where the line misses it; and the
-        height, m, which means nothing where it misses.
-    """
+    """Return 1 (up), -1 (down) or 0 for vertical lines through triangles, and their heights."""
     x, y = xy.T
     (ax, bx, cx), (ay, by, cy) = np.ascontiguousarray(corners[:, :, :2].transpose(2, 1, 0))
     sign = np.zeros(len(xy), dtype=np.int64)
@@ -134,30 +107,22 @@ def crossings(
     off = n[:, 0] * (x[hit] - a[:, 0]) + n[:, 1] * (y[hit] - a[:, 1])
     plane = a[:, 2] - off / np.where(n[:, 2] == 0, 1.0, n[:, 2])
     lowest, highest = (end(end(a[:, 2], b[:, 2]), c[:, 2]) for end in (np.minimum, np.maximum))
-    height[hit] = np.clip(
-        plane, lowest, highest
-    )  # of an upright face, which is hit by rounding alone
+    # Of an upright face, which is hit by rounding alone
+    height[hit] = np.clip(plane, lowest, highest)
     return sign, height
 
 
 def winding_numbers(p: Points, faces: Faces, q: Queries) -> Float[np.ndarray, " n"]:
     """Return the generalised winding number at each point: the solid angle of all faces over 4 pi.
 
-    Of a closed mesh it is whole; of an open one it changes smoothly, and more than one half still
-    means inside. Every face is asked for every point, so it suits some thousand points.
-
-    Args:
-        p: Vertices, m.
-        faces: Counterclockwise seen from outside.
-        q: Points, m, not on the surface.
+    Of a closed mesh it is whole; of an open one more than one half means inside.
 
     Examples:
-        >>> tetrahedron = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-        >>> faces, q = (
-        ...     np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
-        ...     np.array([[0.2, 0.2, 0.2], [1.0, 1.0, 1.0]]),
-        ... )
-        >>> winding_numbers(tetrahedron, faces, q).round(9).tolist()
+        >>> p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        >>> faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        >>> winding_numbers(p, faces, np.array([[0.2, 0.2, 0.2], [1.0, 1.0, 1.0]])).round(
+        ...     9
+        ... ).tolist()
         [1.0, 0.0]
     """
     total = np.empty(len(q))

@@ -1,13 +1,12 @@
-"""Curvature of a triangle mesh by angle defects and cotangents (Meyer, Desbrun, Schroeder and Barr
-2003).
+"""Curvature of a triangle mesh by angle defects and cotangents.
 
 Signs: normals point outward; H and the principal curvatures are positive where the surface bends
 away from its normal, so that a sphere of radius r has k1 = k2 = H = 1/r. Turning all normals round
 changes the sign of H, k1 and k2, never that of K = k1 k2. On the border of an open mesh K and H are
-not defined by these formulas and come out as nan.
+not defined by these formulas and are nan. H, k1 and k2 are in 1/m, K in 1/m^2.
 
-Reference: Discrete differential-geometry operators for triangulated 2-manifolds, Visualization and
-Mathematics III.
+Reference: Meyer, Desbrun, Schroeder and Barr, Discrete differential-geometry operators for
+triangulated 2-manifolds, Visualization and Mathematics III, 2003.
 """
 
 from dataclasses import dataclass
@@ -32,20 +31,7 @@ PerVertex = Float[np.ndarray, " v"]
 
 @dataclass(frozen=True, eq=False)
 class Curvatures:
-    """Everything the two formulas give at each vertex; curvatures in 1/m, K in 1/m^2, border
-    vertices nan.
-
-    Attributes:
-        areas: Mixed Voronoi area, m^2.
-        defects: Angle defect, radians: curvature times area, or on the border the turning of the
-            border.
-        normals: Angle-weighted outward unit normals.
-        border: Which vertices lie on the border.
-        gaussian: K = k1 k2.
-        mean: H = (k1 + k2) / 2.
-        k1: The larger principal curvature.
-        k2: The smaller principal curvature.
-    """
+    """The mixed Voronoi area at each vertex, m^2, its angle defect, normal and curvatures."""
 
     areas: PerVertex
     defects: PerVertex
@@ -58,9 +44,7 @@ class Curvatures:
 
 
 def curvatures(p: Points, faces: Faces) -> Curvatures:
-    """Return K, H and the principal curvatures at every vertex, measured in one pass over the
-    corners.
-    """
+    """Return K, H and the principal curvatures at every vertex, in one pass over the corners."""
     measured, border = corners(p, faces), on_boundary(faces, len(p))
     areas, normals = mixed_areas_of(measured), normals_at_vertices(measured)
     defects = _angle_defects(measured, border)
@@ -72,84 +56,53 @@ def curvatures(p: Points, faces: Faces) -> Curvatures:
 
 
 def angle_defects(p: Points, faces: Faces) -> PerVertex:
-    """Return how much the angles around each vertex miss a flat turn: 2 pi inside, pi on the
-    border.
+    """Return how much the angles around each vertex miss 2 pi, or pi on the border, radians.
 
-    This is the integral of K over the vertex' area, in radians, not K itself; on the border it is
-    the turning of the border curve. Either way all of them add up to 2 pi chi (Gauss-Bonnet).
-
-    Reference: Meyer et al. 2003, equation 9.
+    This is the integral of K over the vertex' area, or the turning of the border curve. All of them
+    add up to 2 pi chi (Gauss-Bonnet; Meyer et al. 2003, equation 9).
 
     Examples:
         >>> p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
         >>> faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-        >>> (angle_defects(p, faces) / np.pi).round(
-        ...     3
-        ... ).tolist()  # a right-angled corner, and three alike: 4 pi in all
+        >>> (angle_defects(p, faces) / np.pi).round(3).tolist()  # 4 pi in all
         [0.5, 1.167, 1.167, 1.167]
     """
     return _angle_defects(corners(p, faces), on_boundary(faces, len(p)))
 
 
 def gaussian_curvature(p: Points, faces: Faces) -> PerVertex:
-    """Return K = angle defect / mixed area, 1/m^2; nan on the border.
-
-    Reference: Meyer et al. 2003, equation 9.
-    """
+    """Return K = angle defect / mixed area; nan on the border (Meyer et al. 2003, equation 9)."""
     measured, border = corners(p, faces), on_boundary(faces, len(p))
     return _per_area(_angle_defects(measured, border), mixed_areas_of(measured), border)
 
 
 def mean_curvature_normals(p: Points, faces: Faces) -> Points:
-    """Return 2 H n, 1/m, at each vertex: sum_j (cot a_ij + cot b_ij) (p_i - p_j) / (2 A_i); nan on
-    the border.
-
-    It points outward where H > 0, and its length is twice |H|.
-
-    Reference: Meyer et al. 2003, equation 8.
-    """
+    """Return 2 H n: sum_j (cot a_ij + cot b_ij) (p_i - p_j) / (2 A_i) (Meyer et al., eq. 8)."""
     measured = corners(p, faces)
     return _mean_curvature_normals(measured, mixed_areas_of(measured), on_boundary(faces, len(p)))
 
 
 def mean_curvature(p: Points, faces: Faces) -> PerVertex:
-    """Return H, 1/m: half the mean-curvature normal's length along the outward normal; nan on the
-    border.
-    """
+    """Return H: half the mean-curvature normal's length along the outward normal."""
     return curvatures(p, faces).mean
 
 
 def mean_from_normals(mean_normals: Points, normals: Points) -> PerVertex:
-    """Return H from 2 H n and the outward unit normals.
-
-    What of 2 H n is not along n comes from the mesh and not from the surface; it is left out.
-    """
+    """Return H from 2 H n and outward unit normals, without what is not along n."""
     return np.einsum("vx,vx->v", mean_normals, normals) / 2
 
 
 def principal_curvatures(gaussian: PerVertex, mean: PerVertex) -> tuple[PerVertex, PerVertex]:
-    """Return k1 >= k2 = H +- sqrt(H^2 - K); a negative H^2 - K, which no surface has, counts as 0.
-
-    Reference: Meyer et al. 2003, section 5.1.
-    """
+    """Return k1 >= k2 = H +- sqrt(H^2 - K); a negative H^2 - K counts as 0 (Meyer et al., 5.1)."""
     spread = np.sqrt(np.maximum(mean**2 - gaussian, 0))
     return mean + spread, mean - spread
 
 
 def principal_directions(p: Points, faces: Faces, normals: Points) -> tuple[Points, Points]:
-    """Return unit tangents along k1 and k2, from the symmetric tensor B that fits the edges' normal
-    curvatures best.
+    """Return unit tangents along k1 and k2, of the tensor B that fits the edges' curvatures best.
 
-    Each edge tells the curvature in its direction d, kappa = 2 (p_i - p_j) . n / |p_i - p_j|^2, and
-    B minimises sum_j (d_j^T B d_j - kappa_j)^2. The sign of a direction means nothing; where k1 =
-    k2 the direction does neither.
-
-    Args:
-        p: Vertices, metres.
-        faces: Triangles.
-        normals: Outward unit normals at the vertices.
-
-    Reference: Meyer et al. 2003, section 5.3, with equal weights.
+    An edge along d has kappa = 2 (p_i - p_j) . n / |p_i - p_j|^2, and B minimises sum_j (d_j^T B
+    d_j - kappa_j)^2 (Meyer et al., 5.3, equal weights). Signs mean nothing.
     """
     a, b = edges(faces).T
     i, j = np.concatenate([a, b]), np.concatenate([b, a])
@@ -185,26 +138,16 @@ def tangents(normals: Points) -> tuple[Points, Points]:
 
 
 def along(angles: PerVertex, right: Points, up: Points) -> tuple[Points, Points]:
-    """Return the tangents at these angles from `right` towards `up`, and those a quarter turn
-    further.
-
-    Args:
-        angles: Radians, one per vertex.
-        right: Unit tangents at angle 0.
-        up: Unit tangents at a right angle to them.
-    """
+    """Return the tangents at these angles from `right` towards `up`, and a quarter turn further."""
     c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
     return c * right + s * up, c * up - s * right
 
 
 def gauss_bonnet(p: Points, faces: Faces) -> tuple[float, float]:
-    """Return the sum of all angle defects, and 2 pi chi, which it must equal up to rounding: both
-    in radians.
+    """Return the sum of all angle defects, and 2 pi chi, which it must equal: both in radians.
 
     Examples:
-        >>> p = np.array(
-        ...     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
-        ... )  # a closed tetrahedron
+        >>> p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])  # a tetrahedron
         >>> total, expected = gauss_bonnet(
         ...     p, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
         ... )

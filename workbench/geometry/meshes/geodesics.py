@@ -1,8 +1,9 @@
 """Lengths of shortest ways: along the edges of a graph, over the faces of a mesh, round a wall.
 
+Edges are pairs of nodes, undirected, with lengths that are not negative.
+
 Reference: Dijkstra, A note on two problems in connexion with graphs, 1959; Lanthier, Maheshwari and
-Sack, Approximating weighted shortest paths on polyhedral surfaces, 2001, section 3 (points on
-edges).
+Sack, Approximating weighted shortest paths on polyhedral surfaces, 2001, section 3.1.
 """
 
 import numpy as np
@@ -25,14 +26,7 @@ def edge_lengths(p: Points, edges: Edges) -> Lengths:
 
 
 def length_graph(edges: Edges, lengths: Lengths, count: int) -> Sparse:
-    """Return the symmetric matrix of an undirected graph's lengths; of edges given twice the
-    shortest counts.
-
-    Args:
-        edges: Pairs of nodes, either way round.
-        lengths: Of the edges; one of length 0 keeps its place in the matrix.
-        count: How many nodes there are.
-    """
+    """Return the symmetric matrix of a graph's lengths, also of 0; repeated edges' shortest."""
     return _one_way(
         np.concatenate([edges, edges[:, ::-1]]), np.concatenate([lengths, lengths]), count
     )
@@ -53,19 +47,11 @@ def _one_way(edges: Edges, lengths: Lengths, count: int) -> Sparse:
 def shortest_distances(
     edges: Edges, lengths: Lengths, count: int, source: int
 ) -> Float[np.ndarray, " {count}"]:
-    """Return the length of the shortest way from the source to every node along undirected edges;
-    inf out of reach.
-
-    Args:
-        edges: Pairs of nodes.
-        lengths: Of the edges, none negative.
-        count: How many nodes there are.
-        source: One of them.
+    """Return the length of the shortest way from the source to every node; inf out of reach.
 
     Examples:
-        >>> shortest_distances(
-        ...     np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 0
-        ... ).tolist()
+        >>> edges = np.array([[0, 1], [1, 2], [0, 2]])
+        >>> shortest_distances(edges, np.array([1.0, 1.0, 5.0]), 4, 0).tolist()
         [0.0, 1.0, 2.0, inf]
     """
     graph = _one_way(edges, lengths, count)
@@ -75,18 +61,9 @@ def shortest_distances(
 def shortest_path(
     edges: Edges, lengths: Lengths, distances: Float[np.ndarray, " n"], *, goal: int
 ) -> Int[np.ndarray, " k"]:
-    """Return the nodes of a shortest way, from the source to the goal, read back off the distances;
-    empty out of reach.
+    """Return the nodes of a shortest way from the source to the goal; empty out of reach.
 
-    Args:
-        edges: Pairs of nodes, undirected.
-        lengths: Of the edges.
-        distances: Of all nodes from the source.
-        goal: Where the way ends.
-
-    Note:
-        Every step goes to the neighbour over which the goal is reached soonest, if that is nearer
-        to the source. The way stops where there is none.
+    It is read back off the distances from the source, and stops where no neighbour is nearer.
     """
     if not np.isfinite(distances[goal]):
         return np.empty(0, int)
@@ -106,18 +83,10 @@ def shortest_path(
 def with_points_on_edges(
     p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], count: int
 ) -> tuple[Float[np.ndarray, "n 3"], Edges, Lengths]:
-    """Return a graph whose shortest ways also cross faces: so many points on every edge, joined
-    across each face.
+    """Return a graph whose ways also cross faces: points on every edge, joined across each face.
 
-    The vertices come first. With 0 points these are the mesh's own edges; the more there are, the
-    nearer the shortest way is to the true one over the faces, from above.
-
-    Args:
-        p: Vertices.
-        faces: Triangles.
-        count: Points on each edge, evenly spaced.
-
-    Reference: Lanthier, Maheshwari and Sack 2001, section 3.1, the fixed placement.
+    The vertices come first. The more points, the nearer the shortest way is to the true one over
+    the faces, from above (Lanthier et al., 3.1, the fixed placement).
     """
     own = meshes.edges(faces)
     if count == 0:
@@ -180,14 +149,7 @@ _PLUS, _CROSS, _KNIGHT = ((0, 1), (1, 0)), ((1, 1), (1, -1)), ((1, 2), (2, 1), (
 def distance_past_wall(
     p: Float[np.ndarray, "n 2"], q: Float[np.ndarray, "2"], tip: Float[np.ndarray, "2"]
 ) -> Float[np.ndarray, " n"]:
-    """Return the shortest way from q to every point of a plane in which a wall stands straight
-    below the tip.
-
-    Args:
-        p: Points, none of them on the wall.
-        q: Where ways begin, not on the wall.
-        tip: The upper end of the wall, which has no lower one.
-    """
+    """Return the shortest way from q to points of a plane with a wall straight below the tip."""
     straight = np.linalg.norm(p - q, axis=1)
     across = (p[:, 0] - tip[0]) * (q[0] - tip[0]) < 0
     share = np.divide(tip[0] - q[0], p[:, 0] - q[0], out=np.zeros(len(p)), where=across)
@@ -198,9 +160,7 @@ def distance_past_wall(
 def crosses_wall(
     p: Float[np.ndarray, "e 2 2"], tip: Float[np.ndarray, "2"]
 ) -> Bool[np.ndarray, " e"]:
-    """Return which segments cross or touch a wall that stands straight below the tip, the tip
-    itself left out.
-    """
+    """Return which segments cross or touch a wall straight below the tip, without the tip."""
     x = p[:, :, 0] - tip[0]
     meets = x[:, 0] * x[:, 1] <= 1e-12
     run = x[:, 1] - x[:, 0]

@@ -1,5 +1,4 @@
-"""A mesh as lengths only: its edges flipped within the surface until no cotangent weight inside is
-negative.
+"""Intrinsic Delaunay triangulations: edges flipped until no weight inside is negative.
 
 The surface stays as it is. A flipped edge is the straight line across the two triangles beside it,
 unfolded: it bends where the old edge was, so only its length is kept, and no point moves.
@@ -25,16 +24,10 @@ STRAIGHT = 1e-9
 
 
 def intrinsic_delaunay(p: Points, faces: Faces) -> Corners:
-    """Return the corners of the intrinsic Delaunay triangulation, each triangle laid out flat in a
-    frame of its own.
+    """Return the corners of the intrinsic Delaunay triangulation, each triangle laid out flat.
 
-    Of every edge inside, the two angles opposite it are at most pi together, so its cotangent
-    weight is not negative; an edge of the border may keep a negative one. Two vertices may be
-    joined twice, and one with itself.
-
-    Args:
-        p: Vertices, metres.
-        faces: Triangles of a mesh that `check_mesh` accepts.
+    Angles opposite an edge inside are at most pi together; an edge of the border may keep a
+    negative weight. Two vertices may be joined twice, and one with itself.
     """
     sides = _Sides(p, faces)
     waiting = list(range(len(sides.twin)))
@@ -46,9 +39,7 @@ def intrinsic_delaunay(p: Points, faces: Faces) -> Corners:
 
 
 class _Sides:
-    """The sides of all triangles, three in a row for each: where one begins, its other half (-1 on
-    the border), length.
-    """
+    """The sides of triangles, three each: start, other half (-1 on the border), length."""
 
     def __init__(self, p: np.ndarray, faces: np.ndarray) -> None:
         self.start = faces.ravel().tolist()
@@ -79,8 +70,7 @@ class _Sides:
         )
 
     def flip(self, h: int) -> tuple[int, ...]:
-        """Put the other diagonal of the two triangles in an edge's place; return the sides round
-        them.
+        """Put the other diagonal in an edge's place; return the sides round the two triangles.
 
         With the edge from a to b, c opposite it and d beyond: abc and bad become dca and cdb.
         """

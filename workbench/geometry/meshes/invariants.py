@@ -1,11 +1,9 @@
-"""What a map leaves as it was, measured on a mesh: lengths, angles, area, volume, orientation,
-parallel edges.
+"""What a map leaves as it was, measured on a mesh: lengths, angles, area, volume, parallels.
 
-The mesh is measured before and after, and nothing is concluded from the matrix: which measures
-survive is what tells a rigid motion from a similarity, an affine or a projective map.
+Nothing is concluded from the matrix: which measures survive is what tells a rigid motion from a
+similarity, an affine or a projective map.
 
-Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., table 3.2: what survives which
-map of space.
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., table 3.2.
 """
 
 from dataclasses import dataclass
@@ -21,16 +19,7 @@ MOST_EDGES = 64  # compared with each other for being parallel
 
 @dataclass(frozen=True, eq=False)
 class Measures:
-    """The measures of one mesh.
-
-    Attributes:
-        lengths: Of every edge, metres.
-        angles: Of every face, radians.
-        area: Square metres.
-        volume: Cubic metres, negative where the faces are seen clockwise from outside; NaN for an
-            open mesh.
-        directions: Unit directions of the first edges; zero for an edge without length.
-    """
+    """The measures of a mesh; volume is NaN if open, negative if inside out, `directions` unit."""
 
     lengths: Float[np.ndarray, "e"]
     angles: Float[np.ndarray, "f 3"]
@@ -43,10 +32,9 @@ class Measures:
 class Change:
     """One measure before and after.
 
-    `amount` is 0 where nothing changed: the largest relative change of a length, area or volume (1
-    is 100 %), or the largest change of an angle, in radians; for the orientation 1 means that it
-    flipped. `factor` is what an area or volume was multiplied by, NaN for measures that are more
-    than one number.
+    `amount` is 0 where nothing changed: the largest relative change of a length, area or volume, or
+    the largest change of an angle, radians; for the orientation 1 means that it flipped. `factor`
+    is what an area or volume was multiplied by, NaN for measures that are more than one number.
     """
 
     name: str
@@ -72,9 +60,7 @@ def measure(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Measu
 
 
 def changes(before: Measures, after: Measures) -> tuple[Change, ...]:
-    """Return what became of each measure of one mesh; volume and orientation are left out for an
-    open one.
-    """
+    """Return what became of each measure; volume and orientation are left out for an open mesh."""
     angle = float(np.abs(after.angles - before.angles).max())
     stretch = np.abs(after.lengths - before.lengths) / np.where(
         before.lengths > 0, before.lengths, 1.0

@@ -13,15 +13,13 @@ ROUNDING = 1e-9  # of a weight; weights have no unit
 
 
 def cotangent_laplacian(p: Points, faces: Faces) -> "scipy.sparse.csr_array":
-    """Return the symmetric, positive semidefinite L with (L u)_i = sum_j w_ij (u_i - u_j), w = (cot
-    a + cot b) / 2.
+    """Return L with (L u)_i = sum_j w_ij (u_i - u_j), w = (cot a + cot b) / 2, semidefinite.
 
-    a and b are the two angles opposite edge ij; on the border there is one. Applied to a function
-    on the vertices, L gives minus the integral of its Laplace-Beltrami over each vertex' area; L 1
-    = 0. A face without area counts for nothing.
-
+    a and b are the two angles opposite edge ij; on the border there is one. L u is minus the
+    integral of the Laplace-Beltrami of u over each vertex' area. A face without area counts for
+    nothing.
     Reference: Pinkall and Polthier, Computing discrete minimal surfaces and their conjugates, 1993,
-    section 4.
+    4.
     """
     return cotangent_laplacian_of(corners(p, faces))
 
@@ -38,26 +36,17 @@ def cotangent_laplacian_of(measured: Corners) -> "scipy.sparse.csr_array":
 
 
 def negative_weights(measured: Corners) -> int:
-    """Return how many edges have a negative cotangent weight: the angles opposite them are more
-    than pi together.
-
-    With such weights heat may fall below 0 and the largest value need not lie where heat was put
-    in.
-    """
+    """Return how many edges have a negative weight, so that heat may fall below 0."""
     L = scipy.sparse.triu(cotangent_laplacian_of(measured), 1)
     return int(np.count_nonzero(L.data > ROUNDING))
 
 
 def mixed_areas(p: Points, faces: Faces) -> Float[np.ndarray, " v"]:
-    """Return the part of the surface that belongs to each vertex, m^2; the parts add up to the
-    whole area.
+    """Return the part of the surface that belongs to each vertex, m^2, of the whole area.
 
-    A face is shared out along the bisectors of its edges (Voronoi); where that would reach outside
-    it because it is obtuse, half of it goes to the obtuse corner and a quarter to each of the
-    others.
-
-    Reference: Meyer, Desbrun, Schroeder, Barr, Discrete differential-geometry operators, 2003,
-    figure 4.
+    A face is shared out along the bisectors of its edges (Voronoi); of an obtuse one half goes to
+    the obtuse corner and a quarter to each of the others.
+    Reference: Meyer et al., Discrete differential-geometry operators, 2003, figure 4.
     """
     return mixed_areas_of(corners(p, faces))
 
@@ -75,16 +64,7 @@ def mixed_areas_of(measured: Corners) -> Float[np.ndarray, " v"]:
 
 
 def mixed_cell(p: Points, faces: Faces, vertex: int) -> Float[np.ndarray, "f 4 3"]:
-    """Return the mixed area of a vertex piece by piece: its part of each face.
-
-    Each piece goes from the vertex to the middle of one edge, a corner inside or on the face, and
-    the middle of the other.
-
-    Args:
-        p: Vertices, metres.
-        faces: Those that have the vertex as a corner.
-        vertex: Its index.
-    """
+    """Return the mixed area of a vertex piece by piece: its part of each of the faces around."""
     pieces = []
     for face in faces:
         k = int(np.flatnonzero(face == vertex)[0])
@@ -94,9 +74,7 @@ def mixed_cell(p: Points, faces: Faces, vertex: int) -> Float[np.ndarray, "f 4 3
 
 
 def _cell_corner(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
-    """Return the corner of a's mixed area across from a: the circumcentre, or for obtuse faces a
-    point on an edge.
-    """
+    """Return the corner of a's area across from a: the circumcentre, or a point on an edge."""
     u, v = b - a, c - a
     if u @ v < 0:
         return (b + c) / 2
@@ -109,16 +87,7 @@ def _cell_corner(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
 def vertex_pushes(
     here: Float[np.ndarray, "3"], ring: Float[np.ndarray, "k 3"], area: float
 ) -> Float[np.ndarray, "k 3"]:
-    """Return what each neighbour adds to the mean-curvature normal 2 H n of a vertex inside the
-    border, 1/m.
-
-    Args:
-        here: The vertex.
-        ring: Its neighbours, one after the other around it, metres.
-        area: Its mixed area, m^2.
-
-    Reference: Meyer, Desbrun, Schroeder, Barr, 2003, (8): (cot a + cot b) (p_i - p_j) / 2 A.
-    """
+    """Return what each neighbour in a ring adds to 2 H n of an inner vertex (Meyer et al., 8)."""
     weight = np.zeros(len(ring))
     for other in (np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0)):
         a, b = here - other, ring - other
@@ -129,25 +98,16 @@ def vertex_pushes(
 def eigenpairs(
     p: Points, faces: Faces, count: int
 ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "v {count}"]]:
-    """Return the smallest eigenvalues, 1/m^2, and eigenfunctions of L u = lambda M u, M holding the
-    mixed areas.
+    """Return the smallest eigenvalues, 1/m^2, and functions of L u = lambda M u, M the mixed areas.
 
     The functions are orthonormal over the surface, U^T M U = 1; those of equal eigenvalues may come
-    in any rotation. On a closed mesh the first is constant, with eigenvalue 0. On an open mesh the
-    slope across the border is zero.
-
-    Args:
-        p: Vertices, metres.
-        faces: Triangles of a mesh that `check_mesh` accepts.
-        count: How many, fewer than there are vertices.
+    in any rotation. On an open mesh the slope across the border is zero.
 
     Raises:
         ValueError: If `count` is not below the number of vertices.
 
     Examples:
-        >>> p = np.array(
-        ...     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
-        ... )  # a closed tetrahedron
+        >>> p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])  # a tetrahedron
         >>> values, _ = eigenpairs(p, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]), 2)
         >>> bool(abs(values[0]) < 1e-9), bool(values[1] > 1)
         (True, True)

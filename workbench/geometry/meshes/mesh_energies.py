@@ -16,9 +16,7 @@ _NO_AREA = 1e-12  # m², of twice a face
 
 
 def umbrella(faces: Int[np.ndarray, "f 3"], count: int) -> "scipy.sparse.csr_array":
-    """Return the uniform Laplacian (v, v): of each vertex, the mean of its neighbours minus
-    itself.
-    """
+    """Return the uniform Laplacian (v, v): the mean of a vertex' neighbours minus itself."""
     beside = adjacency(faces, count).astype(float)
     degree = np.maximum(beside.sum(axis=1), 1)
     return scipy.sparse.csr_array(
@@ -44,14 +42,7 @@ def edge_energy(p: Points, edges: Int[np.ndarray, "e 2"]) -> Energy:
 def normal_energy(
     p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]
 ) -> Energy:
-    """Return the mean of 1 - n · m over pairs of faces that share an edge, n and m their normals,
-    and its gradient.
-
-    Args:
-        p: Vertices, m.
-        faces: Corners a, b, c. A face without area has the normal 0, and moves nothing.
-        pairs: Two faces each.
-    """
+    """Return the mean of 1 - n · m over pairs of faces with normals n and m, and its gradient."""
     a, b, c = (p[faces[:, k]] for k in range(3))
     N = np.cross(b - a, c - a)
     length = np.maximum(np.linalg.norm(N, axis=1, keepdims=True), _NO_AREA)
@@ -75,14 +66,7 @@ def face_pairs(faces: Int[np.ndarray, "f 3"]) -> Int[np.ndarray, "e 2"]:
 def fold_angles(
     p: Points, faces: Int[np.ndarray, "f 3"], pairs: Int[np.ndarray, "e 2"]
 ) -> Float[np.ndarray, " e"]:
-    """Return by how much each edge is folded, radians: 0 where its two faces lie in a plane, pi
-    where one lies on the other.
-
-    Args:
-        p: Vertices.
-        faces: Turned alike.
-        pairs: Two faces for each edge.
-    """
+    """Return by how much each edge between two faces, turned alike, is folded: 0 flat, pi shut."""
     a, b, c = (p[faces[:, k]] for k in range(3))
     N = np.cross(b - a, c - a)
     one, other = N[pairs[:, 0]], N[pairs[:, 1]]
@@ -92,13 +76,7 @@ def fold_angles(
 def scattered(
     values: Float[np.ndarray, "k 3"], rows: Int[np.ndarray, " k"], count: int
 ) -> Float[np.ndarray, "{count} 3"]:
-    """Return the sum of the values that belong to each row.
-
-    Args:
-        values: What is added.
-        rows: To which row.
-        count: How many rows there are.
-    """
+    """Return the sum of the values that belong to each row."""
     return np.stack(
         [np.bincount(rows, values[:, axis], minlength=count) for axis in range(3)], axis=1
     )

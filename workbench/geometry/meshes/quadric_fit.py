@@ -25,15 +25,10 @@ UNKNOWNS = 6
 
 @dataclass(frozen=True, eq=False)
 class Quadrics:
-    """At each vertex the height c0 + c1 x + c2 y + c3 x^2 + c4 xy + c5 y^2 over its tangent plane,
-    in metres.
+    """The height c0 + c1 x + c2 y + c3 x^2 + c4 xy + c5 y^2 over each vertex' tangent plane, m.
 
-    Attributes:
-        coefficients: c0 to c5, one row per vertex, for x, y and the height in metres; nan where
-            nothing could be fitted.
-        right, up, normals: The frame at each vertex: x, y and height run along these unit vectors
-            from the vertex.
-        neighbours: How many vertices each fit used, its own included.
+    x, y and height run along `right`, `up` and `normals` from the vertex. Coefficients are nan
+    where nothing could be fitted; `neighbours` counts the vertices of each fit, its own included.
     """
 
     coefficients: Float[np.ndarray, "v 6"]
@@ -43,12 +38,7 @@ class Quadrics:
     neighbours: Int[np.ndarray, " v"]
 
     def curvatures(self) -> tuple[PerVertex, PerVertex]:
-        """Return K in 1/m^2 and H in 1/m where the quadrics pass their vertices; positive H bends
-        away from the normal.
-
-        Reference: do Carmo, Differential Geometry of Curves and Surfaces, 3.3, example 5 (a graph's
-        K and H).
-        """
+        """Return K in 1/m^2 and H in 1/m (do Carmo, Curves and Surfaces, 3.3, example 5)."""
         _, fx, fy, a, fxy, b = self.coefficients.T
         fxx, fyy, w2 = 2 * a, 2 * b, 1 + fx**2 + fy**2
         gaussian = (fxx * fyy - fxy**2) / w2**2
@@ -60,9 +50,7 @@ class Quadrics:
         return principal_curvatures(*self.curvatures())
 
     def principal_directions(self) -> tuple[Points, Points]:
-        """Return unit tangents along k1 and k2, taken in the plane of the frame, which the fit
-        leaves almost level.
-        """
+        """Return unit tangents along k1 and k2, in the almost level plane of the frame."""
         _, _, _, a, fxy, b = self.coefficients.T
         # The height bends least downwards, thus away from the normal most, where its second
         # derivative is least.
@@ -70,28 +58,16 @@ class Quadrics:
 
 
 def fit_quadrics(p: Points, faces: Faces, rings: int = 2) -> Quadrics:
-    """Return a quadric at every vertex, fitted by weighted least squares to all vertices at most
-    `rings` edges away.
+    """Return a quadric at every vertex, by least squares over vertices up to `rings` edges away.
 
     A neighbour at distance r counts exp(-(r / r_rms)^2), r_rms being the root mean square of all of
-    them. The error falls in proportion to the mesh' edges, on any mesh whose vertices lie on the
-    surface. More rings forgive more noise and blur more. Works on the border too, though there all
-    neighbours lie on one side.
-
-    Args:
-        p: Vertices, m.
-        faces: Triangles.
-        rings: How many edges away a neighbour may be; 2 gives about 18 neighbours.
+    them. More rings forgive more noise and blur more; 2 give about 18 neighbours. With fewer than
+    six vertices in reach, or all of them on a conic, the row is nan.
+    Reference: Cazals and Pouget, Estimating differential quantities using polynomial fitting of
+    osculating jets, 2005, theorem 3 (degree 2: K and H converge with the distance).
 
     Raises:
         ValueError: If `rings` is below 1.
-
-    Note:
-        With fewer than six vertices in reach, or all of them on a conic, the row is nan.
-
-    Reference: Cazals and Pouget, Estimating differential quantities using polynomial fitting of
-    osculating jets, 2005, theorem 3 (degree 2: K and H converge with the first power of the
-    distance).
     """
     if rings < 1:
         raise ValueError(f"a fit needs at least the first ring, not {rings}")
@@ -137,12 +113,7 @@ def _fit(
 def _solve(
     left: Float[np.ndarray, "k k v"], right: Float[np.ndarray, "k v"]
 ) -> Float[np.ndarray, "k v"]:
-    """Solve v symmetric positive definite k x k systems at once by Cholesky; nan where one is
-    singular.
-
-    Golub and Van Loan, Matrix Computations, 4th ed., 4.2.5 with the loops over k written out and v
-    in numpy's hands.
-    """
+    """Solve v symmetric positive definite systems at once by Cholesky; nan where singular."""
     k = len(left)
     factor, unknown = np.zeros_like(left), np.array(right)
     for j in range(k):
@@ -162,9 +133,7 @@ def _solve(
 def _neighbourhoods(
     faces: Faces, count: int, rings: int
 ) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " e"]]:
-    """All vertices at most `rings` edges away, itself included: where each vertex' list starts, and
-    the lists.
-    """
+    """Return where each vertex' list of vertices within `rings` edges starts, and the lists."""
     reach = one = (adjacency(faces, count) + scipy.sparse.eye_array(count)).tocsr()
     for _ in range(rings - 1):
         reach = reach @ one

@@ -1,8 +1,6 @@
-"""Mends a triangle mesh without moving a point of its surface: repeats, turned faces, sheets that
-touch.
+"""Mends a triangle mesh without moving a point of it: repeats, turned faces, touching sheets.
 
-Nothing here refuses a mesh: what cannot be mended is left as it is, for
-`workbench.geometry.meshes.check_mesh` to name.
+What cannot be mended is left as it is, for `workbench.geometry.meshes.check_mesh` to name.
 """
 
 import numpy as np
@@ -16,9 +14,7 @@ Faces = Int[np.ndarray, "f 3"]
 
 
 def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
-    """Return the faces without those that name the same three vertices in the same sense once
-    more.
-    """
+    """Return the faces without those that name the same three vertices in the same sense again."""
     first = np.argmin(faces, axis=1)[:, None]
     started_alike = np.take_along_axis(faces, (first + np.arange(3)) % 3, axis=1)
     kept, _ = distinct_rows(started_alike)
@@ -26,11 +22,9 @@ def without_repeats(faces: Faces) -> Int[np.ndarray, "g 3"]:
 
 
 def oriented(faces: Faces) -> Faces:
-    """Return the faces turned round until neighbours agree which side is outside; in each piece as
-    few as possible.
+    """Return the faces, as few turned as possible, so that neighbours agree which side is outside.
 
-    A piece that has one side only (a Moebius strip), and a mesh with more than two faces at an
-    edge, stay as they are.
+    A piece with one side only, and a mesh with more than two faces at an edge, stay as they are.
     """
     half, f = half_edges(faces), len(faces)
     keys = edge_keys(half)
@@ -48,18 +42,13 @@ def oriented(faces: Faces) -> Faces:
     count, piece = scipy.sparse.csgraph.connected_components(links, directed=False)
     as_they_are = np.bincount(piece[:f], minlength=count)
     turn = (as_they_are[piece[f:]] > as_they_are[piece[:f]]) & (piece[:f] != piece[f:])
-    tie = (as_they_are[piece[f:]] == as_they_are[piece[:f]]) & (
-        piece[f:] < piece[:f]
-    )  # either side of the piece will do
+    # Either side of the piece will do
+    tie = (as_they_are[piece[f:]] == as_they_are[piece[:f]]) & (piece[f:] < piece[:f])
     return np.where((turn | tie)[:, None], faces[:, ::-1], faces)
 
 
 def split_where_sheets_touch(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Faces]:
-    """Return the mesh with a vertex for each fan of faces where several fans meet in one; new ones
-    come behind the old.
-
-    Angles, areas and places stay; pieces that touched in a point are no longer connected there.
-    """
+    """Return the mesh with a vertex for each fan of faces that meet in one; new ones come last."""
     fan_vertex, fan = corner_fans(faces)
     # The first fan of each vertex keeps it, the others get new ones.
     order = np.argsort(fan_vertex, kind="stable")

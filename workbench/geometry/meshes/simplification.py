@@ -17,17 +17,7 @@ Faces = Int[np.ndarray, "f 3"]
 def clustered(
     p: Points, faces: Faces, spacing: float
 ) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
-    """Return a mesh in which all vertices of one cell of a grid became one, at their mean; faces
-    that collapse are gone.
-
-    Args:
-        p: Vertices, m.
-        faces: Triangles.
-        spacing: The edge of the cells, m.
-
-    Note:
-        Parts that are thinner than a cell may touch or vanish: the result need not be a surface.
-    """
+    """Return a mesh with all vertices of one cell at their mean; it need not be a surface."""
     cell = np.floor((p - p.min(axis=0)) / spacing).astype(np.int64)
     _, name = np.unique(cell, axis=0, return_inverse=True)
     name = name.reshape(-1)

@@ -3,6 +3,8 @@
 `p` are vertex positions in metres, one row per vertex; `faces` names three vertices per face,
 counterclockwise seen from outside. Corner k of a face is opposite its edge k. No function here
 checks its mesh: `check_mesh` does, once, where a mesh enters.
+
+Reference: Thuermer and Wuethrich, Computing vertex normals from polygonal facets, JGT 3(1), 1998.
 """
 
 from dataclasses import dataclass
@@ -23,16 +25,11 @@ BLOCK = 8192
 
 @dataclass(frozen=True, eq=False)
 class Corners:
-    """The measures of which every formula on a mesh is made: corner k of face i stands in row k,
-    column i.
+    """The measures of which formulas on a mesh are made: corner k of face i in row k, column i.
 
-    Attributes:
-        vertices: The vertex at each corner.
-        edges: For x, y and z the edge opposite each corner, counterclockwise round its face, m.
-        dots: The dot product of the two edges that leave the corner, m^2.
-        normals: The cross product of two edges of each face, outwards, as long as twice its area.
-        double_areas: Twice the area of each face, m^2.
-        count: How many vertices the mesh has.
+    `edges` are opposite each corner, counterclockwise (x, y, z first); `dots` the products of the
+    two edges that leave it; `normals` point outwards, as long as twice the area; `count` the
+    vertices.
     """
 
     vertices: Int[np.ndarray, "3 f"]
@@ -44,9 +41,7 @@ class Corners:
 
     @property
     def angles(self) -> Float[np.ndarray, "3 f"]:
-        """The inner angle at every corner, radians; a face without area has angles 0, 0 and pi, or
-        0 three times.
-        """
+        """The inner angle at every corner, radians; without area 0, 0 and pi, or 0 three times."""
         return np.arctan2(self.double_areas, self.dots)
 
     @property
@@ -90,9 +85,7 @@ def corners(p: Points, faces: Faces) -> Corners:
 
 
 def face_angles(p: Points, faces: Faces) -> Float[np.ndarray, "f 3"]:
-    """Return the inner angle at each corner of each face, radians; a row adds up to pi unless the
-    face is a point.
-    """
+    """Return the inner angles of each face, radians; a row adds up to pi unless it is a point."""
     return np.ascontiguousarray(corners(p, faces).angles.T)
 
 
@@ -116,11 +109,7 @@ def face_normals(p: Points, faces: Faces) -> Float[np.ndarray, "f 3"]:
 def vertex_normals(p: Points, faces: Faces) -> Float[np.ndarray, "v 3"]:
     """Return unit normals at the vertices: the face normals around, weighted by their angle there.
 
-    Unlike the mean over the faces, the angle weights do not depend on how a flat piece was cut into
-    triangles. A vertex without faces, or whose faces cancel, gets zero.
-
-    Reference: Thuermer and Wuethrich, Computing vertex normals from polygonal facets, JGT 3(1),
-    1998.
+    They do not depend on how a flat piece was cut into triangles. Zero without faces.
     """
     return normals_at_vertices(corners(p, faces))
 
@@ -139,18 +128,14 @@ def edges(faces: Faces) -> Int[np.ndarray, "e 2"]:
 
 
 def boundary_edges(faces: Faces) -> Int[np.ndarray, "b 2"]:
-    """Return the edges that have a face on one side only, in the direction in which that face goes
-    round.
-    """
+    """Return the edges that have a face on one side only, in the direction of that face."""
     half = half_edges(faces)
     _, first, times = np.unique(edge_keys(half), return_index=True, return_counts=True)
     return half[np.sort(first[times == 1])]
 
 
 def on_boundary(faces: Faces, count: int) -> Bool[np.ndarray, " {count}"]:
-    """Return for each of `count` vertices whether it lies on the border of an oriented mesh (see
-    `check_mesh`).
-    """
+    """Return for each of `count` vertices whether it lies on the border of an oriented mesh."""
     # Going round a closed fan every neighbour follows once and precedes once, so that the sum of
     # (next - previous) is 0; round an open fan it is the first neighbour minus the last. Whole
     # numbers below 2^53 add up exactly.
@@ -166,8 +151,7 @@ def adjacency(faces: Faces, count: int) -> "scipy.sparse.csr_array":
 def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.ndarray, " n"]]:
     """Return the faces around a vertex and its neighbours, both counterclockwise.
 
-    Inside the mesh there are as many neighbours as faces; on the border one more, first and last
-    being border vertices.
+    On the border there is one more neighbour than faces, first and last being border vertices.
 
     Raises:
         ValueError: If the vertex has no face, or its faces are not one fan.
@@ -190,14 +174,7 @@ def one_ring(faces: Faces, vertex: int) -> tuple[Int[np.ndarray, " k"], Int[np.n
 def vertices_within(
     edges: Int[np.ndarray, "e 2"], vertex: int, steps: int
 ) -> Int[np.ndarray, " n"]:
-    """Return the vertices that are at most so many edges away from one, itself included, in
-    ascending order.
-
-    Args:
-        edges: Pairs of vertices, in either direction.
-        vertex: Where to start.
-        steps: How many edges away is still near; 0 gives the vertex alone.
-    """
+    """Return the vertices at most so many edges away from one, itself included, ascending."""
     a, b = edges.T
     near = np.zeros(max(int(edges.max(initial=-1)), vertex) + 1, dtype=bool)
     near[vertex] = True
@@ -208,13 +185,10 @@ def vertices_within(
 
 
 def euler_characteristic(faces: Faces) -> int:
-    """Return chi = V - E + F, counting the vertices in use: 2 for a sphere, 0 for a torus, 2 - 2g
-    for genus g.
+    """Return chi = V - E + F, counting the vertices in use: 2 - 2g for genus g.
 
     Examples:
-        >>> euler_characteristic(
-        ...     np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-        ... )  # a tetrahedron
+        >>> euler_characteristic(np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
         2
     """
     return len(np.unique(faces)) - len(edges(faces)) + len(faces)
@@ -223,14 +197,13 @@ def euler_characteristic(faces: Faces) -> int:
 def distinct_rows(
     rows: Shaped[np.ndarray, "n d"],
 ) -> tuple[Int[np.ndarray, " u"], Int[np.ndarray, " n"]]:
-    """Return where each distinct row is found first, in the order of the rows, and of each row
-    which of these it is.
+    """Return where each distinct row is found first, in order, and of each row which it is.
 
-    It is what `np.unique` finds along rows, whose sorting lets no other thread run: a second for a
-    million points.
+    `np.unique` finds the same, but its sorting lets no other thread run.
 
-    >>> distinct_rows(np.array([[2, 0], [1, 5], [2, 0]]))
-    (array([1, 0]), array([1, 0, 1]))
+    Examples:
+        >>> distinct_rows(np.array([[2, 0], [1, 5], [2, 0]]))
+        (array([1, 0]), array([1, 0, 1]))
     """
     order = np.lexsort(rows.T[::-1])
     new = np.ones(len(rows), dtype=bool)
@@ -242,12 +215,7 @@ def distinct_rows(
 
 
 def welded(p: Points, faces: Faces) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
-    """Return the mesh with one vertex per place, without faces that lose a corner by it and without
-    unused vertices.
-
-    Files often list a vertex once per face or texture; across such seams a mesh would seem to have
-    borders.
-    """
+    """Return the mesh with one vertex per place, without collapsed faces and unused vertices."""
     first, name = distinct_rows(p)
     at, faces = p[first], name[faces]
     a, b, c = faces.T
@@ -261,10 +229,9 @@ def check_mesh(p: Points, faces: Faces) -> None:
     """Raise InputError, with what to mend, for a mesh on which curvature has no meaning.
 
     Raises:
-        InputError: If the mesh is empty, names vertices that are not there, holds values that are
-            not finite, has faces without area, edges with more than two faces, faces that do not
-            agree which side is outside, vertices where sheets only touch, or vertices without
-            faces.
+        InputError: If the mesh is empty, names vertices that are not there, is not finite, has
+            faces without area, edges with more than two faces, faces that disagree which side is
+            outside, vertices where sheets only touch, or vertices without faces.
     """
     if len(p) == 0 or len(faces) == 0:
         raise InputError(
@@ -332,11 +299,9 @@ def _check_vertices(p: Points, faces: Faces) -> None:
 
 
 def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " c"]]:
-    """Return the vertex of every fan, and the fan of every corner: corner 0 of all faces, then
-    corner 1, then corner 2.
+    """Return the vertex of every fan, and the fan of every corner: all corners 0, then 1, then 2.
 
-    A fan is a set of corners at one vertex, each sharing an edge with the next. On a surface each
-    vertex has one fan.
+    A fan is a set of corners at one vertex, each sharing an edge with the next; a surface has one.
     """
     half, f = half_edges(faces), len(faces)
     keys = edge_keys(half)
@@ -367,9 +332,7 @@ def half_edges(faces: Faces) -> Int[np.ndarray, "h 2"]:
 
 
 def edge_keys(half: Int[np.ndarray, "h 2"]) -> Int[np.ndarray, " h"]:
-    """Return one whole number per undirected edge: sorting numbers is much faster than sorting
-    rows.
-    """
+    """Return one whole number per undirected edge, which sorts much faster than rows."""
     return half.min(axis=1).astype(np.int64) << 32 | half.max(axis=1).astype(np.int64)
 
 

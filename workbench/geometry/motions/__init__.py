@@ -1,17 +1,11 @@
 """Motions of space: rotations, rigid and affine ones, and the best of them between points.
 
-- `rigid`: rigid motions: SO(3) and SE(3) with exp and log that hold at the identity and at half a
-  turn.
-- `rotations`: rotations by their other names: an axis and an angle, 24 kinds of Euler angles,
-  unit quaternions.
-- `rotation_outputs`: numbers that a network can put out for a rotation: how they become a matrix,
-  and the gradient back through that.
-- `affine`: affine and projective maps as 4x4 matrices: the factors they are built from, and how
-  to take one apart.
-- `alignment`: least-squares alignment of paired points: rigid, similarity, affine, and one linear
-  point-to-plane step.
-- `principal_axes`: the frame that a cloud carries: its centroid and principal axes, which have no
-  sign until a rule chooses one.
+- `rigid`: SO(3) and SE(3) with exp and log that hold at the identity and at half a turn.
+- `rotations`: rotations as an axis and an angle, 24 kinds of Euler angles, unit quaternions.
+- `rotation_outputs`: numbers that a network can put out for a rotation, and gradients.
+- `affine`: affine and projective maps as 4x4 matrices, built from factors and taken apart.
+- `alignment`: least-squares alignment of paired points, and one point-to-plane step.
+- `principal_axes`: the centroid and principal axes of a cloud, and rules for their signs.
 """
 
 from workbench.geometry.motions.rigid import (

@@ -1,9 +1,8 @@
-"""Affine and projective maps as 4x4 matrices: the factors they are built from, and how to take one
-apart.
+"""Affine and projective maps as 4x4 matrices: built from factors, and taken apart.
 
 A map acts on columns (x, y, z, w): a point has w = 1, a direction w = 0. Factors compose to the
-left: `B @ A` does A first. Metres and radians; every factor leaves the origin where it is, except a
-translation.
+left: `B @ A` does A first. Metres and radians; every factor but a translation leaves the origin
+where it is.
 """
 
 from dataclasses import dataclass
@@ -32,16 +31,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """An affine map taken apart: stretch first, then mirror at the origin, then rotate, then
-    translate.
-
-    Attributes:
-        translation: Metres.
-        rotation: A proper rotation, det = +1.
-        mirror: -1 where the map turns right hands into left ones, else +1.
-        stretch: Symmetric and positive semidefinite: its eigenvalues are the factors along its
-            eigenvectors.
-    """
+    """An affine map: symmetric stretch, then mirror at the origin (±1), rotation, translation."""
 
     translation: Float[np.ndarray, "3"]
     rotation: Float[np.ndarray, "3 3"]
@@ -65,20 +55,12 @@ def rotation(axis: Axis, angle: float) -> Map:
 
 
 def scaling(factors: Float[np.ndarray, "3"]) -> Map:
-    """Return the map that multiplies x, y and z by a factor each; a negative one mirrors, zero
-    flattens.
-    """
+    """Return the map that multiplies x, y, z by a factor each; negative mirrors, zero flattens."""
     return motion(np.diag(factors), np.zeros(3))
 
 
 def shear(along: Axis, across: Axis, amount: float) -> Map:
-    """Return the map that shifts points along one axis by `amount` times their coordinate on
-    another.
-
-    Args:
-        along: The axis along which points are shifted.
-        across: The axis whose coordinate says by how much.
-        amount: Shift per metre of that coordinate.
+    """Return the map that shifts points along one axis by `amount` times their coordinate across.
 
     Raises:
         ValueError: If the two axes are the same; that would be a scaling.
@@ -91,8 +73,7 @@ def shear(along: Axis, across: Axis, amount: float) -> Map:
 
 
 def reflection(normal: Float[np.ndarray, "3"]) -> Map:
-    """Return the mirror image in the plane through the origin with this normal (of any length but
-    zero).
+    """Return the mirror image in the plane through the origin with this normal of any length.
 
     Raises:
         ValueError: If the normal is zero or not finite.
@@ -104,10 +85,7 @@ def reflection(normal: Float[np.ndarray, "3"]) -> Map:
 
 
 def perspective(slope: Float[np.ndarray, "3"]) -> Map:
-    """Return the projective map that divides every point by w = 1 + slope . p.
-
-    It keeps straight lines straight, but not parallel: lines along d meet at d / (slope . d).
-    """
+    """Return the projective map by w = 1 + slope . p: lines along d meet at d / (slope . d)."""
     H = np.eye(4)
     H[3, :3] = slope
     return H
@@ -140,11 +118,7 @@ def transform(H: Map, p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
 
 
 def transform_directions(A: Map, v: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-    """Return directions (w = 0) under an affine map: the translation does not reach them.
-
-    Note:
-        Surface normals are not such directions: they go with the inverse transpose.
-    """
+    """Return directions (w = 0) under an affine map; normals need the inverse transpose instead."""
     return v @ A[:3, :3].T
 
 
@@ -154,37 +128,28 @@ def is_affine(H: Map) -> bool:
 
 
 def decompose(A: Map) -> Parts:
-    """Return the rotation, mirror, stretch and translation of an affine map (its polar
-    decomposition).
+    """Return the rotation, mirror, stretch and translation of an affine map by polar decomposition.
+
+    Where the stretch flattens (det = 0) the rotation is one of many.
+    Reference: Shoemake and Duff, Matrix animation and polar decomposition, 1992: M = T F R S.
 
     Raises:
         ValueError: If the last row is not (0, 0, 0, 1): a projective map has no such parts.
-
-    Note:
-        Where the stretch flattens (det = 0) the rotation is one of many.
-
-    Reference: Shoemake and Duff, Matrix animation and polar decomposition, 1992: M = T F R S with F
-    = +-1.
     """
     if not is_affine(A):
         raise ValueError(f"the last row {A[3]} is that of a projective map")
     linear = A[:3, :3]
     mirror = -1 if np.linalg.det(linear) < 0 else 1
     R, S = scipy.linalg.polar(mirror * linear)
-    if (
-        np.linalg.det(R) < 0
-    ):  # only where det = 0: turn the flattened axis over, which the stretch does not feel
+    # Only where det = 0: turn the flattened axis over, which the stretch does not feel
+    if np.linalg.det(R) < 0:
         n = np.linalg.eigh(S)[1][:, 0]
         R = R @ (np.eye(3) - 2.0 * np.outer(n, n))
     return Parts(A[:3, 3], R, mirror, S)
 
 
 def kind_of(H: Map, tolerance: float = 1e-9) -> Kind:
-    """Return the narrowest kind of map that a 4x4 is, up to a tolerance on its entries.
-
-    Note:
-        A similarity may mirror as well.
-    """
+    """Return the narrowest kind of a 4x4, up to a tolerance; a similarity may mirror as well."""
     if np.abs(H[3] - (0, 0, 0, 1)).max() > tolerance:
         return Kind.PROJECTIVE
     if np.abs(H - np.eye(4)).max() <= tolerance:

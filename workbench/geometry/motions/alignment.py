@@ -1,9 +1,11 @@
-"""Least-squares alignment of paired points: rigid, similarity, affine, and one linear
-point-to-plane step.
+"""Least-squares alignment of paired points: rigid, similarity, affine, and point to plane.
 
-Moments are taken about the first pair and in chunks that stay in cache: about the origin they would
-lose all digits for clouds far from it (a degree of rotation at an offset of 1e6), and centring
-whole copies first takes three times as long.
+Pairs are rows of `p_target` and `p_source`, each in its own frame, with one weight of at least zero
+per pair, all equal when left out. Functions of pairs raise ValueError where there are none, their
+numbers differ, a number is not finite, or weights are not usable. Moments are taken about the first
+pair and in chunks that stay in cache: about the origin they would lose all digits for clouds far
+from it (a degree of rotation at an offset of 1e6), and centring whole copies first takes three
+times as long.
 """
 
 from dataclasses import dataclass
@@ -23,20 +25,9 @@ def align_rigid(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the rigid T_target_source that minimises the sum of squared distances between pairs.
 
-    Args:
-        p_target: Points in the target frame.
-        p_source: Their partners in the source frame, row by row.
-        weights: One weight of at least zero per pair; all equal when left out.
-
-    Raises:
-        ValueError: If there are no pairs, their numbers differ, a number is not finite, or the
-            weights are not usable.
-
-    Note:
-        The result is always a rotation (determinant +1), also for noisy flat or mirrored points.
-        Collinear points leave the turn about their line open and one pair leaves all of it; any one
-        solution is returned.
-
+    The result is always a rotation (determinant +1), also for noisy flat or mirrored points.
+    Collinear points leave the turn about their line open and one pair leaves all of it; any one
+    solution is returned.
     Reference: Umeyama, Least-squares estimation of transformation parameters between two point
     patterns, 1991, eq. 39-43 with scale 1; Kabsch 1976 and 1978.
 
@@ -56,29 +47,14 @@ def align_similarity(
     p_source: Float[np.ndarray, "n 3"],
     weights: Float[np.ndarray, "n"] | None = None,
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the T_target_source made of rotation, one scale and translation that fits pairs best.
+    """Return the T_target_source of rotation, one scale and translation that fits pairs best.
 
-    Args:
-        p_target: Points in the target frame.
-        p_source: Their partners in the source frame, row by row.
-        weights: One weight of at least zero per pair; all equal when left out.
-
-    Raises:
-        ValueError: As `align_rigid`.
-
-    Note:
-        Source points that all coincide say nothing about scale: it is 1 then.
-
-    Reference: Umeyama 1991, eq. 39-43.
+    Source points that all coincide give scale 1 (Umeyama 1991, eq. 39-43).
 
     Examples:
         >>> p_source = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
-        >>> bool(
-        ...     np.allclose(
-        ...         align_similarity(3.0 * p_source, p_source), np.diag([3.0, 3.0, 3.0, 1.0])
-        ...     )
-        ... )
-        True
+        >>> align_similarity(3.0 * p_source, p_source).diagonal().round(6).tolist()
+        [3.0, 3.0, 3.0, 1.0]
     """
     m = _moments(p_target, p_source, weights)
     R, explained = _rotation(m.cross)
@@ -89,22 +65,10 @@ def align_similarity(
 def similarity_scale(
     p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]
 ) -> float:
-    """Return the scale of the similarity that fits pairs best: how many times larger the target is,
-    by least squares.
+    """Return how many times larger the target is than the source, by least squares.
 
-    Args:
-        p_target: Points in the target frame.
-        p_source: Their partners in the source frame, row by row.
-
-    Raises:
-        ValueError: As `align_rigid`.
-
-    Note:
-        Noise in the source makes it too small (regression dilution), so that there and back do not
-        multiply to 1. Source points that all coincide say nothing about scale: it is 1 then.
-
-    Reference: Umeyama 1991, eq. 42; Fuller, Measurement Error Models, 1987, 1.1.1, for the
-    dilution.
+    Noise in the source makes it too small (regression dilution: Fuller, Measurement Error Models,
+    1987, 1.1.1). Source points that all coincide give 1 (Umeyama 1991, eq. 42).
 
     Examples:
         >>> round(similarity_scale(2.5 * np.eye(3) + 1.0, np.eye(3)), 6)
@@ -121,20 +85,8 @@ def align_affine(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the affine T_target_source that fits pairs best.
 
-    Args:
-        p_target: Points in the target frame.
-        p_source: Their partners in the source frame, row by row.
-        weights: One weight of at least zero per pair; all equal when left out.
-
-    Raises:
-        ValueError: As `align_rigid`.
-
-    Note:
-        Directions which the source points do not span (flat or collinear clouds) are left as they
-        are.
-
-    Reference: the normal equations A C_ss = C_ts, solved for A - I so that unseen directions stay
-    the identity.
+    Directions which the source points do not span (flat or collinear clouds) are left as they are:
+    the normal equations A C_ss = C_ts are solved for A - I.
     """
     m = _moments(p_target, p_source, weights)
     A = np.eye(3) + (m.cross - m.source) @ np.linalg.pinv(m.source, rcond=1e-12, hermitian=True)
@@ -148,26 +100,14 @@ def point_to_plane_step(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the small motion that brings points closest to the tangent planes at their partners.
 
-    Minimises the sum of ((p_source + w x p_source + v - p_target) . n_target)^2 over the rotation
-    vector w and the translation v, and returns the proper rotation by w with v.
-
-    Args:
-        p_target: A point on each plane, target frame.
-        p_source: The points to move, in the target frame already (moved by the motion so far).
-        n_target: Unit normals of the planes, target frame.
-
-    Returns:
-        The motion to be composed on the left: `T_target_source = step @ T_target_source`.
+    Minimises the sum of ((p_source + w x p_source + v - p_target) . n_target)^2, all in the target
+    frame, and returns the proper rotation by w with v, to be composed on the left. Directions in
+    which the planes hold nothing (sliding along a plane, turning a sphere) get no motion.
+    Reference: Low, Linear least-squares optimization for point-to-plane ICP surface registration,
+    2004, eq. 8-10; the error is that of Chen and Medioni 1992.
 
     Raises:
         ValueError: If there are no pairs, their numbers differ, or a number is not finite.
-
-    Note:
-        Directions in which the planes hold nothing (sliding along a plane, turning a sphere) get no
-        motion.
-
-    Reference: Low, Linear least-squares optimization for point-to-plane ICP surface registration,
-    2004, eq. 8-10; the error is that of Chen and Medioni 1992.
     """
     _check_pairs(p_target, p_source)
     centre = p_source.mean(axis=0)
@@ -176,9 +116,8 @@ def point_to_plane_step(
         (x, y, z), (a, b, c) = (
             np.ascontiguousarray(v.T) for v in (p_source[rows] - centre, n_target[rows])
         )
-        jacobian = np.stack(
-            [y * c - z * b, z * a - x * c, x * b - y * a, a, b, c]
-        )  # eq. 8: p x n and n of each pair
+        # Eq. 8: p x n and n of each pair
+        jacobian = np.stack([y * c - z * b, z * a - x * c, x * b - y * a, a, b, c])
         gap = np.einsum("ij,ij->i", p_target[rows] - p_source[rows], n_target[rows])
         normal_matrix += jacobian @ jacobian.T
         right_side += jacobian @ gap
@@ -186,52 +125,34 @@ def point_to_plane_step(
         raise ValueError("a point or a normal is not a finite number")
     size = np.sqrt(np.trace(normal_matrix[:3, :3]) / len(p_source)) or 1.0
     unit = np.array([size, size, size, 1.0, 1.0, 1.0])  # metres out of the rank decision
+    # Eq. 10
     x = (
         np.linalg.lstsq(normal_matrix / np.outer(unit, unit), right_side / unit, rcond=1e-12)[0]
         / unit
-    )  # eq. 10
+    )
     R = exp_so3(x[:3])
     return motion(R, centre + x[3:] - R @ centre)
 
 
 def nearest_rotation(A: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the rotation nearest to a matrix in the least-squares sense: the turn that a
-    similarity or affine map holds.
-
-    Args:
-        A: One matrix or several.
-
-    Note:
-        A matrix of rank below 2 leaves the answer open; any one of them is returned.
-    """
+    """Return a rotation nearest to each matrix in the least-squares sense."""
     U, _, Vt = np.linalg.svd(A)
     U[..., 2] *= np.sign(np.linalg.det(U) * np.linalg.det(Vt))[..., None]  # no reflection
     return U @ Vt
 
 
 def degrees_between(T: Float[np.ndarray, "n n"], other: Float[np.ndarray, "n n"]) -> float:
-    """Return the angle between the rotations in two motions, in degrees within [0, 180].
-
-    Args:
-        T: A motion or an affine map, 4x4, or its linear part alone, 3x3.
-        other: Another between the same frames.
-
-    Note:
-        Of a map that scales or shears it is the nearest rotation that counts.
-    """
+    """Return the angle between two maps' nearest rotations, 3x3 or 4x4, degrees in [0, 180]."""
     R, R_other = nearest_rotation(T[:3, :3]), nearest_rotation(other[:3, :3])
     return float(np.degrees(rotation_angle(R @ R_other.T)))
 
 
 @dataclass(frozen=True)
 class MotionError:
-    """How far a motion is from the true one; all NaN where that is not known.
+    """How far a motion is from the true one, degrees and metres; all NaN where that is unknown.
 
-    Attributes:
-        rotation: Degrees.
-        translation: How far the mean of the points is off, metres.
-        displacement: Root mean square distance of the points from where they belong, metres: it
-            holds all of the error, also a wrong scale.
+    `translation` is that of the points' mean; `displacement`, their root mean square distance from
+    where they belong, holds all of the error, also a wrong scale.
     """
 
     rotation: float
@@ -244,14 +165,7 @@ def motion_error(
     T_true: Float[np.ndarray, "4 4"] | None,
     p: Float[np.ndarray, "n 3"],
 ) -> MotionError:
-    """Return how far a motion or an affine map is from the true motion, told by where it brings
-    points.
-
-    Args:
-        T: The motion in question.
-        T_true: The true one between the same frames; None where nobody knows it.
-        p: Points that are moved, metres; one at least.
-    """
+    """Return how far a map is from the true one, if known, told by where it brings points."""
     if T_true is None:
         return MotionError(np.nan, np.nan, np.nan)
     off = apply(T, p) - apply(T_true, p)
@@ -266,13 +180,7 @@ def rmse(
     p_target: Float[np.ndarray, "n 3"],
     p_source: Float[np.ndarray, "n 3"],
 ) -> float:
-    """Return the root mean square distance between pairs after moving the source, in metres.
-
-    Args:
-        T: T_target_source, any affine map.
-        p_target: Points in the target frame, metres.
-        p_source: Their partners in the source frame, row by row.
-    """
+    """Return the root mean square distance between pairs, m, after an affine T_target_source."""
     return float(np.sqrt(np.mean(np.sum((p_target - apply(T, p_source)) ** 2, axis=1))))
 
 
@@ -292,9 +200,8 @@ def _moments(p_target: np.ndarray, p_source: np.ndarray, weights: np.ndarray | N
         raise ValueError(f"{len(weights)} weights for {len(p_source)} pairs")
     if weights is not None and not np.all(weights >= 0):
         raise ValueError("weights must be numbers of at least zero")
-    start = (
-        0 if weights is None else int(np.argmax(weights > 0))
-    )  # a pair without weight may be anywhere
+    # A pair without weight may be anywhere
+    start = 0 if weights is None else int(np.argmax(weights > 0))
     first_target, first_source = p_target[start], p_source[start]
     total, sum_target, sum_source = 0.0, np.zeros(3), np.zeros(3)
     cross, source = np.zeros((3, 3)), np.zeros((3, 3))
@@ -318,18 +225,14 @@ def _moments(p_target: np.ndarray, p_source: np.ndarray, weights: np.ndarray | N
 
 
 def _rotation(cross: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return the rotation nearest to the cross-covariance of target and source, and trace(D S)
-    (Umeyama, eq. 40-43).
-    """
+    """Return the rotation nearest to a cross-covariance, and trace(D S) (Umeyama, eq. 40-43)."""
     U, D, Vt = np.linalg.svd(cross)
     S = np.array([1.0, 1.0, np.sign(np.linalg.det(U) * np.linalg.det(Vt))])  # eq. 43: no reflection
     return (U * S) @ Vt, float(D @ S)
 
 
 def _scale(m: _Moments, explained: float) -> float:
-    """Return trace(D S) over the source's variance (Umeyama, eq. 42), or 1 where the source is a
-    single place.
-    """
+    """Return trace(D S) over the source's variance (Umeyama, eq. 42), or 1 for a single place."""
     spread = np.trace(m.source)
     return float(explained / spread) if spread > 0 else 1.0
 

@@ -1,5 +1,4 @@
-"""The frame that a cloud carries: its centroid and principal axes, which have no sign until a rule
-chooses one.
+"""The frame that a cloud carries: its centroid and principal axes, and rules for their signs.
 
 Axes are the columns of a 3x3 matrix, the direction of the largest variance first; right-handed
 unless said otherwise.
@@ -17,8 +16,8 @@ Axes = Float[np.ndarray, "3 3"]
 def centroid_and_covariance(p: Cloud) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3 3"]]:
     """Return the mean of points and their covariance about it, (1/n) sum (p - m)(p - m)^T, m^2.
 
-    Moments are taken about the first point and in chunks that stay in cache: about the origin they
-    would lose all digits for clouds far from it.
+    Moments are taken about the first point, or they would lose all digits far from the origin.
+    Reference: Chan, Golub and LeVeque, Algorithms for computing the sample variance, 1983.
 
     Raises:
         ValueError: If there is no point, or a number is not finite.
@@ -26,9 +25,6 @@ def centroid_and_covariance(p: Cloud) -> tuple[Float[np.ndarray, "3"], Float[np.
     Examples:
         >>> centroid_and_covariance(np.array([[1.0, 0, 0], [3, 0, 0]]))[1].diagonal().tolist()
         [1.0, 0.0, 0.0]
-
-    Reference: Chan, Golub and LeVeque, Algorithms for computing the sample variance, 1983 (shifted
-    data).
     """
     if len(p) == 0:
         raise ValueError("a cloud without points has no centroid")
@@ -47,23 +43,15 @@ def centroid_and_covariance(p: Cloud) -> tuple[Float[np.ndarray, "3"], Float[np.
 def principal_axes(p: Cloud) -> Axes:
     """Return the directions of largest, middle and least variance as columns of a rotation.
 
-    Raises:
-        ValueError: If there is no point, or a number is not finite.
-
-    Note:
-        Signs are open: any two columns may be turned round. Equal variances leave their directions
-        open too.
-
-    Reference: Pearson, On lines and planes of closest fit to systems of points in space, 1901;
-    Jolliffe, Principal Component Analysis, 2nd ed., 1.1.
+    Any two columns may be turned round. Equal variances leave their directions open too.
+    Reference: Pearson, On lines and planes of closest fit, 1901; Jolliffe, Principal Component
+    Analysis, 1.1.
     """
     return ordered(*np.linalg.eigh(centroid_and_covariance(p)[1]))[1]
 
 
 def ordered(variances: Float[np.ndarray, "3"], axes: Axes) -> tuple[Float[np.ndarray, "3"], Axes]:
-    """Return variances and their axes from the largest to the least, the third axis turned so that
-    det = +1.
-    """
+    """Return variances and axes from largest to least, the third turned so that det = +1."""
     falling = np.argsort(-variances, kind="stable")
     return variances[falling], right_handed(axes[:, falling])
 
@@ -74,52 +62,36 @@ def right_handed(axes: Axes) -> Axes:
 
 
 def right_handed_frames(axes: Axes) -> Float[np.ndarray, "k 3 3"]:
-    """Return every right-handed frame that has these axes: each choice of signs whose product keeps
-    det = +1.
-    """
+    """Return every right-handed frame that has these axes: each choice of signs with det = +1."""
     signs = [(a, b, c) for a in (1, -1) for b in (1, -1) for c in (1, -1)]
     frames = [axes * sign for sign in signs]
     return np.stack([frame for frame in frames if np.linalg.det(frame) > 0])
 
 
 def third_moments(axes: Axes, p: Cloud) -> Float[np.ndarray, "3"]:
-    """Return the mean of the cubed coordinates along each axis, about the centroid, m^3: what tells
-    an axis' two ends apart.
-
-    A shape that is symmetric along an axis has 0 there, and a sample of it a sign by chance.
-    """
+    """Return the mean cubed coordinates along each axis, m^3, which tell an axis' ends apart."""
     along = (p - p.mean(axis=0)) @ axes
     return np.einsum("ij,ij,ij->j", along, along, along) / len(p)
 
 
 def canonical_signs(axes: Axes, p: Cloud) -> Axes:
-    """Return the axes with signs that turn with the cloud: third moments of 1 and 2 >= 0, axis 3
-    their cross product.
+    """Return the axes with signs that turn with the cloud: third moments of axes 1 and 2 >= 0.
 
-    Args:
-        axes: Unit vectors in columns, of any signs.
-        p: The cloud whose axes they are.
-
-    Reference: Bro, Acar and Kolda, Resolving the sign ambiguity in the singular value
-    decomposition, 2008, ask the data likewise, with other sums.
+    Reference: Bro, Acar and Kolda, Resolving the sign ambiguity in the SVD, 2008, with other sums.
     """
     return right_handed(axes * np.where(third_moments(axes, p) < 0, -1.0, 1.0))
 
 
 def largest_entry_signs(axes: Axes) -> Axes:
-    """Return the axes with signs that make the largest entry of each positive, the third as the
-    cross product.
+    """Return the axes with the largest entry of 1 and 2 positive, as scikit-learn's svd_flip.
 
-    The rule of many libraries (scikit-learn's svd_flip). It looks at coordinates, not at the cloud:
-    it is the same for the same numbers, and another as soon as the cloud was turned.
+    It looks at coordinates, not at the cloud: signs change as soon as the cloud was turned.
     """
     largest = np.abs(axes).argmax(axis=0)
     return right_handed(axes * np.where(axes[largest, np.arange(3)] < 0, -1.0, 1.0))
 
 
 def degrees_between_axes(axes: Axes, other: Axes) -> Float[np.ndarray, "3"]:
-    """Return the angle between each axis and its namesake, whatever their signs, degrees within [0,
-    90].
-    """
+    """Return the angle between each axis and its namesake, without signs, degrees in [0, 90]."""
     across = np.linalg.norm(np.cross(axes, other, axis=0), axis=0)
     return np.degrees(np.arctan2(across, np.abs(np.einsum("ij,ij->j", axes, other))))

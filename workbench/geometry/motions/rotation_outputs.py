@@ -1,5 +1,4 @@
-"""Numbers that a network can put out for a rotation: how they become a matrix, and the gradient
-back through that.
+"""Numbers that a network can put out for a rotation: decoding, and the gradient back through it.
 
 Batches throughout: outputs are (n, k), rotations (n, d, d) with d = 2 or 3. Every `pullback` takes
 the gradient of a loss by the entries of R to that by the numbers.
@@ -28,14 +27,9 @@ _FLAT = 1e-3  # radians: below, a series is taken for (a - sin a) / a³
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Representation:
-    """One way to write rotations as numbers.
+    """One way to write rotations as numbers: those of no turn, a decoder, its pullback.
 
-    Attributes:
-        start: The numbers of no turn, (k,).
-        decode: Makes rotations (n, d, d) of numbers (n, k).
-        pullback: Returns the gradient by the numbers, given them and the gradient by R.
-        numbers: The numbers that are asked for where the loss is on them: a choice where several
-            mean one rotation.
+    `numbers` are asked for where the loss is on them: a choice where several mean one rotation.
     """
 
     start: Float[np.ndarray, " k"]
@@ -45,25 +39,16 @@ class Representation:
 
 
 def rotation_from_six(y: Float[np.ndarray, "n 6"]) -> Float[np.ndarray, "n 3 3"]:
-    """Return the rotations whose first two columns are two vectors each, made orthonormal by Gram
-    and Schmidt.
+    """Return the rotations with two vectors, made orthonormal (Gram-Schmidt), as first columns.
 
-    The first three numbers, normalised, are the first column; the last three, without their part
-    along it and normalised, the second; the third is the first times the second. Vectors that are
-    zero or parallel give what is not finite.
-
-    Reference: Zhou et al. 2019, eq. 15.
+    Vectors that are zero or parallel give what is not finite (Zhou et al. 2019, eq. 15).
     """
     u, v, _, _, _ = _six(y)
     return np.stack([u, v, np.cross(u, v)], axis=2)
 
 
 def degrees_apart(R: Rotations, other: Rotations) -> Float[np.ndarray, " n"]:
-    """Return the angle between each two matrices, degrees, from the length of their difference; 180
-    is the most.
-
-    Of a matrix that is no rotation it is an angle in name only, and of one that is not finite 180.
-    """
+    """Return the angle between each two matrices, from their difference, up to 180 degrees."""
     half = np.linalg.norm(R - other, axis=(1, 2)) / np.sqrt(8)
     return np.degrees(2 * np.arcsin(np.clip(np.nan_to_num(half, nan=1.0), 0, 1)))
 
@@ -137,9 +122,8 @@ def _vector_back(y: np.ndarray, slope: np.ndarray) -> np.ndarray:
     a, K = np.linalg.norm(y, axis=1)[:, None, None], skew(y)
     safe = np.maximum(a, _FLAT)
     third = np.where(a < _FLAT, 1 / 6 - a * a / 120, (safe - np.sin(safe)) / safe**3)
-    J = (
-        np.eye(3) + 0.5 * np.sinc(a / (2 * np.pi)) ** 2 * K + third * K @ K
-    )  # left Jacobian: dR = [J dy]x R
+    # Left Jacobian: dR = [J dy]x R
+    J = np.eye(3) + 0.5 * np.sinc(a / (2 * np.pi)) ** 2 * K + third * K @ K
     turn = slope @ turns(y).swapaxes(1, 2)
     w = np.stack([turn[:, k, j] - turn[:, j, k] for j, k in ((1, 2), (2, 0), (0, 1))], axis=1)
     return np.einsum("nij,ni->nj", J, w)
@@ -224,9 +208,7 @@ IN_PLANE: Mapping[str, Representation] = {
         numbers=lambda R: R[:, :, 0],
     ),
 }
-"""An angle, in (-pi, pi] where it is asked for; cosine and sine of half of it, as a quaternion has
-them, both signs being one rotation; or its own, a vector of which the direction counts.
-"""
+"""An angle in (-pi, pi]; cosine and sine of half of it, of either sign; or of itself."""
 
 IN_SPACE: Mapping[str, Representation] = {
     "Euler": Representation(
@@ -254,25 +236,16 @@ IN_SPACE: Mapping[str, Representation] = {
         numbers=lambda R: R.reshape(-1, 9),
     ),
 }
-"""Angles about the fixed x, y, z; a rotation vector; (w, x, y, z), w >= 0 where asked for; two
-columns; all nine entries.
-"""
+"""Angles about fixed x, y, z; a rotation vector; (w, x, y, z), w >= 0; two columns; all nine."""
 
 
 def random_rotations(
     count: int, dimension: int, largest: float, *, rng: np.random.Generator
 ) -> tuple[Rotations, Float[np.ndarray, "n w"]]:
-    """Return rotations by at most an angle, as evenly spread as all rotations are, and their angle
-    or rotation vector.
+    """Return uniformly random rotations by at most an angle, and their angles or rotation vectors.
 
-    Args:
-        count: How many.
-        dimension: 2 or 3.
-        largest: Radians, up to pi.
-        rng: Chance.
-
-    Reference: in space the angle has the density (1 - cos a) / pi: Miles, On random rotations in
-    R^3, Biometrika 1965.
+    Reference: Miles, On random rotations in R^3, Biometrika 1965: an angle's density is (1 - cos a)
+    / pi.
     """
     if dimension == 2:
         a = rng.uniform(-largest, largest, (count, 1))

@@ -1,12 +1,15 @@
-"""Rotations by their other names: an axis and an angle, 24 kinds of Euler angles, unit quaternions.
+"""Rotations by their other names: an axis and an angle, 24 kinds of Euler angles, quaternions.
 
-All of them stand for the matrix `R_a_b` that takes coordinates of frame b to frame a. Angles are
-radians and positive counter-clockwise about their axis (right-hand rule). Quaternions are (w, x, y,
-z).
+All stand for the matrix `R_a_b` that takes coordinates of frame b to frame a. Angles are radians,
+positive counter-clockwise about their axis (right-hand rule). Quaternions are (w, x, y, z). An
+Euler order is three letters, with one angle for each. Lower case turns about the fixed axes of the
+world, one after the other; upper case about the body's own axes, carried along by the earlier
+turns. So "xyz" with (a, b, c) is Rz(c) Ry(b) Rx(a), and "XYZ" is Rx(a) Ry(b) Rz(c). Another order
+raises ValueError.
 
-An Euler order is three letters. Lower case turns about the fixed axes of the world, one after the
-other; upper case turns about the body's own axes, which the earlier turns have carried along. So
-"xyz" with (a, b, c) is the matrix Rz(c) Ry(b) Rx(a), and "XYZ" is Rx(a) Ry(b) Rz(c).
+Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq.
+2.14. Diebel, Representing Attitude, 2006, 5.1; his R takes world to body. Solà, Quaternion
+kinematics for the error-state Kalman filter, 2017, 2.5.
 """
 
 from typing import Literal, get_args
@@ -45,25 +48,17 @@ EulerOrder = Literal[
 ]
 EULER_ORDERS: tuple[EulerOrder, ...] = get_args(EulerOrder)
 
-_LOCKED = (
-    1e-12  # sine of the angle between the first and the third axis below which they count as one
-)
+# Sine of the angle between the first and the third axis below which they count as one
+_LOCKED = 1e-12
 
 
 def rotation_from_axis_angle(
     axis: Float[np.ndarray, "3"], angle: float
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the rotation by an angle about an axis through the origin (Rodrigues' formula).
-
-    Args:
-        axis: Direction of any length but zero.
-        angle: Radians, right-hand rule.
+    """Return the rotation by an angle about an axis of any length (Rodrigues; Murray et al., 2.14).
 
     Raises:
         ValueError: If the axis is zero or not finite; it names no direction.
-
-    Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq.
-    2.14.
 
     Examples:
         >>> R = rotation_from_axis_angle(np.array([0.0, 0.0, 2.0]), np.pi / 2)  # of any length
@@ -77,12 +72,7 @@ def rotation_from_axis_angle(
 
 
 def axis_angle_from_rotation(R: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, "3"], float]:
-    """Return the unit axis and the angle in [0, pi] of a rotation.
-
-    Note:
-        The identity turns about no axis in particular; x is returned. At half a turn both signs of
-        the axis are right.
-    """
+    """Return the unit axis, x for the identity, and the angle in [0, pi] of a rotation."""
     w = log_so3(R)
     largest = np.abs(w).max()
     if largest == 0.0:
@@ -97,17 +87,7 @@ def rotation_about(axis: Axis, angle: float) -> Float[np.ndarray, "3 3"]:
 
 
 def euler_to_matrix(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3 3"]:
-    """Return the rotation that three successive turns make.
-
-    Args:
-        angles: Radians, one for each letter, in the order of the letters.
-        order: Three axes; lower case: fixed world axes, upper case: the body's own axes.
-
-    Raises:
-        ValueError: If the order is not one of the 24.
-
-    Reference: Diebel, Representing Attitude, 2006, section 5.1; his R takes world to body, ours
-    body to world.
+    """Return the rotation that three successive turns make (Diebel 2006, 5.1).
 
     Examples:
         >>> angles = np.array([0.1, 0.2, 0.3])
@@ -122,28 +102,13 @@ def euler_to_matrix(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[
 def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.ndarray, "3"]:
     """Return three angles that make this rotation, in the order of the letters.
 
-    The middle angle is in [-pi/2, pi/2] where the three letters differ and in [0, pi] where the
-    first comes back; the other two are in [-pi, pi].
-
-    Args:
-        R: A rotation matrix (not checked).
-        order: As in `euler_to_matrix`.
-
-    Raises:
-        ValueError: If the order is not one of the 24.
-
-    Note:
-        In gimbal lock only the sum or the difference of the outer angles is determined; the last
-        one is then zero. `euler_to_matrix` gives R back there too, and arbitrarily close to it.
-
-    Reference: derived from the product in `euler_to_matrix`: the third turn leaves its own axis
-        alone, so where R takes that axis gives the first two angles, and what they leave of R is
-        the third.
+    The middle angle is in [-pi/2, pi/2] where the three letters differ, in [0, pi] where the first
+    comes back; the others are in [-pi, pi]. In gimbal lock only the sum or the difference of the
+    outer angles is determined; the last one is then zero.
 
     Examples:
-        >>> matrix_to_euler(euler_to_matrix(np.array([0.1, 0.2, 0.3]), "ZYX"), "ZYX").round(
-        ...     6
-        ... ).tolist()
+        >>> R = euler_to_matrix(np.array([0.1, 0.2, 0.3]), "ZYX")
+        >>> matrix_to_euler(R, "ZYX").round(6).tolist()
         [0.1, 0.2, 0.3]
     """
     (i, j, k), carried = _letters(order)
@@ -167,12 +132,7 @@ def matrix_to_euler(R: Float[np.ndarray, "3 3"], order: EulerOrder) -> Float[np.
 
 
 def euler_axes(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3 3"]:
-    """Return the three directions in the world, one per row, about which the three angles turn the
-    body now.
-
-    A small change of the angles turns the body by `change @ euler_axes(angles, order)` (a rotation
-    vector in world axes).
-    """
+    """Return the axes in the world, as rows: a change of angles turns by `change @ axes`."""
     (i, j, k), carried = _letters(order)
     if not carried:
         i, k = k, i
@@ -183,9 +143,7 @@ def euler_axes(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.nd
 
 
 def gimbal_margin(angles: Float[np.ndarray, "3"], order: EulerOrder) -> float:
-    """Return the sine of the angle between the first and the third turning axis: 1 at best, 0 in
-    gimbal lock.
-    """
+    """Return the sine of the angle between the first and third axis: 0 in gimbal lock."""
     first, _, third = euler_axes(angles, order)
     return float(np.linalg.norm(np.cross(first, third)))
 
@@ -193,13 +151,7 @@ def gimbal_margin(angles: Float[np.ndarray, "3"], order: EulerOrder) -> float:
 def locked_family(
     angles: Float[np.ndarray, "3"], order: EulerOrder, turns: Float[np.ndarray, "n"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the triples that make the same rotation as these angles in gimbal lock, one for each
-    turn.
-
-    Args:
-        angles: A triple in gimbal lock, radians.
-        order: As in `euler_to_matrix`.
-        turns: By how much the first angle is to differ; the third makes up for it.
+    """Return triples of the same rotation in gimbal lock, the first angles differing by `turns`.
 
     Raises:
         ValueError: If the angles are not in gimbal lock, where no such family exists.
@@ -211,9 +163,7 @@ def locked_family(
 
 
 def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.ndarray, "3"]:
-    """Return the second triple of angles that makes the same rotation; there always is one, lock or
-    not.
-    """
+    """Return the second triple that makes the same rotation; there always is one, lock or not."""
     (i, _, k), _ = _letters(order)
     a, b, c = angles
     return np.array([a + np.pi, -b if i == k else np.pi - b, c + np.pi])
@@ -222,17 +172,7 @@ def other_triple(angles: Float[np.ndarray, "3"], order: EulerOrder) -> Float[np.
 def triple_past_lock(
     angles: Float[np.ndarray, "3"], order: EulerOrder, turn: float
 ) -> Float[np.ndarray, "3"]:
-    """Return the triple, of the two nearest to these, that turns the body further in the direction
-    lost in gimbal lock.
-
-    The lost direction is at right angles to all axes of the three angles, so no small change of
-    them turns about it.
-
-    Args:
-        angles: The three angles, radians, in gimbal lock.
-        order: Their axes.
-        turn: How much further, radians.
-    """
+    """Return the nearest triple that turns the body on in the direction lost in gimbal lock."""
     first, second, _ = euler_axes(angles, order)
     R = exp_so3(turn * np.cross(first, second)) @ euler_to_matrix(angles, order)
     found = matrix_to_euler(R, order)
@@ -240,8 +180,7 @@ def triple_past_lock(
 
 
 def angles_apart(triple: Float[np.ndarray, "3"], other: Float[np.ndarray, "3"]) -> float:
-    """Return by how much the angle differs that differs most, radians; a full turn is no
-    difference.
+    """Return by how much the angle differs that differs most, radians, modulo full turns.
 
     Examples:
         >>> round(angles_apart(np.array([3.0, 0.0, 0.0]), np.array([3.0 - 2 * np.pi, 0.1, 0.0])), 6)
@@ -251,8 +190,7 @@ def angles_apart(triple: Float[np.ndarray, "3"], other: Float[np.ndarray, "3"]) 
 
 
 def quaternion_from_matrix(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"]:
-    """Return the unit quaternion (w, x, y, z) of a rotation that has w >= 0; its negative is the
-    same rotation.
+    """Return the unit quaternion (w, x, y, z) of a rotation that has w >= 0.
 
     Examples:
         >>> quaternion_from_matrix(rotation_about("z", np.pi)).round(6).tolist()
@@ -264,12 +202,10 @@ def quaternion_from_matrix(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"
 
 
 def matrix_from_quaternion(q: Float[np.ndarray, "4"]) -> Float[np.ndarray, "3 3"]:
-    """Return the rotation of a quaternion (w, x, y, z) of any length.
+    """Return the rotation of a quaternion (w, x, y, z) of any length (Solà 2017, 2.5).
 
     Raises:
         ValueError: If the quaternion is zero or not finite.
-
-    Reference: Solà, Quaternion kinematics for the error-state Kalman filter, 2017, section 2.5.
     """
     length = np.linalg.norm(q)
     if not 0.0 < length < np.inf:
@@ -303,19 +239,10 @@ def quaternion_product(
 def great_circle(
     q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float
 ) -> Float[np.ndarray, "4"]:
-    """Return the unit quaternion at the fraction t of the arc from one to the other, signs taken as
-    they are.
+    """Return the unit quaternion at the fraction t of the arc between two, signs as they are.
 
-    Args:
-        q_start: Unit quaternion (w, x, y, z).
-        q_end: Unit quaternion, taken with the sign it has.
-        t: 0 at the start, 1 at the end.
-
-    Note:
-        q and -q are one rotation but two points of the sphere: with the wrong one of them the arc
-        is the long way round. Opposite quaternions have no one arc between them; the start is
-        returned.
-
+    With q and -q, one rotation, the arc may be the long way; of opposite ones the start is
+    returned.
     Reference: Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985.
     """
     angle = 2.0 * np.arctan2(np.linalg.norm(q_end - q_start), np.linalg.norm(q_end + q_start))
@@ -329,28 +256,12 @@ def great_circle(
 def slerp(
     q_start: Float[np.ndarray, "4"], q_end: Float[np.ndarray, "4"], t: float
 ) -> Float[np.ndarray, "4"]:
-    """Return the unit quaternion at the fraction t of the shortest turn from one rotation to the
-    other.
-
-    Args:
-        q_start: Unit quaternion (w, x, y, z).
-        q_end: Unit quaternion; the sign that lies nearer to the start is used.
-        t: 0 at the start, 1 at the end; the turn has constant speed.
-
-    Note:
-        Half a turn can go either way round; the way that the signs of the two quaternions give is
-        taken.
+    """Return the unit quaternion at the fraction t of the shortest turn, at constant speed.
 
     Examples:
-        >>> q_start, q_end = (
-        ...     np.array([1.0, 0.0, 0.0, 0.0]),
-        ...     quaternion_from_matrix(rotation_about("z", 0.8)),
-        ... )
-        >>> bool(
-        ...     np.allclose(
-        ...         matrix_from_quaternion(slerp(q_start, q_end, 0.25)), rotation_about("z", 0.2)
-        ...     )
-        ... )
+        >>> q_start, q_end = (quaternion_from_matrix(rotation_about("z", a)) for a in (0.0, 0.8))
+        >>> R = matrix_from_quaternion(slerp(q_start, q_end, 0.25))
+        >>> bool(np.allclose(R, rotation_about("z", 0.2)))
         True
     """
     return great_circle(q_start, q_end if q_start @ q_end >= 0 else -q_end, t)

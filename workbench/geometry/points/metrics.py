@@ -1,5 +1,6 @@
-"""Distances between points of a space, among them some that are no metrics; the scatter that
-Mahalanobis' is made of; rms.
+"""Distances between points, some of them no metrics; the scatter for Mahalanobis; rms.
+
+A covariance C is positive definite; functions that find it is not raise ValueError.
 
 Reference: Deza and Deza, Encyclopedia of distances, 4th ed., 2016, chapters 1, 17 and 19;
 Mahalanobis, On the generalised distance in statistics, 1936.
@@ -23,15 +24,10 @@ Covariance = Float[np.ndarray, "d d"]
 def distance_of(
     metric: Metric, *, order: float = 2.0, covariance: Covariance | None = None
 ) -> Distance:
-    """Return the function that gives the distances of points a and b, row by row, whichever of them
-    is a single row.
+    """Return the function that gives distances of points row by row, or to a single row.
 
-    Args:
-        metric: Which one. `p` is (sum |x|^p)^(1/p), `p-sum` the same without the root, `squared`
-            the square of Euclid's, `cosine` one minus the cosine of the angle at the origin.
-        order: The exponent of `p` and `p-sum`, above 0. Below 1 `p` is no metric, above 1 `p-sum`
-            is none.
-        covariance: For `mahalanobis`, positive definite; the identity where it is left out.
+    `p` is (sum |x|^p)^(1/p), p being `order`, no metric below 1; `p-sum` leaves out the root;
+    `cosine` is one minus the cosine at the origin. The covariance is the identity by default.
     """
     match metric:
         case "euclid":
@@ -65,16 +61,7 @@ def cosine_distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 def mahalanobis(
     p: Points, mean: Float[np.ndarray, " d"], covariance: Covariance
 ) -> Float[np.ndarray, " n"]:
-    """Return the distance of every point from the mean in standard deviations along its direction,
-    sqrt(v^T C^-1 v).
-
-    Args:
-        p: Points.
-        mean: Where it is measured from.
-        covariance: C, positive definite.
-
-    Raises:
-        ValueError: If the covariance is not positive definite.
+    """Return points' distances from the mean in standard deviations along them, sqrt(v^T C^-1 v).
 
     Examples:
         >>> p = np.array([[1.0, -1.0], [1.0, 1.0]])
@@ -98,8 +85,7 @@ def rms(values: Float[np.ndarray, "*n"]) -> float:
 
 
 def whitening(covariance: Covariance) -> Covariance:
-    """Return the W with W C W^T = I that is lower triangular: W v has the length of v in standard
-    deviations.
+    """Return the lower triangular W with W C W^T = I: W v has v's length in standard deviations.
 
     Raises:
         ValueError: If the covariance is not positive definite.
@@ -114,19 +100,12 @@ def whitening(covariance: Covariance) -> Covariance:
 
 
 def radius_of_share(share: float, dims: int) -> float:
-    """Return how far from the mean so large a share of a normal distribution lies, in standard
-    deviations.
-
-    The squared distance has the chi-squared distribution with as many degrees of freedom as
-    dimensions.
-    """
+    """Return how far from the mean a share of a normal distribution lies, in its deviations."""
     return float(np.sqrt(2 * scipy.special.gammaincinv(dims / 2, share)))
 
 
 def share_within(radius: float, dims: int) -> float:
-    """Return the share of a normal distribution within so many standard deviations of its mean
-    (Mahalanobis).
-    """
+    """Return the share of a normal distribution within so many standard deviations of its mean."""
     return float(scipy.special.gammainc(dims / 2, radius**2 / 2))
 
 
@@ -140,25 +119,15 @@ def mean_and_covariance(p: Points) -> tuple[Float[np.ndarray, " d"], Covariance]
 def robust_mean_and_covariance(
     p: Points, rng: np.random.Generator, *, starts: int = 30, steps: int = 20
 ) -> tuple[Float[np.ndarray, " d"], Covariance]:
-    """Return mean and covariance of the half of the points with the smallest covariance determinant
-    (MCD).
+    """Return mean and covariance of the half with the smallest covariance determinant (MCD).
 
-    Every start draws d + 1 points; a C-step takes the half of all points that is nearest by
-    Mahalanobis, and never raises the determinant. The result is scaled so that the median distance
-    is that of a normal distribution; mean and covariance of all points within its 97.5 % radius are
-    returned.
-
-    Args:
-        p: Points, some more than 2 d.
-        rng: Draws the starts.
-        starts: How many.
-        steps: C-steps of each at most.
+    Every start draws d + 1 points; a C-step takes the half that is nearest by Mahalanobis, and
+    never raises the determinant. The result is scaled to the median distance of a normal
+    distribution; mean and covariance of all points within its 97.5 % radius are returned.
+    Reference: Rousseeuw and Van Driessen, A fast algorithm for the MCD estimator, 1999.
 
     Raises:
         ValueError: If half of the points lie in a hyperplane.
-
-    Reference: Rousseeuw and Van Driessen, A fast algorithm for the minimum covariance determinant
-    estimator, 1999.
     """
     n, d = p.shape
     half = (n + d + 1) // 2
@@ -168,9 +137,8 @@ def robust_mean_and_covariance(
         means = sets.mean(axis=1)
         v = sets - means[:, None]
         covariances = np.einsum("snd,sne->sde", v, v) / (kept.shape[1] - 1)
-        covariances += (
-            np.eye(d) * 1e-12 * np.trace(covariances, axis1=1, axis2=2).max()
-        )  # a start may be flat
+        # A start may be flat
+        covariances += np.eye(d) * 1e-12 * np.trace(covariances, axis1=1, axis2=2).max()
         v = p - means[:, None]
         squares = np.einsum("snd,sdn->sn", v, np.linalg.solve(covariances, v.transpose(0, 2, 1)))
         nearer = np.sort(np.argpartition(squares, half - 1, axis=1)[:, :half], axis=1)
@@ -189,14 +157,6 @@ def robust_mean_and_covariance(
 def triangle_excess(
     distance: Distance, a: Points, b: Points, *, c: Points
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
-    """Return by how much the way from a to c is longer than the one over b, and the three distances
-    ab, bc, ac.
-
-    Args:
-        distance: A function of two arrays of points.
-        a: First corners; a positive answer breaks the triangle inequality.
-        b: The corners on the way.
-        c: Last corners.
-    """
+    """Return how much longer a-c is than a-b-c, as in no metric, and the distances ab, bc, ac."""
     ab, bc, ac = distance(a, b), distance(b, c), distance(a, c)
     return ac - ab - bc, np.column_stack([ab, bc, ac])

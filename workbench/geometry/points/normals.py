@@ -1,4 +1,8 @@
-"""Normals of a point cloud: the direction of least spread of each point's neighbours."""
+"""Normals of a point cloud: the direction of least spread of each point's neighbours.
+
+Reference: Hoppe, DeRose, Duchamp, McDonald and Stuetzle, Surface reconstruction from unorganized
+points, 1992, section 3.2.
+"""
 
 from collections.abc import Iterator
 
@@ -17,26 +21,13 @@ def point_normals(
     *,
     spread: bool = False,
 ) -> Float[np.ndarray, "n 3"]:
-    """Return one unit normal per point, by principal components of its k nearest points (itself
-    included).
+    """Return one unit normal per point, by principal components of its k nearest, itself included.
 
-    Args:
-        p: Points, metres.
-        k: Neighbours; fewer where the cloud has fewer points.
-        viewpoint: Normals face this point (a scanner's position). Left out, they face away from the
-            mean of the points.
-        spread: Normals of points whose neighbours lie along a line (`on_a_line`) are 0, unless all
-            of them are such.
+    Normals face the viewpoint, or away from the mean. With `spread` those of points whose
+    neighbours lie along a line (`on_a_line`) are 0, unless all are. Hoppe et al. 1992, 3.2.
 
     Raises:
         ValueError: If there are fewer than 3 points, k is below 3, or a coordinate is not finite.
-
-    Note:
-        Collinear or coinciding neighbours leave the normal open: some unit vector orthogonal to the
-        line, or any.
-
-    Reference: Hoppe, DeRose, Duchamp, McDonald and Stuetzle, Surface reconstruction from
-    unorganized points, 1992, section 3.2.
     """
     if len(p) < 3 or k < 3:
         raise ValueError(f"normals need at least 3 points and 3 neighbours, not {len(p)} and {k}")
@@ -53,15 +44,10 @@ def point_normals(
 
 
 def on_a_line(covariances: Float[np.ndarray, "6 n"]) -> Bool[np.ndarray, "n"]:
-    """Return of neighbourhoods whether their points lie along a line, so that a normal means
-    nothing.
+    """Return of neighbourhoods whether their points lie along a line: a normal means nothing then.
 
-    They do where the second of the variances along the principal axes is at most a fifth of the
-    largest, as on one ring of a lidar scan. Coinciding points count as a line.
-
-    Args:
-        covariances: Their entries xx, yy, zz, xy, xz, yz, square metres, up to a common factor
-            each.
+    The second variance is at most a fifth of the largest then, as on one ring of a lidar scan. Rows
+    are xx, yy, zz, xy, xz, yz, up to a factor.
     """
     xx, yy, zz, xy, xz, yz = covariances
     variances = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).T)
@@ -69,36 +55,28 @@ def on_a_line(covariances: Float[np.ndarray, "6 n"]) -> Bool[np.ndarray, "n"]:
 
 
 def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
-    """Return lambda_0 / (lambda_0 + lambda_1 + lambda_2) of the points' covariance: 0 where they
-    are flat, at most 1/3.
-
-    It is 0 too for points at one place.
+    """Return lambda_0 / (lambda_0 + lambda_1 + lambda_2) of the covariance: 0 flat, at most 1/3.
 
     Reference: Pauly, Gross and Kobbelt, Efficient simplification of point-sampled surfaces, 2002,
-    equation 4.
+    eq. 4.
     """
     values = np.linalg.eigvalsh(np.cov(p.T))
     return float(values[0] / values.sum()) if values.sum() > 0 else 0.0
 
 
 def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield rows of p and the covariances of their k nearest points, in chunks that fit the
-    cache.
-    """
+    """Yield rows of p and the covariances of their k nearest points, in chunks for the cache."""
     tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
     k = min(k, len(p))
-    for start in range(
-        0, len(p), CHUNK
-    ):  # in tree order, so that consecutive queries touch the same leaves
+    # In tree order, so that consecutive queries touch the same leaves
+    for start in range(0, len(p), CHUNK):
         rows = tree.indices[start : start + CHUNK]
         neighbours = np.asarray(tree.query(p[rows], k=k, workers=-1)[1])
         yield rows, _covariances(p, rows, neighbours)
 
 
 def _covariances(p: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
-    """Return the six entries (xx, yy, zz, xy, xz, yz) of each neighbourhood's covariance, about the
-    point itself first.
-    """
+    """Return xx, yy, zz, xy, xz, yz of each neighbourhood, about the point itself first."""
     x, y, z = (p[neighbours] - p[rows][:, None]).transpose(2, 0, 1)
     x, y, z = (
         x - x.mean(1, keepdims=True),
@@ -110,12 +88,10 @@ def _covariances(p: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.
 
 
 def _least_directions(c: np.ndarray) -> np.ndarray:
-    """Return unit eigenvectors of the smallest eigenvalue of symmetric 3x3 matrices given as six
-    rows of entries.
+    """Return the eigenvectors of least eigenvalue of symmetric 3x3 matrices, six entries each.
 
-    The smallest root of the characteristic polynomial in trigonometric form, then the longest cross
-    product of two rows of C - root I. Where that product is short (two small eigenvalues nearly
-    equal), `eigh` decides.
+    By the smallest root of the characteristic polynomial and the longest cross product of two rows
+    of C - root I. Where that is short (two small eigenvalues nearly equal), `eigh` decides.
     """
     size = np.maximum(c[:3].sum(axis=0), np.finfo(float).tiny)
     a, b, d, e, f, g = c / size

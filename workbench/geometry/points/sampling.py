@@ -1,5 +1,4 @@
-"""Points and lines drawn by chance, and what can be counted with them: volumes by hits, areas by
-crossings.
+"""Points and lines drawn by chance: volumes by hits, areas by crossings. Metres.
 
 Reference: Pharr, Jakob and Humphreys, Physically Based Rendering, 4th ed., 2.1 (Monte Carlo), 8.5
 (stratified), 8.7 (Sobol), A.5.1 (triangles). Santalo, Integral Geometry and Geometric Probability,
@@ -18,24 +17,18 @@ Draw = Literal["random", "stratified", "Sobol"]
 
 _PAIRS = 50_000  # pairs of a line and a face that are looked at together
 _BITS = 32
+# Of each axis: degree, coefficients and first m of Joe and Kuo
 _SOBOL = (
     (0, 0, (1,)),
     (1, 0, (1,)),
     (2, 1, (1, 3)),
-)  # of each axis: degree, coefficients and first m of Joe and Kuo
+)
 
 
 def points_on_faces(
     p: Points, faces: Faces, u: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return points on a mesh, one for each row of three numbers from 0 to 1: spread evenly where
-    those are.
-
-    Args:
-        p: Vertices, m.
-        faces: Triangles with corners a, b, c.
-        u: Numbers from 0 to 1.
-    """
+    """Return points on a mesh, one per row of numbers from 0 to 1, spread evenly as those are."""
     k, shares = places_on_faces(p, faces, u)
     a, b, c = p[faces[k]].transpose(1, 0, 2)
     return shares[:, :1] * a + shares[:, 1:2] * b + shares[:, 2:] * c
@@ -46,13 +39,8 @@ def places_on_faces(
 ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
     """Return on which faces such points lie, and the shares of the corners in each point.
 
-    The first number picks the face, each face as likely as it is large. With s the square root of
-    the second and t the third, the point is (1 - s) a + s (1 - t) b + s t c.
-
-    Args:
-        p: Vertices, m.
-        faces: Triangles with corners a, b, c.
-        u: Numbers from 0 to 1.
+    The first number picks the face by area; with s the square root of the second and t the third,
+    the point is (1 - s) a + s (1 - t) b + s t c.
     """
     a, b, c = p[faces].transpose(1, 0, 2)
     n = np.cross(b - a, c - a)
@@ -66,15 +54,10 @@ def places_on_faces(
 def unit_points(
     count: int, dimension: int, draw: Draw, *, rng: np.random.Generator
 ) -> Float[np.ndarray, "n d"]:
-    """Return points in the unit cube.
+    """Return points in the unit cube: on their own, one in each of equal cubes, or Sobol's.
 
-    Args:
-        count: How many. Stratified: the nearest power k^d, one point in each of so many equal
-            cubes. Sobol: the nearest power of two, as the sequence is even at these lengths only.
-        dimension: d.
-        draw: How: each on its own, one in each cube, or the sequence of Sobol, its binary digits
-            flipped by chance.
-        rng: Chance.
+    Their number is the nearest power k^d for cubes, of two for Sobol: the sequence is even then.
+    Sobol's binary digits are flipped by chance.
 
     Raises:
         ValueError: If more than three dimensions of the sequence of Sobol are asked for.
@@ -92,20 +75,14 @@ def unit_points(
 
 
 def sobol(count: int, dimension: int) -> Int[np.ndarray, "n d"]:
-    """Return the first points of the sequence of Sobol, times 2^32.
+    """Return the first points of the sequence of Sobol in up to 3 dimensions, times 2^32.
 
-    Any 2^k of them that follow each other from a multiple of 2^k on lie one in each of 2^k equal
-    boxes, however the cube is cut into boxes by powers of two along x, y or both.
-
-    Args:
-        count: How many points.
-        dimension: Up to 3.
+    Any 2^k from a multiple of 2^k on lie one in each of 2^k equal boxes, cut by powers of two.
+    Reference: Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections,
+    2008.
 
     Raises:
         ValueError: If there are more dimensions.
-
-    Reference: Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections,
-    SIAM J. Sci. Comput. 30, 2008: the recurrence of the direction numbers and its first values.
     """
     if dimension > len(_SOBOL):
         raise ValueError(f"{dimension} dimensions; direction numbers are listed for {len(_SOBOL)}")
@@ -124,14 +101,7 @@ def sobol(count: int, dimension: int) -> Int[np.ndarray, "n d"]:
 
 
 def volume_by_chance(inside: Bool[np.ndarray, " n"], box_volume: float) -> tuple[float, float]:
-    """Return the volume of which these points of a box lie inside, and its standard error, both in
-    m^3.
-
-    The share of hits is binomial: its variance is share (1 - share) / n.
-
-    Args:
-        inside: Which of n points, drawn evenly in the box, lie inside.
-        box_volume: The volume of the box, m^3.
+    """Return the volume of which these points of a box lie inside, and its (binomial) error, m^3.
 
     Raises:
         ValueError: If there are no points.
@@ -158,17 +128,7 @@ def ball_share(dimension: int) -> float:
 def lines_through_ball(
     count: int, centre: Float[np.ndarray, "3"], radius: float, *, rng: np.random.Generator
 ) -> Float[np.ndarray, "n 2 3"]:
-    """Return the ends of chords of a ball that stand for lines in space, all lines that meet it
-    being as likely, m.
-
-    Two points drawn evenly on the sphere do it.
-
-    Args:
-        count: How many.
-        centre: Of the ball, m.
-        radius: Of the ball, m.
-        rng: Chance.
-    """
+    """Return the ends of chords of a ball, all lines that meet it being as likely, m."""
     ends = rng.standard_normal((count, 2, 3))
     return centre + radius * ends / np.linalg.norm(ends, axis=2, keepdims=True)
 
@@ -176,16 +136,7 @@ def lines_through_ball(
 def line_crossings(
     p: Points, faces: Faces, ends: Float[np.ndarray, "n 2 3"]
 ) -> tuple[Int[np.ndarray, " c"], Float[np.ndarray, "c 3"]]:
-    """Return which segments cross the mesh, a segment once for each face that it crosses, and
-    where, m.
-
-    A face is looked at closely only by lines that meet the ball around it.
-
-    Args:
-        p: Vertices, m.
-        faces: Triangles.
-        ends: Segments, m, none without length.
-    """
+    """Return which segments cross the mesh, once for each face that they cross, and where."""
     a, b, c = p[faces].transpose(1, 0, 2)
     middle = (a + b + c) / 3
     squared_radius = np.max(
@@ -208,9 +159,7 @@ def line_crossings(
 
 
 def _met(start: np.ndarray, along: np.ndarray, a: np.ndarray, b: np.ndarray, c: np.ndarray):
-    """Return where segments meet triangles, pair by pair, and whether they do (Moeller and Trumbore
-    1997).
-    """
+    """Return where segments meet triangles, and whether (Moeller and Trumbore 1997)."""
     ab, ac, to_start = b - a, c - a, start - a
     h, q = np.cross(along, ac), np.cross(to_start, ab)
     det = np.einsum("nx,nx->n", ab, h)

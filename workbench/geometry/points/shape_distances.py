@@ -1,9 +1,10 @@
-"""Distances between two clouds that match each point to the nearest of the other cloud, each by its
-full name.
+"""Distances between two clouds that match each point to the nearest of the other cloud.
 
 All compare p_a (n, 3) with p_b (m, 3), metres, one frame, in any order of rows; the mean square of
-index pairs is the exception, and here to be seen failing. Distances that match one to one are in
-`workbench.algorithms.transport`.
+index pairs is the exception, and here to be seen failing. A cloud that is empty or not finite
+raises ValueError. Distances that match one to one are in `workbench.algorithms.transport`.
+
+Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1.
 """
 
 from collections.abc import Callable
@@ -30,12 +31,7 @@ _LARGE = 4000  # points from which threads and an order of queries gain more tha
 
 @dataclass(frozen=True, eq=False)
 class Nearest:
-    """Nearest neighbours both ways.
-
-    Attributes:
-        a_to_b, b_to_a: For each point, the index of the nearest point of the other cloud.
-        d_a, d_b: The distance to it, metres.
-    """
+    """The nearest point of the other cloud for each point, and the distance, both ways."""
 
     a_to_b: Int[np.ndarray, "n"]
     b_to_a: Int[np.ndarray, "m"]
@@ -55,12 +51,7 @@ class Nearest:
         return float(max(self.d_a.max(), self.d_b.max()))
 
     def f_score(self, max_distance: float) -> float:
-        """Return the harmonic mean of the shares of a and of b that lie within max_distance (m) of
-        the other cloud.
-
-        Reference: Knapitsch et al., Tanks and Temples, 2017, section 3.3: precision, recall and
-        their harmonic mean.
-        """
+        """Return the harmonic mean of the shares within a distance (Knapitsch et al. 2017, 3.3)."""
         precision, recall = (
             float(np.mean(self.d_a <= max_distance)),
             float(np.mean(self.d_b <= max_distance)),
@@ -69,18 +60,7 @@ class Nearest:
 
 
 def nearest_both_ways(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Nearest:
-    """Return the nearest neighbour of every point of each cloud in the other.
-
-    Args:
-        p_a: Points, metres.
-        p_b: Points in the same frame.
-
-    Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite.
-
-    Note:
-        Of several nearest points, one is taken.
-    """
+    """Return the nearest neighbour of every point of each cloud in the other."""
     check_clouds(p_a, p_b)
     tree_a, tree_b = _tree(p_a), _tree(p_b)
     a_to_b, d_a = _query(tree_b, p_a, tree_a)
@@ -89,19 +69,7 @@ def nearest_both_ways(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3
 
 
 def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the mean, over the points of a, of the squared distance to the nearest point of b.
-
-    Args:
-        p_a: Points, metres.
-        p_b: Points in the same frame; the counts may differ.
-
-    Returns:
-        (1 / n) sum_i min_j |a_i - b_j|^2, in square metres. It is 0 when every point of a is a
-        point of b, however much of b has no point of a near it.
-
-    Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite.
-    """
+    """Return the mean, over the points of a, of the squared distance to the nearest point of b."""
     check_clouds(p_a, p_b)
     _, d = _query(_tree(p_b), p_a)
     return DEFINITIONS["mean of squares"](d)
@@ -110,20 +78,7 @@ def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> f
 def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
     """Return the two-sided Chamfer distance of squares and means: from a to b plus from b to a.
 
-    Args:
-        p_a: Points, metres.
-        p_b: Points in the same frame; the counts may differ.
-
-    Returns:
-        (1 / n) sum_i min_j |a_i - b_j|^2 + (1 / m) sum_j min_i |a_i - b_j|^2, in square metres.
-        Symmetric, not negative, 0 when each point of either cloud is a point of the other; no
-        metric, since the triangle inequality fails.
-
-    Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite.
-
-    Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1, with means in
-    place of sums.
+    Fan et al., with means for sums. It is no metric, since the triangle inequality fails.
 
     Examples:
         >>> p_a = np.array([[0.0, 0, 0], [1, 0, 0]])
@@ -134,11 +89,7 @@ def chamfer(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> flo
 
 
 def chamfer_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
-    """Return the gradient of `chamfer` with respect to p_a, metres.
-
-    Where a point has several nearest neighbours the distance has a kink, and the gradient is that
-    of the one taken.
-    """
+    """Return the gradient of `chamfer` by p_a, metres; at a kink, for the neighbour taken."""
     near = nearest_both_ways(p_a, p_b)
     slope = 2 / len(p_a) * (p_a - p_b[near.a_to_b])
     v = 2 / len(p_b) * (p_a[near.b_to_a] - p_b)
@@ -148,46 +99,29 @@ def chamfer_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
 
 
 def one_sided_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
-    """Return the gradient of `one_sided` from a to b with respect to p_a, metres."""
+    """Return the gradient of `one_sided` from a to b by p_a, metres."""
     check_clouds(p_a, p_b)
     a_to_b, _ = _query(_tree(p_b), p_a)
     return 2 / len(p_a) * (p_a - p_b[a_to_b])
 
 
 def hausdorff(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the Hausdorff distance: the largest distance from a point of either cloud to the
-    nearest of the other, metres.
-
-    Raises:
-        ValueError: As `chamfer`.
-    """
+    """Return the Hausdorff distance, m: the largest of all nearest distances, both ways."""
     return nearest_both_ways(p_a, p_b).hausdorff()
 
 
 def f_score(
     p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"], max_distance: float
 ) -> float:
-    """Return the F-score, 0 to 1, of two clouds at a distance in metres; see `Nearest.f_score`.
-
-    Args:
-        p_a: Points, metres.
-        p_b: Points in the same frame.
-        max_distance: Within which a point counts as near, metres.
-
-    Raises:
-        ValueError: As `chamfer`.
-    """
+    """Return the F-score, 0 to 1, of two clouds at a distance in metres; see `Nearest.f_score`."""
     return nearest_both_ways(p_a, p_b).f_score(max_distance)
 
 
 def index_mse(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the mean squared distance, in square metres, between rows of the same index.
+    """Return the mean squared distance, m², between rows: it measures their order as well.
 
     Raises:
         ValueError: If the counts differ or a cloud is empty or not finite.
-
-    Note:
-        It measures the order of the rows as much as the shapes: shuffle one cloud and it changes.
     """
     check_clouds(p_a, p_b)
     if len(p_a) != len(p_b):
@@ -209,19 +143,14 @@ def check_clouds(*clouds: np.ndarray) -> None:
 
 
 def _tree(p: np.ndarray) -> "scipy.spatial.KDTree":
-    return scipy.spatial.KDTree(
-        p, leafsize=32, balanced_tree=False, compact_nodes=False
-    )  # the fastest of all mixtures tried
+    # The fastest of all mixtures tried
+    return scipy.spatial.KDTree(p, leafsize=32, balanced_tree=False, compact_nodes=False)
 
 
 def _query(
     tree: "scipy.spatial.KDTree", p: np.ndarray, tree_of_p: "scipy.spatial.KDTree | None" = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the indices and distances of the nearest points.
-
-    Large clouds are visited in the order of their own tree, so that neighbouring queries touch the
-    same leaves.
-    """
+    """Return the indices and distances of the nearest points, in tree order where they are many."""
     if len(p) < _LARGE:
         d, indices = tree.query(p)
         return np.asarray(indices), np.asarray(d)

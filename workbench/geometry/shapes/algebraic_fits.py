@@ -1,5 +1,4 @@
-"""Circles in closed form: the algebraic fits of Kåsa, Pratt, Taubin and Al-Sharadqah and Chernov,
-for many sets at once.
+"""Circles in closed form, for many sets at once: Kåsa, Pratt, Taubin, Al-Sharadqah and Chernov.
 
 Each minimises the sum of squares of A (x² + y²) + B x + C y + D, which is 0 on the circle. All
 zeros must be forbidden, and the fits differ in how: A = 1 (Kåsa), B² + C² - 4 A D = 1 (Pratt), the
@@ -18,21 +17,15 @@ ALGEBRAIC: tuple[Algebraic, ...] = get_args(Algebraic)
 def fit_algebraic(
     p: Float[np.ndarray, "*k n d"], kind: Algebraic = "Taubin"
 ) -> Float[np.ndarray, "*k c"]:
-    """Return the circle (x, y, r), or with d = 3 the sphere, whose algebraic distances have the
-    least squares, metres.
+    """Return the circle (x, y, r), or with d = 3 the sphere, of least squared algebraic distances.
 
-    Args:
-        p: Points, or several sets of as many.
-        kind: Which constraint; "Hyper" is made for circles.
+    Points on a line give all but Kåsa a very large circle, or numbers that are not finite.
+    Reference: Al-Sharadqah and Chernov, Error analysis for circle fitting algorithms, 2009,
+    sections 4, 5, 7 and 8; Chernov, Circular and linear regression, 2010, chapter 5.
 
     Raises:
         ValueError: If a set has fewer than d + 1 points, or "Hyper" is asked for a sphere.
         LinAlgError: If "Kåsa" is asked for a set exactly on a line or plane.
-
-    Note:
-        Points on a line give the others a very large circle, or numbers that are not finite.
-    Reference: Al-Sharadqah and Chernov, Error analysis for circle fitting algorithms, 2009,
-        sections 4, 5, 7 and 8; Chernov, Circular and linear regression, 2010, chapter 5.
     """
     n, d = p.shape[-2:]
     if n <= d:
@@ -52,9 +45,8 @@ def fit_algebraic(
         return np.concatenate([center + origin[..., 0, :], radius[..., None]], axis=-1)
     unit = np.sqrt(mean_z)[..., None, None]  # lengths in which the points are of size one
     q, z = q / unit, z / np.square(unit[..., 0])
-    if (
-        kind == "Taubin"
-    ):  # the slope's constraint makes D what centres z, and leaves a plain least direction
+    # The slope's constraint makes D what centres z, and leaves a plain least direction
+    if kind == "Taubin":
         rows = np.concatenate([(z - 1.0)[..., None] / 2.0, q], axis=-1)
         a = np.linalg.svd(rows, full_matrices=False)[2][..., -1, :]
         A, B = a[..., 0] / 2.0, a[..., 1:]

@@ -1,5 +1,4 @@
-"""Bezier patches: points on them by Bernstein polynomials or by de Casteljau's repeated halving,
-polynomial or rational.
+"""Bezier patches, polynomial or rational, by Bernstein polynomials or de Casteljau's halving.
 
 A rational patch is a polynomial one in homogeneous coordinates (w x, w y, w z, w), divided by its
 last.
@@ -31,12 +30,7 @@ def bernstein(degree: int, t: Float[np.ndarray, " n"]) -> Float[np.ndarray, "n k
 def bezier_patch(
     control: Float[np.ndarray, "4 4 3"], uv: Float[np.ndarray, "n 2"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return points of a bicubic patch: sum over i, j of B_i(u) B_j(v) control[i, j], m.
-
-    Args:
-        control: The control net, m: the first index goes along u, the second along v.
-        uv: Where, from 0 to 1 in both.
-    """
+    """Return points, m, of a bicubic patch: sum over i, j of B_i(u) B_j(v) control[i, j]."""
     u, v = uv.T
     return np.einsum("ni,nj,ijx->nx", bernstein(3, u), bernstein(3, v), control)
 
@@ -44,12 +38,7 @@ def bezier_patch(
 def de_casteljau(
     control: Float[np.ndarray, "k d"], t: float
 ) -> tuple[Float[np.ndarray, "_ d"], ...]:
-    """Return the control points of a curve, then the points that divide their legs at t, and so on
-    to the one on the curve.
-
-    Args:
-        control: The control points, one row each.
-        t: Where, from 0 to 1.
+    """Return the control points of a curve, those that divide their legs at t, and so on to one.
 
     Examples:
         >>> [len(row) for row in de_casteljau(np.eye(4), 0.3)]
@@ -62,9 +51,7 @@ def de_casteljau(
 
 
 def raised(control: Float[np.ndarray, "3 ..."]) -> Float[np.ndarray, "4 ..."]:
-    """Return the four control points of the cubic that is the same curve as a quadratic of three
-    (Farin, 5.4).
-    """
+    """Return the cubic's four control points for the curve of a quadratic's three (Farin, 5.4)."""
     a, b, c = control
     return np.stack([a, (a + 2 * b) / 3, (2 * b + c) / 3, c])
 
@@ -77,9 +64,7 @@ def raised_patch(control: Float[np.ndarray, "3 3 d"]) -> Float[np.ndarray, "4 4 
 def quarter_circles(rational: bool) -> Float[np.ndarray, "4 k 3"]:
     """Return the unit circle as four arcs, each some control points (w x, w y, w).
 
-    Args:
-        rational: Whether the arcs are exact, quadratic with three control points; else they are
-            cubic polynomials with four, which meet the circle at the ends and in the middle.
+    Rational arcs are quadratic and exact, the others cubic and right at ends and middle.
     """
     if rational:
         w = np.sqrt(0.5)
@@ -95,13 +80,9 @@ def quarter_circles(rational: bool) -> Float[np.ndarray, "4 k 3"]:
 
 
 def torus_patches(ring: float, tube: float, rational: bool) -> Float[np.ndarray, "16 k k 4"]:
-    """Return a torus around z as 16 patches, control points (w x, w y, w z, w); u goes around z, v
-    around the tube.
+    """Return a torus as 16 patches (w x, w y, w z, w): u goes around z, v around the tube.
 
-    Args:
-        ring: From the origin to the middle of the tube, m.
-        tube: The radius of the tube, m.
-        rational: Whether they are exact, rational biquadratic; else they are bicubic.
+    Rational patches are exact and biquadratic, others bicubic.
     """
     arcs = quarter_circles(rational)
     patches = []

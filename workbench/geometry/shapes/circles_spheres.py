@@ -1,8 +1,9 @@
-"""Circles in the plane and spheres in space: from the fewest points, from many, and how far points
-are from them.
+"""Circles in the plane and spheres in space: from the fewest points, from many, and distances.
 
 Convention: the centre, then the radius, in metres: a circle is (x, y, r), a sphere (x, y, z, r).
 Distances are signed, negative inside.
+
+Reference: Gander, Golub and Strebel, Least-squares fitting of circles and ellipses, 1994.
 """
 
 import numpy as np
@@ -14,9 +15,7 @@ _FLAT = 1e-9
 
 
 def circle_from_points(p: Float[np.ndarray, "*k 3 2"]) -> Float[np.ndarray, "*k 3"]:
-    """Return the circle through each three points, metres; a row of NaN where they lie on one
-    line.
-    """
+    """Return the circle through each three points; a row of NaN where they lie on one line."""
     v, w = p[..., 1, :] - p[..., 0, :], p[..., 2, :] - p[..., 0, :]
     area = v[..., 0] * w[..., 1] - v[..., 1] * w[..., 0]
     vv, ww = np.square(v).sum(-1), np.square(w).sum(-1)
@@ -29,9 +28,7 @@ def circle_from_points(p: Float[np.ndarray, "*k 3 2"]) -> Float[np.ndarray, "*k 
 
 
 def sphere_from_points(p: Float[np.ndarray, "*k 4 3"]) -> Float[np.ndarray, "*k 4"]:
-    """Return the sphere through each four points, metres; a row of NaN where they lie in one
-    plane.
-    """
+    """Return the sphere through each four points; a row of NaN where they lie in one plane."""
     u, v, w = (p[..., i, :] - p[..., 0, :] for i in (1, 2, 3))
     uu, vv, ww = (np.square(side).sum(-1) for side in (u, v, w))
     volume = (u * np.cross(v, w)).sum(-1)
@@ -48,18 +45,7 @@ def sphere_from_points(p: Float[np.ndarray, "*k 4 3"]) -> Float[np.ndarray, "*k 
 def costs_of_centers(
     p: Float[np.ndarray, "n d"], p_centers: Float[np.ndarray, "k d"]
 ) -> Float[np.ndarray, " k"]:
-    """Return for each centre the sum of squared distances of points to the best circle or sphere
-    about it, square metres.
-
-    The best radius is the mean of the ways to the points, so the sum is n times their variance.
-
-    Args:
-        p: The points, metres.
-        p_centers: The centres; one at a time would take the same time, so ask for many.
-
-    Reference: Gander, Golub and Strebel, Least-squares fitting of circles and ellipses, 1994,
-        section 3: the derivative by the radius is zero there.
-    """
+    """Return for each centre the sum of squared distances to its best sphere (Gander et al., 3)."""
     columns, ways, squares = (
         np.ascontiguousarray(p_centers.T),
         np.zeros(len(p_centers)),
@@ -77,25 +63,15 @@ def fit_sphere(
     weights: Float[np.ndarray, " n"] | None = None,
     start: Float[np.ndarray, " d+1"] | None = None,
 ) -> Float[np.ndarray, " d+1"]:
-    """Return the circle (d = 2) or sphere (d = 3) with the smallest weighted sum of squared
-    distances, metres.
+    """Return the circle or sphere with the smallest weighted sum of squared distances.
 
-    The algebraic fit, which is linear and makes short arcs too small, starts Levenberg-Marquardt on
-    the distances.
-
-    Args:
-        p: Points.
-        weights: How much each point's squared distance counts; all alike if None.
-        start: Where to start instead of at the algebraic fit.
+    Levenberg-Marquardt goes on from `start`, by default the algebraic fit, which makes short arcs
+    too small. Points of a line or a plane give a very large one, or NaN.
+    Reference: Kåsa, A circle fitting procedure and its error analysis, 1976 (the start); Gander et
+    al., 3.
 
     Raises:
         ValueError: If fewer than d + 1 points have a positive weight.
-
-    Note:
-        Points of a line or a plane give a very large circle or sphere, or NaN.
-    Reference: Kåsa, A circle fitting procedure and its error analysis, 1976 (the start); Gander,
-        Golub and Strebel, Least-squares fitting of circles and ellipses, 1994, section 3 (the
-        distances).
     """
     weights = np.ones(len(p)) if weights is None else weights
     if np.count_nonzero(weights > 0.0) <= p.shape[1]:
@@ -125,20 +101,7 @@ def fit_sphere(
 def linearise_sphere(
     sphere: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "*m n d"]
 ) -> tuple[Float[np.ndarray, "*r n"], Float[np.ndarray, "*r n c"]]:
-    """Return the signed distances of points from a circle or sphere, metres, and their slopes by
-    its centre and radius.
-
-    Moving the centre by a small v brings a point nearer by what v has along the way from the centre
-    to the point; a larger radius brings all nearer alike. A point at the centre has no such way:
-    its slopes by the centre are 0.
-
-    Args:
-        sphere: One or several, each the centre and then the radius.
-        p: The points, the same for all of them or a set for each.
-
-    Reference: Gander, Golub and Strebel, Least-squares fitting of circles and ellipses, 1994,
-    section 3.
-    """
+    """Return signed distances from spheres, and their slopes by centre and radius (Gander, 3)."""
     v = p - sphere[..., None, :-1]
     length = np.sqrt(np.square(v).sum(-1))
     slopes = -v / np.where(length > 0.0, length, np.inf)[..., None]
@@ -150,10 +113,7 @@ def linearise_sphere(
 def sphere_distances(
     sphere: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "n d"]
 ) -> Float[np.ndarray, "*k n"]:
-    """Return each point's signed distance in metres from the circle or the sphere, negative inside.
-
-    Several spheres give one row each. Works in the precision of its input.
-    """
+    """Return each point's signed distance from each sphere, in the precision of the input."""
     squared = np.square(p[:, 0] - sphere[..., 0:1])
     for axis in range(1, p.shape[1]):
         squared += np.square(p[:, axis] - sphere[..., axis : axis + 1])

@@ -1,5 +1,4 @@
-"""Points of space in cylindrical and spherical coordinates, and back, with what a cell of them
-holds.
+"""Points of space in cylindrical and spherical coordinates, and what a cell of them holds.
 
 Spherical coordinates are (r, polar, azimuth), cylindrical ones (rho, azimuth, z): the polar angle
 from +Z in [0, pi], the azimuth from +X towards +Y in (-pi, pi], 0 on the axis where it has no
@@ -34,9 +33,8 @@ def spherical_from_cartesian(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "
     """
     c = np.empty(p.shape)
     for k in range(0, len(p), CHUNK):
-        x, y, z = (
-            p[k : k + CHUNK].T + 0.0
-        )  # takes the sign of zeros away, which arctan2 would listen to
+        # Takes the sign of zeros away, which arctan2 would listen to
+        x, y, z = p[k : k + CHUNK].T + 0.0
         out = c[k : k + CHUNK]
         rho = np.hypot(x, y)
         out[:, 0] = np.hypot(rho, z)
@@ -72,18 +70,9 @@ def _azimuth(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class Coordinates:
-    """A system of three coordinates.
+    """A system of three coordinates, both ways, its density, and a solid of 1 m about the origin.
 
-    Attributes:
-        names: What they are called.
-        angles: Which of them are angles.
-        of_points: Takes points (n, 3) to coordinates (n, 3).
-        to_points: Takes coordinates to points.
-        density: Takes coordinates to the volume of a small cell over the product of its three
-            sides.
-        solid: The lowest and highest coordinates of a solid about the origin, 1 m from it to its
-            sides.
-        volume: Of that solid, m^3.
+    `density` is the volume of a small cell over the product of its three sides.
     """
 
     names: tuple[str, str, str]
@@ -133,15 +122,7 @@ def cell_edges(
     *,
     pieces: int = 8,
 ) -> Float[np.ndarray, "n 2 3"]:
-    """Return the twelve edges of the cell between coordinates as segments, bent where an angle
-    changes along them.
-
-    Args:
-        system: Whose coordinates.
-        low: The lowest coordinates.
-        high: The highest.
-        pieces: Of each edge.
-    """
+    """Return the twelve edges of the cell between coordinates as segments, bent along angles."""
     t, edges = np.linspace(0.0, 1.0, pieces + 1), []
     for along in range(3):
         for bits in np.ndindex(2, 2):
@@ -157,15 +138,7 @@ def volume_of_cells(
     *,
     cells: int = 24,
 ) -> tuple[float, float]:
-    """Return the volume between coordinates as a sum over cells, m^3, and the sum of what their
-    sides multiply to alone.
-
-    Args:
-        system: Whose coordinates.
-        low: The lowest coordinates.
-        high: The highest.
-        cells: Along each coordinate; each cell counts with the density at its middle.
-    """
+    """Return the volume between coordinates, m^3, as a sum over cells, and without density."""
     middles = [
         a + (b - a) * (np.arange(cells) + 0.5) / cells for a, b in zip(low, high, strict=True)
     ]
@@ -177,13 +150,8 @@ def volume_of_cells(
 def read_as(numbers: Float[np.ndarray, "3"], convention: Convention) -> Float[np.ndarray, "3"]:
     """Return the (r, polar, azimuth) that a radius and two angles mean.
 
-    ISO: (r, polar, azimuth). Mathematics: (r, azimuth, polar), as MathWorld and many textbooks have
-    it. Elevation: (r, azimuth, elevation), the last from the x-y plane upwards, as in astronomy and
-    in MATLAB's `sph2cart`.
-
-    Args:
-        numbers: In the order of the convention.
-        convention: Whose order and angles they are.
+    ISO: (r, polar, azimuth). Mathematics: (r, azimuth, polar), as MathWorld has it. Elevation: (r,
+    azimuth, elevation) with the last from the x-y plane upwards, as in MATLAB's `sph2cart`.
     """
     r, first, second = numbers
     if convention == "ISO":
@@ -192,9 +160,7 @@ def read_as(numbers: Float[np.ndarray, "3"], convention: Convention) -> Float[np
 
 
 def written_as(c: Float[np.ndarray, "3"], convention: Convention) -> Float[np.ndarray, "3"]:
-    """Return the three numbers that (r, polar, azimuth) are in a convention: what `read_as`
-    undoes.
-    """
+    """Return the three numbers that (r, polar, azimuth) are in a convention; undoes `read_as`."""
     r, polar, azimuth = c
     if convention == "ISO":
         return np.array([r, polar, azimuth])

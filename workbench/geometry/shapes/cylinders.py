@@ -1,10 +1,12 @@
-"""Cylinders in space: how far points are from them, and how these distances change with the five
-numbers that matter.
+"""Cylinders in space: distances of points from them, and their derivatives.
 
 Convention: (x, y, z, u, v, w, r): a point of the axis, its unit direction, and the radius, metres.
-These are seven numbers for five unknowns: sliding the point along the axis, or scaling the
-direction, changes nothing. Small steps are therefore five: two shifts across the axis (metres), two
-tilts of it (radians), and the change of radius.
+Sliding the point along the axis, or scaling the direction, changes nothing, so a small step has
+five numbers: two shifts across the axis (metres), two tilts of it (radians), and the change of
+radius.
+
+Reference: Lukács, Martin and Marshall, Faithful least-squares fitting of spheres, cylinders, cones
+and tori, 1998.
 """
 
 import numpy as np
@@ -16,17 +18,7 @@ from workbench.geometry.motions import across
 def linearise_cylinder(
     cylinder: Float[np.ndarray, "*k 7"], p: Float[np.ndarray, "*m n 3"]
 ) -> tuple[Float[np.ndarray, "*r n"], Float[np.ndarray, "*r n 5"]]:
-    """Return the signed distances of points from a cylinder, metres, negative inside, and their
-    slopes by a small step.
-
-    Args:
-        cylinder: One or several.
-        p: The points, the same for all of them or a set for each. One on the axis has no slope but
-            that by the radius.
-
-    Reference: Lukács, Martin and Marshall, Faithful least-squares fitting of spheres, cylinders,
-    cones and tori, 1998.
-    """
+    """Return signed distances of points from cylinders and their slopes by a small step."""
     n_axis = cylinder[..., 3:6]
     u, v = across(n_axis)
     w = p - cylinder[..., None, :3]

@@ -1,12 +1,11 @@
-"""Places on a globe by latitude and longitude: distances, ways and means on a sphere, and latitudes
-of a flattened one.
+"""Places on a globe by latitude and longitude: distances, ways and means, flattened globes.
 
 A place is (latitude, longitude) in degrees, north and east positive. A globe's axes: +Z to the
 north pole, +X to latitude 0, longitude 0.
 
 Reference: Veness, Movable Type Scripts, "Calculate distance, bearing and more between
 latitude/longitude points". Snyder, Map Projections: A Working Manual, USGS 1395, 1987, eq. 3-28 and
-5-3. Torge, Geodesy, 3rd ed., 4.1.
+5-3. Torge, Geodesy, 3rd ed., 4.1. Mardia and Jupp, Directional Statistics, 2000.
 """
 
 from dataclasses import dataclass
@@ -28,9 +27,7 @@ def units_of_places(places: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "n 3"
 
 
 def places_of_units(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
-    """Return the places below vectors from the centre, of any length but 0; longitudes in (-180,
-    180].
-    """
+    """Return the places below vectors from the centre, not 0; longitudes are in (-180, 180]."""
     x, y, z = p.T
     return np.degrees(np.column_stack([np.arctan2(z, np.hypot(x, y)), np.arctan2(y, x)]))
 
@@ -38,17 +35,9 @@ def places_of_units(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
 def great_circle_distance(
     a: Float[np.ndarray, "n 2"], b: Float[np.ndarray, "n 2"], radius: float = EARTH_RADIUS
 ) -> Float[np.ndarray, " n"]:
-    """Return the shortest ways along a sphere from places to others in the same rows, in the unit
-    of the radius.
+    """Return the shortest ways along a sphere between places in the same rows (Snyder, 5-3a).
 
-    It is exact for a millimetre and for antipodes alike.
-
-    Args:
-        a: Places, degrees.
-        b: Likewise.
-        radius: Of the sphere.
-
-    Reference: Snyder, eq. 5-3a in its half-angle form, taken with both sine and cosine.
+    Half angles, with both sine and cosine, make it exact for a millimetre and for antipodes alike.
     """
     north, east = np.radians(b - a).T
     lat_a, lat_b = np.radians(a[:, 0]), np.radians(b[:, 0])
@@ -62,12 +51,7 @@ def great_circle_distance(
 def great_circle_places(
     a: Float[np.ndarray, "2"], b: Float[np.ndarray, "2"], t: Float[np.ndarray, " n"]
 ) -> Float[np.ndarray, "n 2"]:
-    """Return places on the shortest way from a to b, at shares t of it.
-
-    Args:
-        a: The start, degrees.
-        b: The end.
-        t: 0 at the start, 1 at the end.
+    """Return places on the shortest way from a (t = 0) to b (t = 1), at shares t of it.
 
     Raises:
         ValueError: If the places are antipodes: every meridian is a shortest way then.
@@ -83,13 +67,10 @@ def great_circle_places(
 
 
 def mean_place(places: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2"]:
-    """Return the place below the mean of the unit vectors: the middle of places, on whatever side
-    of the date line.
+    """Return the place below the mean of the unit vectors (Mardia and Jupp 2000, 9.2).
 
     Raises:
         ValueError: If the vectors cancel, as for antipodes.
-
-    Reference: Mardia and Jupp, Directional Statistics, 2000, 9.2.
     """
     mean = units_of_places(places).mean(axis=0)
     if np.linalg.norm(mean) < 1e-9:
@@ -104,9 +85,7 @@ def parallel(polar: float, pieces: int = 72) -> Float[np.ndarray, "n 2 3"]:
 
 
 def graticule(degrees: int) -> Float[np.ndarray, "n 2 3"]:
-    """Return the unit sphere's parallels every so many degrees, and its meridians every twice as
-    many.
-    """
+    """Return the unit sphere's parallels every so many degrees, meridians every twice as many."""
     parallels = [parallel(polar) for polar in np.radians(np.arange(degrees, 180, degrees))]
     latitude = np.linspace(-90.0, 90.0, 37)
     meridians = [
@@ -118,30 +97,20 @@ def graticule(degrees: int) -> Float[np.ndarray, "n 2 3"]:
 
 @dataclass(frozen=True)
 class Ellipsoid:
-    """A sphere flattened at its poles: its radius at the equator, metres, and the share by which
-    the poles are nearer.
-    """
+    """A sphere flattened at its poles: equator's radius, m, and the share the poles are nearer."""
 
     equator: float
     flattening: float
 
     def meridian(self, latitude: Float[np.ndarray, " n"]) -> Float[np.ndarray, "n 2"]:
-        """Return (rho, z) of the points whose normals rise by these latitudes from the equator's
-        plane, radians.
-
-        Reference: Torge, eq. 4.13 and 4.15.
-        """
+        """Return (rho, z) where the normal rises by these latitudes, rad (Torge, 4.13, 4.15)."""
         b = 1.0 - self.flattening
         c, s = np.cos(latitude), np.sin(latitude)
         length = np.hypot(c, b * s)
         return self.equator * np.column_stack([c / length, b * b * s / length])
 
     def geocentric(self, latitude: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """Return at which angles from the equator's plane these points are seen from the centre,
-        radians.
-
-        Reference: Snyder, eq. 3-28.
-        """
+        """Return the angles at which these points are seen from the centre, rad (Snyder, 3-28)."""
         b = 1.0 - self.flattening
         return np.arctan2(b * b * np.sin(latitude), np.cos(latitude))
 

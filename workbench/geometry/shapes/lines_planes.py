@@ -1,5 +1,4 @@
-"""Lines in the plane and planes in space: from the fewest points, from many, and how far points are
-from them.
+"""Lines in the plane and planes in space: from the fewest points, from many, and distances.
 
 Convention: a line is (a, b, c) and a plane (a, b, c, d), a unit normal followed by an offset in
 metres; a point is on it where `p @ normal + offset = 0`, and the value of that sum is its signed
@@ -13,22 +12,16 @@ _FLAT = 1e-9
 
 
 def line_from_points(p: Float[np.ndarray, "*k 2 2"]) -> Float[np.ndarray, "*k 3"]:
-    """Return the line through each pair of points, metres; its normal is the direction turned left
-    by a right angle.
-
-    Points that coincide give a row of NaN: every line through them fits.
-    """
+    """Return the line through each two points, its normal to the left; NaN where they coincide."""
     v = p[..., 1, :] - p[..., 0, :]
     normal = _unit(np.stack([-v[..., 1], v[..., 0]], axis=-1), smallest=0.0)
     return _through(normal, p.mean(axis=-2))
 
 
 def plane_from_points(p: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 4"]:
-    """Return the plane through each three points, metres; they turn counter-clockwise seen from
-    where its normal points.
+    """Return the plane through each three points, counter-clockwise seen from its normal's side.
 
-    Points on one line give a row of NaN: a whole pencil of planes fits. They count as such when the
-    triangle's area is below a billionth of its squared longest side.
+    NaN on one line: where the area is below a billionth of the squared longest side.
 
     Examples:
         >>> plane_from_points(np.array([[0.0, 0, 2], [1, 0, 2], [0, 1, 2]])).tolist()  # z = 2
@@ -43,23 +36,13 @@ def plane_from_points(p: Float[np.ndarray, "*k 3 3"]) -> Float[np.ndarray, "*k 4
 def fit_hyperplane(
     p: Float[np.ndarray, "n d"], weights: Float[np.ndarray, " n"] | None = None
 ) -> Float[np.ndarray, " d+1"]:
-    """Return the line (d = 2) or plane (d = 3) with the smallest weighted sum of squared distances,
-    metres.
+    """Return the line (d = 2) or plane (d = 3) of least weighted squared perpendicular distances.
 
-    The distances are perpendicular (total least squares), so the answer turns with the points. The
-    sign of the normal is such that its largest entry is positive.
-
-    Args:
-        p: Points (n, 2) or (n, 3), metres.
-        weights: How much each point's squared distance counts; all alike if None.
+    The largest entry of the normal is positive. One of many where the points leave a choice.
+    Reference: Pearson, On lines and planes of closest fit to systems of points in space, 1901.
 
     Raises:
         ValueError: If fewer than d points have a positive weight.
-
-    Note:
-        Points that leave a choice (all on one line in space) give one of the planes that fit.
-
-    Reference: Pearson, On lines and planes of closest fit to systems of points in space, 1901.
     """
     weights = np.ones(len(p)) if weights is None else weights
     if np.count_nonzero(weights > 0.0) < p.shape[1]:
@@ -75,17 +58,10 @@ def fit_hyperplane(
 
 
 def regression_line(p: Float[np.ndarray, "n 2"], on: int) -> Float[np.ndarray, "3"]:
-    """Return the line whose distances from points along one axis have the least squares: ordinary
-    regression, metres.
+    """Return the line of least squared distances along one axis, column `on` being exact.
 
-    Args:
-        p: Points, not all at one place of the axis that is taken as exact.
-        on: The column that is taken as exact: 0 makes upright distances small (y on x), 1 level
-            ones.
-
-    Note:
-        Errors in that column make the line too flat against its axis, by v / (v + σ²) in the slope,
-        v being the variance of the true values there.
+    Errors of variance σ² there make the slope too small, by v / (v + σ²), v being that of true
+    values.
     Reference: Fuller, Measurement error models, 1987, section 1.1.
     """
     q = p - p.mean(axis=0)
@@ -109,18 +85,14 @@ def line_angle(line: Float[np.ndarray, "3"]) -> float:
 def hyperplane_distances(
     hyperplane: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "n d"]
 ) -> Float[np.ndarray, "*k n"]:
-    """Return each point's signed distance in metres, positive on the normal's side.
-
-    Several lines or planes give one row each. Works in the precision of its input.
-    """
+    """Return each point's signed distance from each line or plane, in the input's precision."""
     return hyperplane[..., :-1] @ p.T + hyperplane[..., -1:]
 
 
 def angle_between_planes(
     plane_a: Float[np.ndarray, " d"], plane_b: Float[np.ndarray, " d"]
 ) -> float:
-    """Return the angle between two planes (or two lines), from 0 to a right angle, radians; signs
-    do not matter.
+    """Return the unsigned angle between two planes or lines, from 0 to a right angle, radians.
 
     Examples:
         >>> floor, wall = np.array([0.0, 0.0, 1.0, 0.0]), np.array([-1.0, 0.0, 0.0, 2.0])

@@ -1,9 +1,7 @@
-"""Points and lines of the plane in homogeneous coordinates: where lines meet, which line joins
-points, what maps keep.
+"""Points and lines of the plane in homogeneous coordinates: meets, joins, and what maps keep.
 
 A point (x, y, w) stands for (x / w, y / w), and with w = 0 for a direction: a point at infinity. A
-line (a, b, c) holds the points with a x + b y + c w = 0. All are the same up to a factor other than
-0.
+line (a, b, c) holds the points with a x + b y + c w = 0. All are the same up to a factor.
 
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 2.2 and 2.3, eq. 2.2, 2.4 and
 2.6.
@@ -16,10 +14,7 @@ from jaxtyping import Float
 def meet(
     lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points (x, y, w) where lines cross those in the same rows.
-
-    Parallels meet at w = 0, a line and itself give (0, 0, 0). The same product joins points by a
-    line.
+    """Return the points (x, y, w) where lines cross those in the same rows, or lines of points.
 
     Examples:
         >>> meet(np.array([[1.0, 0, -2]]), np.array([[0.0, 1, -3]])).tolist()  # x = 2 and y = 3
@@ -32,18 +27,12 @@ def meet(
 def map_lines(
     H: Float[np.ndarray, "3 3"], lines: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return where a homography of points takes lines: l' = H^-T l, so that what meets still
-    meets.
-    """
+    """Return where a homography of points takes lines: H^-T l, so that what meets still meets."""
     return np.linalg.solve(H.T, lines.T).T
 
 
 def cross_ratio(t: Float[np.ndarray, "4"]) -> float:
-    """Return (t3 - t1)(t4 - t2) / ((t3 - t2)(t4 - t1)) of four places along a line, which no
-    homography changes.
-
-    Reference: Hartley and Zisserman, 2.5, eq. 2.18, up to the order of the points.
-    """
+    """Return (t3 - t1)(t4 - t2) / ((t3 - t2)(t4 - t1)), which no homography changes (eq. 2.18)."""
     a, b, c, d = t
     return float((c - a) * (d - b) / ((c - b) * (d - a)))
 
@@ -51,11 +40,7 @@ def cross_ratio(t: Float[np.ndarray, "4"]) -> float:
 def angle_between_rays(
     p_h: Float[np.ndarray, "n 3"], q_h: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, " n"]:
-    """Return the angles between homogeneous vectors whatever their factors, radians: 0 where both
-    are the same point.
-
-    NaN where one of them is (0, 0, 0) or not finite.
-    """
+    """Return the angles between homogeneous vectors up to sign, radians; NaN where one is zero."""
     with np.errstate(all="ignore"):
         p, q = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (p_h, q_h))
         return np.arctan2(np.linalg.norm(np.cross(p, q), axis=1), np.abs((p * q).sum(axis=1)))

@@ -1,12 +1,8 @@
 """Two pictures of one scene: how they are related, and what follows for depth.
 
-- `epipolar`: relates two views of a rigid scene: the fundamental matrix, its estimates and its
-  distances.
-- `essential`: the motion between two calibrated cameras, held by the essential matrix up to the
-  length of its translation.
-- `homography`: relates two images of a plane: the homography, its estimates and its distances.
-- `triangulation`: from two pixels to a point: where the rays of two cameras meet, or nearly do,
-  and how uncertain that is.
-- `rectification`: turns two cameras, where they stand, until rows of their pictures correspond:
-  then matches are sought along rows.
+- `epipolar`: the fundamental matrix, its estimates and its distances.
+- `essential`: the motion between two calibrated cameras, up to its length.
+- `homography`: two images of a plane: the homography, its estimates and distances.
+- `triangulation`: where the rays of two cameras meet, and how uncertain that is.
+- `rectification`: turns two cameras until rows of their pictures correspond.
 """

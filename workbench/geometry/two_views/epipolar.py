@@ -1,7 +1,10 @@
 """Relates two views of a rigid scene: the fundamental matrix, its estimates and its distances.
 
 Convention: `F` takes a pixel of the first image to its line in the second, `uv_second_h.T @ F @
-uv_first_h = 0`, and is scaled to Frobenius norm one.
+uv_first_h = 0`, and is scaled to Frobenius norm one. `uv_second` are the matches of `uv_first`, row
+by row.
+
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), chapters 9 and 11.
 """
 
 import numpy as np
@@ -22,17 +25,10 @@ def fundamental_from_cameras(
     K_second: Float[np.ndarray, "3 3"],
     T_second_first: Float[np.ndarray, "4 4"],
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the fundamental matrix of two calibrated cameras.
-
-    Args:
-        K_first: Intrinsics of the first camera, pixels.
-        K_second: Intrinsics of the second camera, pixels.
-        T_second_first: Motion from the first camera's frame to the second's.
+    """Return the fundamental matrix of two calibrated cameras (HZ 9.6 and 9.12).
 
     Raises:
         ValueError: If the cameras share their centre: there is no epipolar geometry then.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.12 and 9.6.
 
     Examples:
         >>> T_second_first = np.eye(4)
@@ -54,10 +50,9 @@ def fundamental_from_cameras(
 def epipolar_lines(
     F: Float[np.ndarray, "3 3"], uv_first: Float[np.ndarray, "n 2"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the line (a, b, c), `a u + b v + c = 0` with a unit normal, in the second image of
-    each first pixel.
+    """Return the second image's lines (a, b, c) of first pixels, NaN at the epipole.
 
-    A pixel at the epipole has no line; its row is NaN. For lines in the first image pass `F.T`.
+    (a, b) is a unit normal. For lines in the first image pass `F.T`.
     """
     lines = homogeneous(uv_first) @ F.T
     lengths = np.linalg.norm(lines[:, :2], axis=1, keepdims=True)
@@ -72,18 +67,9 @@ def sampson_distances(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
-    """Return how far, to first order and in pixels, each match must move to satisfy the epipolar
-    constraint.
+    """Return how far, to first order, each match must move to satisfy F, pixels (HZ eq. 11.9).
 
-    The sign is that of `uv_second_h.T @ F @ uv_first_h`. Both pixels of a match share the movement.
-    Several matrices give one row each. Works in the precision of its input.
-
-    Args:
-        F: One fundamental matrix, or k of them.
-        uv_first: Pixels of the first image.
-        uv_second: Their matches in the second.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 11.9 (its square root).
+    The sign is that of `uv_second_h.T @ F @ uv_first_h`. Works in the precision of its input.
     """
     x, y = homogeneous(uv_first).T, homogeneous(uv_second).T
     lines_y = (F.reshape(-1, 3) @ x).reshape(*F.shape[:-2], 3, -1)
@@ -98,15 +84,10 @@ def sampson_distances(
 def fundamentals_from_seven(
     uv_first: Float[np.ndarray, "*k 7 2"], uv_second: Float[np.ndarray, "*k 7 2"]
 ) -> Float[np.ndarray, "*k 3 3 3"]:
-    """Return the one or three fundamental matrices through each sample of seven matches.
+    """Return the one or three fundamental matrices through each seven matches (HZ 11.1.2).
 
     The seven constraints leave a line of matrices, G + root D; its singular ones are the roots of a
-    cubic.
-
-    Note:
-        Rows of NaN take the place of roots that are not real, and of samples whose seven
-        constraints are not independent.
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 11.1.2.
+    cubic. NaN for roots that are not real, and constraints that are not independent.
     """
     T = normalising_similarity(np.concatenate([uv_first, uv_second]).reshape(-1, 2))
     x, y = homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ T.T
@@ -136,16 +117,9 @@ def orientation_agrees(
 ) -> Bool[np.ndarray, "*k s"]:
     """Return of each matrix whether all m matches can lie in front of both cameras, or all behind.
 
-    A match agrees when `epipole x uv_second_h` and `F @ uv_first_h` point the same way, not merely
-    along the same line.
-
-    Args:
-        F: Fundamental matrices, s of each sample.
-        uv_first: Pixels of the first image.
-        uv_second: Their matches in the second.
-
+    Then `epipole x uv_second_h` and `F @ uv_first_h` point the same way.
     Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the
-        Oriented Epipolar Constraint, ICPR 2004, eq. 2.
+    Oriented Epipolar Constraint, ICPR 2004, eq. 2.
     """
     columns = np.swapaxes(F, -1, -2)
     crosses = _cofactors(columns)
@@ -162,24 +136,14 @@ def fit_fundamental(
     uv_second: Float[np.ndarray, "n 2"],
     weights: Float[np.ndarray, " n"] | None = None,
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the fundamental matrix of eight or more matches by the normalised eight-point
-    algorithm.
+    """Return the fundamental matrix of weighted matches by the normalised eight-point algorithm.
 
-    It minimises an algebraic error and then drops the smallest singular value; `refine_fundamental`
-    goes on to pixels.
-
-    Args:
-        uv_first: Pixels of the first image.
-        uv_second: Their matches in the second.
-        weights: How much each match's squared error counts; all alike if None.
+    It minimises an algebraic error; `refine_fundamental` goes on to pixels. Matches of one plane,
+    or of a camera that only turned, give one of many solutions.
+    Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997.
 
     Raises:
         ValueError: If there are fewer than eight matches.
-
-    Note:
-        Matches of one plane, or of a camera that only turned, give one of the many matrices that
-        fit.
-    Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997.
     """
     if len(uv_first) < 8 or len(uv_first) != len(uv_second):
         raise ValueError(
@@ -199,43 +163,22 @@ def fit_fundamental(
 def epipolar_constraints(
     x_h: Float[np.ndarray, "n 3"], y_h: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 9"]:
-    """Return one row per match whose product with F, row by row, is y' F x: the equations of the
-    eight-point algorithm.
-
-    Args:
-        x_h: Homogeneous points of the first image.
-        y_h: Their matches in the second.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 11.3.
-    """
-    return outer_products(
-        y_h.T, x_h.T
-    ).T  # long columns: a match at a time is slower, most of all from columns
+    """Return one row per match whose product with F, row by row, is y' F x (HZ eq. 11.3)."""
+    # Long columns: a match at a time is slower, most of all from columns
+    return outer_products(y_h.T, x_h.T).T
 
 
 def rank_two(F: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
-    """Return the nearest matrix of rank two: the smallest singular value dropped, so that all lines
-    meet in one point.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 11.1.1.
-    """
+    """Return the nearest matrix of rank two: the smallest singular value dropped (HZ 11.1.1)."""
     U, s, Vt = np.linalg.svd(F)
     return (U[:, :2] * s[:2]) @ Vt[:2]
 
 
 def epipoles(F: Float[np.ndarray, "3 3"]) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
-    """Return the epipoles (u, v, w) in the first and in the second image, unit vectors: F e = 0 and
-    F' e' = 0.
-
-    Each is the picture of the other camera's centre. Where w is 0 it lies at infinity, and the
-    lines are parallel.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.2.4.
+    """Return the epipoles (u, v, w) in both images, F e = 0 and F' e' = 0 (HZ 9.2.4).
 
     Examples:
-        >>> first, second = epipoles(
-        ...     np.array([[0.0, -1.0, 5.0], [1.0, 0.0, -3.0], [-5.0, 3.0, 0.0]])
-        ... )
+        >>> first, _ = epipoles(np.array([[0.0, -1.0, 5.0], [1.0, 0.0, -3.0], [-5.0, 3.0, 0.0]]))
         >>> (first / first[2]).round(9).tolist()
         [3.0, 5.0, 1.0]
     """
@@ -253,28 +196,18 @@ def refine_fundamental(
 ) -> Float[np.ndarray, "3 3"]:
     """Return the matrix of rank two near `F` with the smallest sum of squared Sampson distances.
 
-    The unknown is F = U diag(cos a, sin a, 0) V': two rotations and an angle, seven numbers for
-    seven degrees of freedom.
-
-    Args:
-        F: The matrix to begin with.
-        uv_first: Pixels of the first image.
-        uv_second: Their matches in the second.
-        weights: How much each match's squared distance counts; all alike if None.
-        steps: Linear systems solved at most.
-
-    Note:
-        Never worse than `F` with its smallest singular value dropped.
-
+    The unknown is F = U diag(cos a, sin a, 0) V': two rotations and an angle. Never worse than `F`
+    with its smallest singular value dropped.
     Reference: Bartoli and Sturm, Nonlinear Estimation of the Fundamental Matrix with Minimal
-        Parameters, PAMI 2004, section 4; the distance is Hartley and Zisserman, eq. 11.9.
+    Parameters, PAMI 2004, section 4.
     """
     root = np.ones(len(uv_first)) if weights is None else np.sqrt(weights)
     T = normalising_similarity(np.concatenate([uv_first, uv_second]))
+    # One match per column: sums over rows are quick
     x, y = (
         T @ homogeneous(uv_first).T,
         T @ homogeneous(uv_second).T,
-    )  # one match per column: sums over rows are quick
+    )
     outer = outer_products(y, x)
 
     def linearise(unknown: _Factors) -> tuple[np.ndarray, np.ndarray]:
@@ -311,15 +244,9 @@ def sampson_slopes(
     *,
     outer: Float[np.ndarray, "9 n"],
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "9 n"]]:
-    """Return the signed Sampson distances, and how they change with each of the nine entries of F.
+    """Return the signed Sampson distances, and their slopes by the nine entries of F.
 
-    Args:
-        F: A fundamental matrix, of any scale.
-        x: Homogeneous pixels of the first image, one match per column, with last entry 1.
-        y: Their matches in the second.
-        outer: Their `outer_products(y, x)`, which do not change while F does.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 11.9, differentiated.
+    x and y are homogeneous pixels in columns, `outer` their unchanging `outer_products(y, x)`.
     """
     lines_y, lines_x = F @ x, F.T @ y
     lines_y[2] = lines_x[2] = 0.0
@@ -331,10 +258,7 @@ def sampson_slopes(
 
 
 def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarray, "*k 3"]:
-    """Return the real roots of a x^3 + b x^2 + c x + d, in closed form; NaN where a root is not
-    real.
-
-    A leading coefficient of zero gives NaN only.
+    """Return the real roots of a x^3 + b x^2 + c x + d, NaN for others, and all NaN where a = 0.
 
     Reference: Press et al., Numerical Recipes, 3rd ed., 5.6, eq. 5.6.10 to 5.6.18.
     """
@@ -348,9 +272,8 @@ def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarra
         alone = A + np.where(A == 0.0, 0.0, Q / A)
         single = np.stack([alone, np.full_like(b, np.nan), np.full_like(b, np.nan)])
         roots = np.moveaxis(np.where(three, trigonometric, single), 0, -1) - b[..., None] / 3.0
-        for _ in range(
-            2
-        ):  # the closed form cancels where a is small: two Newton steps put that right
+        # The closed form cancels where a is small: two Newton steps put that right
+        for _ in range(2):
             b_, c_, d_ = b[..., None], c[..., None], d[..., None]
             value = ((roots + b_) * roots + c_) * roots + d_
             slope = (3.0 * roots + 2.0 * b_) * roots + c_
@@ -364,9 +287,7 @@ def _compose(factors: _Factors) -> np.ndarray:
 
 
 def _tangent(factors: _Factors) -> np.ndarray:
-    """Return the nine entries of F, differentiated by the turn of U, the turn of V and the angle:
-    (7, 9).
-    """
+    """Return the entries of F differentiated by the turn of U, that of V and the angle: (7, 9)."""
     U, V, angle = factors
     S, turned = (
         np.diag([np.cos(angle), np.sin(angle), 0.0]),

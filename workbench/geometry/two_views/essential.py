@@ -1,11 +1,10 @@
-"""The motion between two calibrated cameras, held by the essential matrix up to the length of its
-translation.
+"""The motion between two calibrated cameras, held by the essential matrix up to its length.
 
 Convention: `E` takes normalised points of the first camera to lines of the second, `xy_second_h.T @
 E @ xy_first_h = 0`, and `T_second_first` takes points of the first camera's frame to the second's:
 E = [t]x R. No picture tells how long t is.
 
-Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.6.
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), 9.6.
 """
 
 import numpy as np
@@ -19,9 +18,7 @@ from workbench.geometry.two_views.homography import homogeneous, normalising_sim
 _QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 _GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
 _FORTH = np.array([1.0, 0.61, 0.37])
-"""A direction that no camera is likely to move across: of t and -t the one that has a part along it
-comes first.
-"""
+"""Of t and -t the one with a part along this comes first; hardly a camera moves across it."""
 _Motion = tuple[np.ndarray, np.ndarray]
 
 
@@ -30,45 +27,22 @@ def essential_from_fundamental(
     K_first: Float[np.ndarray, "3 3"],
     K_second: Float[np.ndarray, "3 3"],
 ) -> Float[np.ndarray, "3 3"]:
-    """Return E = K'^T F K, of Frobenius norm one: what is left of F once the lenses' focal lengths
-    are known.
-
-    Args:
-        F: Fundamental matrix, first to second.
-        K_first: Intrinsics of the first camera, pixels.
-        K_second: Intrinsics of the second camera, pixels.
-
-    Note:
-        Of an estimated F the two large singular values are not equal, as those of a motion are: see
-        `equal_singular_values`.
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., eq. 9.12.
-    """
+    """Return E = K'^T F K, of Frobenius norm one (HZ eq. 9.12); singular values may differ."""
     E = K_second.T @ F @ K_first
     return E / np.linalg.norm(E)
 
 
 def equal_singular_values(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
-    """Return the nearest essential matrix: singular values (s, s, 0) with s the mean of the two
-    largest.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.6.1 and 11.7.3.
-    """
+    """Return the nearest essential matrix: singular values (s, s, 0) (HZ 9.6.1 and 11.7.3)."""
     U, s, Vt = np.linalg.svd(E)
     return 0.5 * (s[0] + s[1]) * U[:, :2] @ Vt[:2]
 
 
 def essential_to_poses(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4 4"]:
-    """Return the four motions T_second_first that an essential matrix allows, with translations of
-    length one.
+    """Return the four T_second_first of an essential matrix, |t| = 1 (HZ 9.6.2, result 9.19).
 
-    Two rotations, half a turn about the baseline apart, and for each the translation forth and
-    back: (R, t), (R, -t), (R', t), (R', -t). The sign of E and its scale play no part. R is the
-    smaller turn, and t points along (1, 0.61, 0.37): equal singular values leave U and V open, and
-    each library takes its own.
-
-    Note:
-        Of a matrix that is none, as estimates are, they are those of the nearest one.
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.6.2, result 9.19.
+    Two rotations, half a turn about the baseline apart: (R, t), (R, -t), (R', t), (R', -t). R is
+    the smaller turn, and t points along (1, 0.61, 0.37): equal singular values leave U and V open.
     """
     U, _, Vt = np.linalg.svd(E)
     U, Vt = U * np.copysign(1.0, np.linalg.det(U)), Vt * np.copysign(1.0, np.linalg.det(Vt))
@@ -86,24 +60,12 @@ def refine_motion(
     K_second: Float[np.ndarray, "3 3"],
     steps: int = 10,
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the motion near this one, with |t| = 1, whose matches have the smallest sum of squared
-    Sampson distances.
+    """Return the motion near this one, |t| = 1, of least squared Sampson distances of matches.
 
-    Five unknowns: a turn of R (three) and of t (two). A seven-number fundamental matrix has two
-    more than the cameras have, which is what makes a pose out of it less certain.
-
-    Args:
-        T_second_first: The motion to begin with.
-        uv_first: Pixels of the first image.
-        uv_second: Their matches in the second.
-        K_first: Intrinsics of the first camera, pixels.
-        K_second: Intrinsics of the second camera, pixels.
-        steps: Linear systems solved at most.
+    Five unknowns: a turn of R (three) and of t (two) (HZ 11.4.3 and eq. 11.9).
 
     Raises:
         ValueError: If the translation is zero.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 11.4.3 and eq. 11.9.
     """
     length = np.linalg.norm(T_second_first[:3, 3])
     if not length > 0.0:

@@ -1,7 +1,9 @@
 """Relates two images of a plane: the homography, its estimates and its distances.
 
 Convention: `H_b_a` takes pixels of image a to pixels of image b, `uv_b_h ~ H_b_a @ uv_a_h`, and has
-Frobenius norm one.
+Frobenius norm one. `uv_b` are the matches of `uv_a`, row by row.
+
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), chapter 4.
 """
 
 import numpy as np
@@ -21,10 +23,7 @@ def homogeneous(p: Float[np.ndarray, "*k n d"]) -> Float[np.ndarray, "*k n d+1"]
 
 
 def normalising_similarity(uv: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the similarity that brings the centroid to 0 and the mean distance from it to the
-    square root of 2.
-
-    Points that all coincide are only moved, not scaled.
+    """Return the similarity that brings the centroid to 0 and the mean distance from it to √2.
 
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997, section 5.
     """
@@ -41,9 +40,7 @@ def normalising_similarity(uv: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray,
 def transform_pixels(
     H_b_a: Float[np.ndarray, "*k 3 3"], uv_a: Float[np.ndarray, "n 2"]
 ) -> Float[np.ndarray, "*k n 2"]:
-    """Return where the homography takes each pixel; NaN where it goes to infinity.
-
-    Several homographies give one block each. Works in the precision of its input.
+    """Return where each homography takes each pixel, in its precision; NaN at infinity.
 
     Examples:
         >>> H_b_a = np.array([[1.0, 0, 10], [0, 1, 0], [0, 0, 1]])  # ten columns to the right
@@ -60,19 +57,7 @@ def transform_pixels(
 def warped_grid(
     H_b_a: Float[np.ndarray, "3 3"], size: Float[np.ndarray, "2"], cells: int = 4, pieces: int = 8
 ) -> Float[np.ndarray, "n 2 2"]:
-    """Return a grid over image a, cells to a side and pieces to a cell, as segments in pixels of
-    image b.
-
-    Args:
-        H_b_a: The homography.
-        size: Width and height of image a, pixels.
-        cells: How many squares the grid has along each side.
-        pieces: Into how many segments each side of a square is cut, so that it may be clipped and
-            drawn piece by piece.
-
-    Returns:
-        The segments; NaN where the homography takes an end to infinity.
-    """
+    """Return a grid over image a of this (width, height), cut in pieces, as segments in image b."""
     t, ticks = np.linspace(0.0, 1.0, cells * pieces + 1), np.linspace(0.0, 1.0, cells + 1)
     lines = [np.column_stack([np.full_like(t, x), t]) for x in ticks]
     lines += [line[:, ::-1] for line in lines]
@@ -86,15 +71,7 @@ def transfer_distances(
     uv_a: Float[np.ndarray, "n 2"],
     uv_b: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
-    """Return how far each pixel of image a lands from its match, in pixels of image b.
-
-    A pixel that goes to infinity is infinitely far. Several homographies give one row each.
-
-    Args:
-        H_b_a: One homography, or k of them.
-        uv_a: Pixels of image a.
-        uv_b: Their matches in image b.
-    """
+    """Return how far each pixel of image a lands from its match, in pixels of b; maybe infinite."""
     off = transform_pixels(H_b_a, uv_a) - uv_b
     distances = np.sqrt(off[..., 0] ** 2 + off[..., 1] ** 2)
     return np.where(np.isnan(distances), np.asarray(np.inf, distances.dtype), distances)
@@ -103,22 +80,15 @@ def transfer_distances(
 def four_in_general_position(
     uv_a: Float[np.ndarray, "*k 4 2"], uv_b: Float[np.ndarray, "*k 4 2"]
 ) -> Bool[np.ndarray, "*k"]:
-    """Return of each sample of four matches whether some camera can see both quadrangles as one
-    plane.
+    """Return of each four matches whether some camera can see both quadrangles as one plane.
 
-    False where three pixels lie on one line in either image, and where only some of the four
-    triangles turn over: a real view keeps the orientation of all of them, or of none.
-
-    Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the
-        Oriented Epipolar Constraint, ICPR 2004 (the same idea for a homography).
+    False where three pixels lie on one line, and where only some of the four triangles turn over.
+    Reference: Chum, Werner and Matas, ICPR 2004 (the oriented constraint, here for a homography).
 
     Examples:
         >>> uv = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-        >>> (
-        ...     bool(four_in_general_position(uv, 2.0 * uv)),
-        ...     bool(four_in_general_position(uv, uv[[0, 2, 1, 3]])),
-        ... )
-        (True, False)
+        >>> four_in_general_position(np.stack([uv, uv]), np.stack([uv, uv[[0, 2, 1, 3]]])).tolist()
+        [True, False]
     """
     return _in_general_position(uv_a, uv_b, _triangle_areas(uv_a), areas_b=_triangle_areas(uv_b))
 
@@ -126,15 +96,10 @@ def four_in_general_position(
 def homographies_from_four(
     uv_a: Float[np.ndarray, "*k 4 2"], uv_b: Float[np.ndarray, "*k 4 2"]
 ) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the homography through each sample of four matches, in closed form.
+    """Return the homography through each four matches in general position, else NaN.
 
     In image a, x3 = l0 x0 + l1 x1 + l2 x2; in image b, y3 = m0 y0 + m1 y1 + m2 y2. Then the sum of
-    (m_i / l_i) y_i (x_j × x_k)' takes all four pixels to their matches.
-
-    Note:
-        NaN where the four are not in general position (`four_in_general_position`).
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 2.3 and example 2.12 (a basis
-    of the plane).
+    (m_i / l_i) y_i (x_j × x_k)' takes all four pixels to their matches (HZ 2.3, example 2.12).
     """
     T = normalising_similarity(np.concatenate([uv_a, uv_b]).reshape(-1, 2))
     x, y = homogeneous(uv_a) @ T.T, homogeneous(uv_b) @ T.T
@@ -151,22 +116,12 @@ def fit_homography(
     uv_b: Float[np.ndarray, "n 2"],
     weights: Float[np.ndarray, " n"] | None = None,
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the homography of four or more matches by the normalised direct linear transform.
+    """Return the homography of weighted matches by the normalised DLT (HZ algorithm 4.2).
 
     It minimises an algebraic error; `refine_homography` goes on to pixels.
 
-    Args:
-        uv_a: Pixels of image a.
-        uv_b: Their matches in image b.
-        weights: How much each match's squared error counts; all alike if None.
-
     Raises:
         ValueError: If there are fewer than four matches.
-
-    Note:
-        Matches whose pixels all lie on one line give one of the many homographies that fit.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., algorithm 4.2.
 
     Examples:
         >>> uv_a = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
@@ -185,15 +140,7 @@ def fit_homography(
 def fit_homographies(
     uv_a: Float[np.ndarray, "*k n 2"], uv_b: Float[np.ndarray, "*k n 2"]
 ) -> Float[np.ndarray, "*k 3 3"]:
-    """Return the homographies of many pairs of images side by side, each as `fit_homography` gives
-    it.
-
-    Args:
-        uv_a: Four pixels or more of each image a.
-        uv_b: Their matches in each image b.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., algorithm 4.2.
-    """
+    """Return the homographies of many pairs of images side by side, as `fit_homography` does."""
     H = _fitted(uv_a, uv_b, np.ones(uv_a.shape[-2]))
     return H / np.linalg.norm(H, axis=(-2, -1), keepdims=True)
 
@@ -222,29 +169,17 @@ def refine_homography(
     weights: Float[np.ndarray, " n"] | None = None,
     steps: int = 10,
 ) -> Float[np.ndarray, "3 3"]:
-    """Return the homography near `H_b_a` with the smallest sum of squared transfer distances in
-    image b.
-
-    Args:
-        H_b_a: The homography to begin with.
-        uv_a: Pixels of image a.
-        uv_b: Their matches in image b.
-        weights: How much each match's squared distance counts; all alike if None.
-        steps: Linear systems solved at most.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.2.2 (transfer error) and
-    4.5.
-    """
+    """Return the homography near `H_b_a` of least squared transfer distances (HZ 4.2.2, 4.5)."""
     root = np.ones(len(uv_a)) if weights is None else np.sqrt(weights)
     T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
+    # One match per column: sums over rows are quick
     x, y = (
         T_a @ homogeneous(uv_a).T,
         (T_b @ homogeneous(uv_b).T)[:2],
-    )  # one match per column: sums over rows are quick
+    )
     h = (T_b @ H_b_a @ np.linalg.inv(T_a)).ravel()
-    free = np.arange(9) != np.argmax(
-        np.abs(h)
-    )  # the scale is of no account, so the largest entry stays as it is
+    # The scale is of no account, so the largest entry stays as it is
+    free = np.arange(9) != np.argmax(np.abs(h))
 
     def linearise(h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         u, v, w = h.reshape(3, 3) @ x

@@ -1,5 +1,4 @@
-"""Turns two cameras, where they stand, until rows of their pictures correspond: then matches are
-sought along rows.
+"""Turns two cameras, where they stand, until rows of their pictures correspond.
 
 Both get one orientation, their common x axis along the baseline, and one K. A turn of a camera is a
 homography.
@@ -20,17 +19,7 @@ from workbench.geometry.two_views.homography import homogeneous
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Rectification:
-    """Two cameras turned so that rows correspond.
-
-    Attributes:
-        R_rectified_first: From the first camera's frame to the common orientation.
-        R_rectified_second: From the second camera's.
-        K: The intrinsics of both afterwards, pixels.
-        H_first: Takes pixels of the first picture to its rectified one.
-        H_second: Likewise of the second.
-        second_is_left: Whether the second camera stands left of the first: disparities are then
-            those of the second.
-    """
+    """Two cameras turned so that rows correspond; disparities are those of the left one."""
 
     R_rectified_first: Float[np.ndarray, "3 3"]
     R_rectified_second: Float[np.ndarray, "3 3"]
@@ -47,25 +36,14 @@ def rectify(
     *,
     keep_upright: bool = True,
 ) -> Rectification:
-    """Return the common orientation of two cameras, and the homographies that turn their pictures
-    to it.
+    """Return the common orientation of two cameras, and the homographies that turn their pictures.
 
-    Args:
-        T_second_first: Motion from the first camera's frame to the second's; its translation at any
-            scale.
-        K_first: Intrinsics of the first camera, pixels.
-        K_second: Intrinsics of the second camera, pixels.
-        keep_upright: Let x run against the baseline where the second camera stands left of the
-            first. Without it x always runs from the first camera to the second, as in the paper,
-            and such pictures come out upside down.
+    `keep_upright` lets x run against the baseline where the second camera stands left of the first.
+    In the paper x always runs from the first to the second; such pictures come out upside down.
+    Where a camera sees the other its picture is `torn`.
 
     Raises:
-        ValueError: If the cameras stand at one place, or the baseline runs along the mean of the
-            optical axes.
-
-    Note:
-        Where a camera sees the other (the epipole is in its picture) the homography tears that
-        picture: see `torn`.
+        ValueError: If the cameras stand at one place, or the baseline runs along the optical axes.
     """
     R, t = T_second_first[:3, :3], T_second_first[:3, 3]
     length = np.linalg.norm(t)
@@ -94,17 +72,13 @@ def rectify(
 
 
 def torn(H: Float[np.ndarray, "3 3"], size: tuple[int, int]) -> bool:
-    """Return whether a homography takes a part of a picture of this width and height through
-    infinity.
-    """
+    """Return whether a homography takes part of a picture (width, height) through infinity."""
     w = homogeneous(_corners(size)) @ H[2]
     return not bool((w > 1e-9 * np.abs(w).max()).all())
 
 
 def growth(H: Float[np.ndarray, "3 3"], size: tuple[int, int]) -> float:
-    """Return how many times as large the upright box around a warped picture is as the picture;
-    infinite where it tears.
-    """
+    """Return a warped picture's upright box over the picture's area; infinite where it tears."""
     if torn(H, size):
         return float("inf")
     low, high = _box(H, size)
@@ -118,15 +92,7 @@ def fitted(
     size_second: tuple[int, int],
     size: tuple[int, int],
 ) -> tuple[Float[np.ndarray, "3 3"], Float[np.ndarray, "3 3"]]:
-    """Return both homographies, scaled alike and moved so that both warped pictures fit; rows stay
-    the same in both.
-
-    Args:
-        H_first: Rectifies the first picture.
-        H_second: Rectifies the second.
-        size_first: Width and height of the first picture.
-        size_second: Those of the second.
-        size: Those of the pictures that are wanted.
+    """Return both homographies, scaled and moved alike so that both warped pictures fit in `size`.
 
     Raises:
         ValueError: If one of them is torn.
@@ -151,14 +117,7 @@ def warp(
     *,
     around: int = 255,
 ) -> UInt8[np.ndarray, "m k 3"]:
-    """Return the picture that a homography makes of another, of this width and height, bilinear.
-
-    Args:
-        image: RGB.
-        H: Takes its pixels to those of the new picture.
-        size: Width and height of the new picture.
-        around: The grey of what the old one does not show.
-    """
+    """Return the (width, height) picture that a homography makes, bilinear, grey around it."""
     h, w = image.shape[:2]
     u, v = np.meshgrid(np.arange(size[0], dtype=float), np.arange(size[1], dtype=float))
     back = np.linalg.inv(H)
@@ -182,9 +141,7 @@ def _corners(size: tuple[int, int]) -> np.ndarray:
 
 
 def _box(H: np.ndarray, size: tuple[int, int]) -> np.ndarray:
-    """Return the lowest and the highest corner of the upright box around a warped picture, (2,
-    2).
-    """
+    """Return the lowest and highest corner of the upright box around a warped picture, (2, 2)."""
     p = homogeneous(_corners(size)) @ H.T
     uv = p[:, :2] / p[:, 2:]
     return np.stack([uv.min(axis=0), uv.max(axis=0)])

@@ -1,9 +1,8 @@
-"""From two pixels to a point: where the rays of two cameras meet, or nearly do, and how uncertain
-that is.
+"""From two pixels to a point: where the rays of two cameras meet, and how uncertain that is.
 
 Camera matrices are P = K [R | t], 3x4, and take points of one common frame to pixels.
 
-Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., chapter 12.
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), chapter 12.
 """
 
 import numpy as np
@@ -26,19 +25,9 @@ def triangulate(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the points whose pictures are nearest to the pixels in the algebraic sense (the direct
-    linear transform).
+    """Return the points that fit the pixels best in the algebraic sense (DLT, HZ 12.2).
 
-    Args:
-        P_first: Camera matrix of the first camera.
-        P_second: Camera matrix of the second camera.
-        uv_first: Pixels of the first image.
-        uv_second: Their matches in the second.
-
-    Note:
-        Nothing keeps a point in front of the cameras: nearly parallel rays may meet behind.
-        Parallel ones give coordinates that are huge, infinite or NaN.
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 12.2.
+    Nearly parallel rays may meet behind; parallel ones give what is huge, infinite or NaN.
     """
     rows = [
         uv[:, k : k + 1] * P[2] - P[k]
@@ -57,16 +46,7 @@ def midpoints(
     xy_first: Float[np.ndarray, "n 2"],
     xy_second: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the middles of the shortest segments between the rays, in the first camera's frame:
-    quick, and less exact.
-
-    Args:
-        T_second_first: Motion from the first camera's frame to the second's.
-        xy_first: Normalised image points of the first camera.
-        xy_second: Their matches in the second.
-
-    Returns:
-        NaN where rays are parallel.
+    """Return the middles between normalised rays, in the first camera's frame; NaN if parallel.
 
     Reference: Hartley and Sturm, Triangulation, CVIU 1997, section 5.3.
     """
@@ -85,9 +65,7 @@ def midpoints(
 def before_both(
     p_first: Float[np.ndarray, "n 3"], T_second_first: Float[np.ndarray, "4 4"]
 ) -> Bool[np.ndarray, " n"]:
-    """Return which points of the first camera's frame lie in front of both cameras; NaN rows do
-    not.
-    """
+    """Return which points of the first camera's frame are in front of both; NaN rows are not."""
     return (p_first[:, 2] > 0.0) & (apply(T_second_first, p_first)[:, 2] > 0.0)
 
 
@@ -97,19 +75,9 @@ def triangulation_covariances(
     p: Float[np.ndarray, "n 3"],
     sigma: float,
 ) -> Float[np.ndarray, "n 3 3"]:
-    """Return how uncertain triangulated points are, to first order, when each coordinate of a pixel
-    is.
+    """Return points' covariances, to first order, for a standard deviation of pixel coordinates.
 
-    Args:
-        P_first: Camera matrix of the first camera.
-        P_second: Camera matrix of the second camera.
-        p: The points, in the frame and unit of the camera matrices.
-        sigma: Standard deviation of each pixel coordinate.
-
-    Returns:
-        Covariances, the unit of `p` squared; NaN where the two rays are parallel to the last digit.
-
-    Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 5.2.2, result 5.10, and 12.6.
+    NaN where the two rays are parallel to the last digit (HZ 5.2.2, result 5.10, and 12.6).
     """
     slopes = []
     for P in (P_first, P_second):
