@@ -1,5 +1,7 @@
-"""From matches to the motion between two cameras, step by step; and before that, one pixel's ray
-seen by the other camera.
+"""From matches to the motion between two cameras; and one pixel's ray seen by the other camera.
+
+Pixels are `uv`, intrinsics K in pixels; motions T_second_first take the first camera's frame to the
+second's, lengths in units of the baseline where it is not known.
 
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.1 (the line), 11.2 (eight
 points), 9.6 (four motions), chapter 12 (triangulation), 11.4.3 (refinement); Fusiello, Trucco and
@@ -65,7 +67,7 @@ class Followed:
         stage: "ray" while points are taken on it; then the plane through both centres, then the
             pencil of all lines.
         depths: Of the points so far, metres; infinity is the last.
-        p_first: The points, in the first camera's frame, metres; the one at infinity very far away.
+        p_first: The points, metres; the one at infinity very far away.
         uv_second: Their pixels in the second picture, NaN where it cannot see them.
     """
 
@@ -80,16 +82,13 @@ class Related:
     """How far the motion between two cameras is found.
 
     Attributes:
-        stage: What was done last.
         singular_values: Of the equations, nine; the last belongs to the answer.
         F: The fundamental matrix so far.
-        E_values: The singular values of the essential matrix before they were made equal.
-        tested: Motions T_second_first that were tried, with |t| = 1.
+        E_values: Of the essential matrix before they were made equal.
+        tested: Motions that were tried, with |t| = 1.
         in_front: How many points each of them puts in front of both cameras.
-        T_second_first: The motion so far: the one under test, then the one that was chosen, then
-            the refined one.
-        p_first: The points by that motion, in the first camera's frame, lengths in units of the
-            baseline.
+        T_second_first: The one under test, then the chosen one, then the refined one.
+        p_first: The points by that motion.
         rounds: Rounds of refinement done.
         rectification: In the end, where there is one.
     """
@@ -115,15 +114,9 @@ def follow_ray(
     K_first: Float[np.ndarray, "3 3"],
     K_second: Float[np.ndarray, "3 3"],
 ) -> Iterator[Followed]:
-    """Yield ever more points of a pixel's ray with their pixels in the second picture, then the
-    plane, then the pencil.
+    """Yield ever more points of a pixel's ray and their second pixels, its plane, the pencil.
 
-    Args:
-        uv_first: A pixel of the first picture.
-        depths: Where points are taken, metres, infinity allowed.
-        T_second_first: Motion from the first camera's frame to the second's.
-        K_first: Intrinsics of the first camera, pixels.
-        K_second: Intrinsics of the second camera, pixels.
+    Depths are in metres, infinity allowed.
     """
     ray = homogeneous(normalize(uv_first[None], K_first))[0]
     p_first = np.minimum(depths, FAR)[:, None] * ray
@@ -144,9 +137,8 @@ class Linear:
 
     Attributes:
         singular_values: Of the equations, nine.
-        F: Their answer in pixels, of rank three where the matches have noise.
-        F_rank_two: The same with its smallest singular value dropped, in the coordinates of the
-            equations.
+        F: In pixels, of rank three where the matches have noise.
+        F_rank_two: Without its smallest singular value, in the coordinates of the equations.
     """
 
     singular_values: np.ndarray
@@ -160,14 +152,7 @@ def solve_linear(
     T_first: Float[np.ndarray, "3 3"],
     T_second: Float[np.ndarray, "3 3"],
 ) -> Linear:
-    """Return the answer that minimises the algebraic error in given coordinates: the identity's are
-    raw pixels.
-
-    Args:
-        uv_first: Pixels of the first image.
-        uv_second: Their matches in the second.
-        T_first: Takes pixels of the first image to its coordinates.
-        T_second: Likewise for the second.
+    """Return the answer with the least algebraic error in given coordinates, T times the pixels.
 
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997.
     """
@@ -197,18 +182,10 @@ def relate(
     route: Route,
     keep_upright: bool = True,
 ) -> Iterator[Related]:
-    """Yield the way from matches to a motion: F, its rank, E, four motions, points, a refined
-    motion, a rectified pair.
+    """Yield the way from eight matches or more to F, E, four motions, points, and a rectified pair.
 
     Args:
-        uv_first: Pixels of the first image, eight or more.
-        uv_second: Their matches in the second.
-        K_first: Intrinsics of the first camera, pixels.
-        K_second: Intrinsics of the second camera, pixels.
         linear: The equations' answer before anything is known of F's rank.
-        eight_point: Gives F from the matches.
-        essential_to_poses: Gives the four motions of E.
-        triangulate: Gives points.
         route: What is refined, and whether.
         keep_upright: As `rectify` takes it.
 

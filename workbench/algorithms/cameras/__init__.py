@@ -1,7 +1,5 @@
-"""Cameras from what they saw: calibration, and the search for a pose.
+"""Cameras from what they saw.
 
-- `calibration`: calibrates a camera from pictures of a flat board: a homography each, K and poses
-  in closed form, then all together.
-- `camera_search`: where was the camera, step by step: three points and a fourth, a plane's two
-  answers, and Gauss-Newton downhill.
+- `calibration`: K, lens and poses from pictures of a flat board.
+- `camera_search`: a camera's pose from three points and a fourth, from a plane, and downhill.
 """

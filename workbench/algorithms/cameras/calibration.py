@@ -1,8 +1,6 @@
-"""Calibrates a camera from pictures of a flat board: a homography each, K and poses in closed form,
-then all together.
+"""Calibrates a camera from pictures of a flat board: homographies, K and poses, then all together.
 
-Reference: Zhang, A Flexible New Technique for Camera Calibration, PAMI 2000, section 3.4 (the
-summary of the method).
+Reference: Zhang, A Flexible New Technique for Camera Calibration, PAMI 2000, section 3.4.
 """
 
 from collections.abc import Callable, Iterator
@@ -32,17 +30,14 @@ class State:
     Attributes:
         phase: "homography" of the first view; "constraints" of one view more; "poses" of all views;
             a linear "lens"; and the joint refinement.
-        Hs_image_board: Homographies of the views so far, metres of the board to pixels.
-        rows: Their constraints, in coordinates in which the picture is one wide and has 0 in its
+        Hs_image_board: Homographies of the views so far, metres to pixels.
+        rows: Their constraints, in coordinates in which the picture is one wide with 0 in its
             middle.
         singular_values: Of these rows, without the column of the skew.
-        K: The camera so far; None where the rows determine none.
+        K: None where the rows determine none.
         guessed: Whether K is a guess, because the closed form found no camera.
-        lens: The lens so far.
-        Ts_camera_board: Poses of the board in all views; none before the poses.
-        residuals: Projected minus measured, pixels, of the views so far: by each view's own
-            homography before the poses.
-        adjustment: What the refinement yielded, or None before it.
+        Ts_camera_board: Of all views; none before the poses.
+        residuals: Projected minus measured, pixels; by each view's own homography before the poses.
     """
 
     phase: Phase
@@ -72,24 +67,18 @@ def calibrate(
 ) -> Iterator[State]:
     """Yield the steps of Zhang's calibration.
 
+    Where no camera has these constraints (boards all alike, or too much noise), or one with its
+    principal point outside the picture or with a focal length below a third of its width, f is
+    guessed as the picture's width.
+
     Args:
-        p_board: Points of the board in its own frame, metres, Z = 0.
-        uv: Their pixels in every view.
+        p_board: In the board's frame, metres, Z = 0.
         size: Width and height of the pictures, pixels.
-        constraint_rows: The two rows of a view.
-        pose_from_homography: The pose of a view, given the camera.
         coefficients: How many of k1, k2, p1, p2, k3 are estimated.
         corner: Of Cauchy's loss, pixels; squares if None.
-        max_iterations: Of the refinement, at most.
-        tolerance: Of the refinement.
 
     Raises:
         ValueError: If there are fewer than two views, or fewer than four points.
-
-    Note:
-        Where no camera has these constraints (boards all alike, or too much noise), or one with its
-        principal point outside the picture or with a focal length below a third of its width, f is
-        guessed as the picture's width.
     """
     if len(uv) < 2:
         raise ValueError(f"two views at least are needed, not {len(uv)}")
@@ -175,15 +164,7 @@ def residuals_of(
     p_board: Float[np.ndarray, "n 3"],
     uv: Float[np.ndarray, "k n 2"],
 ) -> Float[np.ndarray, "k n 2"]:
-    """Return projected minus measured pixels of all views, also of boards behind the camera.
-
-    Args:
-        K: Intrinsics, pixels.
-        lens: The lens.
-        Ts_camera_board: Poses of the board.
-        p_board: Its points, metres.
-        uv: Their measured pixels.
-    """
+    """Return projected minus measured pixels of all views, also of boards behind the camera."""
     with np.errstate(divide="ignore", invalid="ignore"):
         p = np.concatenate([apply(T, p_board) for T in Ts_camera_board])
         xy = distort(p[:, :2] / p[:, 2:], *lens)

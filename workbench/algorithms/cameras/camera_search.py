@@ -1,7 +1,7 @@
-"""Where was the camera, step by step: three points and a fourth, a plane's two answers, and
-Gauss-Newton downhill.
+"""Finds a camera by three points and a fourth, by a plane's two answers, and by Gauss-Newton steps.
 
-Image coordinates are normalised, so errors are too: times the focal length they are pixels.
+Points are in metres. Image coordinates `xy` are normalised, so errors are too: times the focal
+length they are pixels. Motions are T_camera_world.
 
 Reference: Haralick et al., Review and Analysis of Solutions of the Three Point Perspective Pose
 Estimation Problem, 1994 (three points); Collins and Bartoli, Infinitesimal Plane-Based Pose
@@ -53,17 +53,12 @@ class Searched:
     """What is known of the camera after one step.
 
     Attributes:
-        phase: Three rays are chosen; their quartic is known; one of its roots became a motion; a
-            plane's two motions are known; one motion of several was chosen; all points gave one; it
-            was refined by a step; it is over.
-        T: The motion now, T_camera_world, or None.
+        T: The motion now, or None.
         candidates: All motions that were found, in the order in which they were.
         lengths: Of the three rays, metres, one row for each root that has become a motion or will.
         quartic: Its coefficients, the highest power first.
-        error: Root mean square reprojection error of T over all points, infinite if one is behind
-            it.
+        error: Root mean square reprojection error of T, infinite if a point is behind it.
         share: Of a Gauss-Newton step that was taken; 1 if not halved.
-        steps: Taken so far.
         stop: Why this is the last state, or None.
     """
 
@@ -83,13 +78,7 @@ def pose_from_distances(
     rays: Float[np.ndarray, "3 3"],
     distances: Float[np.ndarray, "3"],
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the T_camera_world that takes three points to the ends of their rays.
-
-    Args:
-        p_world: The points, metres.
-        rays: The unit vectors in the camera's frame on which they are seen.
-        distances: How far along them they are, metres.
-    """
+    """Return the motion that takes three points to these distances along unit rays."""
     return align_rigid(distances[:, None] * rays, p_world)
 
 
@@ -98,16 +87,9 @@ def choose_pose(
     p_world: Float[np.ndarray, "n 3"],
     xy: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the candidate with the least reprojection error among those that have all points in
-    front.
+    """Return the candidate with the least reprojection error of those with all points in front.
 
-    Args:
-        candidates: Motions T_camera_world, one at least.
-        p_world: The points to judge by, metres.
-        xy: Where they were observed.
-
-    Note:
-        Where none has all points in front it is the first.
+    Where none has all points in front it is the first.
     """
     return candidates[int(np.argmin(rms_reprojection(candidates, p_world, xy)))].copy()
 
@@ -120,15 +102,7 @@ def by_three_points(
     *,
     choose_pose: ChoosePose = choose_pose,
 ) -> Iterator[Searched]:
-    """Yield how the first three points leave some motions open, and how the fourth chooses among
-    them.
-
-    Args:
-        p_world: Four points or more, metres, of which four are used.
-        xy: Where they were observed.
-        pose_from_distances: Makes a motion of three lengths.
-        choose_pose: Chooses a motion by four points.
-    """
+    """Yield the motions that three points leave open, and how the fourth chooses among them."""
     p, rays = p_world[:3], unit_rays(xy[:3])
     now = Searched(phase="rays")
     yield now
@@ -148,12 +122,9 @@ def by_three_points(
 def by_fourth_points(
     p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "k n 2"]
 ) -> tuple[Float[np.ndarray, "m 4 4"], Int[np.ndarray, " m"]]:
-    """Return the ends of `by_three_points` in many pictures, and of which picture each is: some
-    have no solution.
+    """Return the ends of `by_three_points` in many pictures, and of which picture each is.
 
-    Args:
-        p_world: Four points or more, metres.
-        xy: Where they were observed, picture by picture.
+    Some pictures have no solution.
     """
     Ts, of_picture = p3p(np.broadcast_to(p_world[:3], (len(xy), 3, 3)), xy[:, :3])
     order = np.lexsort([rms_reprojection(Ts, p_world[:4], xy[of_picture, :4]), of_picture])
@@ -164,12 +135,7 @@ def by_fourth_points(
 def planar_pairs(
     p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "k n 2"]
 ) -> Float[np.ndarray, "k 2 4 4"]:
-    """Return both motions of a plane in many pictures, refined, the one that fits better first.
-
-    Args:
-        p_world: Four points or more of one plane, metres.
-        xy: Where they were observed, picture by picture.
-    """
+    """Return both motions of a plane in many pictures, refined, the one that fits better first."""
     twice = np.repeat(xy, 2, axis=0)
     both = refined(planar_motions(p_world, xy).reshape(-1, 4, 4), p_world, twice)
     order = np.argsort(rms_reprojection(both, p_world, twice).reshape(-1, 2), axis=1)
@@ -182,14 +148,7 @@ def by_plane(
     xy: Float[np.ndarray, "n 2"],
     choose_pose: ChoosePose = choose_pose,
 ) -> Iterator[Searched]:
-    """Yield the two motions that a plane's picture leaves open, both refined, and the one that fits
-    better.
-
-    Args:
-        p_world: Four points or more of one plane, metres.
-        xy: Where they were observed.
-        choose_pose: Chooses a motion by all points.
-    """
+    """Yield a plane's two motions, refined, and the one that fits better."""
     Ts = planar_motions(p_world, xy)
     yield Searched(phase="both", candidates=Ts)
     Ts = refined(Ts, p_world, xy)
@@ -207,13 +166,10 @@ def downhill(
     most: int = 12,
     tolerance: float = 1e-5,
 ) -> Iterator[Searched]:
-    """Yield the motions after each step on the squared reprojection errors; a step that raises them
-    is halved.
+    """Yield the motions after each step on the squared errors; a step that raises them is halved.
 
     Args:
-        T: Where to begin, T_camera_world; None where nothing was found.
-        p_world: The points, metres.
-        xy: Where they were observed.
+        T: Where to begin; None where nothing was found.
         pose_step: Gives the motion after one whole step.
         most: Steps taken at most.
         tolerance: It is settled where a step lowers the error by less than this share.

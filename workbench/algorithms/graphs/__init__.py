@@ -1,7 +1,5 @@
-"""On graphs: diffusion, and cuts by spectra.
+"""On graphs.
 
-- `diffusion`: what a Laplacian does when it is applied again and again: heat flows, surfaces grow
-  smooth and shrink.
-- `spectral_cut`: spectral clustering of a graph into two: the Fiedler vector, the cut by its
-  sign, and the best of all cuts along it.
+- `diffusion`: heat flows, surfaces grow smooth and shrink.
+- `spectral_cut`: a graph cut in two along its Fiedler vector.
 """

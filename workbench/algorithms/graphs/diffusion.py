@@ -1,5 +1,4 @@
-"""What a Laplacian does when it is applied again and again: heat flows, surfaces grow smooth and
-shrink.
+"""Applies a Laplacian again and again: heat flows, surfaces grow smooth and shrink.
 
 Reference: Taubin, A signal processing approach to fair surface design, SIGGRAPH 1995, sections 2
 and 3.
@@ -22,13 +21,7 @@ LIMIT = 1e100
 
 @dataclass(frozen=True, eq=False)
 class Heat:
-    """Heat on the nodes of a graph after some steps.
-
-    Attributes:
-        step: Counted from 0, the start.
-        u: The heat of each node, by explicit steps.
-        exact: What it is in truth at that time, exp(-t L) u_0.
-    """
+    """The heat u of each node after explicit steps, and exp(-t L) u_0, the exact one then."""
 
     step: int
     u: Float[np.ndarray, " n"]
@@ -42,16 +35,9 @@ class Heat:
 
 @traced
 def heat(u: Float[np.ndarray, " n"], laplacian: Laplacian, dt: float, steps: int) -> Iterator[Heat]:
-    """Yield heat that flows along the edges by explicit (forward Euler) steps of du/dt = -L u,
-    beside the exact solution.
+    """Yield heat that flows along the edges by explicit (forward Euler) steps of du/dt = -L u.
 
     Steps longer than 2 over the largest eigenvalue make some part of u grow at every step.
-
-    Args:
-        u: The heat at the start.
-        laplacian: L.
-        dt: How long a step is.
-        steps: How many are made.
     """
     flow = scipy.sparse.diags_array(-dt / laplacian.mass) @ laplacian.matrix
     trace, exact = float(flow.diagonal().sum()), u
@@ -80,16 +66,13 @@ def smooth(
     inward: float = 0.5,
     outward: float = 0.0,
 ) -> Iterator[Smoothed]:
-    """Yield vertices that move towards the mean of their neighbours, and after each such move a
-    little back.
+    """Yield vertices that move towards the mean of their neighbours, and then a little back.
 
     Args:
-        p: Vertices, metres.
         adjacency: Which vertices share an edge; each has one at least.
-        steps: How many rounds.
         inward: The share of the way to the mean that a vertex goes (lambda).
-        outward: The share that it then goes away from it (-mu, Taubin); 0 is Laplacian smoothing,
-            which shrinks.
+        outward: The share that it goes away again (-mu, Taubin); 0 is Laplacian smoothing, which
+            shrinks.
     """
     mean = scipy.sparse.diags_array(1 / degrees(adjacency)) @ adjacency
     yield Smoothed(0, p)

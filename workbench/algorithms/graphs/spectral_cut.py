@@ -1,5 +1,4 @@
-"""Spectral clustering of a graph into two: the Fiedler vector, the cut by its sign, and the best of
-all cuts along it.
+"""Cuts a graph in two: the Fiedler vector, the cut by its sign, and the best of all cuts along it.
 
 Reference: von Luxburg, A tutorial on spectral clustering, 2007, sections 4 and 5; Spielman,
 Spectral and algebraic graph theory, 2019, chapter 21 (sweep cuts).
@@ -28,14 +27,12 @@ class Cut:
     """What is known of a graph's cut after a phase; what comes later is empty.
 
     Attributes:
-        phase: What was done last.
-        adjacency: The graph.
         eigenvalues: The three smallest, or as many as there are.
         fiedler: The function of the second.
-        side: Which nodes are on the near side of the cut in question.
+        side: Which nodes are on the near side.
         order: All nodes in the order of the Fiedler vector.
         conductances: Of each cut along that order.
-        k: The cut in question has the first k + 1 nodes on the near side; -1 for the cut by sign.
+        k: The near side has the first k + 1 nodes; -1 for the cut by sign.
         cut: The weight of the edges between the two sides.
         conductance: That over the smaller side's degrees.
     """
@@ -54,13 +51,11 @@ class Cut:
 
 @traced
 def spectral_cut(adjacency: Sparse, laplacian: Laplacian, shown: int = 6) -> Iterator[Cut]:
-    """Yield the graph, its Fiedler vector, the cut by sign, some of the cuts along the vector, and
-    the best of all.
+    """Yield the graph, its Fiedler vector, the cut by sign, `shown` cuts along it, and the best.
 
     Args:
         adjacency: A of a symmetric graph with two nodes or more.
         laplacian: Of which the second function is taken: plain, normalised, or of a mesh.
-        shown: How many cuts along the vector are yielded on the way.
     """
     now = Cut(phase="graph", adjacency=adjacency)
     yield now

@@ -1,5 +1,4 @@
-"""Graph convolutional networks: one layer in its parts, many layers in a row, and training by
-gradient descent.
+"""Graph convolutional networks: one layer in its parts, many layers in a row, and training.
 
 Reference: Kipf and Welling, Semi-supervised classification with graph convolutional networks, ICLR
 2017.
@@ -22,12 +21,11 @@ Part = Literal["input", "loops", "normalised", "gathered", "layer"]
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """Features of the nodes after a part of the first layer, or after a whole one.
+    """Features of the nodes, one row each, after a part of the first layer or after a whole one.
 
     Attributes:
         layer: How many layers are behind them; that of a part counts.
         part: What was done last.
-        features: One row per node.
         matrix: What gathers: A, then A + I, then its normalised form.
     """
 
@@ -47,11 +45,7 @@ def spread(
 ) -> Iterator[Layer]:
     """Yield the features of all nodes, the parts of the first layer, then every layer whole.
 
-    Args:
-        adjacency: A, dense, symmetric, without loops.
-        features: X of the input.
-        weights: W of each layer, in their order.
-        gcn_layer: Computes one layer.
+    The adjacency is dense, symmetric and without loops.
     """
     yield Layer(0, "input", features, adjacency)
     if weights:
@@ -71,9 +65,8 @@ class Trained:
     """A network after some steps of training.
 
     Attributes:
-        iteration: How many steps.
         loss: The cross-entropy over the labelled nodes.
-        scores: What the last layer says of every node, one column per class; the largest decides.
+        scores: The last layer's, a row per node, a column per class; the largest decides.
     """
 
     iteration: int
@@ -93,16 +86,12 @@ def train(
     rate: float = 0.05,
     gcn_layer: GcnLayer = graphs.gcn_layer,
 ) -> Iterator[Trained]:
-    """Yield a network before and after every step of Adam on the labels that are known; the last
-    layer has no ReLU.
+    """Yield a network before and after every step of Adam; the last layer has no ReLU.
 
     Args:
         adjacency: A, dense, symmetric, without loops.
-        features: X of the input.
-        weights: W of each layer at the start.
         labelled: The nodes whose class is known.
         classes: Their classes.
-        iterations: How many steps.
         rate: Adam's step size; its other numbers are the usual ones.
         gcn_layer: Computes every layer but the last.
 
@@ -136,9 +125,6 @@ def train(
 
 
 def softmax(scores: Float[np.ndarray, "n c"]) -> Float[np.ndarray, "n c"]:
-    """Return a row's scores as probabilities.
-
-    Reference: Kipf and Welling 2017, eq. 9.
-    """
+    """Return each row's scores as probabilities (Kipf and Welling 2017, eq. 9)."""
     raised = np.exp(scores - scores.max(axis=1, keepdims=True))
     return raised / raised.sum(axis=1, keepdims=True)

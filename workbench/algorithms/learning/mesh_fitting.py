@@ -1,5 +1,4 @@
-"""A mesh whose vertices move until points on it lie where given points lie, held together by terms
-that know no data.
+"""Moves a mesh's vertices until points on it lie where given points lie, held by smoothness terms.
 
 Reference: Wang et al., Pixel2Mesh, ECCV 2018, section 3.4. Ravi et al., Accelerating 3D deep
 learning with PyTorch3D, 2020, tutorial "Deform a source mesh to form a target mesh".
@@ -40,14 +39,10 @@ class MeshFitted:
     """A mesh after some updates.
 
     Attributes:
-        updates: How many.
-        loss: Chamfer distance of points on it to the given points, m², the mean since the last
-            state.
-        p: Its vertices.
+        loss: Chamfer distance to the given points, m², the mean since the last state.
         to_given: Chamfer distance of many points on it to the given points, m².
         to_truth: The same to points on the true surface; NaN where none are known.
-        farthest: How far the true surface is from the mesh where it is farthest, m; NaN where it is
-            not known.
+        farthest: How far the true surface is from the mesh at most, m; NaN where it is not known.
         folded: The share of its edges that are folded by more than a right angle.
     """
 
@@ -72,18 +67,12 @@ def fit_mesh(
     rng: np.random.Generator,
     chamfer_gradient: ChamferGradient = chamfer_gradient,
 ) -> Iterator[MeshFitted]:
-    """Yield a mesh as its vertices move down the Chamfer distance to given points, plus weighted
-    energies.
+    """Yield a mesh as it descends the Chamfer distance to given points, plus energies.
 
     Args:
-        p: Vertices at the start, m.
-        faces: They stay.
-        given: Points to fit.
         truth: Points on the true surface, only looked at; empty where it is not known.
         weights: Of the energies.
-        counts: After how many updates.
-        rng: Draws the points on the mesh.
-        chamfer_gradient: Computes one gradient of the Chamfer distance.
+        counts: After how many updates a state is yielded.
     """
     p, count = p.copy(), len(p)
     L, edges, pairs = umbrella(faces, count), edges_of(faces), face_pairs(faces)

@@ -1,5 +1,4 @@
-"""A neural field: a small network that is trained to give the signed distance of any point,
-gradients written by hand.
+"""A neural field: a small network that is trained to give the signed distance of any point, metres.
 
 Reference: Park et al., DeepSDF, CVPR 2019 (the clamped loss, eq. 4). Mescheder et al., Occupancy
 networks, CVPR 2019. Tancik et al., Fourier features, NeurIPS 2020. Kingma and Ba, Adam, ICLR 2015,
@@ -35,8 +34,7 @@ class Network:
     Attributes:
         values: All weights and biases in a row, float32.
         sizes: How many numbers go into each layer, and 1 at the end.
-        frequencies: How many octaves of sine and cosine of each coordinate go in beside the
-            coordinates.
+        frequencies: Octaves of sine and cosine that go in beside the coordinates.
         activation: What follows every layer but the last.
     """
 
@@ -60,13 +58,7 @@ class Network:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Trained:
-    """A network after some iterations.
-
-    Attributes:
-        network: The network.
-        iterations: How many.
-        loss: The mean over the batches since the last state; over one batch before the first.
-    """
+    """A network after some iterations, and the mean loss over the batches since the last state."""
 
     network: Network
     iterations: int
@@ -74,9 +66,7 @@ class Trained:
 
 
 def encoded(p: Float[np.ndarray, "n 3"], frequencies: int) -> Float[np.ndarray, "n k"]:
-    """Return the coordinates, and the sine and cosine of pi 2^k times each of them, k below
-    `frequencies`; float32.
-    """
+    """Return the coordinates, and sine and cosine of pi 2^k times each; float32."""
     p = p.astype(np.float32)
     waves = [
         wave(np.float32(np.pi * 2**k) * p) for k in range(frequencies) for wave in (np.sin, np.cos)
@@ -92,16 +82,7 @@ def new_network(
     rng: np.random.Generator,
     hidden: int = 2,
 ) -> Network:
-    """Return a network whose weights were drawn: normal, of variance 1 over the inputs, twice that
-    for ReLU.
-
-    Args:
-        width: Numbers in a hidden layer.
-        frequencies: Octaves of sine and cosine that go in.
-        activation: What follows the hidden layers.
-        rng: Chance.
-        hidden: How many hidden layers.
-    """
+    """Return a network of normal weights: variance 1 over the inputs, twice that for ReLU."""
     sizes = (3 + 6 * frequencies, *[width] * hidden, 1)
     values = []
     for k, (into, out) in enumerate(pairwise(sizes)):
@@ -124,17 +105,12 @@ def train_field(
     target: Target,
     rng: np.random.Generator,
 ) -> Iterator[Trained]:
-    """Yield the network after so many iterations of Adam, each on a batch of the samples; the step
-    size falls to near 0.
+    """Yield the network after so many iterations of Adam; the step size falls to near 0.
 
     Args:
-        network: Where it begins.
-        p: Samples, m.
-        distances: Their signed distance to the surface, m.
         counts: After how many iterations, from 0 on; the last is the end.
         target: What is asked for: the distance (squared error), the distance clamped to 0.1 m
             (absolute error), or inside (cross-entropy, the output being the logit of outside).
-        rng: Draws the batches.
     """
     values = network.values.copy()
     layers, gradients = layers_of(values, network.sizes), np.zeros_like(values)

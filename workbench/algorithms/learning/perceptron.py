@@ -1,5 +1,6 @@
-"""A multilayer perceptron and Adam: forward, backward and the step, written out, with all numbers
-of a network in one row.
+"""A multilayer perceptron and Adam, written out, with all numbers of a network in one row.
+
+An activation follows every layer but the last.
 
 Reference: Goodfellow, Bengio and Courville, Deep Learning, 2016, algorithms 6.3 and 6.4. Kingma and
 Ba, Adam, ICLR 2015, algorithm 1. He et al., Delving deep into rectifiers, ICCV 2015 (the first
@@ -22,9 +23,7 @@ _B1, _B2, _TINY = 0.9, 0.999, 1e-8
 
 
 def new_values(sizes: Sequence[int], rng: np.random.Generator) -> Float[np.ndarray, " w"]:
-    """Return first weights, normal of variance 2 over the inputs, and biases of 0, for layers of
-    these sizes with ReLU.
-    """
+    """Return first weights, normal of variance 2 over the inputs, and biases of 0, for ReLU."""
     parts = []
     for into, out in pairwise(sizes):
         parts += [rng.normal(size=into * out) * np.sqrt(2 / into), np.zeros(out)]
@@ -50,13 +49,7 @@ def layers_of(values: Float[np.ndarray, " w"], sizes: Sequence[int]) -> Layers:
 def forward(
     layers: Layers, x: Float[np.ndarray, "n a"], activation: Activation
 ) -> list[np.ndarray]:
-    """Return what goes into each layer, and what comes out of the last.
-
-    Args:
-        layers: Weights and biases.
-        x: One row per input.
-        activation: What follows every layer but the last.
-    """
+    """Return what goes into each layer, and what comes out of the last."""
     outputs = [x]
     for weights, bias in layers[:-1]:
         z = outputs[-1] @ weights + bias
@@ -77,10 +70,8 @@ def backward(
     Times its weights transposed, it is the gradient by the inputs.
 
     Args:
-        layers: Weights and biases.
         outputs: What `forward` returned.
         slope: The gradient of the loss by what comes out.
-        activation: What follows every layer but the last.
         into: Where the gradients go, as the layers lie.
     """
     for k in reversed(range(len(layers))):
@@ -95,14 +86,11 @@ def backward(
 def descend(
     values: np.ndarray, gradient: Gradient, counts: Sequence[int], rate: float
 ) -> Iterator[tuple[int, float]]:
-    """Yield how many steps Adam has taken, and the mean loss since the last yield, while the values
-    are moved in place.
+    """Yield how many steps Adam has taken, and the mean loss since; `values` are moved in place.
 
     Args:
-        values: What is learned, of any shape; written to.
         gradient: Makes a batch, and returns its loss and the gradient, shaped as the values.
-        counts: After how many steps, from 0 on (the loss of one batch before any); the last is the
-            end.
+        counts: After how many steps, from 0 on (the loss of one batch); the last is the end.
         rate: The step size at the start; it falls evenly to a fifteenth at the end.
 
     Reference: Kingma and Ba 2015, algorithm 1.

@@ -36,8 +36,8 @@ class PointNet:
         values: All weights and biases in a row.
         pointwise: Sizes of the layers that every point goes through alone.
         head: Sizes of the layers behind the pooling.
-        pool: How the points' features become one row; with "none" the points themselves stand
-            in a row, in the order in which they come.
+        pool: How the points' features become one row; with "none" the points themselves stand in a
+            row.
     """
 
     values: Float[np.ndarray, " w"]
@@ -50,9 +50,7 @@ class PointNet:
         return self.run(clouds).head[-1]
 
     def critical(self, clouds: Clouds) -> list[Int[np.ndarray, " k"]]:
-        """Return for each cloud which points decide under max pooling: those with the largest of
-        some feature.
-        """
+        """Return for each cloud the points with the largest of some feature: they decide."""
         return [np.unique(row) for row in self.run(clouds).winners]
 
     def run(self, clouds: Clouds) -> "Pass":
@@ -129,14 +127,7 @@ class Pass:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Classified:
-    """A network after some updates.
-
-    Attributes:
-        updates: How many.
-        loss: The mean cross-entropy since the last state.
-        network: The network.
-        scores: What it says of each test cloud, by the name of the test.
-    """
+    """A network after some updates, its mean loss since the last state, its scores by test."""
 
     updates: int
     loss: float
@@ -157,12 +148,9 @@ def train_classifier(
     """Yield a network that learns to name the shape of a cloud.
 
     Args:
-        pool: What makes one row of all points' features.
         draw: Makes so many clouds, with their classes.
         tests: Clouds on which it is tried.
-        classes: How many there are.
-        counts: After how many updates.
-        rng: Draws the first weights.
+        counts: After how many updates a state is yielded.
     """
     n = next(iter(tests.values())).shape[1]
     pointwise = POINTWISE if pool != "none" else ()

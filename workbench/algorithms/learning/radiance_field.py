@@ -1,5 +1,6 @@
-"""A radiance field on a grid in the plane: density and colour that are learned from photographs
-alone.
+"""Learns density and colour on a grid in the plane from photographs alone.
+
+Rays begin at p and have unit directions d; lengths are in metres.
 
 Reference: Mildenhall et al., NeRF, ECCV 2020, section 4; Sun, Sun and Chen, Direct voxel grid
 optimization, CVPR 2022, section 3 (a grid in place of the network).
@@ -31,11 +32,11 @@ OUTSIDE, LEAST, PER_UNIT = (
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RadianceField:
-    """Four numbers at each node of a square grid over (-1, 1)².
+    """A square grid over (-1, 1)².
 
     Attributes:
-        raw: Of each node, x first: one that becomes density, three that become colour.
-        reach: From where to where rays are sampled, m from where they begin.
+        raw: Of each node, x first: one number that becomes density, three that become colour.
+        reach: From where to where rays are sampled.
     """
 
     raw: Float[np.ndarray, "k 4"]
@@ -52,9 +53,7 @@ class RadianceField:
         return _logistic(self.raw[:, 1:]).reshape(CELLS, CELLS, 3)
 
     def at(self, p: Float[np.ndarray, "r s 2"]) -> tuple[np.ndarray, np.ndarray]:
-        """Return density and colour at points, linear between nodes before they are made
-        positive.
-        """
+        """Return density and colour, linear between nodes before they are made positive."""
         return _at(self.raw, *_between(p))[:2]
 
     def along(
@@ -63,13 +62,7 @@ class RadianceField:
         d: Float[np.ndarray, "r 2"],
         ray_weights: RayWeights = ray_weights,
     ) -> tuple[Float[np.ndarray, "r s"], Float[np.ndarray, "r 3"]]:
-        """Return the weights along rays and the colours that they see.
-
-        Args:
-            p: Where the rays begin.
-            d: Their unit directions.
-            ray_weights: Computes the weights.
-        """
+        """Return the weights along rays and the colours that they see."""
         q, spacing = samples_on(p, d, self.reach, SAMPLES)
         density, color = self.at(q)
         weights = np.asarray(ray_weights(density, spacing), float)
@@ -78,13 +71,7 @@ class RadianceField:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Reconstructed:
-    """A field after some updates.
-
-    Attributes:
-        updates: How many.
-        loss: Mean squared difference to the photographs, since the last state.
-        field: The field.
-    """
+    """A field after some updates, and the mean squared difference to the photographs meanwhile."""
 
     updates: int
     loss: float
@@ -105,12 +92,9 @@ def reconstruct(
     """Yield a field as it comes to look like photographs.
 
     Args:
-        p: Where the rays of all pixels begin.
-        d: Their unit directions.
         colors: What the pixels show, 0 to 1.
-        reach: From where to where on the rays, m.
-        counts: After how many updates.
-        rng: Draws rays, and where on them is sampled.
+        reach: From where to where rays are sampled.
+        counts: After how many updates a state is yielded.
         ray_weights: Computes how much each sample of a ray counts.
     """
     raw = np.zeros((CELLS * CELLS, 4))
@@ -137,9 +121,7 @@ def reconstruct(
 
 
 def _between(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the four nodes about each point, and their shares; none where it lies beyond the
-    grid.
-    """
+    """Return the four nodes about each point, and their shares; none beyond the grid."""
     at = (p + 1) / 2 * (CELLS - 1)
     inside = np.all((at >= 0) & (at <= CELLS - 1), axis=-1)
     at = np.clip(at, 0, CELLS - 1 - 1e-6)

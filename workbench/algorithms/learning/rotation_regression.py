@@ -1,5 +1,4 @@
-"""A network that tells by how much its input is turned, trained with one representation of
-rotations or another.
+"""Trains a network to tell how its input is turned, with one or another representation.
 
 Reference: Zhou et al., On the continuity of rotation representations in neural networks, CVPR 2019,
 sections 4 and 5.
@@ -37,7 +36,6 @@ class Regressed:
     """A network after some updates.
 
     Attributes:
-        updates: How many.
         loss: The mean over the batches since the last state.
         outputs: What it puts out for each test input.
         R: The rotations that these are.
@@ -66,14 +64,12 @@ def regress(
     """Yield a network that is shown the entries of rotations and is to put out the same rotations.
 
     Args:
-        representation: What its outputs mean.
         R_test: Rotations on which it is tested, never drawn for training but by chance.
         largest: The largest turn of those it is trained on, radians.
         compared: What the loss compares: the numbers with those asked for, or the matrices.
         width: Numbers in each of two hidden layers.
         rate: The step size of Adam at the start.
-        counts: After how many updates.
-        rng: Draws the first weights and all batches.
+        counts: After how many updates a state is yielded.
     """
     d = R_test.shape[1]
     sizes = (_inputs(R_test).shape[1], width, width, len(representation.start))

@@ -1,8 +1,6 @@
-"""A set of points that is to be like every one of many targets at once: what remains is what the
-loss calls the mean.
+"""Moves points to be like many targets at once; what remains is what the loss calls the mean.
 
-Reference: Fan, Su and Guibas, A point set generation network, CVPR 2017, section 3.3 and figure 4
-(mean shapes).
+Reference: Fan, Su and Guibas, A point set generation network, CVPR 2017, section 3.3 and figure 4.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -27,14 +25,7 @@ BATCH, RATE = 4, 0.03
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SetLearned:
-    """The points after some updates.
-
-    Attributes:
-        updates: How many.
-        loss: The mean over the targets since the last state, m².
-        p: The points.
-        targets: Those of the last update.
-    """
+    """The points after some updates, the mean loss meanwhile, m², and the last targets."""
 
     updates: int
     loss: float
@@ -54,10 +45,9 @@ def learn_set(
     """Yield the points as they move down the mean loss to ever new targets.
 
     Args:
-        p: Where they begin, m.
         draw: Makes a target, as many points.
         set_loss: Nearest both ways, or one to one; both of squares.
-        counts: After how many updates.
+        counts: After how many updates a state is yielded.
         chamfer_gradient: Computes one gradient of the first loss.
     """
     p = p.copy()

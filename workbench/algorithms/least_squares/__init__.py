@@ -1,9 +1,7 @@
 """Nonlinear least squares, step by step.
 
-- `descent`: nonlinear least squares in small steps: Gauss and Newton's, and Levenberg and
-  Marquardt's that can be taken back.
-- `board_adjustment`: refines a camera, its lens and the poses of a board together: Levenberg-
-  Marquardt with the poses eliminated.
+- `descent`: Gauss and Newton's steps, and Levenberg and Marquardt's that can be taken back.
+- `board_adjustment`: a camera, its lens and the poses of a board, refined together.
 """
 
 from workbench.algorithms.least_squares.descent import (

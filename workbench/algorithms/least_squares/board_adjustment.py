@@ -1,9 +1,8 @@
-"""Refines a camera, its lens and the poses of a board together: Levenberg-Marquardt with the poses
-eliminated.
+"""Refines a camera, its lens and the poses of a board together, by Levenberg and Marquardt.
 
 The normal equations have 4 to 9 unknowns that all views share and 6 of each view alone. The pose
-blocks are 6 by 6 and independent, so they are solved for first (Schur's complement), and what is
-left is as large as the camera.
+blocks are independent, so they are solved for first (Schur's complement), and what is left is as
+large as the camera. Boards are in metres, residuals are projected minus measured pixels.
 
 Reference: Zhang, A Flexible New Technique for Camera Calibration, PAMI 2000, 3.2 and 3.3 (what is
 minimised); Triggs et al., Bundle Adjustment: A Modern Synthesis, 2000, sections 3.2 (residual
@@ -51,18 +50,13 @@ class Adjustment:
 
     Attributes:
         iteration: How many linear systems were solved; 0 is the start.
-        K: Intrinsics, pixels.
-        lens: The lens.
-        Ts_camera_board: Poses of the board, one per view.
-        residuals: Projected minus measured, pixels.
         weights: How much each corner's squared residual counts.
-        cost: The sum of the loss over all corners, px²; of squares where no corner of the loss is
-            given.
+        cost: The sum of the loss over all corners, px².
         damping: With which the next system is solved.
-        accepted: Whether this iteration's step lowered the cost; a rejected one changes nothing but
-            the damping.
-        covariance: Of those of `SHARED` that are free, in their order; None before the end, and
-            where the views do not determine them.
+        accepted: Whether this step lowered the cost; a rejected one changes nothing but the
+            damping.
+        covariance: Of the free ones of `SHARED`; None before the end, and where the views do not
+            determine them.
         free: Which of `SHARED` are free.
         stop: Why this is the last, or None.
     """
@@ -82,9 +76,7 @@ class Adjustment:
 
     @property
     def deviations(self) -> Float[np.ndarray, "9"]:
-        """Predicted standard deviations of `SHARED`; 0 for what is fixed, NaN where nothing is
-        known.
-        """
+        """Predicted standard deviations of `SHARED`; 0 for what is fixed, NaN if not known."""
         found = np.zeros(9)
         found[self.free] = np.nan if self.covariance is None else np.sqrt(np.diag(self.covariance))
         return found
@@ -105,21 +97,15 @@ def adjust(
 ) -> Iterator[Adjustment]:
     """Yield the iterations of the joint refinement, from the start on, rejected ones too.
 
+    The cost never rises. The predicted covariance takes errors of all corners for independent and
+    alike, and the board for flat and as large as `p_board` says.
+
     Args:
-        K: Intrinsics to begin with, pixels; the skew is left out.
-        lens: Lens to begin with.
-        Ts_camera_board: Poses to begin with.
-        p_board: Points of the board, metres.
-        uv: Their pixels in every view.
+        K: Where to begin, pixels; the skew is left out.
         coefficients: How many of k1, k2, p1, p2, k3 are free; the others stay as they are.
-        corner: Residuals well beyond it, in pixels, hardly count (Cauchy's loss); plain squares if
-            None.
+        corner: Residuals well beyond it, in pixels, hardly count (Cauchy's loss); squares if None.
         max_iterations: Linear systems solved at most.
         tolerance: Converged when a step lowers the cost by less than this share.
-
-    Note:
-        The cost never rises. The predicted covariance takes errors of all corners for independent
-        and alike, and the board for flat and as large as `p_board` says.
     """
     free = np.arange(9) < 4 + coefficients
     shared = shared_numbers(K, lens)
@@ -183,18 +169,10 @@ def linearised(
     p_board: Float[np.ndarray, "n 3"],
     uv: Float[np.ndarray, "k n 2"],
 ) -> Float[np.ndarray, "k 16 m"]:
-    """Return of every view the derivatives of its 2n residuals, all u and then all v, and in the
-    last row these themselves.
+    """Return the derivatives of each view's 2n residuals, all u and then all v; these come last.
 
     Rows 0 to 8 belong to `SHARED`, 9 to 11 to a turn of the board about its origin (R becomes
     exp(w) R), 12 to 14 to t.
-
-    Args:
-        shared: Values of `SHARED`.
-        R_camera_board: Rotations of the board.
-        t: Its translations, metres.
-        p_board: Points of the board, metres.
-        uv: Their pixels, projected ones minus which are the residuals.
     """
     n = len(p_board)
     fx, fy, cx, cy, k1, k2, p1, p2, k3 = shared
@@ -238,8 +216,7 @@ def linearised(
 def loss(
     block: Float[np.ndarray, "k 16 m"], corner: float | None
 ) -> tuple[float, Float[np.ndarray, "k n"]]:
-    """Return the sum of the loss of all residuals, and the weight of each corner: squares, or
-    Cauchy's loss.
+    """Return the summed loss and the weight of each corner: squares, or Cauchy's loss.
 
     Cauchy's loss is c² log(1 + e²/c²), whose slope is that of the weighted square e² / (1 + e²/c²).
     """
@@ -256,8 +233,7 @@ def loss(
 def solved(
     normal: Float[np.ndarray, "k 16 16"], free: Bool[np.ndarray, "9"], damping: float
 ) -> tuple[Float[np.ndarray, "9"], Float[np.ndarray, "k 6"]] | None:
-    """Return the damped step of the shared unknowns and of every pose, or None where the system has
-    no solution.
+    """Return the damped step of the shared unknowns and of every pose; None without a solution.
 
     Args:
         normal: Products of the rows of every view's block.
@@ -285,9 +261,7 @@ def solved(
 def shared_information(
     block: Float[np.ndarray, "k 16 m"], free: Bool[np.ndarray, "9"]
 ) -> Float[np.ndarray, "f f"]:
-    """Return what is left of the normal matrix for the free shared unknowns once the poses are
-    eliminated.
-    """
+    """Return the normal matrix of the free shared unknowns with the poses eliminated."""
     return _information(block @ np.swapaxes(block, 1, 2), free)
 
 
@@ -316,9 +290,7 @@ def _information(normal: np.ndarray, free: np.ndarray) -> np.ndarray:
 
 @_QUIETLY
 def _covariance(block: np.ndarray, weights: np.ndarray, free: np.ndarray) -> np.ndarray | None:
-    """Return the covariance of the free shared unknowns, or None where the views do not determine
-    them.
-    """
+    """Return the covariance of the free shared unknowns; None where the views leave them open."""
     normal = _normal(block, weights)
     spare = 2 * weights.size - int(free.sum()) - 6 * len(block)
     try:

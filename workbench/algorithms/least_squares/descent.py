@@ -1,5 +1,6 @@
-"""Nonlinear least squares in small steps: Gauss and Newton's, and Levenberg and Marquardt's that
-can be taken back.
+"""Nonlinear least squares in small steps: Gauss and Newton's, and Levenberg and Marquardt's.
+
+`linearise` gives the residuals (n,) at an unknown and their Jacobian (n, k) with respect to a small step; `retract` gives the unknown that a small step (k,) leads to. Both may take many unknowns in rows.
 """
 
 from collections.abc import Callable, Iterator
@@ -42,14 +43,10 @@ class Descent:
         phase: The start; the linear problem around the current unknown; its solution tried out;
             kept, or taken back.
         iteration: From 1, 0 at the start.
-        unknown: Where it is.
-        residuals: There.
-        jacobian: Their slopes by a small step from there.
-        cost: Their sum of squares.
+        cost: The residuals' sum of squares.
         damping: That the step is solved with: 0 for Gauss-Newton.
         step: The solution of the linear problem; None before there is one.
         trial: The unknown that it leads to.
-        trial_cost: The sum of squares there.
         before: The sum of squares where the step began.
         predicted: By how much the linear problem said that the step lowers the sum.
         stop: Why this is the last moment, or None.
@@ -71,30 +68,21 @@ class Descent:
 
     @property
     def gain(self) -> float:
-        """How much the step lowers the sum of squares, as a share of what the linear problem
-        predicted.
-        """
+        """How much the step lowers the sum of squares, as a share of the prediction."""
         return (self.before - self.trial_cost) / self.predicted if self.predicted > 0.0 else np.nan
 
 
 def damped_step(
     residuals: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n k"], damping: float
 ) -> Float[np.ndarray, " k"]:
-    """Return the step that solves (JᵀJ + damping diag(JᵀJ)) step = -Jᵀr; without damping it is
-    Gauss and Newton's.
+    """Return the step that solves (JᵀJ + damping diag(JᵀJ)) step = -Jᵀr.
 
-    Args:
-        residuals: r, what should become small.
-        jacobian: J, their slopes by a small step.
-        damping: 0 or more; large values give short steps down the slope, each entry in its own
-            unit.
+    It is solved as least squares of J and of damped rows below it. JᵀJ itself would square the
+    condition, and far from the answer half of the digits with it.
 
     Raises:
         LinAlgError: If the matrix is singular: some step changes no residual.
 
-    Note:
-        It is solved as least squares of J and of damped rows below it. JᵀJ itself would square the
-        condition, and far from the answer half of the digits with it.
     Reference: Marquardt, An algorithm for least-squares estimation of nonlinear parameters, 1963.
     """
     size, k = np.linalg.norm(jacobian, axis=0), jacobian.shape[1]
@@ -121,22 +109,15 @@ def descend(
     iterations: int = 100,
     tolerance: float = 1e-6,
 ) -> Iterator[Descent]:
-    """Yield the moments of Levenberg-Marquardt, or of Gauss-Newton, which accepts every step, where
-    the damping is 0.
+    """Yield the moments of Levenberg-Marquardt; damping 0 is Gauss-Newton and accepts every step.
 
     Args:
-        linearise: Gives the residuals (n,) at an unknown, and their Jacobian (n, k) with respect to
-            a small step.
-        retract: Gives the unknown that a small step (k,) leads to.
-        start: The first unknown.
-        damped_step: Solves the linear problem.
-        damping: At the start; 0 for none at all.
         iterations: Linear problems solved at most.
         tolerance: Converged when a step changes the sum of squares by no more than this share of
             it, or promises to.
 
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 10.3; Madsen, Nielsen and
-        Tingleff, Methods for non-linear least squares problems, 2004, section 3.2 (the gain ratio).
+    Tingleff, Methods for non-linear least squares problems, 2004, section 3.2 (the gain ratio).
     """
     unknown, is_damped = start, damping > 0.0
     residuals, jacobian = linearise(unknown)
@@ -204,9 +185,7 @@ def descend(
 
 @dataclass(frozen=True, eq=False)
 class Along:
-    """Sums of squares along a step: at which shares of it, what they are, and what the linear
-    problem says of them.
-    """
+    """Sums of squares at shares of a step, and what the linear problem says of them."""
 
     shares: Float[np.ndarray, " k"]
     costs: Float[np.ndarray, " k"]
@@ -216,16 +195,11 @@ class Along:
 def along_step(
     now: Descent, linearise: Linearise, retract: Retract, *, shares: Float[np.ndarray, " k"]
 ) -> Along:
-    """Return the sums of squares along the step of a descent.
-
-    Args:
-        now: A moment that has tried a step out.
-        linearise: As of `descend`, for many unknowns in rows.
-        retract: Likewise.
-        shares: Of the step; 1 is its end.
+    """Return the sums of squares at shares of the step of a descent; 1 is its end.
 
     Raises:
         ValueError: If there is no step.
+
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 4.1 (the model beside the
     function).
     """
@@ -242,15 +216,7 @@ def along_step(
 
 @dataclass(frozen=True, eq=False)
 class Walked:
-    """A moment of a descent, where it has been so far, and while a step is tried the sums of
-    squares along it.
-
-    Attributes:
-        now: The moment.
-        kept: The unknowns from the start to the present one.
-        taken_back: Those that were tried and not kept.
-        along: While a step is tried.
-    """
+    """A moment of a descent and its way: the unknowns kept so far, and those taken back."""
 
     now: Descent
     kept: Float[np.ndarray, "k m"]
@@ -265,16 +231,7 @@ def with_its_way(
     *,
     shares: Float[np.ndarray, " k"],
 ) -> Iterator[Walked]:
-    """Yield the moments of a descent, each with the way that led there.
-
-    Args:
-        moments: As `descend` yields them; those that only linearise or try may be left out.
-        linearise: As of `along_step`.
-        retract: Likewise.
-        shares: Likewise.
-
-    Reference: as `descend` and `along_step`.
-    """
+    """Yield the moments of a descent, each with the way that led there."""
     kept, taken_back = [], []
     for now in moments:
         if now.phase in ("start", "accepted"):
@@ -305,14 +262,7 @@ def covariance(
 
 @dataclass(frozen=True, eq=False)
 class Descents:
-    """Many descents after as many iterations.
-
-    Attributes:
-        iteration: How many.
-        unknowns: Where each is.
-        costs: The sum of squares there.
-        done: Which of them have converged.
-    """
+    """Many descents after as many iterations: unknowns, sums of squares, who has converged."""
 
     iteration: int
     unknowns: Float[np.ndarray, "k m"]
@@ -329,21 +279,10 @@ def descend_many(
     iterations: int = 100,
     tolerance: float = 1e-6,
 ) -> Iterator[Descents]:
-    """Yield many descents side by side, one iteration at a time, each as `descend` would go; they
-    end when all are done.
+    """Yield many descents side by side, each as `descend` would go, until all are done.
 
-    Args:
-        linearise: Gives residuals (k, n) and Jacobians (k, n, m) at all unknowns.
-        retract: Gives the unknowns that small steps lead to.
-        starts: The first unknowns.
-        damping: Of each at the start; 0 for Gauss-Newton.
-        iterations: At most.
-        tolerance: As of `descend`.
-
-    Note:
-        What is not finite any more stays as it is and counts as done.
-    Reference: as `descend`; the matrix is scaled to a diagonal of ones, where Marquardt's damping
-    is one number.
+    What is not finite any more stays as it is and counts as done. The matrix is scaled to a
+    diagonal of ones, where Marquardt's damping is one number.
     """
     unknowns = starts
     residuals, jacobians = linearise(unknowns)

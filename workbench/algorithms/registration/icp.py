@@ -1,5 +1,6 @@
-"""Iterative closest point: match every source point to its nearest target point, fit a motion,
-repeat.
+"""Iterative closest point: match each source point to the nearest target point, fit, repeat.
+
+`p_target` and moved points are in the target frame, `p_source` in the source frame, metres.
 
 References: Besl and McKay, A method for registration of 3-D shapes, 1992, section IV.B (the loop,
 steps a-d); Chen and Medioni, Object modelling by registration of multiple range images, 1992 (point
@@ -51,12 +52,9 @@ class Stop(Enum):
 
 @dataclass(frozen=True)
 class Gate:
-    """Which matches a fit may use: those not farther apart than a limit found from the distances
-    themselves.
+    """Which matches a fit may use: those within a limit found from the distances themselves.
 
-    `max_distance` is a fixed limit in metres. Among the pairs it leaves, `keep` takes that fraction
-    with the smallest distances (trimming) and `medians` takes those within that many times the
-    median. All three together: the smallest limit counts.
+    `max_distance` is a fixed limit in metres. Among the pairs it leaves, `keep` takes that fraction with the smallest distances (trimming) and `medians` takes those within that many times the median. All three together: the smallest limit counts.
     """
 
     max_distance: float = np.inf
@@ -90,7 +88,6 @@ class State:
     """One sub-step: after `match` the partners are new, after `fit` the motion is.
 
     Attributes:
-        phase: Which of the two just happened.
         iteration: Counted from 1.
         T_target_source: The motion so far; after `match` it is still that of the fit before.
         indices: The target point matched to each source point.
@@ -122,10 +119,6 @@ def nearest(
 ) -> Int[np.ndarray, "n"]:
     """Return the index of the target point nearest to each source point.
 
-    Args:
-        p_target: Points, metres.
-        p_source: Points in the target frame (moved by the motion so far).
-
     Raises:
         ValueError: If there is no target point, or a coordinate is not finite.
     """
@@ -148,29 +141,20 @@ def icp(
 ) -> Iterator[State]:
     """Yield the states of ICP, two per iteration, from an initial guess to a stop.
 
+    ICP finds the nearest minimum, not the best one. With `align_rigid` and a gate that only trims,
+    the RMSE of the kept matches never rises; a small RMSE is no proof of a right answer.
+
     Args:
-        p_target: The cloud that stays, target frame, metres.
-        p_source: The cloud to be moved, source frame, metres.
-        T_target_source: The initial guess.
-        n_target: Unit normals of the target. With them each fit is one point-to-plane step, without
-            them `align`.
-        gate: Which matches a fit may use.
-        match: Finds partners; None means `matcher`'s, which keeps one k-d tree over the target for
-            the whole run.
+        n_target: Unit normals. With them each fit is one point-to-plane `step`, without them
+            `align`.
+        match: Finds partners; None means `matcher`'s, which keeps one k-d tree for the whole run.
         align: Fits a motion to pairs: `align_rigid`, `align_similarity`, `align_affine`, or one's
             own.
-        step: Makes the point-to-plane step.
-        max_iterations: Match and fit at most this often.
         tolerance: Converged when a fit moves no point by more than this share of the source's
             extent.
 
     Raises:
         ValueError: If a cloud is empty or holds numbers that are not finite.
-
-    Note:
-        ICP finds the nearest minimum, not the best one. With `align_rigid` and a gate that only
-        trims, the RMSE of the kept matches never rises; a plateau or a small RMSE is no proof of a
-        right answer.
 
     Examples:
         >>> p_target = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
@@ -242,12 +226,10 @@ def icp(
 
 
 def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]) -> Match:
-    """Return a nearest-neighbour `match` that has built its tree over the target, and visits the
-    source in tree order.
+    """Return a nearest-neighbour `match` with its tree built; it visits the source in tree order.
 
     Consecutive queries then touch the same leaves: for 100,000 points in random order that takes a
-    third of the time. So does a tree with large leaves that is neither balanced nor compacted,
-    beside scipy's default.
+    third of the time. So does a tree with large leaves that is neither balanced nor compacted.
     """
     check_clouds(p_target, p_source)
     tree, order = _tree(p_target), _tree(p_source).indices
@@ -266,7 +248,7 @@ def _tree(p: np.ndarray) -> "scipy.spatial.KDTree":
 
 
 def check_clouds(*clouds: np.ndarray) -> None:
-    """Raise ValueError unless every cloud has points and all of them are finite.
+    """Raise an error unless every cloud has points and all of them are finite.
 
     Raises:
         ValueError: If a cloud is empty or holds numbers that are not finite.
@@ -279,9 +261,7 @@ def check_clouds(*clouds: np.ndarray) -> None:
 
 
 def bounding_corners(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "8 3"]:
-    """Return the corners of the bounding box: no affine map moves a point by more than it moves one
-    of these.
-    """
+    """Return the corners of the bounding box; no affine map moves a point by more than these."""
     low, high = p.min(axis=0), p.max(axis=0)
     return np.array([np.where([i & 4, i & 2, i & 1], high, low) for i in range(8)])
 
@@ -299,14 +279,9 @@ def misfit(
     distances: Float[np.ndarray, "n"],
     kept: Bool[np.ndarray, "n"],
 ) -> float:
-    """Return the root mean square, over the kept matches, of what the fit minimises, in metres.
+    """Return the root mean square, over the kept matches, of what the fit minimises, metres.
 
-    Args:
-        p_match: The partner of each moved source point, target frame, metres.
-        p_moved: The moved source points, target frame, metres.
-        n_match: Unit normals at the partners, or None for point-to-point distances.
-        distances: Between the two, metres.
-        kept: The matches that the fit used.
+    With normals these are distances to tangent planes, without them `distances`.
     """
     if n_match is not None:
         distances = np.einsum("ij,ij->i", p_match - p_moved, n_match)
@@ -324,19 +299,7 @@ def summary(
     residual: float,
     stop: Stop | None,
 ) -> State:
-    """Return the state of these values, with its RMSE and overlap computed from them.
-
-    Args:
-        phase: Which sub-step just happened.
-        iteration: Counted from 1.
-        T_target_source: The motion so far.
-        indices: The target point matched to each source point.
-        distances: Between each moved source point and its partner, metres.
-        limit: The largest distance the gate accepted, metres.
-        kept: The matches within the limit.
-        residual: Root mean square of what the fit minimises, metres.
-        stop: Why this is the last state, or None.
-    """
+    """Return the state of these values, with its RMSE and overlap computed from them."""
     overlap = float(kept.mean())
     return State(
         phase,

@@ -1,5 +1,4 @@
-"""Jacobi's eigenvalue method: turn the frame in one coordinate plane after the other until nothing
-is left off the diagonal.
+"""Jacobi's eigenvalue method: turn the frame in one plane after the other until it is diagonal.
 
 Reference: Golub and Van Loan, Matrix Computations, 4th ed., 8.5 (classical Jacobi); Jacobi, Über
 ein leichtes Verfahren, die in der Theorie der Säcularstörungen vorkommenden Gleichungen numerisch
@@ -26,8 +25,7 @@ class State:
         A: The matrix in the frame, V^T C V.
         V: The frame, its axes in columns.
         plane: The two axes that were turned, or None before the first rotation.
-        angle: How far the first of them was turned towards the second, radians, at most a quarter
-            of pi.
+        angle: From the first of them towards the second, radians, at most a quarter of pi.
         off: Norm of what is off the diagonal of A, as a share of the norm of A.
     """
 
@@ -48,7 +46,6 @@ def jacobi(C: Float[np.ndarray, "n n"], tolerance: float = TOLERANCE) -> Iterato
 
     Args:
         C: A symmetric matrix.
-        tolerance: How large an entry off the diagonal may be, of the norm of C.
     """
     A, V, norm = C, np.eye(len(C)), np.linalg.norm(C)
     yield State(A, V, None, 0.0, _off(A, norm))

@@ -1,5 +1,4 @@
-"""The similarity that fits pairs best, in the steps in which its formula is written: centre, SVD,
-no mirror, scale.
+"""The similarity that fits pairs best, in the steps of its formula: centre, SVD, no mirror, scale.
 
 Reference: Umeyama, Least-squares estimation of transformation parameters between two point
 patterns, 1991, eq. 38-43.
@@ -35,7 +34,6 @@ class State:
     """What is known after one stage; what is not known yet is None.
 
     Attributes:
-        stage: What was done just now.
         T_target_source: The map so far; a mirror image while its determinant is negative.
         rmse: Root mean square distance of the pairs under it, m.
         H: Cross-covariance of target and source, m^2 (eq. 38).
@@ -66,14 +64,9 @@ def procrustes(
     similarity_scale: Scale,
     flip: Flip = "least",
 ) -> Iterator[State]:
-    """Yield the map from source to target after each stage.
+    """Yield the map from source to target after each stage; points in metres, pairs row by row.
 
-    Args:
-        p_target: Points in the target frame, metres.
-        p_source: Their partners in the source frame, row by row.
-        similarity_scale: Gives the scale from the pairs.
-        flip: Which direction changes its sign where the SVD gives a mirror image; only the least is
-            right.
+    `flip` is the direction that changes its sign where the SVD gives a mirror image; "least" is right.
     """
     m_target, m_source = p_target.mean(axis=0), p_source.mean(axis=0)
 
@@ -104,9 +97,7 @@ def procrustes(
 
 
 def _turning_in(H: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the SVD with a V that is a rotation, by signs that both of its factors may change
-    together.
-    """
+    """Return the SVD with a V that is a rotation: a sign may change in both factors together."""
     U, D, Vt = np.linalg.svd(H)
     signs = np.sign(Vt[np.arange(3), np.abs(Vt).argmax(axis=1)])
     signs[2] *= np.sign(np.linalg.det(Vt) * signs.prod())

@@ -1,5 +1,4 @@
-"""A camera's motion as a model for RANSAC: rows are a world point and its pixel, three give up to
-four estimates.
+"""A camera's motion as a model for RANSAC: three points give up to four estimates.
 
 Reference: Fischler and Bolles, Random Sample Consensus, 1981, section IV (the location
 determination problem).
@@ -15,8 +14,7 @@ from workbench.geometry.cameras.three_points import p3p
 
 
 def camera_model(K: Float[np.ndarray, "3 3"]) -> Model:
-    """Return the model whose estimates are T_camera_world (4, 4) and whose rows are (X, Y, Z, u,
-    v), metres and pixels.
+    """Return the model with estimates T_camera_world and rows (X, Y, Z, u, v), metres and pixels.
 
     Distances are reprojection errors in pixels, infinite for a point behind the camera.
     """

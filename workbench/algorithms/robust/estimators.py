@@ -29,8 +29,7 @@ class Reweighted:
 
     Attributes:
         iteration: 0 is where it starts: the plain least-squares fit, if nothing else was given.
-        estimate: The parameters.
-        distances: Of each row to it, in the unit of the model.
+        distances: Of each row to the estimate, in the unit of the model.
         weights: How much each row's squared distance counted in this fit.
         cost: The sum of the loss at these distances.
         stop: Why this is the last state, or None.
@@ -54,9 +53,7 @@ def huber_loss(distances: Float[np.ndarray, " n"], corner: float) -> Float[np.nd
 
 
 def huber_weights(distances: Float[np.ndarray, " n"], corner: float) -> Float[np.ndarray, " n"]:
-    """Return the weights that give least squares the slope of Huber's loss: 1 up to the corner,
-    then corner / |distance|.
-    """
+    """Return the weights that give least squares the slope of Huber's loss: 1, then corner/|d|."""
     return corner / np.maximum(np.abs(distances), corner)
 
 
@@ -65,7 +62,6 @@ class Loss:
     """What a distance costs.
 
     Attributes:
-        name: Whose it is.
         efficient_corner: In standard deviations of the noise: where the corner costs 5 % of the
             points when all are good.
         cost: From distances of either sign and a corner the loss of each.
@@ -119,9 +115,7 @@ class Trusted:
     """A round of one of several reweighted fits, each from the end of the one before.
 
     Attributes:
-        loss: By which loss.
-        corner: Where it bends, in the unit of the model's distances.
-        now: The round.
+        corner: Where the loss bends, in the unit of the model's distances.
         first: The estimate that all began with, of plain least squares.
         last: Whether no other round follows.
     """
@@ -141,20 +135,13 @@ def cascade(
     max_iterations: int,
     tolerance: float,
 ) -> Iterator[Trusted]:
-    """Yield the rounds of reweighted fits with several losses, each but the first from the end of
-    the one before.
-
-    Args:
-        p: The rows.
-        model: What to fit.
-        losses: Each with its corner.
-        max_iterations: As of `reweighted_fit`.
-        tolerance: Likewise.
+    """Yield the rounds of fits with several losses, each with its corner, one from the other's end.
 
     Raises:
         ValueError: As `reweighted_fit`.
+
     Reference: Maronna, Martin, Yohai and Salibian-Barrera, Robust Statistics, 2nd ed., 2019, 5.5: a
-        loss whose slope returns to zero starts from a fit that is robust already.
+    loss whose slope returns to zero starts from a fit that is robust already.
     """
     first, now = None, None
     for k, (loss, corner) in enumerate(losses):
@@ -188,24 +175,18 @@ def reweighted_fit(
 ) -> Iterator[Reweighted]:
     """Yield the iterations of a robust fit by iteratively reweighted least squares.
 
+    Under Huber's loss a far outlier pulls with the same force as one at the corner: many on one
+    side win. Losses whose slope returns to 0 have several minima: where they start decides.
+
     Args:
-        p: The rows: points, or matches.
-        model: What to fit.
-        loss: What a distance costs.
-        corner: The distance from which the loss grows less than the square, in the unit of the
-            model's distances.
-        start: Where to start; the plain fit to all rows if None.
-        max_iterations: Reweighted fits at most.
+        corner: The distance from which the loss grows less than the square, in the model's unit.
+        start: The plain fit to all rows if None.
         tolerance: Converged when no distance changes by more than this share of the corner.
 
     Raises:
         ValueError: If there are too few rows for the model's refit, or too few of them keep a
             weight.
 
-    Note:
-        Under Huber's loss a far outlier pulls with the same force as one at the corner, but it does
-        pull: many on one side win. Losses whose slope returns to 0 have several minima: where they
-        start decides.
     Reference: Holland and Welsch, Robust regression using iteratively reweighted least-squares,
     1977.
     """

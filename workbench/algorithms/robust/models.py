@@ -1,10 +1,8 @@
-"""What can be fitted robustly: kinds of model, each as the five functions that RANSAC and Huber's
-method need.
+"""What can be fitted robustly: each kind is the five functions that RANSAC and Huber's method need.
 
 Rows are (x, y) for LINE and CIRCLE, (x, y, z) for PLANE and SPHERE, in metres; (u, v, u', v') for
-HOMOGRAPHY and FUNDAMENTAL, a pixel of the first image and its match in the second. RIGID has rows
-(x, y, z, x', y', z'), a source point and its target. `MODELS` are those of points and pixels, by
-name.
+HOMOGRAPHY and FUNDAMENTAL, a pixel of the first image and its match in the second; (x, y, z, x',
+y', z') for RIGID, a source point and its target. `MODELS` are those of points and pixels.
 """
 
 from collections.abc import Callable
@@ -49,7 +47,6 @@ class Model:
     """A kind of model. An estimate of it is an array whose shape depends on the kind.
 
     Attributes:
-        name: What it is called.
         sample_size: How many rows determine it.
         fewest: How many rows a refit needs.
         columns: How many numbers a row has.
@@ -59,11 +56,10 @@ class Model:
             for a degenerate sample, up to three for one sample of a fundamental matrix.
         distances: From estimates (..., *shape) and rows (n, columns) the distances (..., n), never
             negative. Keeps float32.
-        solve_each: As `solve`, and of which sample each estimate is, in the order of the samples:
-            so that RANSAC solves many at once, bit by bit as one by one. None where a call for one
-            sample costs little.
-        refit: `refit(p, weights=None, start=None)`: the estimate with the least squared distances
-            over weighted rows, near `start` where that is given.
+        solve_each: As `solve`, and of which sample each estimate is, in their order, bit by bit as
+            one by one. None where a call for one sample costs little.
+        refit: `refit(p, weights=None, start=None)`: the weighted least-squares estimate, near
+            `start` where that is given.
     """
 
     name: str
@@ -84,9 +80,7 @@ def finite(estimates: Float[np.ndarray, "k ..."]) -> Float[np.ndarray, "j ..."]:
 
 
 def from_points(solver: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
-    """Return a `Model.solve` made of a function that takes one sample and gives one estimate, NaN
-    for a degenerate one.
-    """
+    """Return a `Model.solve` of a function from one sample to one estimate or NaN."""
     return lambda samples: finite(
         np.stack([np.asarray(solver(sample), dtype=float) for sample in samples])
     )
@@ -95,17 +89,7 @@ def from_points(solver: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndar
 def rms_distance(
     model: Model, estimate: Float[np.ndarray, "..."], p: Float[np.ndarray, "n d"]
 ) -> float:
-    """Return the root mean square distance of the rows to an estimate: its error, where the rows
-    are free of noise.
-
-    Args:
-        model: What the estimate is of.
-        estimate: Its parameters.
-        p: The rows.
-
-    Returns:
-        In the unit of the model's distances.
-    """
+    """Return the root mean square distance of the rows to an estimate, in the model's unit."""
     return rms(model.distances(estimate, p))
 
 

@@ -1,5 +1,6 @@
-"""RANSAC: guess a model from as few points as determine it, count who agrees, keep the best guess,
-refit it.
+"""RANSAC: guess a model from few points, count who agrees, keep the best guess, refit it.
+
+Rows `p` are points or matches; distances are in the unit of the model.
 
 Reference: Fischler and Bolles, Random Sample Consensus: A Paradigm for Model Fitting with
 Applications to Image Analysis and Automated Cartography, 1981, section II.
@@ -41,14 +42,7 @@ class Stop(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """One estimate, and how the points take it.
-
-    Attributes:
-        estimate: The parameters; their shape depends on the model.
-        distances: Of each point, in the unit of the model.
-        inliers: The points within the inlier distance.
-        score: More is better.
-    """
+    """One estimate, the points' distances, which are inliers, and the score: more is better."""
 
     estimate: Float[np.ndarray, "..."]
     distances: Float[np.ndarray, " n"]
@@ -72,12 +66,10 @@ class State:
     """One part of one try.
 
     Attributes:
-        phase: What just happened: a sample was drawn; it was degenerate; it gave a model; the
-            inliers were counted; that was the best so far; the best was fitted again to its
-            inliers; it is over.
+        phase: A sample was drawn; it was degenerate; it gave a model; the inliers were counted;
+            that was the best so far; the best was fitted again to its inliers; it is over.
         iteration: Samples drawn so far.
         needed: Samples needed for the confidence asked for, as far as is known.
-        sample: The rows drawn.
         estimate: The model under test, from phase `model` on.
         trial: How the points take it, from phase `inliers` on.
         best: The best fit so far, if any.
@@ -95,28 +87,17 @@ class State:
 
 
 def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) -> float:
-    """Return how many samples must be drawn to draw, with this confidence, at least one that holds
-    no outlier.
+    """Return how many samples give, with this confidence, at least one without an outlier.
 
-    Args:
-        inlier_ratio: The share of inliers, from 0 to 1.
-        sample_size: Points in a sample.
-        confidence: Below 1.
-
-    Returns:
-        A whole number, at least 1; infinity where the share is 0 (or so small that no number can
-        hold the answer).
-
-    Note:
-        A sample without an outlier need not give a good model: its points are noisy.
+    It is a whole number, at least 1; infinity where the inlier ratio is 0 (or so small that no
+    number can hold the answer). A sample without an outlier need not give a good model: its points
+    are noisy.
 
     Reference: Fischler and Bolles 1981, section II.B; Hartley and Zisserman, Multiple View
     Geometry, 2nd ed., eq. 4.18.
 
     Examples:
-        >>> int(
-        ...     iterations_needed(0.5, 3, 0.99)
-        ... )  # half of the points are inliers, a plane needs three
+        >>> int(iterations_needed(0.5, 3, 0.99))  # half are inliers, a plane needs three
         35
     """
     clean = inlier_ratio**sample_size
@@ -129,14 +110,7 @@ def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) 
 
 @dataclass(frozen=True, eq=False)
 class Judge:
-    """Says how all rows take an estimate.
-
-    Attributes:
-        p: The rows: points, or matches.
-        model: What the estimates are of.
-        inlier_distance: How far an inlier may be, in the unit of the model's distances.
-        score: How good a candidate is.
-    """
+    """Says how all rows take an estimate: inliers lie within `inlier_distance`."""
 
     p: Float[np.ndarray, "n d"]
     model: Model
@@ -166,8 +140,6 @@ def ransac(
     """Yield the states of RANSAC: for each sample its parts, then the rounds of the final refit.
 
     Args:
-        p: The rows: points, or matches.
-        model: What to fit.
         samples: Rows to try, from `uniform_samples`, `prosac_samples`, or chosen. Of a model with
             `solve_each` some more are drawn than tried.
         judge: Says how all rows take an estimate: `Judge(p, model, inlier_distance, score)`.
@@ -179,8 +151,8 @@ def ransac(
         local_refit: Refit every new best at once (LO-RANSAC), not only the last.
 
     Raises:
-        ValueError: If there are too few rows, they have the wrong number of columns, or are not
-            finite.
+        ValueError: If there are too few rows, of the wrong number of columns, or not finite ones.
+
     Reference: Fischler and Bolles 1981, section II; Chum, Matas and Kittler, Locally Optimized
     RANSAC, 2003 (`local_refit`).
     """
@@ -219,13 +191,9 @@ def ransac(
 def solved_ahead(
     p: Float[np.ndarray, "n d"], model: Model, samples: Iterator[np.ndarray]
 ) -> tuple[Model, Iterator[np.ndarray]]:
-    """Return the model, knowing what the samples to come give, and these samples; both as they are
-    without `solve_each`.
+    """Return the model, knowing what the samples to come give, and these samples.
 
-    Args:
-        p: The rows: points, or matches.
-        model: What is fitted.
-        samples: Rows to try.
+    Without `solve_each` both are as they were.
     """
     if (solve_each := model.solve_each) is None:
         return model, samples
@@ -252,17 +220,10 @@ def solved_ahead(
 def refit_rounds(
     p: Float[np.ndarray, "n d"], model: Model, fit: Fit, *, judge: Callable[[np.ndarray], Fit]
 ) -> Iterator[Fit]:
-    """Yield least-squares fits, each to the inliers of the one before, until these stay the same
-    (ten fits at most).
+    """Yield least-squares fits, each to the inliers of the one before, ten at most.
 
     No round lowers the MSAC score: the fit lowers the squared distances of the old inliers, and the
     new inliers are the choice that lowers the truncated sum further.
-
-    Args:
-        p: The rows: points, or matches.
-        model: What is fitted.
-        fit: The fit to begin with.
-        judge: Says how all rows take an estimate.
 
     Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 4.7.1 (guided refit,
     alternated until it converges).
@@ -282,24 +243,16 @@ def refit_rounds(
 def polished(
     p: Float[np.ndarray, "n d"], model: Model, fit: Fit, *, judge: Callable[[np.ndarray], Fit]
 ) -> Fit:
-    """Return the fit after its refit rounds, or as it was if they lower its score.
-
-    Args:
-        p: The rows: points, or matches.
-        model: What is fitted.
-        fit: The fit to begin with.
-        judge: Says how all rows take an estimate.
-    """
+    """Return the fit after its refit rounds, or as it was if they lower its score."""
     *_, last = fit, *refit_rounds(p, model, fit, judge=judge)
     return last if last.score >= fit.score else fit
 
 
 def check_rows(p: Float[np.ndarray, "n d"], model: Model) -> None:
-    """Raise ValueError unless the model can be fitted to these rows; the message says why.
+    """Raise an error unless the model can be fitted to these rows.
 
     Raises:
-        ValueError: If there are too few rows, they have the wrong number of columns, or are not
-            finite.
+        ValueError: If there are too few rows, of the wrong number of columns, or not finite ones.
     """
     if p.shape[1] != model.columns:
         raise ValueError(

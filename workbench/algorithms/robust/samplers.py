@@ -1,5 +1,6 @@
-"""Which points to try next: by chance alone, or the most trusted first; and among how many of these
-to say when to stop.
+"""Which points to try next, by chance alone or the most trusted first, and when to stop.
+
+`size` is the number of rows in a sample; more `quality` is more trust.
 """
 
 from collections.abc import Iterator
@@ -18,11 +19,6 @@ def uniform_samples(
 ) -> Iterator[Int[np.ndarray, " size"]]:
     """Yield samples of `size` different rows out of n, all sets equally likely, without end.
 
-    Args:
-        n: Rows to choose from.
-        size: Rows in a sample.
-        rng: Where chance comes from.
-
     Raises:
         ValueError: If there are fewer rows than a sample needs.
     """
@@ -37,19 +33,15 @@ def prosac_samples(
     *,
     grown_after: int = 20_000,
 ) -> Iterator[Int[np.ndarray, "..."]]:
-    """Yield samples from the most trusted rows first, from a pool that grows until it holds all
-    rows.
+    """Yield samples of the most trusted rows, from a pool that grows until it holds all rows.
 
-    Args:
-        quality: How much each row is trusted; more is better.
-        size: Rows in a sample.
-        rng: Where chance comes from.
-        grown_after: Draws after which the samples are as uniform as RANSAC's.
+    After `grown_after` draws the samples are as uniform as RANSAC's.
 
     Raises:
         ValueError: If there are fewer rows than a sample needs.
+
     Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.1, eq. 3 (growth) and
-        algorithm 1. There the pool stops growing at the termination length; here it goes on.
+    algorithm 1. There the pool stops growing at the termination length; here it goes on.
     """
     n, order = len(quality), np.argsort(-quality, kind="stable")
     _check(n, size)
@@ -73,8 +65,7 @@ def termination_length(
     by_chance: float = 0.05,
     doubt: float = 0.05,
 ) -> tuple[int, float]:
-    """Return among how many of the most trusted rows a model has the largest share of inliers, and
-    this share.
+    """Return how many of the most trusted rows have the largest share of inliers, and this share.
 
     Asked how many samples this share needs, PROSAC's stopping rule answers with the fewest
     (maximality). Only lengths count at which a wrong model would hardly have so many inliers
@@ -82,19 +73,15 @@ def termination_length(
     few lucky ones end the run. Where no length counts, both numbers are 0.
 
     Args:
-        inliers: Which rows are near the model.
-        quality: How much each row is trusted; more is better.
         size: Rows in a sample; these are near the model in any case.
         by_chance: How likely a row is near a wrong model.
         doubt: How likely a wrong model may have so many inliers.
 
     Reference: Chum and Matas, Matching with PROSAC, CVPR 2005, section 2.2 (stopping criterion; the
-        tail of the binomial distribution exactly). FEWEST_TRUSTED: Raguram et al., USAC, 2013.
+    tail of the binomial distribution exactly). FEWEST_TRUSTED: Raguram et al., USAC, 2013.
 
     Examples:
-        >>> termination_length(
-        ...     np.arange(100) < 30, -np.arange(100.0), 4
-        ... )  # the thirty that are trusted most
+        >>> termination_length(np.arange(100) < 30, -np.arange(100.0), 4)
         (30, 1.0)
     """
     found = np.cumsum(inliers[np.argsort(-quality, kind="stable")])
@@ -114,12 +101,6 @@ def draw_samples(
     n: int, size: int, samples: int, *, rng: np.random.Generator
 ) -> Int[np.ndarray, "samples size"]:
     """Return so many samples of `size` different rows out of n, each in random order.
-
-    Args:
-        n: Rows to choose from.
-        size: Rows in a sample.
-        samples: How many samples.
-        rng: Where chance comes from.
 
     Raises:
         ValueError: If there are fewer rows than a sample needs.

@@ -1,7 +1,6 @@
 """How good a candidate is, from the distances of all points to it: more is better, for every score.
 
-Each score takes the distances, never negative, of n points to one candidate, or of n points to k
-candidates in rows.
+A score takes the distances, never negative, of n points to one candidate, or to k in rows.
 """
 
 from collections.abc import Callable
@@ -28,8 +27,7 @@ def count_score(
 def msac_score(
     distances: Float[np.ndarray, "*k n"], inlier_distance: float
 ) -> Shaped[np.ndarray, "*k"]:
-    """Return the sum over points of 1 - (distance / inlier distance)², nothing for a point beyond
-    the inlier distance.
+    """Return the sum of 1 - (distance / inlier distance)² over the points within that distance.
 
     It is n minus the truncated sum of squares of the paper, in units of the squared inlier
     distance.
@@ -46,15 +44,9 @@ def mlesac_score(
 ) -> Shaped[np.ndarray, "*k"]:
     """Return how much likelier the distances are than if all points were outliers, as a logarithm.
 
-    Inliers are normal around the model, with the standard deviation that puts 95 % of them within
-    the inlier distance; outliers are anywhere in a window of width `span`. The share of inliers is
-    found by expectation maximisation.
-
-    Args:
-        distances: Of n points to one candidate, or to k candidates in rows.
-        inlier_distance: Within which 95 % of the inliers lie, in the unit of the distances.
-        span: Width of the window over which outliers are uniform, in that unit.
-        steps: Rounds of expectation maximisation.
+    Inliers are normal around the model, 95 % of them within the inlier distance; outliers are
+    anywhere in a window of width `span`, in the same unit. The share of inliers is found by `steps`
+    rounds of expectation maximisation.
 
     Reference: Torr and Zisserman, MLESAC, 2000, section 5, eq. 18 to 20.
     """
@@ -69,11 +61,8 @@ def mlesac_score(
 def count_inliers(
     plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float
 ) -> int:
-    """Return how many points lie within the inlier distance of a plane, on either side.
+    """Return how many points lie within a distance of a plane, on either side, metres.
 
-    Args:
-        plane: (a, b, c, d) with a unit normal; d in metres.
-        p: Points, same frame, metres.
-        inlier_distance: Metres.
+    The plane is (a, b, c, d) with a unit normal.
     """
     return int(np.count_nonzero(np.abs(hyperplane_distances(plane, p)) <= inlier_distance))

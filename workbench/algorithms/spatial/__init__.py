@@ -1,6 +1,5 @@
 """Trees over space.
 
-- `kd_tree`: A k-d tree: points cut in halves at the median, along the longest side of their box,
-  and the nearest one found in it.
-- `octree`: an octree of a solid: only cells that the surface may cross are cut in eight.
+- `kd_tree`: points cut in halves at the median, and the nearest one found in them.
+- `octree`: a solid; only cells that the surface may cross are cut in eight.
 """

@@ -1,10 +1,8 @@
-"""A k-d tree: points cut in halves at the median, along the longest side of their box, and the
-nearest one found in it.
+"""A k-d tree: points cut at the median of their box's longest side, and the nearest one found.
 
 Reference: Friedman, Bentley and Finkel, An algorithm for finding best matches in logarithmic
-expected time, ACM TOMS 3(3),
-1977. Arya and Mount, Algorithms for fast vector quantization, DCC 1993: the distance to a cell, one
-      axis at a time.
+expected time, ACM TOMS 3(3), 1977. Arya and Mount, Algorithms for fast vector quantization, DCC
+1993: the distance to a cell, one axis at a time.
 """
 
 from collections.abc import Iterator
@@ -20,18 +18,15 @@ LEAF = 8  # points at most in a cell that is not cut
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Tree:
-    """A k-d tree over n points of d coordinates, m cells; cell 0 is the whole, children come after
-    their parents.
+    """A k-d tree over n points of d coordinates, m cells; cell 0 is the whole, children come later.
 
     Attributes:
         p: The points, in such an order that those of a cell stand together.
         axis: Along which coordinate a cell is cut; -1 where it is not.
         cut: Where.
         children: The cells below and above the cut; -1 where there are none.
-        first: Where the points of a cell begin in `p`.
-        last: Where they end.
-        low: The lowest corner of each cell.
-        high: Its highest corner.
+        first, last: Where the points of a cell begin in `p`, and where they end.
+        low, high: The lowest and the highest corner of each cell.
         depth: How many cuts are above each cell.
     """
 
@@ -53,13 +48,7 @@ def build_tree(
     *,
     leaf: int = LEAF,
 ) -> Tree:
-    """Return the k-d tree of some points.
-
-    Args:
-        p: The points.
-        low: The lowest corner of the whole.
-        high: Its highest corner.
-        leaf: A cell with more points than this is cut.
+    """Return the k-d tree of points between two corners; a cell of more than `leaf` points is cut.
 
     Raises:
         ValueError: If there are no points.
@@ -114,12 +103,9 @@ class Visit:
     """A cell whose points were looked at, one by one.
 
     Attributes:
-        cell: Which one.
         looked: How many points were looked at so far.
         nearest: The row in the tree's points of the nearest so far.
-        distance: How far it is.
-        passed: Which cells were passed over on the way back up, with all that is in them: they are
-            farther than that.
+        passed: Which cells were passed over on the way back up: they are farther than that.
     """
 
     cell: int
@@ -131,13 +117,7 @@ class Visit:
 
 @traced
 def search(tree: Tree, q: Float[np.ndarray, " d"]) -> Iterator[Visit]:
-    """Yield the cells that the search for the nearest point looks into: down to the query first,
-    then back up.
-
-    Args:
-        tree: The points.
-        q: The query.
-    """
+    """Yield the cells that a search for the nearest point looks into: first down, then back up."""
     axes, cuts, children = tree.axis.tolist(), tree.cut.tolist(), tree.children.tolist()
     first, last, at = tree.first.tolist(), tree.last.tolist(), q.tolist()
     best, nearest, looked = np.inf, -1, 0
@@ -166,10 +146,5 @@ def search(tree: Tree, q: Float[np.ndarray, " d"]) -> Iterator[Visit]:
 
 
 def looked_at(tree: Tree, q: Float[np.ndarray, "m d"]) -> Float[np.ndarray, " m"]:
-    """Return how many points the search looks at for each query.
-
-    Args:
-        tree: The points.
-        q: The queries, one row each.
-    """
+    """Return how many points the search looks at for each query."""
     return np.array([float([visit.looked for visit in search(tree, one)][-1]) for one in q])

@@ -1,4 +1,4 @@
-"""An octree of a solid: only cells that the surface may cross are cut in eight.
+"""An octree of a solid: only cells that the surface may cross are cut in eight. Lengths in metres.
 
 Reference: Meagher, Geometric modeling using octree encoding, Computer Graphics and Image Processing
 19, 1982.
@@ -18,16 +18,13 @@ POINTER_BYTES = 72  # a node with eight pointers of 8 bytes, and 8 bytes more
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Level:
-    """The cells of one level.
+    """The cells of one level; level 0 is the whole cube.
 
     Attributes:
-        depth: The level; 0 is the whole cube.
         grid: All cells of that size, whether the tree has them or not.
         cells: Column, row and layer of the cells that the tree has at this level.
-        mixed: Which of them the surface may cross: it is nearer to their middle than their corners
-            are.
-        bits: The solid as cells of this size: what the tree says is inside, and mixed cells by
-            their middle.
+        mixed: Which of them the surface may cross: it is nearer to their middle than their corners.
+        bits: The solid as cells of this size, mixed cells by their middle.
         parents: How many cells were cut in eight so far, above this level.
     """
 
@@ -64,11 +61,8 @@ def grow_octree(
 ) -> Iterator[Level]:
     """Yield the levels of an octree, from the whole cube down.
 
-    Args:
-        distance: The signed distance of points (n, 3) to the surface, m.
-        low: The lowest corner of the cube, m.
-        edge: The cube's edge, m.
-        depth: The last level.
+    `distance` is the signed distance of points (n, 3) to the surface; `low` and `edge` are the
+    cube's.
     """
     cells, parents = np.zeros((1, 3), dtype=np.int64), 0
     children = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1], indexing="ij"), axis=-1).reshape(8, 3)

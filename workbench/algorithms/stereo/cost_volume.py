@@ -6,8 +6,8 @@ one shifted by d. Where x < d the right picture has no such pixel; those cells h
 comparison exceeds (infinity for floats), so that they never win alone. A window that reaches over
 the border of a slice counts the border's cells again.
 
-Pictures are grey, (h, w): floats of any range, or uint8, for which the sums are exact whole numbers
-of the narrowest type.
+Pictures are grey, of one size, rows correspond: floats of any range, or uint8, for which the sums
+are exact whole numbers of the narrowest type. A window is the odd side of a square, pixels.
 
 Reference: Scharstein and Szeliski, A taxonomy and evaluation of dense two-frame stereo
 correspondence algorithms, IJCV 2002, sections 3.1 (matching cost) and 3.2 (aggregation); costs
@@ -35,24 +35,13 @@ def sad_cost_volume(
 ) -> Real[np.ndarray, "d h w"]:
     """Return the sum of absolute grey differences over a window: cheap, and needs equal exposure.
 
-    Args:
-        left: Grey picture of the left camera.
-        right: Grey picture of the right one, of the same size; rows correspond.
-        max_disparity: Largest shift that is tried, pixels.
-        window: Side of the square window, pixels, odd.
-
-    Returns:
-        cost[d, y, x] = sum over the window of |left(y, x) - right(y, x - d)|.
-
     Raises:
         ValueError: If the sizes differ, the window is not odd and positive, or the shift exceeds
             the width.
 
     Examples:
         >>> right = np.array([[0, 9, 0, 0]], dtype=np.uint8)
-        >>> left = np.array(
-        ...     [[0, 0, 9, 0]], dtype=np.uint8
-        ... )  # the bright pixel is one column further right
+        >>> left = np.array([[0, 0, 9, 0]], dtype=np.uint8)  # the bright pixel moved right by one
         >>> sad_cost_volume(left, right, max_disparity=1)[:, 0, 2].tolist()
         [9, 0]
     """
@@ -65,17 +54,7 @@ def ssd_cost_volume(
     max_disparity: int,
     window: int = 1,
 ) -> Real[np.ndarray, "d h w"]:
-    """Return the sum of squared grey differences over a window: one outlier weighs more than in
-    `sad_cost_volume`.
-
-    Args:
-        left: Grey picture of the left camera.
-        right: Grey picture of the right one, of the same size; rows correspond.
-        max_disparity: Largest shift that is tried, pixels.
-        window: Side of the square window, pixels, odd.
-
-    Returns:
-        cost[d, y, x] = sum over the window of (left(y, x) - right(y, x - d))².
+    """Return the sum of squared grey differences over a window; outliers weigh more.
 
     Raises:
         ValueError: As `sad_cost_volume`.
@@ -94,12 +73,6 @@ def census_cost_volume(
     Only the order of grey values within a window matters. The costs are whole numbers (24 per pixel
     of the window at most) for pictures of every type.
 
-    Args:
-        left: Grey picture of the left camera.
-        right: Grey picture of the right one, of the same size; rows correspond.
-        max_disparity: Largest shift that is tried, pixels.
-        window: Side of the square window, pixels, odd.
-
     Raises:
         ValueError: As `sad_cost_volume`.
 
@@ -115,21 +88,13 @@ def ncc_cost_volume(
     max_disparity: int,
     window: int = 3,
 ) -> Real[np.ndarray, "d h w"]:
-    """Return 1 - the normalised correlation of the two windows, from 0 (alike up to brightness and
-    contrast) to 2.
+    """Return 1 - the normalised correlation of the windows: 0 (alike up to exposure) to 2.
 
-    Args:
-        left: Grey picture of the left camera.
-        right: Grey picture of the right one, of the same size; rows correspond.
-        max_disparity: Largest shift that is tried, pixels.
-        window: Side of the square window, pixels, odd.
+    A window without contrast correlates with nothing: its cost is 1. One pixel has no correlation,
+    so a window of 1 is taken as 3.
 
     Raises:
         ValueError: As `sad_cost_volume`.
-
-    Note:
-        A window without contrast correlates with nothing: its cost is 1. One pixel has no
-        correlation, so a window of 1 is taken as 3.
     """
     _check(left, right, max_disparity, window)
     window = max(window, 3)
@@ -157,9 +122,7 @@ def ncc_cost_volume(
 
 
 def census(picture: Real[np.ndarray, "h w"]) -> UInt32[np.ndarray, "h w"]:
-    """Return a 24-bit code per pixel: for each neighbour in its 5 x 5 window, whether that is
-    darker than the pixel.
-    """
+    """Return a 24-bit code: whether each neighbour in a 5 x 5 window is darker than the pixel."""
     h, w = picture.shape
     padded = np.pad(picture, 2, mode="edge")
     neighbours = [(dy, dx) for dy in range(5) for dx in range(5) if (dy, dx) != (2, 2)]
@@ -178,17 +141,11 @@ def census(picture: Real[np.ndarray, "h w"]) -> UInt32[np.ndarray, "h w"]:
 def box_sum(
     image: Real[np.ndarray, "h w"], window: int, dtype: type | np.dtype
 ) -> Real[np.ndarray, "h w"]:
-    """Return the sum over the square window around every pixel; border pixels stand in for what
-    lies outside.
+    """Return the sum over the window around every pixel; border pixels stand in beyond it.
 
-    Running sums over 1, 2, 4, 8, ... pixels are built up and joined, rows first and then columns:
-    the work grows with the logarithm of the window, not with its area, and floats lose nothing to
-    cancellation.
-
-    Args:
-        image: What is summed.
-        window: Side, pixels, odd.
-        dtype: Number type of the sums, wide enough for window² values.
+    Running sums over 1, 2, 4, 8, ... pixels are joined, rows first and then columns: the work grows
+    with the logarithm of the window, and floats lose nothing to cancellation. `dtype` has to hold
+    window² values.
     """
     image = image.astype(dtype, copy=False)
     if window == 1:
@@ -220,9 +177,7 @@ def _windowed(
     difference: Callable[[np.ndarray, np.ndarray], np.ndarray],
     largest: int,
 ) -> np.ndarray:
-    """Sum a difference per pixel over a window, for every disparity; `largest` bounds it where it
-    is a whole number.
-    """
+    """Sum a difference over a window, for every disparity; `largest` bounds whole numbers."""
     _check(left, right, max_disparity, window)
     h, w = left.shape
     whole = left.dtype.kind == "u" and right.dtype.kind == "u"

@@ -1,8 +1,7 @@
 """The whole way from two pictures to disparities and depths, in steps.
 
-`match` stops after every disparity compared and every direction summed; `reconstruct` turns a map
-into depths. Maps are (h, w), pixels, for the left picture: d = x_left - x_right. NaN is unknown; 0
-is a disparity like any other, that of something infinitely far.
+Pictures are grey, of one size, rows correspond. Maps are for the left picture, pixels: d = x_left -
+x_right. NaN is unknown; 0 is a disparity like any other, that of something infinitely far.
 
 Reference: Scharstein and Szeliski, A taxonomy and evaluation of dense two-frame stereo
 correspondence algorithms, IJCV 2002, section 3; Hirschmueller, PAMI 2008, section 2.
@@ -55,9 +54,7 @@ class Matching:
     """A step of `match`.
 
     Attributes:
-        stage: What was just done.
         cost: The volume the map was chosen from; while comparing, its disparities so far.
-        disparity: The map so far, pixels, NaN where unknown.
         matched: Which pixels are left by the check against the right picture; before it, all.
         summed: C(p, d), the matching costs summed over the window; None while comparing.
         jumps: P1 and P2, zeros without paths.
@@ -76,11 +73,7 @@ class Matching:
 
 
 def usual_penalties(cost: Real[np.ndarray, "d h w"], smoothness: float) -> tuple[float, float]:
-    """Return P1 and P2 for costs of any unit: P2 is `smoothness` times the median cost, mostly that
-    of wrong matches.
-
-    P1 is a third of P2.
-    """
+    """Return P1 = P2 / 3 and P2 = `smoothness` times the median cost, of any unit."""
     some = cost[:, ::3, ::3]
     P2 = smoothness * float(np.median(some[np.isfinite(some)]))
     return P2 / 3.0, P2
@@ -98,15 +91,7 @@ def match(
 ) -> Iterator[Matching]:
     """Yield the disparity of every left pixel as it is found, stage by stage.
 
-    Args:
-        left: Grey picture of the left camera.
-        right: Grey picture of the right one, of the same size; rows correspond.
-        max_disparity: Largest disparity that is tried, pixels.
-        window: Side of the window over which costs are summed, pixels, odd.
-        penalties: P1 and P2 of the semi-global paths, from the summed costs; None leaves the paths
-            out.
-        compare: Makes the cost volume of two pictures, for a largest disparity and a window.
-        choose: Takes a map from a cost volume.
+    `penalties` gives P1 and P2 of the semi-global paths by the summed costs; None leaves them out.
     """
     everywhere = np.ones(left.shape, bool)
     single = compare(left, right, max_disparity, 1)
@@ -136,9 +121,7 @@ def match(
 
 @dataclass(frozen=True, eq=False)
 class Depths:
-    """A step of `reconstruct`: the depth per pixel, metres, and how far a disparity error moves it,
-    where already known.
-    """
+    """A step of `reconstruct`: depths and what a disparity error makes of them, metres."""
 
     depth: Float[np.ndarray, "h w"]
     uncertainty: Float[np.ndarray, "h w"] | None = None
@@ -155,11 +138,10 @@ def reconstruct(
     """Yield the depths of a disparity map, then the same with their uncertainty.
 
     Args:
-        disparity: The map, pixels, doffs added where the principal points differ; NaN is unknown.
+        disparity: Pixels, doffs added where the principal points differ.
         f: Focal length, pixels.
         baseline: Distance between the cameras, metres.
-        disparity_error: The error of a disparity, pixels.
-        depth_of: depth_of(d, f, baseline), metres.
+        disparity_error: Of each disparity, pixels.
     """
     Z = depth_of(disparity, f, baseline)  # Z = f B / d
     yield Depths(Z)

@@ -1,8 +1,6 @@
-"""Disparity maps: chosen from costs, checked against the right picture, refined between pixels,
-smoothed and filled.
+"""Disparity maps: chosen from costs, checked, refined between pixels, smoothed and filled.
 
-A map is (h, w), pixels, for the left picture: d = x_left - x_right. Cost volumes are as in
-`cost_volume`: (d, h, w).
+A map is for the left picture, pixels: d = x_left - x_right. Costs are as in `cost_volume`.
 """
 
 import numpy as np
@@ -15,9 +13,7 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
     Reference: Scharstein and Szeliski, IJCV 2002, section 3.3.
 
     Examples:
-        >>> cost = np.array(
-        ...     [[[3.0, 1.0]], [[2.0, 1.0]]]
-        ... )  # two disparities, a picture of 1 x 2 pixels
+        >>> cost = np.array([[[3.0, 1.0]], [[2.0, 1.0]]])  # two disparities, 1 x 2 pixels
         >>> winner_takes_all(cost).tolist()
         [[1, 0]]
     """
@@ -34,9 +30,7 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
 
 
 def seen_from_right(cost: Real[np.ndarray, "d h w"]) -> Real[np.ndarray, "d h w"]:
-    """Return the same costs by right pixel: right (x, y) at d was compared with left (x + d, y), if
-    there is one.
-    """
+    """Return the same costs by right pixel: right (x, y) at d was compared with left (x + d, y)."""
     worst = np.inf if cost.dtype.kind == "f" else np.iinfo(cost.dtype).max
     turned = np.full_like(cost, worst)
     w = cost.shape[2]
@@ -50,16 +44,10 @@ def agree(
     right_disparity: Int[np.ndarray, "h w"],
     tolerance: int = 1,
 ) -> Bool[np.ndarray, "h w"]:
-    """Return whether each left pixel's partner in the right picture has that pixel as its own
-    partner.
+    """Return whether each left pixel's partner has it as its own, within `tolerance` pixels.
 
     Occluded pixels fail, for the right picture shows something nearer there; so do most wrong
     matches.
-
-    Args:
-        left_disparity: Of the left picture's pixels, whole pixels.
-        right_disparity: Of the right picture's pixels, whole pixels.
-        tolerance: By how much the two may differ, pixels.
 
     Reference: Hirschmueller, PAMI 2008, section 2.3.
     """
@@ -73,16 +61,10 @@ def agree(
 def sub_pixel(
     cost: Real[np.ndarray, "d h w"], disparity: Int[np.ndarray, "h w"]
 ) -> Float[np.ndarray, "h w"]:
-    """Return disparities refined between pixels: the lowest point of the parabola through a cost
-    and the two beside it.
+    """Return disparities at the lowest point of the parabola through a cost and the two beside it.
 
-    Args:
-        cost: The volume that the map was chosen from.
-        disparity: The map, whole pixels.
-
-    Note:
-        No disparity moves by more than half a pixel. At either end of the range, beside an infinite
-        cost, and where the three costs have no valley, it stays whole.
+    No disparity moves by more than half a pixel. At either end of the range, beside an infinite
+    cost, and where the three costs have no valley, it stays whole.
 
     Reference: Scharstein and Szeliski, IJCV 2002, section 3.4.
     """
@@ -106,8 +88,7 @@ def sub_pixel(
 def fill(
     disparity: Float[np.ndarray, "h w"], known: Bool[np.ndarray, "h w"]
 ) -> Float[np.ndarray, "h w"]:
-    """Return the map with every unknown pixel given the smaller of the nearest known disparities to
-    its left and right.
+    """Return the map, unknown pixels given the smaller of the known ones to their left and right.
 
     A region seen by one camera only lies behind what hides it from the other, so the background's
     disparity, the smaller, is continued. Rows without any known pixel stay as they are.
@@ -129,10 +110,8 @@ def fill(
 def median3(values: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
     """Return the median over each 3 x 3 window, border pixels repeated.
 
-    With each column of the window sorted, the median of the nine is that of three: the largest low,
-    the median of the mids, the smallest high.
-
-    Reference: Smith, Implementing median filters in XC4000E FPGAs, XCELL 23, 1996.
+    With each column sorted, it is the median of three: the largest low, the median mid, the
+    smallest high (Smith, Implementing median filters in XC4000E FPGAs, XCELL 23, 1996).
     """
     h, w = values.shape
     padded = np.pad(values, 1, mode="edge")

@@ -1,10 +1,9 @@
-"""Semi-global matching: smooth a cost volume along eight straight paths through every pixel, then
-add the paths up.
+"""Semi-global matching: smooth a cost volume along eight straight paths and add the paths up.
 
 The map sought minimises E(D) = sum_p C(p, D_p) + sum over neighbours of P1 [|step| = 1] + P2
 [|step| > 1]: a slope of one disparity is cheap, a jump costs P2 however high it is. In two
 dimensions that is NP-hard; along one line it is a shortest path, and the sum over eight lines that
-meet in a pixel approximates the minimum.
+meet in a pixel approximates the minimum. Infinite cells of C count as the worst finite one.
 
 Reference: Hirschmueller, Stereo processing by semiglobal matching and mutual information, PAMI
 2008, section 2.2; equation numbers are that paper's.
@@ -41,10 +40,7 @@ class PathSum:
 def semi_global(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Iterator[PathSum]:
     """Yield the sum of path costs after each of the eight directions.
 
-    Args:
-        cost: C(p, d), from `cost_volume`; infinite cells count as the worst finite one.
-        P1: Penalty for a step of one disparity between neighbours, in the unit of the cost.
-        P2: Penalty for every larger step. Both are rounded where the cost is whole numbers.
+    P1 and P2 are rounded where the cost is whole numbers.
 
     Raises:
         ValueError: Unless 0 <= P1 <= P2.
@@ -59,9 +55,7 @@ def semi_global(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Iterat
 
 @dataclass(frozen=True)
 class Jumps:
-    """The penalties, and the largest matching cost, which together bound every path cost: L <= top
-    + P2.
-    """
+    """The penalties, and the largest matching cost; no path cost is above top + P2."""
 
     P1: float
     P2: float
@@ -78,13 +72,7 @@ class Jumps:
 def prepare(
     cost: Real[np.ndarray, "d h w"], P1: float, P2: float
 ) -> tuple[Real[np.ndarray, "d h w"], Jumps]:
-    """Return the cost as the sweeps want it: whole numbers as they are, others as float32 without
-    infinities.
-
-    Args:
-        cost: C(p, d), from `cost_volume`.
-        P1: Penalty for a step of one disparity.
-        P2: Penalty for every larger step.
+    """Return the cost for the sweeps: whole numbers as they are, others as finite float32.
 
     Raises:
         ValueError: Unless 0 <= P1 <= P2.
@@ -100,15 +88,7 @@ def prepare(
 def path_costs(
     cost: Real[np.ndarray, "d h w"], direction: tuple[int, int], jumps: Jumps
 ) -> Real[np.ndarray, "d h w"]:
-    """Return the path costs L_r(p, d) of one direction.
-
-    Args:
-        cost: A cost that `prepare` returned.
-        direction: r = (rows down, columns right).
-        jumps: The penalties.
-
-    Reference: Hirschmueller, PAMI 2008, eq. 13.
-    """
+    """Return the path costs L_r(p, d) of one direction (rows down, columns right), by eq. 13."""
     down, right = direction
     path = np.zeros(cost.shape, jumps.type_of_sum(1))
     if down:
@@ -121,19 +101,13 @@ def path_costs(
 def sweep(
     cost: Real[np.ndarray, "n d w"], path: Real[np.ndarray, "n d w"], slope: int, jumps: Jumps
 ) -> None:
-    """Write the path costs of all lines of a picture, walked in order.
+    """Write the path costs of all lines of a picture, walked in order, into `path`.
 
-    Args:
-        cost: C(p, d), line by line.
-        path: L_r(p, d), written in place.
-        slope: How many columns right the path goes per line: 0, 1 or -1.
-        jumps: The penalties.
-
-    Note:
-        With carried(d) = min(L(d) - min L, P2) of the pixel before, eq. 13 reads L(d) = C(d) +
-        min(carried(d), carried(d +- 1) + P1); it never exceeds top + P2, so bytes often do. A line
-        is laid out flat, d by d, with one spare column and a spare d at both ends: then every
-        neighbour is the same array at another offset.
+    `slope` is how many columns right the path goes per line: 0, 1 or -1. With carried(d) = min(L(d)
+    - min L, P2) of the pixel before, eq. 13 reads L(d) = C(d) + min(carried(d), carried(d +- 1) +
+    P1); it never exceeds top + P2, so bytes often do. A line is laid out flat, d by d, with one
+    spare column and a spare d at both ends: then every neighbour is the same array at another
+    offset.
     """
     n, disparities, w = cost.shape
     row = w + 1
@@ -165,12 +139,8 @@ def energy(
 ) -> float:
     """Return E(D) of eq. 11 per known pixel of a disparity map.
 
-    Args:
-        cost: C(p, d); infinite cells count as the worst finite one.
-        disparity: The map, pixels, charged at the nearest whole disparity; NaN is unknown and left
-            out.
-        P1: Penalty for a step of one disparity; every pair among the eight neighbours counts once.
-        P2: Penalty for every larger step.
+    Every pair among the eight neighbours counts once, at the nearest whole disparity; NaN is
+    unknown and left out.
     """
     known = np.isfinite(disparity)
     if not known.any():

@@ -1,5 +1,4 @@
-"""Curvature of a mesh, one quantity after the other: what each step measures, at one vertex and at
-all of them.
+"""Curvature of a mesh, one quantity after the other, at one vertex and at all of them.
 
 Reference: Meyer, Desbrun, Schroeder and Barr, Discrete differential-geometry operators for
 triangulated 2-manifolds, Visualization and Mathematics III, 2003. Equation numbers below are
@@ -60,10 +59,7 @@ class Measured:
     """What is known after a stage; what comes later is empty. Lengths in metres, angles in radians.
 
     Attributes:
-        stage: What was measured last.
-        p, faces, normals: The mesh and its outward unit normals.
-        vertex: The vertex that is looked at.
-        ring_faces, ring: The faces around it and its neighbours, counterclockwise.
+        ring_faces, ring: The faces around the vertex and its neighbours, counterclockwise.
         angles: The angle at the vertex in each of these faces.
         defects: 2 pi, or pi on the border, less the angles around each vertex.
         areas: The mixed area of each vertex, m^2.
@@ -111,13 +107,8 @@ def measure_curvature(
 ) -> Iterator[Measured]:
     """Yield what is known about a mesh's curvature, one quantity more at a time.
 
-    Args:
-        p: Vertices, m.
-        faces: Triangles of a mesh that `check_mesh` accepts, counterclockwise seen from outside.
-        vertex: The vertex whose ring is looked at closely.
-        angle_defects: Gives the defects.
-        gaussian_curvature: Gives K.
-        mean_curvature_normals: Gives 2 H n.
+    The mesh is one that `check_mesh` accepts, metres, counterclockwise seen from outside; the ring
+    of `vertex` is looked at closely.
     """
     normals = vertex_normals(p, faces)
     now = Measured("mesh", p, faces, normals, vertex)
@@ -163,16 +154,9 @@ def measure_curvature(
 
 
 def angles_at(p: Points, vertex: int, ring: Int[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-    """Return the angles at a vertex between each neighbour of its ring and the next, the last being
-    back to the first.
+    """Return the angles in [0, pi] at a vertex between each neighbour of its ring and the next.
 
-    Args:
-        p: Vertices, metres.
-        vertex: The vertex at which the angles are.
-        ring: Its neighbours, in the order in which they go round it.
-
-    Returns:
-        Angles in [0, pi], radians.
+    The last is between the last neighbour and the first.
     """
     a = p[ring] - p[vertex]
     b = np.roll(a, -1, axis=0)

@@ -1,5 +1,4 @@
-"""Fast marching on a square grid: a front that leaves the source and accepts nodes in the order of
-their distance.
+"""Fast marching on a square grid: a front that accepts nodes in the order of their distance.
 
 Nodes are accepted band by band instead of one by one. Within a band the update is repeated until
 nothing falls: the upwind equation has one solution, whatever the order, so that the values are
@@ -25,16 +24,11 @@ Grid = Float[np.ndarray, "n m"]
 def eikonal_update(
     a: Float[np.ndarray, " n"], b: Float[np.ndarray, " n"], h: float
 ) -> Float[np.ndarray, " n"]:
-    """Return the distance u of nodes from what their neighbours have: (u - a)^2 + (u - b)^2 = h^2,
-    u not below a or b.
+    """Return u of (u - a)^2 + (u - b)^2 = h^2, not below a or b: the distance of nodes.
 
-    Args:
-        a: The smaller distance of the two neighbours to the left and right; inf where neither has
-            one.
-        b: Of those above and below; one of the two is finite.
-        h: Spacing of the grid.
-
-    Where a and b differ by h or more, the front comes along one axis: u = min(a, b) + h.
+    a is the smaller distance of the neighbours left and right, inf where neither has one, b of
+    those above and below; one of the two is finite. Where they differ by the spacing h or more, the
+    front comes along one axis: u = min(a, b) + h.
 
     Examples:
         >>> eikonal_update(np.array([1.0, 0.0]), np.array([1.0, 2.0]), 1.0).round(4).tolist()
@@ -51,7 +45,6 @@ class March:
 
     Attributes:
         d: Distances so far: final where accepted, tentative on trial, inf beyond.
-        accepted: Which nodes have their final distance.
         reach: Up to where all are accepted.
     """
 
@@ -74,17 +67,14 @@ def march(
     band: float,
     update: Update = eikonal_update,
 ) -> Iterator[March]:
-    """Yield the front as it spreads from the nodes whose distance is known, until all that can be
-    reached are accepted.
+    """Yield the front from the nodes whose distance is known, until all in reach are accepted.
 
     Args:
-        start: Distances of the first nodes, inf elsewhere: 0 at a source, or exact ones in a disc
-            around it.
+        start: Distances of the first nodes, inf elsewhere: 0 at a source, or exact ones in a disc.
         free: Where the front can go.
         h: Spacing of the grid.
         band: How far the front goes from one state to the next.
-        update: Gives nodes their distance from two neighbours', as `eikonal_update` does. One that
-            is no number, or below both neighbours, is not taken.
+        update: As `eikonal_update`. What is no number, or below both neighbours, is not taken.
     """
     n, m = start.shape
     d = np.full(

@@ -1,5 +1,8 @@
-"""Geodesic distance by heat: let it flow for a short time, keep only its direction, and find the
-function that rises so.
+"""Geodesic distance by heat: let it flow, keep its direction, find the function that rises so.
+
+A mesh is given by its `measured` corners: as they stand in space (`corners`), or each triangle laid
+out for itself (`intrinsic_delaunay`). The time is in m^2; the paper takes the squared mean length
+of the edges.
 
 Reference: Crane, Weischedel and Wardetzky, Geodesics in heat: a new approach to computing distance
 based on heat flow, ACM Transactions on Graphics 32, 2013, sections 2 and 3.
@@ -25,7 +28,7 @@ SHIFT = (
 
 
 def mean_edge_length(p: Points, faces: Faces) -> float:
-    """Return the mean length of the edges, m; its square is the time that the paper lets heat flow.
+    """Return the mean length of the edges, m.
 
     >>> p = np.array([[0.0, 0, 0], [3, 0, 0], [0, 4, 0]])
     >>> mean_edge_length(p, np.array([[0, 1, 2]]))
@@ -36,13 +39,9 @@ def mean_edge_length(p: Points, faces: Faces) -> float:
 
 
 class HeatMethod:
-    """A mesh made ready for distances by heat: its two matrices, factored once for any number of
-    sources.
+    """A mesh made ready for distances by heat: its two matrices, factored once for any source.
 
-    Attributes:
-        measured: The corners of its triangles, as they stand in space (`corners`) or laid out each
-            for itself (`intrinsic_delaunay`). Heat does not leave over a border.
-        time: How long heat flows, m^2.
+    Heat does not leave over a border.
     """
 
     def __init__(self, measured: Corners, time: float) -> None:
@@ -54,27 +53,19 @@ class HeatMethod:
         self._rise = _factored(L + shift * scipy.sparse.eye_array(measured.count))
 
     def heat(self, sources: Int[np.ndarray, " s"]) -> Float[np.ndarray, "v s"]:
-        """Return the heat of every vertex, one column per source, after one implicit step from a
-        unit there.
-        """
+        """Return every vertex's heat, a column per source, one implicit step after a unit there."""
         unit = np.zeros((self.measured.count, len(sources)))
         unit[sources, np.arange(len(sources))] = 1.0
         return self._flow.solve(unit)
 
     def directions(self, heat: Float[np.ndarray, " v"]) -> Float[np.ndarray, "f 3"]:
-        """Return on every face the unit vector X along which heat falls; zero where it does not
-        fall.
-        """
+        """Return on every face the unit vector X along which heat falls; zero where it does not."""
         return directions_of(self.measured, heat)
 
     def distances(
         self, directions: Float[np.ndarray, "f 3"], source: int
     ) -> Float[np.ndarray, " v"]:
-        """Return the function that rises along X as well as one can, 0 at the source, m: L phi =
-        -div X.
-
-        Reference: Crane et al. 2013, section 3.2.
-        """
+        """Return the function that rises along X, 0 at the source, m: L phi = -div X (3.2)."""
         phi = self._rise.solve(-_divergence(self.measured, directions))
         return phi - phi[source]
 
@@ -93,7 +84,6 @@ class HeatState:
     """What is known after a phase; what comes later is empty.
 
     Attributes:
-        phase: What was done last.
         u: The heat of every vertex.
         X: On every face the unit vector along which it falls.
         d: The distance of every vertex, m.
@@ -107,14 +97,7 @@ class HeatState:
 
 @traced
 def heat_method(measured: Corners, source: int, time: float) -> Iterator[HeatState]:
-    """Yield heat that has flowed for a time, its directions, and the distances that rise along
-    them.
-
-    Args:
-        measured: The corners of a mesh' triangles.
-        source: A vertex.
-        time: m^2; the paper takes the squared mean length of the edges.
-    """
+    """Yield heat that has flowed for a time, its directions, and the distances by them."""
     method = HeatMethod(measured, time)
     u = method.heat(np.array([source]))[:, 0]  # (A + t L) u = 1 at the source
     yield (now := HeatState(phase="flow", u=u))
@@ -136,9 +119,7 @@ def _factored(matrix: "scipy.sparse.csr_array") -> "scipy.sparse.linalg.SuperLU"
 
 
 def directions_of(measured: Corners, u: Float[np.ndarray, " v"]) -> Float[np.ndarray, "f 3"]:
-    """Return -grad u / |grad u| of a function that is linear on each face: grad u = sum_k u_k (N x
-    e_k) / 2 A.
-    """
+    """Return -grad u / |grad u|, u linear on each face: grad u = sum_k u_k (N x e_k) / 2 A."""
     e, N, at = measured.edges, measured.normals, u[measured.vertices]
     level = np.abs(at).max(axis=0)
     at = np.divide(
@@ -151,9 +132,7 @@ def directions_of(measured: Corners, u: Float[np.ndarray, " v"]) -> Float[np.nda
 
 
 def _divergence(measured: Corners, X: np.ndarray) -> np.ndarray:
-    """Return the divergence of X about each vertex: 1/2 sum over its faces of cot a (e_1 . X) + cot
-    b (e_2 . X).
-    """
+    """Return the divergence about each vertex: 1/2 sum of cot a (e_1 . X) + cot b (e_2 . X)."""
     along = np.einsum(
         "xkf,fx->kf", measured.edges, X
     )  # edge k goes from corner k + 1 to corner k + 2

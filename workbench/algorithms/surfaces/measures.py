@@ -21,16 +21,16 @@ SignedVolume = Callable[[np.ndarray, np.ndarray], float]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Sums:
-    """The sums over the faces so far.
+    """The sums over the faces so far, metres.
 
     Attributes:
         order: All faces, in the order in which they are added.
-        parts: The signed volume of the tetrahedron of each face, m^3.
-        areas: The area of each face, m^2.
+        parts: The signed volume of the tetrahedron of each face.
+        areas: The area of each face.
         count: How many faces were added.
         new: How many of them at this step.
-        volume: The sum of their tetrahedra, m^3.
-        area: The sum of their areas, m^2.
+        volume: The sum of their tetrahedra.
+        area: The sum of their areas.
     """
 
     order: Int[np.ndarray, " f"]
@@ -55,7 +55,6 @@ def sum_faces(
     """Yield area and volume of the faces that were added so far: V = sum of a . (b x c) / 6.
 
     Args:
-        p: Vertices, m.
         faces: Counterclockwise seen from outside.
         origin: The common tip of the tetrahedra, m.
         signed_volume: Sums the tetrahedra of some faces.
@@ -82,16 +81,14 @@ def sum_faces(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Cells:
-    """A solid in the cells of one grid, and what the coarser grids before gave.
+    """A solid in the cells of one grid, and what the coarser grids before gave, metres.
 
     Attributes:
-        grid: The cells.
-        bits: Which of them are full.
+        bits: Which of the grid's cells are full.
         across: How many cells lay along the longest side, now and before.
-        volumes: The volume of the full cells, now and before, m^3.
-        areas: The area of the cell faces around them, m^2.
-        marched: The area of the surface by marching cubes through them, m^2; NaN where no cell is
-            full.
+        volumes: The volume of the full cells, now and before.
+        areas: The area of the cell faces around them.
+        marched: The area of marching cubes' surface through them; NaN where no cell is full.
     """
 
     grid: Grid
@@ -106,12 +103,7 @@ class Cells:
 def count_cells(
     grids: Iterable[tuple[int, Grid]], full: Callable[[Grid], np.ndarray]
 ) -> Iterator[Cells]:
-    """Yield a solid in ever finer cells, and what counting them gives.
-
-    Args:
-        grids: How many cells lie along the longest side, and the grid.
-        full: Tells which cells of a grid are full.
-    """
+    """Yield a solid in ever finer cells; each grid comes with its cells along the longest side."""
     across, volumes, areas, marched = (), (), (), ()
     for n, grid in grids:
         bits = full(grid)

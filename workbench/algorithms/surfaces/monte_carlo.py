@@ -1,5 +1,6 @@
-"""Volume, area and samples by chance: points thrown into a box, lines through space, points on a
-surface.
+"""Volume, area and samples by chance: points in a box, lines through space, points on a surface.
+
+Lengths are in metres; `counts` say how many are drawn until each step.
 
 Reference: Pharr, Jakob and Humphreys, Physically Based Rendering, 4th ed., chapter 2 and A.5.1.
 Santalo, Integral Geometry and Geometric Probability, 1976, chapter 12.
@@ -32,26 +33,14 @@ Inside = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Estimates:
-    """An estimate after ever more draws.
-
-    Attributes:
-        counts: How many points or lines were drawn, now and before.
-        values: The estimates, m^3 or m^2.
-        errors: Their standard errors.
-    """
+    """An estimate after ever more draws: counts, values and standard errors, now and before."""
 
     counts: tuple[int, ...] = ()
     values: tuple[float, ...] = ()
     errors: tuple[float, ...] = ()
 
     def more(self, count: int, value: float, error: float) -> "Estimates":
-        """Return these and one more.
-
-        Args:
-            count: How many were drawn.
-            value: The estimate, m^3 or m^2.
-            error: Its standard error.
-        """
+        """Return these and one more."""
         return Estimates(
             counts=(*self.counts, count), values=(*self.values, value), errors=(*self.errors, error)
         )
@@ -59,9 +48,7 @@ class Estimates:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Throws:
-    """Points thrown into a box: some of them, which of those lie inside, how many of all do, and
-    the estimates.
-    """
+    """Points thrown into a box: some of them, which lie inside, how many of all, the estimates."""
 
     q: Float[np.ndarray, "n 3"]
     inside: Bool[np.ndarray, " n"]
@@ -82,15 +69,7 @@ def throw_points(
 ) -> Iterator[Throws]:
     """Yield the estimate of a volume after ever more points were thrown into a box.
 
-    Args:
-        inside: Tells which points lie inside.
-        low: The lowest corner of the box, m.
-        high: Its highest corner, m.
-        counts: How many points are thrown until each step; stratified points are thrown anew at
-            each.
-        draw: How they are drawn.
-        rng: Chance.
-        volume_by_chance: Makes the estimate.
+    Stratified points are thrown anew at each step.
     """
     counts, box_volume, estimates = tuple(counts), float(np.prod(high - low)), Estimates()
     u, hit = unit_points(max(counts), 3, draw, rng=rng), np.empty(0, bool)
@@ -108,14 +87,13 @@ def throw_points(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Lines:
-    """Lines through a ball: the last of them, where those cross the surface, how often all do, and
-    the estimates.
+    """Lines through a ball.
 
     Attributes:
-        ends: Segments, m.
-        crossings: Where they cross the surface, m.
+        ends: The last of them, as segments.
+        crossings: Where those cross the surface.
         total: How many crossings all lines so far have.
-        estimates: Of the area, m^2.
+        estimates: Of the area.
     """
 
     ends: Float[np.ndarray, "n 2 3"]
@@ -133,15 +111,9 @@ def shoot_lines(
     counts: Iterable[int],
     rng: np.random.Generator,
 ) -> Iterator[Lines]:
-    """Yield the estimate of an area from ever more random lines: A = 2 pi R^2 times the mean number
-    of crossings (Crofton).
+    """Yield the estimate of an area from ever more random lines through a ball around the mesh.
 
-    Args:
-        p: Vertices, m.
-        faces: Triangles, in any order.
-        ball: Centre and radius of a ball around the mesh, m.
-        counts: How many lines are drawn until each step.
-        rng: Chance.
+    A = 2 pi R^2 times the mean number of crossings (Crofton).
     """
     (centre, radius), met, estimates = ball, np.empty(0, int), Estimates()
     for count in counts:
@@ -178,12 +150,7 @@ def sample_faces(
 ) -> Iterator[Sampled]:
     """Yield ever more points on a mesh.
 
-    Args:
-        p: Vertices, m.
-        faces: Triangles.
-        counts: How many points are drawn until each step.
-        numbers: Gives rows of three numbers from 0 to 1, so many as are asked for.
-        points_on_faces: Makes a point of each row.
+    `numbers` gives so many rows of three numbers from 0 to 1, `points_on_faces` a point of each.
     """
     q = np.empty((0, 3))
     for count in counts:
@@ -215,14 +182,7 @@ class Balls:
 
 @traced
 def raise_dimension(highest: int, throws: int, rng: np.random.Generator) -> Iterator[Balls]:
-    """Yield how many points of the cube [-1, 1]^d lie in the ball inside it, for d = 2, 3 and so
-    on.
-
-    Args:
-        highest: The last dimension.
-        throws: How many points are thrown in each.
-        rng: Chance.
-    """
+    """Yield how many points of the cube [-1, 1]^d lie in the ball inside it, from d = 2 on."""
     hits, shares = (), ()
     for d in range(2, highest + 1):
         x = rng.uniform(-1, 1, (throws, d))

@@ -1,11 +1,8 @@
-"""Optimal transport: exact, blurred, and flows along it.
+"""Optimal transport.
 
-- `exact`: the earth mover's distance, exact: the one-to-one matching of two clouds with the least
-  total distance.
-- `sinkhorn`: entropic optimal transport: blur the transport plan a little, and it is found by
-  scaling rows and columns in turn.
-- `flow`: one cloud flows to another: gradient descent on a distance between them, one point each
-  its own way.
+- `exact`: the one-to-one matching of two clouds with the least total distance.
+- `sinkhorn`: entropic transport, found by scaling rows and columns in turn.
+- `flow`: one cloud flows to another down a distance between them.
 """
 
 from workbench.algorithms.transport.exact import (

@@ -1,5 +1,7 @@
-"""The earth mover's distance, exact: the one-to-one matching of two clouds with the least total
-distance.
+"""The earth mover's distance, exact: the one-to-one matching with the least total distance.
+
+Clouds are in one frame, metres. Each has mass 1, every point the same share; where the counts
+differ a point's mass is split among several.
 
 References: Rubner, Tomasi and Guibas, The earth mover's distance, 2000; Crouse, On implementing 2D
 rectangular assignment algorithms, 2016 (scipy's solver); Peyre and Cuturi, Computational optimal
@@ -34,8 +36,7 @@ _CONTESTED = 0.35
 
 @dataclass(frozen=True, eq=False)
 class Matching:
-    """A transport plan: k pairs of a point of a and a point of b, the mass that moves between them,
-    and how far.
+    """A transport plan: pairs of a point of a and one of b, the mass that moves, and how far.
 
     Attributes:
         i_a, i_b: The pairs, as indices into the clouds, sorted by i_a.
@@ -50,44 +51,30 @@ class Matching:
 
     @property
     def cost(self) -> float:
-        """Mass times distance, summed: the earth mover's distance in metres where the matching is
-        the best one.
-        """
+        """Mass times distance, summed, metres: the earth mover's distance if it is the best one."""
         return float(self.mass @ self.distances)
 
 
 def earth_movers(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the earth mover's distance: the mean distance travelled under the best one-to-one
-    matching.
+    """Return the mean distance travelled under the best one-to-one matching, metres.
 
-    Args:
-        p_a: Points, metres; together they have mass 1, each the same share.
-        p_b: Points in the same frame, likewise; where the counts differ a point's mass is split
-            among several.
-
-    Returns:
-        min over matchings of (1 / n) sum_i |a_i - b_match(i)|, in metres. A metric between clouds
-        of equal mass.
+    It is a metric between clouds of equal mass.
 
     Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite, or counts differ
-            and are too large.
+        ValueError: If a cloud is empty or not finite, or counts differ and are too large.
 
     Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 2, as a mean.
 
     Examples:
         >>> p_a = np.array([[0.0, 0, 0], [1, 0, 0]])
-        >>> earth_movers(
-        ...     p_a, p_a[::-1] + np.array([0.0, 0.0, 0.5])
-        ... )  # the order of the rows is of no account
+        >>> earth_movers(p_a, p_a[::-1] + np.array([0.0, 0.0, 0.5]))  # rows in any order
         0.5
     """
     return best_matching(p_a, p_b).cost
 
 
 def earth_movers_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
-    """Return the gradient of `earth_movers` with respect to p_a: unit vectors away from the
-    partners, times mass.
+    """Return the gradient of `earth_movers` by p_a: unit vectors from the partners times mass.
 
     A pair that coincides has no direction and counts as zero, which is one of its subgradients.
     """
@@ -109,20 +96,12 @@ def blurred_earth_movers(
     max_sweeps: int = 10_000,
     tolerance: float = 1e-9,
 ) -> float:
-    """Return the mean distance travelled under Sinkhorn's blurred plan, metres: never below
-    `earth_movers`.
+    """Return the mean distance under Sinkhorn's blurred plan, metres: never below `earth_movers`.
 
-    Args:
-        p_a: Points, metres.
-        p_b: Points in the same frame; the counts may differ.
-        regularisation: How much the plan is blurred, metres.
-        max_sweeps: See `sinkhorn`.
-        tolerance: See `sinkhorn`; a plan whose sums are not yet right may cost too little by as
-            much mass as is missing.
+    A plan whose sums are not yet right to `tolerance` may cost too little by the missing mass.
 
     Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite, or the
-            regularisation is not positive.
+        ValueError: If a cloud is empty or not finite, or the regularisation is not positive.
     """
     check_clouds(p_a, p_b)
     distances = scipy.spatial.distance.cdist(p_a, p_b)
@@ -132,14 +111,10 @@ def blurred_earth_movers(
 
 
 def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Matching:
-    """Return the matching with the least total distance.
+    """Return a matching with the least total distance.
 
     Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite, or counts differ
-            and are too large.
-
-    Note:
-        Several matchings may share the least total; one of them is returned.
+        ValueError: If a cloud is empty or not finite, or counts differ and are too large.
     """
     check_clouds(p_a, p_b)
     return _matched(*(one for p in (p_a, p_b) for one in (np.asarray(p, float).tobytes(), p.shape)))
@@ -147,9 +122,7 @@ def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) 
 
 @functools.lru_cache(maxsize=8)
 def _matched(a: bytes, shape_a: tuple[int, ...], b: bytes, shape_b: tuple[int, ...]) -> Matching:
-    """Return the best matching; who asks how far two clouds are apart then asks which way they go,
-    and what goes where.
-    """
+    """Return the best matching, kept: who asks how far two clouds are apart asks for it again."""
     p_a, p_b = np.frombuffer(a).reshape(shape_a), np.frombuffer(b).reshape(shape_b)
     distances = scipy.spatial.distance.cdist(p_a, p_b)
     if len(p_a) == len(p_b):
@@ -168,11 +141,11 @@ def best_assignment(
 ) -> tuple[Int[np.ndarray, "n"], Int[np.ndarray, "n"]]:
     """Return rows and columns of the one-to-one assignment with the least total cost.
 
-    Subtracting a number from a row or a column changes every assignment's total alike, so the best
-    one stays the best. Numbers close to the optimal dual potentials leave costs of which the best
-    assignment uses only near-zeros, which the solver finds several times sooner; blurred transport
-    gives such numbers cheaply. Where nearly each row has a cheapest column of its own the solver is
-    quick without them.
+    Subtracting a number from a row or a column changes every assignment's total alike. Numbers
+    close to the optimal dual potentials leave costs of which the best assignment uses only
+    near-zeros, which the solver finds several times sooner; blurred transport gives such numbers
+    cheaply. Where nearly each row has a cheapest column of its own the solver is quick without
+    them.
 
     Raises:
         ValueError: If the cost is empty, not square, not finite or too large.
@@ -192,8 +165,7 @@ def best_assignment(
 def best_plan(
     cost: Float[np.ndarray, "n m"],
 ) -> tuple[Int[np.ndarray, "k"], Int[np.ndarray, "k"], Float[np.ndarray, "k"]]:
-    """Return rows, columns and masses of the cheapest plan from n equal masses to m equal masses,
-    each summing to 1.
+    """Return rows, columns and masses of the cheapest plan from n equal masses to m equal masses.
 
     Where a few copies of rows and columns make the counts equal, their assignment is the answer;
     otherwise a linear programme is.
@@ -224,8 +196,7 @@ def best_plan(
 
 
 def best_plan_by_programme(cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, "n m"]:
-    """Return the cheapest plan as the solution of a linear programme: row and column sums are
-    equality constraints.
+    """Return the cheapest plan by a linear programme: row and column sums are its constraints.
 
     Raises:
         ValueError: If the solver finds no solution.
@@ -248,15 +219,12 @@ def best_plan_by_programme(cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, 
 
 
 def contested(cost: Float[np.ndarray, "n m"]) -> float:
-    """Return the share of the columns that are the cheapest of no row: 0 where each row has one of
-    its own.
-    """
+    """Return the share of the columns that are the cheapest of no row."""
     return 1 - len(np.unique(cost.argmin(axis=1))) / cost.shape[1]
 
 
 def blurred_potentials(cost: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n"]:
-    """Return column potentials near the optimal ones: a few overrelaxed sweeps of Sinkhorn's
-    scaling at ever smaller blur.
+    """Return column potentials near the best: overrelaxed Sinkhorn sweeps at ever smaller blur.
 
     Single precision will do, since any numbers leave the best assignment the best. The products are
     taken row by row (`vecdot`), because a matrix product that is spread over threads waits for all

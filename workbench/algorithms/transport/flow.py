@@ -1,5 +1,4 @@
-"""One cloud flows to another: gradient descent on a distance between them, one point each its own
-way.
+"""One cloud flows to another, by gradient descent on a distance between them; metres, one frame.
 
 References: Polyak, Introduction to optimization, 1987, section 5.3 (the step for a function whose
 least value is known); Fan, Su and Guibas, A Point Set Generation Network, 2017, section 3.3
@@ -43,8 +42,6 @@ class Flow:
     """The moving cloud after some steps.
 
     Attributes:
-        step: How many steps were taken.
-        p_moving: The cloud where it is now, metres.
         value: Its distance to the target.
         slope: The gradient of that distance with respect to p_moving.
         moved: How far the points went in this step, root mean square, metres.
@@ -72,21 +69,15 @@ def flow(
 ) -> Iterator[Flow]:
     """Yield the cloud as it slides down a distance to the target, until nothing lowers it further.
 
+    The value never rises. A flow that settles above zero is in a local minimum of the distance.
+
     Args:
-        p_moving: The cloud that moves, metres.
-        p_target: The cloud that stays, same frame.
-        distance: What is lowered.
-        gradient: Its gradient with respect to p_moving: one's own, or `partial(numeric_gradient,
-            distance)`.
+        gradient: With respect to p_moving: one's own, or `partial(numeric_gradient, distance)`.
         longest_step: No step moves the points farther than this, root mean square, metres.
         share: Of Polyak's step length; 1 aims at zero at once.
-        max_steps: Take at most this many steps.
 
     Raises:
         ValueError: If longest_step or share is not positive.
-
-    Note:
-        The value never rises. A flow that settles above zero is in a local minimum of the distance.
     """
     if not (longest_step > 0 and share > 0):
         raise ValueError(f"longest_step and share are positive, not {longest_step} and {share}")
@@ -113,22 +104,13 @@ def descend(
     slope: Float[np.ndarray, "n 3"],
     length: float,
 ) -> tuple[Float[np.ndarray, "n 3"], float]:
-    """Return the cloud one step down the slope and its distance; the cloud as it was where no step
-    lowers the distance.
+    """Return the cloud one step down the slope and its distance; as it was where no step lowers it.
 
-    A step that is too long is tried once more, half as far, against the mean of the slopes at its
-    two ends: for a point that passed a kink, such as its own place, these cancel and it stays,
-    while the others go on. That is kept where the distance falls in a straight line, as it does
-    between kinks. Else the step is halved until the distance is lower.
-
-    Args:
-        distance: What is lowered.
-        gradient: Its gradient with respect to the moving cloud.
-        p_moving: The cloud now, metres.
-        p_target: The cloud that stays, same frame.
-        value: The distance now.
-        slope: The gradient now.
-        length: The step length that is tried first: the points move by `length * slope`.
+    The points move by `length * slope`. A step that is too long is tried once more, half as far,
+    against the mean of the slopes at its two ends: for a point that passed a kink, such as its own
+    place, these cancel and it stays, while the others go on. That is kept where the distance falls
+    in a straight line, as it does between kinks. Else the step is halved until the distance is
+    lower.
 
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., algorithm 3.1, with plain
     decrease as the condition; the mean over a kink after Wolfe, A method of conjugate subgradients
@@ -159,20 +141,10 @@ def descend(
 
 
 def polyak_length(value: float, slope: Float[np.ndarray, "n 3"], share: float) -> float:
-    """Return `share` of Polyak's step length for a least value of zero.
+    """Return `share` of Polyak's step length for a least value of zero; 0 without a slope.
 
     The whole of it reaches zero at once where the distance falls like a cone, and goes half the way
-    where it falls like a square.
-
-    Args:
-        value: The function's value; its least one is zero.
-        slope: Its gradient.
-        share: 1 for the whole step.
-
-    Returns:
-        The step length; 0 where the gradient is zero.
-
-    Reference: Polyak 1987, section 5.3.
+    where it falls like a square (Polyak 1987, section 5.3).
     """
     squared = float(np.vdot(slope, slope))
     return share * value / squared if squared > 0 else 0.0
@@ -190,13 +162,7 @@ def rms(v: Float[np.ndarray, "n 3"]) -> float:
 
 
 def why_stop(value: float, value_next: float, at_limit: bool) -> Stop | None:
-    """Return the reason to stop, or None to go on.
-
-    Args:
-        value: The distance before the step.
-        value_next: The distance after it.
-        at_limit: Whether this is the last step allowed.
-    """
+    """Return the reason to stop, or None to go on."""
     if value <= _ARRIVED:
         return Stop.ARRIVED
     if not value_next < value:
@@ -210,19 +176,10 @@ def numeric_gradient(
     p_b: Float[np.ndarray, "m 3"],
     h: float = 1e-6,
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the gradient of any distance with respect to p_a, by central differences of 2 h
-    metres.
+    """Return the gradient of any distance by p_a, by central differences of 2 h metres.
 
-    Args:
-        distance: Of two clouds.
-        p_a: The cloud that is moved, metres.
-        p_b: The other one.
-        h: Half the width of a difference, metres.
-
-    Note:
-        It asks for the distance twice per coordinate. A coordinate in which all points of both
-        clouds agree is left at zero: by symmetry no distance between clouds in a plane pulls them
-        out of it.
+    It asks for the distance twice per coordinate. A coordinate in which all points of both clouds
+    agree is left at zero: by symmetry no distance between clouds in a plane pulls them out of it.
     """
     slope = np.zeros_like(p_a)
     free = np.flatnonzero(np.ptp(np.concatenate([p_a, p_b]), axis=0) > 0)

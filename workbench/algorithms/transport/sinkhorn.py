@@ -1,5 +1,8 @@
-"""Entropic optimal transport: blur the transport plan a little, and it is found by scaling rows and
-columns in turn.
+"""Entropic optimal transport: a blurred plan, found by scaling rows and columns in turn.
+
+Costs are of moving a unit of mass from row to column; masses are uniform and sum to 1. The
+regularisation, the weight of the entropy, is in units of the cost: smaller is nearer to the optimum
+and slower.
 
 References: Cuturi, Sinkhorn distances, 2013, algorithm 1; Schmitzer, Stabilized sparse scaling
 algorithms for entropy regularized transport problems, 2019, algorithm 2 (absorption); Peyre and
@@ -39,10 +42,8 @@ class Blurred:
 
     Attributes:
         sweep: How often rows and columns were scaled.
-        regularisation: The weight of the entropy, in units of the cost.
         f, g: Log-domain potentials: plan_ij = exp((f_i + g_j - cost_ij) / regularisation).
-        marginal_error: How much mass the plan's row sums put wrongly; the column sums are exact.
-            Masses sum to 1.
+        marginal_error: How much mass the row sums put wrongly; the column sums are exact.
         stop: Why this is the last state, or None.
     """
 
@@ -58,9 +59,7 @@ class Blurred:
         return np.exp((self.f[:, None] + self.g - cost) / self.regularisation)
 
     def cost(self, cost: Float[np.ndarray, "n m"]) -> float:
-        """Return what the plan costs, entropy not counted: at least the optimum once the sums are
-        right.
-        """
+        """Return what the plan costs without entropy: at least the optimum if the sums are right."""
         return float(np.vdot(self.plan(cost), cost))
 
 
@@ -72,24 +71,15 @@ def sinkhorn_steps(
     max_sweeps: int = 10_000,
     tolerance: float = 1e-9,
 ) -> Iterator[Blurred]:
-    """Yield the potentials of the entropic plan between uniform masses, after every few sweeps,
-    until its sums are right.
+    """Yield the entropic plan's potentials after every few sweeps, until its sums are right.
 
-    Args:
-        cost: What it costs to move a unit of mass from row to column.
-        regularisation: The weight of the entropy, in units of the cost; smaller is nearer to the
-            optimum and slower.
-        max_sweeps: Scale rows and columns at most this often.
-        tolerance: Converged when the row sums are wrong by no more than this in total.
+    Any positive regularisation works, since the scalings are absorbed into log-domain potentials
+    before they overflow. Converged when the row sums are wrong by no more than `tolerance` in
+    total.
 
     Raises:
         ValueError: If the cost is empty, not finite or too large, or the regularisation is not
             positive.
-
-    Note:
-        Any positive regularisation works, since the scalings are absorbed into log-domain
-        potentials before they overflow. The cost found is above the exact one; by how much depends
-        on the regularisation.
     """
     check_cost(cost)
     if not (regularisation > 0 and max_sweeps >= 1):
@@ -133,12 +123,6 @@ def sinkhorn(
     Its steps are not traced (`workbench.tracing`): a trace of the run that calls this goes on with
     that run.
 
-    Args:
-        cost: What it costs to move a unit of mass from row to column.
-        regularisation: The weight of the entropy, in units of the cost.
-        max_sweeps: Scale rows and columns at most this often.
-        tolerance: Converged when the row sums are wrong by no more than this in total.
-
     Raises:
         ValueError: As `sinkhorn_steps`.
     """
@@ -150,10 +134,9 @@ def sinkhorn(
 def tight_potentials(
     cost: Float[np.ndarray, "n m"], g: Float[np.ndarray, "m"]
 ) -> tuple[Float[np.ndarray, "n"], Float[np.ndarray, "m"]]:
-    """Return the largest f, then the largest g, with f_i + g_j <= cost_ij: each row and column has
-    an equality.
+    """Return the largest f, then the largest g, with f_i + g_j <= cost_ij (the c-transform).
 
-    Reference: Peyre and Cuturi 2019, section 5.1, the c-transform.
+    Reference: Peyre and Cuturi 2019, section 5.1.
     """
     f = (cost - g).min(axis=1)
     return f, (cost - f[:, None]).min(axis=0)
@@ -165,15 +148,7 @@ def kernel(
     g: Float[np.ndarray, "m"],
     regularisation: float,
 ) -> Float[np.ndarray, "n m"]:
-    """Return exp((f_i + g_j - cost_ij) / regularisation), entries that cannot matter kept above the
-    slow denormals.
-
-    Args:
-        cost: What it costs to move a unit of mass from row to column.
-        f: Potentials of the rows, in units of the cost.
-        g: Potentials of the columns.
-        regularisation: The weight of the entropy, in units of the cost.
-    """
+    """Return exp((f_i + g_j - cost_ij) / regularisation), kept above the slow denormals."""
     K = f[:, None] + g
     K -= cost
     K *= 1 / regularisation
@@ -182,11 +157,10 @@ def kernel(
 
 
 def check_cost(cost: np.ndarray) -> None:
-    """Raise ValueError if a cost is empty, too large or not finite.
+    """Raise an error if a cost cannot be transported.
 
     Raises:
-        ValueError: If the cost is empty, has more than MOST_ENTRIES entries, or one that is not
-            finite.
+        ValueError: If it is empty, has more than MOST_ENTRIES entries, or one that is not finite.
     """
     if cost.size == 0:
         raise ValueError(f"a cost of {cost.shape[0]} x {cost.shape[1]} has nothing to move")
