@@ -5,7 +5,7 @@ function: with a sign that hangs on the coordinates the scan lands half a turn a
 import numpy as np
 from jaxtyping import Float
 
-from lessons.alignment.exercises import GRADERS, STUDENTS
+from lessons.axes.exercises import GRADERS, STUDENTS
 from workbench.data.lopsided import a_lopsided_cloud, a_rotation
 from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
 from workbench.geometry import principal_axes as geometry

@@ -5,7 +5,7 @@ which end of an axis is its tip is left to you here, and to the next exercise.
 import numpy as np
 from jaxtyping import Float
 
-from lessons.alignment.exercises import GRADERS, STUDENTS
+from lessons.axes.exercises import GRADERS, STUDENTS
 from workbench.data.lopsided import a_rotation
 from workbench.exercise import (
     Function,
