@@ -20,6 +20,7 @@ from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
 from workbench.loading import is_path, lesson_given
+from workbench.moved import moved
 
 _WORDS = "lesson preset step out force host port browser with native help params open behind workers key"
 RESERVED = frozenset(_WORDS.split())
@@ -101,6 +102,8 @@ def parse(
     signature, words = inspect.signature(function), _spelled(args)
     parser = _Parser(prog, description=description, allow_abbrev=False, formatter_class=_layout)
     asked = _asked(words, signature.parameters.values())
+    if any(one.annotation is Chosen for one in signature.parameters.values()):
+        words, asked = _led_on(words, *asked)
     readers = {
         name: _lesson_reader(parser, words, *asked) if one.annotation is Chosen else _reader(parser, one)
         for name, one in signature.parameters.items()
@@ -188,6 +191,30 @@ def _asked(words: Sequence[str], parameters: Iterable[inspect.Parameter]) -> tup
         if behind in flags or not is_path(name):
             name = next((word for word in flags if word in catalog()), None)
     return name, found.preset
+
+
+def _led_on(
+    words: list[str], name: str | None, preset: str | None
+) -> tuple[list[str], tuple[str | None, str | None]]:
+    """Return the words with the lesson, preset and flags that they name where these are now."""
+    places = {i: word for i, word in enumerate(words) if word.startswith("--") and word not in HELP}
+    given = {word[2:].partition("=")[0].replace("-", "_"): i for i, word in places.items()}
+
+    def value_of(i: int) -> str:
+        return words[i].partition("=")[2] or (words[i + 1] if i + 1 < len(words) else "")
+
+    values = {flag: value_of(i) for flag, i in given.items()}
+    led = moved(name or "", preset, values)
+    if name is None or (led.lesson == name and led.values == values):
+        return words, (name, preset)
+    dropped = set[int]()
+    for flag, i in given.items():
+        if flag not in led.values:
+            dropped |= {i} if "=" in words[i] else {i, i + 1}
+    kept = [word for i, word in enumerate(words) if i not in dropped]
+    kept[kept.index(name)] = led.lesson
+    more = [f"--{flag.replace('_', '-')}={value}" for flag, value in led.values.items() if flag not in values]
+    return [*kept, *more], (led.lesson, led.preset)
 
 
 def _lesson_reader(parser: _Parser, words: list[str], name: str | None, preset: str | None) -> Reader:

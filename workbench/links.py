@@ -14,6 +14,7 @@ from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
 from workbench.loading import word_for
+from workbench.moved import moved
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,8 @@ def read(query: str, *, here: Lesson | None = None) -> Place | None:
     name = values.pop("lesson", None)
     if name is None:
         return None
+    led = moved(name, values.pop("preset", None), values)
+    name, preset, values = led.lesson, led.preset, led.values
     if here is not None and name == here.name:
         lesson = here
     elif name in catalog():
@@ -62,7 +65,6 @@ def read(query: str, *, here: Lesson | None = None) -> Place | None:
         step.removeprefix("-").isascii() and step.removeprefix("-").isdigit() and len(step) < 8
     ):
         raise InputError(f"this link names step {step[:20]!r}, which is no whole number")
-    preset = values.pop("preset", None)
     fields = [field.name for field in knobs.fields_of(lesson.params)]
     values = {key: value for key, value in values.items() if key in fields or get_close_matches(key, fields)}
     base = None if preset is None else lesson.preset(preset).params

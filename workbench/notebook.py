@@ -16,6 +16,7 @@ from workbench.errors import InputError
 from workbench.lesson import Lesson, find
 from workbench.links import show_command
 from workbench.loading import load
+from workbench.moved import moved
 from workbench.numerals import brief, length
 from workbench.page.document import lesson_document
 from workbench.page.thumbnail import still_of
@@ -54,6 +55,9 @@ def replay(
     Raises:
         InputError: If there is no such lesson, preset or param, a value is out of range, or the run gives no step.
     """
+    if isinstance(lesson, str):
+        led = moved(lesson, preset, params)
+        lesson, preset, params = led.lesson, led.preset, led.values
     chosen = lesson if isinstance(lesson, Lesson) else load(lesson) if isinstance(lesson, Path) else find(lesson)
     if steps is not None and steps < 1:
         raise InputError(f"steps = {steps}: how many steps are kept, 1 or more")

@@ -8,11 +8,12 @@ import numpy as np
 from lessons.icp.inputs import Input
 from workbench.algorithms import turning
 from workbench.algorithms.turning import State, cost, cost_of_pairs, icp_turn, turned, within_half
-from workbench.captions import degrees, metres
+from workbench.captions import Quantity, degrees
 from workbench.data.rabbit_outline import along, normals_along, rabbit_outline
 from workbench.geometry.polylines import between, segments
 from workbench.geometry.upright import dial_arc, on_dial, outlined, upright, upright_turn
 from workbench.lesson import Look, cached, say
+from workbench.numerals import brief
 from workbench.scene import Caption, Chart, Classes, Label, Points, Primitive, Scene, Segments
 
 BLUE, ORANGE, OFFSET = (
@@ -111,9 +112,9 @@ def draw(look: Look[Input, Outlines, State]) -> Scene:
     p_moved, q = turned(lines.p_source, now.angle), lines.p_target[now.partners]
     tick = np.array([[0.0, DIAL - MARK], [0.0, DIAL + MARK]])
     faint = 0.35
-    color = Classes.marking(
-        lines.right(now.partners), "truth", "right partner", others=("correspondence", "partner")
-    )
+    asked = now.iteration == 1 and now.phase == "match"  # a question asks how many are right
+    good = lines.right(now.partners) & (not asked)
+    color = Classes.marking(good, "truth", "right partner", others=("correspondence", "partner"))
     scene: dict[str, Primitive] = {
         "dial": Segments(dial_arc(-180.0, 180.0, DIAL), "neutral", 1.0, opacity=faint),
         "turn": Segments(dial_arc(0.0, shown, DIAL, 0.002), "source", 4.0),
@@ -142,7 +143,7 @@ def draw(look: Look[Input, Outlines, State]) -> Scene:
             "basin/from": BASIN.scalar(low, "from", "truth"),
             "basin/to": BASIN.scalar(high, "to", "truth"),
         }
-    if now.iteration == 1 and now.phase == "match":
+    if asked:
         scene |= _ring(p_moved, q)
     return scene | _landscape(look, shown)
 
@@ -175,6 +176,11 @@ def _ring(p_moved: np.ndarray, q: np.ndarray) -> dict[str, Primitive]:
     }
 
 
+def millimetres(metres: float) -> Quantity:
+    """Return a length as the chart has it."""
+    return Quantity(metres, f"{brief(MM * metres)} mm")
+
+
 def caption(look: Look[Input, Outlines, State]) -> Caption:
     """Return what just happened, with the number that changed."""
     lines, now = look.subject, look.now
@@ -182,8 +188,10 @@ def caption(look: Look[Input, Outlines, State]) -> Caption:
         return say(
             "Turned by {angle}, the lines have an RMSE of {rmse}.",
             angle=degrees(within_half(now.angle)),
-            rmse=metres(now.rmse),
+            rmse=millimetres(now.rmse),
         )
+    if now.phase == "match" and now.iteration == 1:
+        return say("Match {n}: every orange point takes the nearest blue one.", n=1, place="match")
     if now.phase == "match":
         return say(
             "Match {n}: {good} of {points} partners are right.",
@@ -202,6 +210,6 @@ def caption(look: Look[Input, Outlines, State]) -> Caption:
         settled=True,
         at=degrees(at),
         n=now.iteration,
-        rmse=metres(now.rmse),
+        rmse=millimetres(now.rmse),
         place="fit",
     )

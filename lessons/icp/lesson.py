@@ -9,7 +9,8 @@ from pathlib import Path
 
 from lessons.icp import drawing, flat, scans, space
 from lessons.icp.inputs import Input
-from lessons.icp.presets import PRESETS, QUESTIONS, SWEEPS, VIEW, VIEWS
+from lessons.icp.presets import PRESETS, SWEEPS, VIEW, VIEWS
+from lessons.icp.questions import QUESTIONS
 from workbench.algorithms import icp, turning
 from workbench.lesson import Lesson, Look, Slot
 from workbench.scene import Scene
@@ -50,7 +51,8 @@ def draw(look: Look) -> Scene:
 lesson = Lesson(
     name="icp",
     title="Iterative closest point",
-    summary="Guess the pairs, move, guess again: it finds home, or another valley.",
+    summary="Two scans find each other by matching nearest points, moving, and matching again, or they"
+    " settle in a convincing wrong place.",
     page=Path(__file__).with_name("page.md"),
     params=Input,
     setup=setup,

@@ -26,7 +26,7 @@ MAX_ITERATIONS, TOLERANCE = 150, 1e-5
 ANGLES = tuple(range(0, 181, 15))  # degrees: how far away the tries start
 SLIDING = ("corner", "vase")  # moved onto themselves they look the same: no start leads home
 SHARES = (0.3, 0.4, 0.5, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0)  # of the matches, that the chart tries
-TRIED = 1500  # source points that a try uses at most; the built-in scans have no more
+TRIED = 5000  # source points that a try uses at most; the built-in scans have no more
 TURNS = np.arange(-180.0, 181.0, 6.0)  # degrees at which the cost of a vase's turn is looked up
 
 

@@ -20,7 +20,7 @@ HALF = Input(wrong=50.0)
 FRONT = View(eye=(0.0, 2.15, 0.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 VIEW = View(eye=(-0.95, -2.3, 1.1), target=(-0.75, 0.0, 0.15), grid=None, axes=False)
 NEAR = View(eye=(-1.1, -1.75, 0.75), target=(-1.1, 0.0, 0.15), grid=None, axes=False)
-LARGE = View(eye=(-1.1, -3.4, 1.5), target=(-1.1, 0.0, 0.15), grid=None, axes=False)
+LARGE = View(eye=(-1.35, -2.6, 1.1), target=(-1.35, 0.0, 0.2), grid=None, axes=False)
 ABOVE = View(eye=(-1.05, -1.5, 2.0), target=(-1.2, 0.0, 0.0), grid=None, axes=False)
 VIEWS = {"front": FRONT, "both": VIEW, "near": NEAR, "large": LARGE, "above": ABOVE}
 FLIP = 5  # the step where a direction is flipped

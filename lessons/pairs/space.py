@@ -195,5 +195,7 @@ def fit(
 ) -> Iterator[State]:
     """Yield the steps of the least-squares similarity, in the end with the scale that goes back."""
     p, q = scans.p_target, scans.p_source
-    for now in procrustes.procrustes(p, q, scale, params.flip):
+    H = (p - p.mean(axis=0)).T @ (q - q.mean(axis=0))
+    flip = params.flip if np.linalg.det(H) < 0 else "least"  # only a mirror image has to flip
+    for now in procrustes.procrustes(p, q, scale, flip):
         yield State(now=now, back=scale(q, p) if now.stage == "scale" else float("nan"))

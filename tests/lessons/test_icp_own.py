@@ -7,18 +7,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.icp.basin import ANGLES
-from lessons.icp.draw import draw
-from lessons.icp.lesson import lesson, run
-from lessons.icp.presets import HOME, end
-from lessons.icp.state import Params
-from tests.lessons.icp_runs import preset, scene, states, true, two_scans, until_stop
+from lessons.icp.inputs import Input as Params
+from lessons.icp.lesson import lesson
+from lessons.icp.space import ANGLES
+from tests.lessons.icp_runs import HOME, Seen, end, preset, scene, seen, states, true, two_scans, until_stop
 from workbench.algorithms.icp import Stop
 from workbench.data.lidar import Street, lidar_scan, street
 from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, motion
 from workbench.scene import caption_of
 from workbench.timeline import Timeline
+
+
+def fitted(params: Params) -> Seen:
+    """The step after the first fit."""
+    return next(step for step in seen(params) if step.icp.phase == "fit")
 
 
 @pytest.fixture
@@ -86,7 +89,7 @@ class TestOwnScans:
             (replace(two_files, truth=tmp_path / "no.txt"), "no such file"),
         ):
             with pytest.raises(InputError, match=words):
-                next(run(params))
+                next(seen(params))
 
 
 class TestAwkwardScans:
@@ -105,22 +108,22 @@ class TestAwkwardScans:
     def test_any_unit_passes_the_gate_alike_and_is_told_in_metres(self, tmp_path, unit, per_metre):
         gate: Any = {"gate": "max-distance", "max_distance": 0.06, "thinning": "chance"}
         p_target, p_source = self.rabbits()
-        metres = next(run(self.files(tmp_path, p_target, p_source, **gate)))
+        metres = fitted(self.files(tmp_path, p_target, p_source, **gate))
         there = tmp_path / unit
         there.mkdir()
-        first = next(run(self.files(there, per_metre * p_target, per_metre * p_source, unit=unit, **gate)))
+        first = fitted(self.files(there, per_metre * p_target, per_metre * p_source, unit=unit, **gate))
         assert 0.1 < metres.icp.overlap < 0.9
         assert first.icp.overlap == metres.icp.overlap
         factor = 1.0 if unit != "m" else 1000.0
         assert first.icp.rmse == pytest.approx(factor * metres.icp.rmse)
-        assert (caption_of(draw(first)).text == caption_of(draw(metres)).text) is (unit != "m")
+        assert (caption_of(first.scene).text == caption_of(metres.scene).text) is (unit != "m")
 
     def test_a_pose_is_in_the_unit_of_the_scans(self, tmp_path):
         p_target, p_source = self.rabbits()
         T = true(states(replace(HOME, start_shift=0.2))[0])
         np.savetxt(tmp_path / "T.txt", np.array([[1, 1, 1, 1000]] * 3 + [[1, 1, 1, 1]]) * T)
         params = self.files(tmp_path, 1000 * p_target, 1000 * p_source, unit="mm", truth=tmp_path / "T.txt")
-        np.testing.assert_allclose(true(next(run(params))), T, atol=1e-9)
+        np.testing.assert_allclose(true(next(seen(params))), T, atol=1e-9)
 
     def test_far_from_the_origin_nothing_changes(self, tmp_path):
         p_target, p_source = self.rabbits()
@@ -150,22 +153,22 @@ class TestAwkwardScans:
         assert point.icp.stop is Stop.CONVERGED
         plane = until_stop(self.files(tmp_path, p, p + 0.01, fit="point-to-plane"))[-1]
         assert plane.icp.stop is Stop.TOO_FEW_MATCHES
-        assert "too few matches" in caption_of(draw(plane)).text
+        assert "too few matches" in caption_of(plane.scene).text
 
     def test_scans_that_start_apart_are_told_so(self, tmp_path):
         p_target, p_source = self.rabbits()
-        first = next(run(self.files(tmp_path, p_target, p_source + np.array([800.0, 0.0, 0.0]))))
-        assert "The scans start 799 m apart, and the target is" in caption_of(draw(first)).text
-        none = next(run(self.files(tmp_path, p_target, p_source + np.array([800.0, 0.0, 0.0]), gate="max-distance")))
-        assert "0 of 1,500 are kept" in caption_of(draw(none)).text
-        assert "nan" not in caption_of(draw(none)).text
-        near = next(run(self.files(tmp_path, p_target, p_source)))
-        assert "apart, and" not in caption_of(draw(near)).text
+        first = next(seen(self.files(tmp_path, p_target, p_source + np.array([800.0, 0.0, 0.0]))))
+        assert "The scans start 799 m apart, and the target is" in caption_of(first.scene).text
+        none = next(seen(self.files(tmp_path, p_target, p_source + np.array([800.0, 0.0, 0.0]), gate="max-distance")))
+        assert "of 1,500 matches the closest 0 are kept" in caption_of(none.scene).text
+        assert "nan" not in caption_of(none.scene).text
+        near = next(seen(self.files(tmp_path, p_target, p_source)))
+        assert "apart, and" not in caption_of(near.scene).text
 
     def test_a_target_in_one_place_is_one_line_and_nan_are_left_out_and_counted(self, tmp_path):
         p_target, p_source = self.rabbits()
         with pytest.raises(InputError, match="all its points lie at one place"):
-            next(run(self.files(tmp_path, np.ones((9, 3)), p_source)))
+            next(seen(self.files(tmp_path, np.ones((9, 3)), p_source)))
         holed = np.where(p_target > 0.4, np.nan, p_target)
         params = self.files(tmp_path, holed, p_source)
         timeline = Timeline(lesson, params)
@@ -175,7 +178,7 @@ class TestAwkwardScans:
 
     def test_the_grid_is_in_metres_of_the_scans(self, tmp_path):
         p_target, p_source = self.rabbits()
-        shown = draw(next(run(self.files(tmp_path, 100 * p_target, 100 * p_source))))
+        shown = next(seen(self.files(tmp_path, 100 * p_target, 100 * p_source))).scene
         grid: Any = shown["grid"]
         scale = states(self.files(tmp_path, 100 * p_target, 100 * p_source))[0].scans.frame.scale
         at = np.unique(grid.ends[:, 0, 0].round(9))
@@ -188,8 +191,8 @@ class TestAwkwardScans:
         p_target, p_source = self.rabbits()
         params = self.files(tmp_path, p_target, p_source)
         words = "Your own scans are open: shape, start angle have no effect on them."
-        assert words in caption_of(draw(next(run(replace(params, shape="vase", start_angle=90.0))))).text
-        assert "no effect" not in caption_of(draw(next(run(params)))).text
+        assert words in caption_of(next(seen(replace(params, shape="vase", start_angle=90.0))).scene).text
+        assert "no effect" not in caption_of(next(seen(params)).scene).text
 
 
 def yard(rng: np.random.Generator) -> Street:
@@ -276,7 +279,7 @@ class TestRealScans:
     def test_the_defaults_come_home(self, shared_data, target, source, truth, most_metres, fit):
         folder = shared_data / "icp"
         params = Params(target=folder / target, source=folder / source, truth=folder / truth, fit=fit)
-        state = end(run(params))
+        state = end(seen(params))
         assert state.error.rotation < 0.3
         assert state.error.translation < most_metres
         off = np.linalg.norm(state.icp.T_target_source[:3, 3] - true(state)[:3, 3])

@@ -80,10 +80,8 @@ def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Itera
     caption = getattr(judge, "caption", None)
     for k, state in enumerate(run.states):
         look = Look(params=run.params, subject=run.subject, now=state, past=run.states[:k])
-        if caption is None:
-            said = caption_of(lesson.form.draw(look))
-        else:
-            said = caption(state if lesson.setup is None else look)
+        given = state if lesson.setup is None else look
+        said = caption(given) if caption else caption_of(lesson.form.draw(look))
         yield from (f"step {k}: {what}" for what in untrue(said.text, judge.CAPTIONS, run, k))
         if lesson.setup is not None:
             yield from (f"step {k}: {what}" for what in misvalued(said, judge.VALUES, run, k))

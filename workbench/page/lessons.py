@@ -4,6 +4,7 @@ from typing import Any
 
 from workbench.knobs import Field, Gizmo, Pick, changed, fields_of
 from workbench.lesson import Lesson, Preset, Question
+from workbench.moved import asked_before
 from workbench.typeset import inline_html
 
 
@@ -21,6 +22,7 @@ def lesson_data(lesson: Lesson) -> dict[str, Any]:
         ],
         "presets": [preset_data(lesson, preset) for preset in lesson.presets],
         "questions": [question_data(question) for question in lesson.questions],
+        "was": {name: list(before) for name, before in asked_before(lesson.name).items()},
     }
 
 

@@ -3,6 +3,7 @@
 import base64
 import json
 from collections.abc import Mapping
+from html import escape
 from typing import Any
 
 from workbench.exercise.finding import exercises_of
@@ -94,3 +95,14 @@ def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
         }
         found[question.name] = base64.b64encode(json.dumps(kept).encode()).decode()
     return found
+
+
+def leading_on(title: str, address: str) -> str:
+    """Return the page of a run that is in another lesson now: it leads there by itself, or by its link."""
+    place = escape(address)
+    return (
+        '<!doctype html><html lang="en"><head><meta charset="utf-8">'
+        f'<title>{escape(title)}</title><meta http-equiv="refresh" content="0; url={place}">'
+        f'<link rel="icon" href="data:,"></head><body><p>This run is part of <a href="{place}">{escape(title)}</a> now.</p>'
+        "</body></html>\n"
+    )

@@ -12,6 +12,7 @@ from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, Question, Sweep, catalog
 from workbench.links import show_command
+from workbench.moved import runs_led_on
 from workbench.page.article import LINK
 from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
@@ -276,6 +277,7 @@ def recorded(lesson: Lesson, opened: Run, *, root: str, runs: str, answers: Mapp
         "titles": {run.name: run.title for run in runs_of(lesson)},
         "aliases": {name: run for sweep in sweeps for name, run in zip(sweep["names"], sweep["runs"], strict=True)},
         "sweeps": sweeps,
+        "moved": {old: f"{root}{to}/index.html#run={run}" for old, (to, run) in runs_led_on(lesson.name).items()},
         "note": f"These runs are recorded. All knobs, live: {show_command(lesson, lesson.params())}",
         "answers": dict(answers),
     }

@@ -17,6 +17,7 @@ from rerun.chunk import RrdReader
 from workbench import __version__, knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
+from workbench.moved import moved
 from workbench.recording.viewer_files import binary, quiet_environment
 from workbench.scene import Scalar
 
@@ -115,15 +116,19 @@ def reopening(path: Path, given: Lesson | None = None, *, files: bool = False) -
         InputError: If the file cannot be read, its lesson is not here, or it names files and may not.
     """
     recording = open_recording(path)
-    lesson = _lesson_of(recording, given)
+    led = moved(recording.lesson, None, recording.params)
+    lesson = _lesson_of(recording, led.lesson, given)
+    told = recording.params if given is not None else led.values
     lines = []
+    if lesson.name != recording.lesson:
+        lines.append(f"{path}: this run of {recording.lesson} is one of the lesson {lesson.name} now")
     if recording.version != __version__:
         lines.append(f"{path}: recorded by version {recording.version}, this is {__version__}; the run may differ")
     if recording.format > FORMAT:
         lines.append(f"{path}: format {recording.format} is newer than this version's {FORMAT}; trying all the same")
     fields = {field.name: field for field in knobs.fields_of(lesson.params)}
     values = {}
-    for name, value in recording.params.items():
+    for name, value in told.items():
         if name not in fields:
             lines.append(f"{path}: the lesson has no parameter {name} any more; left out")
             continue
@@ -140,9 +145,11 @@ def reopening(path: Path, given: Lesson | None = None, *, files: bool = False) -
     return lesson, knobs.make(lesson.params, values), lines
 
 
-def _lesson_of(recording: Recording, given: Lesson | None) -> Lesson:
+def _lesson_of(recording: Recording, name: str, given: Lesson | None) -> Lesson:
     """Return the lesson of a recording: the one given if it has the name, or the one that the catalogue has."""
-    name, path = recording.lesson, recording.path
+    path = recording.path
+    if given is not None and given.name == recording.lesson:
+        return given
     if given is not None and given.name != name:
         raise InputError(f"{path}: is a run of the lesson {name[:80]!r}, and the lesson given is {given.name!r}")
     found = catalog().get(name) if given is None else given

@@ -15,6 +15,7 @@ from workbench.atomic import remove_leftovers, write_atomic
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
 from workbench.loading import load
+from workbench.moved import moved
 from workbench.progress import Progress, bar
 from workbench.recording.columns import facts, send_captions, send_series
 from workbench.recording.contents import contents_of, to_json
@@ -65,6 +66,9 @@ def record(
         InputError: If the inputs cannot be used, the run fails, or the file is there or cannot be written; then nothing
             has changed.
     """
+    if isinstance(lesson, str) and params is None:
+        led = moved(lesson, preset, values)
+        lesson, preset, values = led.lesson, led.preset, led.values
     found = find(lesson) if isinstance(lesson, str) else load(lesson) if isinstance(lesson, Path) else lesson
     if params is not None and (preset is not None or values):
         other = f"preset {preset!r}" if preset is not None else f"{next(iter(values))}=…"

@@ -120,3 +120,12 @@ class Story:
     def html(self) -> str:
         """The scenes and what is folded behind them."""
         return "".join(scene.html for scene in self.scenes) + self.reference
+
+    def runs_before_what_ifs(self) -> tuple[str, ...]:
+        """Return the runs that are shown up to the first scene that offers others, each once, in order."""
+        found: dict[str, None] = {}
+        for scene in self.scenes:
+            found |= dict.fromkeys(place.run for place in scene.beats)
+            if '<div class="what-if"' in scene.html:
+                break
+        return tuple(found)

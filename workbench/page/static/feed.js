@@ -63,11 +63,10 @@ const feed = window.feed = { // viser's client in the frame looks for it
 
   // takes the camera from the scenes and puts it somewhere; null gives it back where it is
   lead(camera) {
-    const first = camera && !this.led;
     this.led = camera;
     if (!camera || !this.stage) return;
     this.stage.camera = camera;
-    this.aim(first);
+    this.aim();
   },
 
   // puts the camera where the scene wants it

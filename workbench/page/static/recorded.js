@@ -20,6 +20,10 @@ const source = {
     const { run, step } = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
     if (run === undefined) return false;
     const name = Object.hasOwn(RECORDED.aliases, run) ? RECORDED.aliases[run] : run;
+    if (!Object.hasOwn(RECORDED.files, name) && Object.hasOwn(RECORDED.moved ?? {}, run)) {
+      location.replace(RECORDED.moved[run] + (step === undefined ? "" : `&step=${step}`));
+      return true;
+    }
     if (!Object.hasOwn(RECORDED.files, name)) {
       page.say(`This page has no run named ${run.slice(0, 40)}.`, "wrong");
       return false;

@@ -12,6 +12,7 @@ const story = {
   scene: null,   // the scene it is in
   hand: false,   // whether the reader's hand owns the stage
   flying: false, // whether a jump is on its way
+  goal: null,    // the scene of the last jump
   scroll: 0,     // where the words were when the workbench was opened
 
   start() {
@@ -121,7 +122,11 @@ const story = {
   },
 
   // another scene, or an open question, changes what the lines above take: read anew
-  measure() { if (page.face === "story") this.follow(); },
+  measure() {
+    if (page.face !== "story") return;
+    if (this.flying && this.goal) this.to(this.scenes.indexOf(this.goal), { now: true, push: false });
+    else this.follow();
+  },
 
   // the text puts the stage where it is read
   async put(beat, down) {
@@ -211,6 +216,7 @@ const story = {
     const y = scene === this.scenes[0] ? 0 : at + scrollY - high;
     if (push && !now && scene !== this.scene) history.pushState({ face: "story" }, "", this.url(scene));
     this.flying = true;
+    this.goal = scene;
     scrollTo({ top: y, behavior: now || isStill() ? "instant" : "smooth" });
     head.tabIndex = -1;
     head.focus({ preventScroll: true });

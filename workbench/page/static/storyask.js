@@ -118,7 +118,8 @@ const storyAsk = {
       label.classList.toggle("missed", !skipped && value === given && !right);
     }
     const radio = $("[type=radio]", form), known = reply ? [reply] : [];
-    const truly = radio ? [] : [skipped ? `It is ${this.worded(truth)}.`
+    const truly = radio ? [] : [skipped ? `It is ${this.worded(truth)}.` : reply
+      ? `You said ${this.said(form, given)}.`
       : `You said ${this.said(form, given)}, it is ${this.worded(truth)}.`];
     const words = right ? [why] : skipped ? [why || truly[0]] : [...truly, ...known, why];
     $(".reply", form).replaceChildren(...(right ? [element("b", { textContent: "Right. " })] : []),

@@ -96,7 +96,7 @@ const storyChart = {
       ...bands(at, plot.bands.filter((one) => shown("band", one))),
       ...plot.whole.flatMap((one) => wholeCurve(at, one, seen ? visited : null)),
       ...seconds.flatMap((one) => secondCurve(at, one)),
-      ...(seconds.length ? plot.whole.map((one) => nameOf(at, one)) : []),
+      ...(seconds.length || plot.whole.length > 1 ? namesOf(at, plot.whole, seconds) : []),
       ...(free && k > 0 ? trail(at, this.trace(run, k, plot.name), marks[0].color) : []),
       ...(this.flag === null ? [] : flagAt(at, this.flag)),
       ...marks.map((one, i) => `<circle class="ball" data-mark="${i}" ` +

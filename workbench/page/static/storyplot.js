@@ -112,13 +112,36 @@ function secondCurve(at, curve) {
     ring, said];
 }
 
-// the name of the whole curve, where a second one is beside it
-function nameOf(at, curve) {
-  const x = at.x.low + 0.92 * (at.x.high - at.x.low), y = heightAt(curve, x);
-  if (y === undefined || at.h < 100) return "";
-  const below = at.py(y) + 22 < at.h - FRAME.bottom ? 22 : -12;
-  return `<text class="over" x="${at.px(x)}" y="${at.py(y) + below}" text-anchor="middle" ` +
-    `style="fill:${inkOf(curve.color)}">${escape(curve.name)}</text>`;
+// the names of whole curves, each where it covers no other curve and no other name
+function namesOf(at, curves, others) {
+  if (at.h < 100) return [];
+  const taken = [], room = { left: FRAME.left, right: at.w - FRAME.right };
+  return curves.map((curve) => {
+    const wide = 6.6 * curve.name.length, half = wide / 2, places = [];
+    for (const part of [0.92, 0.75, 0.58, 0.4, 0.22]) for (const up of [-12, 20]) {
+      const x = at.x.low + part * (at.x.high - at.x.low), y = heightAt(curve, x);
+      if (y === undefined || y === null) continue;
+      const u = Math.min(room.right - half, Math.max(room.left + half, at.px(x)));
+      const box = { u, v: at.py(y) + up, left: u - half, right: u + half };
+      const inside = box.v > FRAME.top + 8 && box.v < at.h - FRAME.bottom - 2;
+      places.push({ ...box, bad: (inside ? 0 : 4) + clashes(at, box, [...curves, ...others], taken) });
+    }
+    if (!places.length) return "";
+    const best = places.reduce((a, b) => (b.bad < a.bad ? b : a));
+    taken.push(best);
+    return `<text class="over" x="${best.u}" y="${best.v}" text-anchor="middle" ` +
+      `style="fill:${inkOf(curve.color)}">${escape(curve.name)}</text>`;
+  });
+}
+
+// how much words in a box would cover
+function clashes(at, { v, left, right }, curves, taken) {
+  const over = taken.filter((one) => one.left < right && left < one.right && Math.abs(one.v - v) < 15);
+  const crossed = curves.filter((curve) => [0, 0.25, 0.5, 0.75, 1].some((part) => {
+    const y = heightAt(curve, at.value(left + part * (right - left)));
+    return y !== undefined && y !== null && at.py(y) > v - 13 && at.py(y) < v + 5;
+  }));
+  return 3 * over.length + crossed.length;
 }
 
 // bands on the axis, with a rim at each end

@@ -59,7 +59,7 @@ const storyStage = {
     source.flush?.();
     this.arrived = null;
     this.wait(false);
-    this.show();
+    this.show({ here: true });
     arrived(true);
   },
 
@@ -123,15 +123,16 @@ const storyStage = {
     this.sign(true);
     await pausing(250);
     while (this.token === token) {
-      const { run, k } = page, last = this.found(run, own(to)), from = this.place.step;
+      const { run, k } = page, last = this.found(run, own(to));
       if (last !== undefined && k >= last) break;
-      const left = last === undefined ? 20 : last - k;
-      token.pace ??= Math.min(650, Math.max(90, (1000 * seconds) / Math.max(1, left)));
-      token.by ??= Math.max(1, Math.round((left * token.pace) / (1000 * seconds)));
-      if (typeof from === "number" && from < k) this.place.step = k;
-      const next = last === undefined ? k + token.by : Math.min(last, k + token.by);
+      if (token.last !== last) Object.assign(token, { last, k, began: performance.now() });
+      const left = last === undefined ? 1 : last - token.k, spent = performance.now() - token.began;
+      const whole = Math.min(1000 * seconds, 650 * left);  // what is slow to come is passed over
+      const due = last === undefined ? k + 1 : token.k + Math.ceil((left * (spent + 1)) / whole);
+      const next = Math.max(k + 1, Math.min(last ?? due, due));
+      const rest = last === undefined ? 200 : (whole * (next - token.k)) / left - spent;
       const shown = this.go({ ...this.place, step: next });
-      const [came] = await Promise.all([shown, pausing(token.pace)]);
+      const [came] = await Promise.all([shown, pausing(Math.max(30, Math.min(650, rest)))]);
       if (!came) return this.ended(token, false);
     }
     return this.ended(token, this.token === token);
@@ -157,7 +158,7 @@ const storyStage = {
 
   // lets the eye glide where the view is another one; where a reader has turned it, it stays
   look(name = "") {
-    if (name === this.view || !stage.frame) return;
+    if (name === this.view) return;
     const to = STORY.views[name] ?? (name ? null : feed.stage?.own);
     if (!to) return;
     const first = this.view === null;
@@ -177,8 +178,9 @@ const storyStage = {
 
   // what stands under the scene -------------------------------------------------------------------
 
-  show() {
+  show({ here = false } = {}) {
     if (page.face !== "story" || !page.step()) return;
+    if (!here && (!this.is(page.run, this.place) || !this.awaits(page.k))) return;  // on the way
     const { run, k } = page, end = this.found(run, "stop") ?? run.known - 1;
     const last = Math.max(1, k > end ? run.known - 1 : end);
     Object.assign($("#step"), { max: last, value: k });
@@ -202,7 +204,8 @@ const storyStage = {
       if (at === k) button.setAttribute("aria-current", "true");
       return button;
     }));
-    const round = !ticks && k > 0 && k < end && this.round(run, k, end);
+    const free = !ticks && !named.some(([at]) => at > 0.3 * last && at < 0.7 * last);
+    const round = free && k > 0 && k < end && this.round(run, k, end);
     if (round) $("#marks").append(element("output", { textContent: round }));
   },
 

@@ -86,7 +86,7 @@ const storyWords = {
       return Boolean(one.data);
     }
     const named = (sweep) => (sweep.knob ?? sweep.names[0].split(":")[0]) === one.name;
-    const of = (sweep) => !sweep.of || canonical(sweep.of) === canonical(one.place.run);
+    const of = ({ run = "default" }) => canonical(run) === canonical(one.place.run);
     one.sweep = RECORDED.sweeps.find((sweep) => named(sweep) && of(sweep));
     return Boolean(one.sweep);
   },
