@@ -108,9 +108,8 @@ def second_scan(
         left = np.argsort(shape[:, 0], kind="stable")
         shape = shape[left[: max(4, round(params.seen * len(shape)))]]
     noise = params.noise * rng.standard_normal(shape.shape)
-    if params.noise and params.noisy == "target":
-        noise = 0.0 * noise
-    return shape @ R_target_source + noise
+    is_clean = bool(params.noise) and params.noisy == "target"
+    return shape @ R_target_source + (0.0 if is_clean else 1.0) * noise
 
 
 def _own_pair(params: Input) -> Scans:
