@@ -20,6 +20,7 @@ class Move:
         questions: Its questions, likewise.
         base: Params that were otherwise by default, as the part had them.
         gone: Params that the part does not have any more; they are left out.
+        is_rest: Whether it is all of the lesson that no move before it names.
     """
 
     lesson: str
@@ -29,13 +30,14 @@ class Move:
     questions: Mapping[str, str]
     base: Mapping[str, Any] = field(default_factory=dict)
     gone: frozenset[str] = frozenset()
+    is_rest: bool = False
 
     def is_meant(self, preset: str | None, values: Mapping[str, Any]) -> bool:
         """Tell whether this part is meant by a preset and values of params."""
         name, value = self.where
         if name in values:
-            return str(values[name]) == value
-        return preset in self.presets
+            return str(values[name]) == value or self.is_rest
+        return preset in self.presets or self.is_rest
 
 
 def _same(*names: str) -> dict[str, str]:
@@ -52,12 +54,20 @@ MOVES = (
         base={"noise": 0.0},
         gone=frozenset({"stage", "signs", "fresh", "density", "seen", "stray"}),
     ),
+    Move(
+        lesson="alignment",
+        to="axes",
+        where=("stage", "axes"),
+        presets=_same(
+            *("home", "signs", "fresh", "box", "vase", "nearly", "cube"),
+            *("density", "part", "stray", "far"),
+        ),
+        questions=_same("predict-rotations", "predict-frames", "predict-signs"),
+        gone=frozenset({"stage", "scale", "mirrored", "flip"}),
+        is_rest=True,
+    ),
 )
-"""What moved."""
-LEFT: Mapping[str, frozenset[str]] = {
-    "alignment": frozenset({"stage", "scale", "mirrored", "flip"}),
-}
-"""Params that a lesson does not have any more, since they went with a part of it."""
+"""What moved; of a lesson's parts the first that is meant counts."""
 
 
 @dataclass(frozen=True)
@@ -75,14 +85,11 @@ def moved(lesson: str, preset: str | None, values: Mapping[str, Any]) -> Moved:
         (one for one in MOVES if one.lesson == lesson and one.is_meant(preset, values)), None
     )
     if move is None:
-        left = LEFT.get(lesson, frozenset())
-        return Moved(
-            lesson, preset, {name: value for name, value in values.items() if name not in left}
-        )
+        return Moved(lesson, preset, dict(values))
     kept = {name: value for name, value in values.items() if name not in move.gone}
     if preset is None:
         return Moved(move.to, None, {**move.base, **kept})
-    return Moved(move.to, move.presets.get(preset), kept)
+    return Moved(move.to, move.presets.get(preset, preset), kept)
 
 
 def runs_led_on(lesson: str) -> dict[str, tuple[str, str]]:

@@ -21,7 +21,7 @@ RULES = {
     "largest-entry": "Largest entry",
     "third-moment": "Third moments",
 }
-PLACE = {"cloud": "scans", "covariance": "ellipsoid", "order": "axes", "signs": "signs"}
+PLACE = {"cloud": "scans", "order": "axes", "signs": "signs"}
 
 
 def of_state(look: Look) -> Caption:
@@ -87,12 +87,14 @@ def _of_pose(look: Look) -> Caption:
     if not np.isfinite(outcome.rotation):
         words = "Frame on frame: {gap} (RMS) to the nearest points. Nobody knows the truth here."
         return say(words, gap=gap, place=place)
-    words, more = "Frame on frame: {off} from the truth, {gap} (RMS) to the nearest points.", {}
-    if np.isfinite(state.box):
-        words += " The box along its axes holds {box} times the shape's own."
-        more = {"box": number(state.box)}
     off = degrees(outcome.rotation)
-    return say(words, right=outcome.home, settled=False, off=off, gap=gap, place=place, **more)
+    words = "Frame on frame: {off} from the truth, {gap} (RMS) to the nearest points."
+    if np.isfinite(state.box):
+        words = "The frame is {off} off, and its box holds {box} times the shape's own."
+        return say(
+            words, right=outcome.home, settled=False, off=off, box=number(state.box), place=place
+        )
+    return say(words, right=outcome.home, settled=False, off=off, gap=gap, place=place)
 
 
 def of_race(look: Look) -> Caption:

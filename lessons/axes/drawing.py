@@ -32,12 +32,12 @@ from workbench.scene import (
 
 COLORS: tuple[Role, Role, Role] = ("x", "y", "z")
 SIGMAS, BEYOND = 2.0, 1.25  # standard deviations to the ellipsoid; of it: how far an axis reaches
-MOST_MISSES, GHOST = 40, 0.13  # lines to where points belong; the opacity of what is not chosen
+MOST_MISSES, GHOST = 40, 0.3  # lines to where points belong; the opacity of what is not chosen
 TIPS = 0.8  # metres from the centroid to the tips of many turns
 BALL = sphere(400)
 EDGES = np.array([(a, a ^ bit) for a in range(8) for bit in (1, 2, 4) if a < a ^ bit])
 CORNERS = np.array([[(k >> bit) & 1 for bit in range(3)] for k in range(8)])
-CELL, MATRIX = 0.22, np.array([0.72, 0.0, 0.42])  # metres: a cell of the matrix, its first corner
+CELL, MATRIX = 0.27, np.array([0.58, 0.0, 0.42])  # metres: a cell of the matrix, its first corner
 PLACES = np.array([[-0.58, 0, 0.52], [0.58, 0, 0.52], [-0.58, 0, -0.6], [0.58, 0, -0.6]])
 
 
@@ -169,7 +169,7 @@ def _four(
             scans.p_source, "source", radius, T_cell @ T[k], GHOST if faint else 1.0, name=second
         )
         words, role = names[k]
-        middle = scans.p_target.mean(axis=0) + [0.0, -0.1, low - 0.08]
+        middle = scans.p_target.mean(axis=0) + [0.0, -0.1, low - 0.14]
         scene[f"four/{k + 1}/name"] = Label(words, middle, role, T_cell)
     return scene
 
@@ -266,6 +266,13 @@ def _tips(scans: Scans, state: State) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
         "tips": Points(tips, Classes(away, ("truth", "wrong"), names), 0.02, T)
     }
+    for k in range(2):
+        v = sure(state.axes_target)[:, k]
+        front = int(np.count_nonzero(state.turns.tips[:, k] @ v > 0))
+        for count, side in ((front, v), (len(away) // 2 - front, -v)):
+            place = m + 1.15 * TIPS * side
+            name = f"tips/{k + 1}{'-' if side is not v else '+'}"
+            scene[name] = Label(f"axis {k + 1}: {count}", place, COLORS[k], T)
     for k, about in enumerate(np.eye(3)):
         ring = circle(apply(T, m), about, TIPS, "neutral", opacity=0.35)
         scene[f"globe/{k}"] = ring

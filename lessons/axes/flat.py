@@ -166,7 +166,8 @@ def _charts(outline: Outline, now: Held) -> dict[str, Primitive]:
         "variance/curve": VARIANCE.whole(FINE, variance, "variance", "source"),
         "variance/mark": VARIANCE.mark(x, y, "your hand", "source", steps="direction"),
         "both/variance": BOTH.whole(FINE, variance, "variance", "source"),
-        "both/covariance": BOTH.second(FINE, covariance, "covariance", "target"),
+        "both/covariance": BOTH.whole(FINE, covariance, "covariance", "target"),
+        "both/zero": BOTH.second(FINE, 0.0 * FINE, "zero", "neutral"),
         "both/mark": BOTH.mark(x, y, "variance", "source", steps="direction"),
         "both/second mark": BOTH.mark(x, c, "covariance mark", "target"),
     }

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from lessons.axes.flat import HAND, Outline
+from lessons.axes.flat import HAND, Outline, outline_of
 from lessons.axes.inputs import Input
 from lessons.axes.space import HOME_DEGREES, State, Turns
 from lessons.axes.starts import Race
@@ -26,8 +26,8 @@ WIDE = View(eye=(-1.7, -2.9, 1.7), target=(-0.75, 0.0, 0.3), grid=None, axes=Fal
 APART = View(eye=(-1.1, -3.6, 1.8), target=(-1.25, 0.0, 0.1), grid=None, axes=False)
 FRONT = View(eye=(0.0, 2.15, 0.0), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 ASIDE = View(eye=(-0.65, 3.4, 0.0), target=(-0.65, 0.0, 0.0), grid=None, axes=False)
-MATRIX = View(eye=(0.35, -2.7, 0.75), target=(0.35, 0.0, 0.08), grid=None, axes=False)
-FOUR = View(eye=(0.0, -3.4, 0.2), target=(0.0, 0.0, -0.06), grid=None, axes=False)
+MATRIX = View(eye=(0.42, -2.15, 0.5), target=(0.42, 0.0, 0.05), grid=None, axes=False)
+FOUR = View(eye=(0.0, -2.95, 0.2), target=(0.0, 0.0, -0.06), grid=None, axes=False)
 GLOBE = View(eye=(-0.9, -2.75, 0.95), target=(-1.15, 0.0, 0.05), grid=None, axes=False)
 VIEWS = {
     "flat": FRONT, "aside": ASIDE, "both": VIEW, "matrix": MATRIX, "four": FOUR, "globe": GLOBE,
@@ -65,12 +65,12 @@ PRESETS: tuple[Preset[Input], ...] = (
     _preset(
         "one-aside", "One point 1 m behind the outline",
         "One of 61 points lies 1 m aside. The longest direction turns towards it.",
-        replace(FLAT, aside=1.0), at(78), ASIDE, True,
+        replace(FLAT, aside=1.0), at(outline_of(1.0).longest), ASIDE, True,
     ),
     _preset(
         "two-aside", "The same point, 2 m behind the outline",
         "Squares count distance twice: the farther the point, the more of the axis it has.",
-        replace(FLAT, aside=2.0), at(150), ASIDE, True,
+        replace(FLAT, aside=2.0), at(outline_of(2.0).longest), ASIDE, True,
     ),
     _preset(
         "by-hand", "One plane turned by hand",

@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 
 from lessons.axes.inputs import Input
-from lessons.axes.scans import Scans, sample_of, second_scan, true_rotation
+from lessons.axes.scans import Scans, sample_of, second_scan
 from workbench.algorithms.jacobi import State as Rotated
 from workbench.algorithms.jacobi import jacobi
 from workbench.certain import sure
@@ -158,7 +158,7 @@ def steps(params: Input, scans: Scans, find: Slot | None, sign: Slot | None) -> 
     yield state
     state = replace(state, moment="pose", box=box_ratio(scans, axes))
     yield state
-    if find is None and sign is None and params.target is None:
+    if find is None and sign is None and scans.T_target_source is not None:
         yield replace(state, moment="turns", turns=many_turns(params, scans, axes_target))
 
 
@@ -253,12 +253,13 @@ def box_ratio(scans: Scans, axes: np.ndarray) -> float:
 
 def many_turns(params: Input, scans: Scans, axes_target: np.ndarray) -> Turns:
     """Turn the second scan at random, find its frame by the same recipe, bring it over by the truth."""
-    rng, count = np.random.default_rng(params.seed), FRESH_TURNS if params.fresh else TURNS
+    is_fresh = params.target is None and params.fresh
+    rng, count = np.random.default_rng(params.seed), FRESH_TURNS if is_fresh else TURNS
     turns = scipy.spatial.transform.Rotation.random(count, rng=rng).as_matrix()
-    R, brought = true_rotation(params), []
+    R, brought = sure(scans.T_target_source)[:3, :3], []
     for Q in turns:
         p_source = scans.p_source
-        if params.fresh:
+        if is_fresh:
             p_source = second_scan(params, sample_of(params), R, rng)
         p_turned = p_source @ Q.T
         brought.append(R @ Q.T @ with_signs(by_jacobi(p_turned), p_turned, params))

@@ -1,10 +1,11 @@
-"""What is true of a run of the alignment lesson, with scipy from the scans and the truth that they carry."""
+"""What is true of a run of the lesson on axes, with scipy from the scans and the truth that they carry."""
 
 import numpy as np
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
-from lessons.alignment.state import State
+from lessons.axes.scans import Scans
+from lessons.axes.space import State
 
 HOME = 10.0  # degrees
 
@@ -12,7 +13,11 @@ HOME = 10.0  # degrees
 def degrees(R: np.ndarray, other: np.ndarray) -> float:
     """The angle between the rotations nearest to two matrices."""
     return float(
-        np.degrees((Rotation.from_matrix(unscaled(R)) * Rotation.from_matrix(unscaled(other)).inv()).magnitude())
+        np.degrees(
+            (
+                Rotation.from_matrix(unscaled(R)) * Rotation.from_matrix(unscaled(other)).inv()
+            ).magnitude()
+        )
     )
 
 
@@ -20,23 +25,25 @@ def unscaled(A: np.ndarray) -> np.ndarray:
     return A / np.cbrt(np.linalg.det(A))
 
 
-def moved(state: State) -> np.ndarray:
+def moved(scans: Scans, state: State) -> np.ndarray:
     assert state.outcome is not None
     T = state.outcome.T_target_source
-    return state.scans.p_source @ T[:3, :3].T + T[:3, 3]
+    return scans.p_source @ T[:3, :3].T + T[:3, 3]
 
 
-def turn_left(state: State) -> float:
+def turn_left(scans: Scans, state: State) -> float:
     """Degrees from the truth; NaN where no rotation is right, or the map is a mirror image."""
     assert state.outcome is not None
-    T, T_true = state.outcome.T_target_source, state.scans.T_target_source
+    T, T_true = state.outcome.T_target_source, scans.T_target_source
     if T_true is None or np.linalg.det(T[:3, :3]) < 0:
         return float("nan")
     return degrees(T[:3, :3], T_true[:3, :3])
 
 
-def to_nearest(state: State) -> float:
-    return float(np.sqrt(np.mean(np.asarray(KDTree(state.scans.p_target).query(moved(state))[0]) ** 2)))
+def to_nearest(scans: Scans, state: State) -> float:
+    return float(
+        np.sqrt(np.mean(np.asarray(KDTree(scans.p_target).query(moved(scans, state))[0]) ** 2))
+    )
 
 
 def eigenvectors(p: np.ndarray) -> np.ndarray:
