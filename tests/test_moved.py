@@ -130,4 +130,4 @@ def test_a_recording_of_before_is_reopened(tmp_path, monkeypatch):
 def _with(recording, params):
     from dataclasses import replace
 
-    return replace(recording, params=params)
+    return replace(recording, lesson="alignment", params=params)

@@ -98,6 +98,11 @@ def runs_led_on(lesson: str) -> dict[str, tuple[str, str]]:
     return {name: (move.to, to) for move in moves for name, to in move.presets.items()}
 
 
+def lessons_led_on() -> dict[str, str]:
+    """Return the lessons that are in others altogether, each with the one that has the rest of it."""
+    return {move.lesson: move.to for move in MOVES if move.is_rest}
+
+
 def asked_before(lesson: str) -> dict[str, tuple[str, str]]:
     """Return the questions of a lesson that another one asked: (lesson, question) of before by their names now."""
     moves = [move for move in MOVES if move.to == lesson]
