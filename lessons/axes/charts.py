@@ -120,10 +120,10 @@ def _lopsided(look: Look) -> dict[str, Primitive]:
     )
     bins = np.linspace(-3.0, 3.0, 31)
     scene: dict[str, Primitive] = {}
-    for k, color in ((0, "x"), (1, "y")):
+    for k in range(2):
         count, edges = np.histogram(along[:, k], bins)
         x = (edges[1:] + edges[:-1]) / 2
-        scene[f"along/{k + 1}"] = ALONG.curve(x, count.astype(float), f"axis {k + 1}", color)
+        scene[f"along/{k + 1}"] = ALONG.curve(x, count.astype(float), f"axis {k + 1}", COLORS[k])
     rows = tuple((f"axis {k + 1}", fixed(float(v), 3)) for k, v in enumerate(skewness(state)))
     return scene | {"moments": Table("Third moments, before signs", ("", "over σ³"), rows)}
 

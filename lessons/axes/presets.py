@@ -1,7 +1,6 @@
 """Runs worth seeing, cameras, and what to predict before looking."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -38,9 +37,15 @@ LEAST_LIKELY = 150.0  # degrees: what is farther off is about half a turn
 
 
 def _preset(
-    name: str, title: str, line: str, params: Input, step: int, *rest: Any
+    name: str,
+    title: str,
+    line: str,
+    params: Input,
+    step: int,
+    view: View | None = None,
+    *,
+    breaks: bool = False,
 ) -> Preset[Input]:
-    view, breaks = (*rest, None, False)[:2] if len(rest) < 2 else rest
     return Preset(
         name=name, title=title, line=line, params=params, step=step, view=view, breaks=breaks
     )
@@ -65,12 +70,12 @@ PRESETS: tuple[Preset[Input], ...] = (
     _preset(
         "one-aside", "One point 1 m behind the outline",
         "One of 61 points lies 1 m aside. The longest direction turns towards it.",
-        replace(FLAT, aside=1.0), at(outline_of(1.0).longest), ASIDE, True,
+        replace(FLAT, aside=1.0), at(outline_of(1.0).longest), ASIDE, breaks=True,
     ),
     _preset(
         "two-aside", "The same point, 2 m behind the outline",
         "Squares count distance twice: the farther the point, the more of the axis it has.",
-        replace(FLAT, aside=2.0), at(outline_of(2.0).longest), ASIDE, True,
+        replace(FLAT, aside=2.0), at(outline_of(2.0).longest), ASIDE, breaks=True,
     ),
     _preset(
         "by-hand", "One plane turned by hand",
@@ -85,66 +90,66 @@ PRESETS: tuple[Preset[Input], ...] = (
     _preset(
         "unsigned", "No rule at all",
         "The signs stay as the plane turns happened to leave them.",
-        Input(signs="none"), TURNS, GLOBE, True,
+        Input(signs="none"), TURNS, GLOBE, breaks=True,
     ),
     _preset(
         "signs", "A rule that looks at numbers",
         "The largest entry of each axis is made positive: the same scan gives the same signs. And the"
         " same scan, turned?",
-        LARGEST, POSE, TOGETHER, True,
+        LARGEST, POSE, TOGETHER, breaks=True,
     ),
     _preset(
         "fresh", "Two scans, no point in common",
         "Third moments turn with the shape. Other points of the same rabbit have other moments: one"
         " of them is small, and its sign at stake.",
-        Input(fresh=True), TURNS, GLOBE, True,
+        Input(fresh=True), TURNS, GLOBE, breaks=True,
     ),
     _preset(
         "unlucky", "Another draw of the first scan",
         "The same rule and another seed: the small moment of the first scan has the other sign.",
-        Input(fresh=True, seed=2), TURNS, GLOBE, True,
+        Input(fresh=True, seed=2), TURNS, GLOBE, breaks=True,
     ),
     _preset(
         "box", "A box has no front",
         "Half a turn takes a box to itself, so its third moments are 0 and chance gives them a sign.",
-        Input(shape="box", fresh=True), POSE, TOGETHER, True,
+        Input(shape="box", fresh=True), POSE, TOGETHER, breaks=True,
     ),
     _preset(
         "vase", "A vase, turned",
         "Two of its variances are equal, so every direction across its own axis is a principal one.",
-        Input(shape="vase", fresh=True), TURNS, GLOBE, True,
+        Input(shape="vase", fresh=True), TURNS, GLOBE, breaks=True,
     ),
     _preset(
         "nearly", "Nearly equal sides",
         "Sides of 1 m and 0.99 m: their variances differ by less than sampling does.",
-        NEARLY, POSE, TOGETHER, True,
+        NEARLY, POSE, TOGETHER, breaks=True,
     ),
     _preset(
         "cube", "The box of a cube",
         "All variances are equal. The box along principal axes is often taken for the smallest:"
         " compare its volume with the cube's.",
-        Input(shape="cube", fresh=True), POSE, APART, True,
+        Input(shape="cube", fresh=True), POSE, APART, breaks=True,
     ),
     _preset(
         "density", "The upper half twice as dense",
         "Principal axes are those of the points, not of the surface: no point of the second scan lies"
         " off the rabbit.",
-        Input(density=2), POSE, TOGETHER, True,
+        Input(density=2), POSE, TOGETHER, breaks=True,
     ),
     _preset(
         "part", "A fifth is missing",
         "The second scan saw 80 % of the rabbit. Centroid and axes are those of that part.",
-        Input(seen=0.8), POSE, TOGETHER, True,
+        Input(seen=0.8), POSE, TOGETHER, breaks=True,
     ),
     _preset(
         "stray", "One stray point",
         "One point of 1,501 lies 2 m away. Axis 1 moves by 2° only, but the signs are made of cubes.",
-        STRAY, POSE, None, True,
+        STRAY, POSE, None, breaks=True,
     ),
     _preset(
         "far", "The same point, 10 m away",
         "Squares listen most to the farthest point: one of 1,501 decides where axis 1 points.",
-        Input(stray=(0.0, 10.0, 0.0)), FIRST, WIDE, True,
+        Input(stray=(0.0, 10.0, 0.0)), FIRST, WIDE, breaks=True,
     ),
     _preset(
         "starts", "Four frames, four starts",
@@ -159,7 +164,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     _preset(
         "starts-vase", "Four starts for a vase",
         "Its axes are a matter of chance, so none of the four frames has to be near.",
-        replace(STARTS, shape="vase"), 0, FOUR, True,
+        replace(STARTS, shape="vase"), 0, FOUR, breaks=True,
     ),
 )  # fmt: skip
 

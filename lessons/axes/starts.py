@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -80,6 +81,7 @@ def race(scans: Scans, find: Slot | None) -> Iterator[Race]:
         axes, axes_target = ((find or by_jacobi)(p) for p in (scans.p_source, scans.p_target))
     T = np.stack([one.T_target_source for one in outcomes(scans, p_centre, axes, axes_target)])
     runs, rmse, running = [_icp(scans, one) for one in T], np.zeros(4), [True] * 4
+    count = 0
     for count in range(MOST + 1):
         for k in np.flatnonzero(running):
             match = next(runs[k])  # where it lies now
@@ -99,7 +101,7 @@ def race(scans: Scans, find: Slot | None) -> Iterator[Race]:
         yield _now(scans, count + 1, T, rmse, is_end=True, is_told=is_told, alone=end)
 
 
-def _now(scans: Scans, count: int, T: np.ndarray, rmse: np.ndarray, **more: object) -> Race:
+def _now(scans: Scans, count: int, T: np.ndarray, rmse: np.ndarray, **more: Any) -> Race:
     off = np.full(4, np.nan)
     if scans.T_target_source is not None:
         off = np.array([degrees_between(one, scans.T_target_source) for one in T])
