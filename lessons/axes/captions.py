@@ -102,7 +102,7 @@ def of_race(look: Look) -> Caption:
     race = look.now
     low, following = (metres(float(v)) for v in np.sort(race.rmse)[:2])
     if not look.past:
-        words = "Four frames, four starts: the lowest RMSE is {low}, the next {following}."
+        words = "A start from each frame: the lowest RMSE is {low}, the next {following}."
         return say(words, low=low, following=following, place="starts")
     if not race.is_end:
         words = "Round {round} of ICP: the lowest RMSE is {low}, the next {following}."

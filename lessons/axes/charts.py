@@ -8,9 +8,10 @@ from workbench.certain import sure
 from workbench.geometry.principal_axes import degrees_between_axes
 from workbench.lesson import Look
 from workbench.numerals import angle, fixed, length
-from workbench.scene import Chart, Curve, Primitive, Table
+from workbench.scene import Chart, Curve, Primitive, Role, Table
 
 CM2, MM = 1e4, 1e3  # square centimetres in a square metre, millimetres in a metre
+COLORS: tuple[Role, Role, Role] = ("x", "y", "z")
 ROUNDING = 1e-16  # below this share nothing is left off the diagonal
 ENTRY = Chart("Entry off the diagonal", "turned by hand", "cm²", x_range=(-45, 45), x_unit="deg")
 HELD = Chart("Turned", unit="deg")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from lessons.axes.captions import of_race, of_state
-from lessons.axes.charts import CM2, of_space, of_starts
+from lessons.axes.charts import CM2, COLORS, of_space, of_starts
 from lessons.axes.scans import Scans
 from lessons.axes.space import HOME_DEGREES, State
 from workbench.certain import sure
@@ -30,7 +30,6 @@ from workbench.scene import (
     color_map,
 )
 
-COLORS: tuple[Role, Role, Role] = ("x", "y", "z")
 SIGMAS, BEYOND = 2.0, 1.25  # standard deviations to the ellipsoid; of it: how far an axis reaches
 MOST_MISSES, GHOST = 40, 0.3  # lines to where points belong; the opacity of what is not chosen
 TIPS = 0.8  # metres from the centroid to the tips of many turns
@@ -169,7 +168,7 @@ def _four(
             scans.p_source, "source", radius, T_cell @ T[k], GHOST if faint else 1.0, name=second
         )
         words, role = names[k]
-        middle = scans.p_target.mean(axis=0) + [0.0, -0.1, low - 0.14]
+        middle = scans.p_target.mean(axis=0) + np.array([0.0, -0.1, low - 0.14])
         scene[f"four/{k + 1}/name"] = Label(words, middle, role, T_cell)
     return scene
 

@@ -11,7 +11,7 @@ class Input(Params):
     """A shape scanned twice, what is wrong with the second scan, and how the two are aligned."""
 
     stage: Literal["space", "turn", "frames", "flat", "starts"] = knob(
-        "space", "Two scans, one turn by hand, four frames, an outline, or four starts for ICP"
+        "space", "Two scans, one turn by hand, all frames, an outline, or four starts for ICP"
     )
     shape: Literal["rabbit", "box", "vase", "cube", "plate"] = knob(
         "rabbit", "What is scanned: lopsided, or with a symmetry of its own"

@@ -83,7 +83,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         Input(stage="turn"), 30, MATRIX,
     ),
     _preset(
-        "frames", "Four frames of one cloud",
+        "frames", "All frames of one cloud",
         "The axes are lines. Each choice of tips that is right-handed brings the second scan over.",
         FRAMES, 0, FOUR,
     ),
@@ -144,7 +144,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     _preset(
         "stray", "One stray point",
         "One point of 1,501 lies 2 m away. Axis 1 moves by 2° only, but the signs are made of cubes.",
-        STRAY, POSE, None, breaks=True,
+        STRAY, 0, None, breaks=True,
     ),
     _preset(
         "far", "The same point, 10 m away",
@@ -152,8 +152,8 @@ PRESETS: tuple[Preset[Input], ...] = (
         Input(stray=(0.0, 10.0, 0.0)), FIRST, WIDE, breaks=True,
     ),
     _preset(
-        "starts", "Four frames, four starts",
-        "ICP from each of the four frames, on two scans without a common point.",
+        "starts", "A start from each frame",
+        "ICP from each of the frames, on two scans without a common point.",
         STARTS, 0, FOUR,
     ),
     _preset(
@@ -163,7 +163,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     ),
     _preset(
         "starts-vase", "Four starts for a vase",
-        "Its axes are a matter of chance, so none of the four frames has to be near.",
+        "Its axes are a matter of chance, so none of the frames has to be near.",
         replace(STARTS, shape="vase"), 0, FOUR, breaks=True,
     ),
 )  # fmt: skip
@@ -329,7 +329,7 @@ QUESTIONS: tuple[Question, ...] = (
                 "About 45°",
                 "A frame can be off by little, as its lines are, or by about half a turn.",
             ),
-            Choice("Half a turn"),
+            Choice("About 180°"),
         ),
     ),
     Question(

@@ -10,11 +10,20 @@ from tests import fake
 from tests.publish.conftest import TINY
 from workbench.errors import InputError
 from workbench.lesson import Sweep, View, catalog
-from workbench.page.document import RECORDED, SCRIPTS, STATIC, STYLES, bare
+from workbench.page.document import (
+    RECORDED,
+    SCRIPTS,
+    STATIC,
+    STORY_SCRIPTS,
+    STORY_STYLES,
+    STYLES,
+    bare,
+)
 from workbench.page.steps import Steps
 from workbench.publish import runs, site
 from workbench.publish.pages import lesson_page
 from workbench.scene import Caption
+from workbench.story import has_story
 from workbench.timeline import Timeline
 from workbench.typeset import math_font_css
 from workbench.wire.packing import run_text
@@ -300,4 +309,7 @@ def test_a_lesson_s_page_is_within_its_budget(name):
     lesson = catalog()[name]
     known = runs.recorded(lesson, runs.runs_of(lesson)[0], root="../", runs="runs/", answers={})
     shared = sum(len(bare(STATIC / file).encode()) for file in (*STYLES, *RECORDED, *SCRIPTS)) + len(math_font_css())
-    assert len(lesson_page(lesson, known).encode()) + shared < site.PAGE_BUDGET - 8_000
+    if has_story(lesson):
+        shared += sum(len(bare(STATIC / file).encode()) for file in (*STORY_STYLES, *STORY_SCRIPTS))
+    budget = site.TOLD_BUDGET if has_story(lesson) else site.PAGE_BUDGET
+    assert len(lesson_page(lesson, known).encode()) + shared < budget - 6_000
