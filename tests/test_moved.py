@@ -6,7 +6,7 @@ import pytest
 
 from workbench.knobs import fields_of, make
 from workbench.lesson import catalog
-from workbench.moved import LEFT, MOVES, moved, runs_led_on
+from workbench.moved import MOVES, moved, runs_led_on
 from workbench.run import links
 
 # the presets and questions of the lessons at 39b9198 that are split since
@@ -65,7 +65,7 @@ def test_params_of_the_stage_of_pairs_open_the_lesson_of_pairs():
 def test_params_of_the_axes_stay():
     place = links.read("?lesson=alignment&stage=axes&noise=0.05&scale=1")
     assert place is not None
-    assert (place.lesson.name, place.params.noise) == ("alignment", 0.05)
+    assert (place.lesson.name, place.params.noise) == ("axes", 0.05)
 
 
 @pytest.mark.parametrize("move", MOVES, ids=lambda move: f"{move.lesson}-{move.to}")
@@ -75,10 +75,9 @@ def test_a_move_names_what_there_is(move):
     fields = {field.name for field in fields_of(new.params)}
     assert set(move.base) <= fields
     assert make(new.params, dict(move.base))
-    assert not LEFT.get(move.lesson, set()) & {
-        field.name for field in fields_of(catalog()[move.lesson].params)
-    }
-    assert runs_led_on(move.lesson) == {old: (move.to, name) for old, name in move.presets.items()}
+    assert move.lesson not in catalog()
+    led_on = runs_led_on(move.lesson)
+    assert all(led_on[old] == (move.to, name) for old, name in move.presets.items())
 
 
 def test_commands_of_before_are_understood(capsys, tmp_path):
@@ -141,4 +140,4 @@ def test_a_recording_of_before_is_reopened(tmp_path, monkeypatch):
 def _with(recording, params):
     from dataclasses import replace
 
-    return replace(recording, params=params)
+    return replace(recording, lesson="alignment", params=params)

@@ -18,6 +18,7 @@ from workbench.captions import say
 from workbench.errors import AuthorError, InputError, LeftOutWarning, not_among
 from workbench.form import Form, Look, Slot, States, keywords_of, mistakes
 from workbench.knobs import Gizmo, Params, Pick, fields_of, knob, validated
+from workbench.moved import moved
 from workbench.presets import Choice, Preset, Question, Sweep
 from workbench.scene import Scene
 from workbench.view import View
@@ -304,6 +305,7 @@ def find(name: str) -> Lesson:
         InputError: If there is no such lesson; lists those there are.
     """
     lessons = catalog()
+    name = name if name in lessons else moved(name, None, {}).lesson
     if name not in lessons:
         raise InputError(f"no lesson is named {name[:80]!r}; {not_among(name, lessons)}")
     return lessons[name]

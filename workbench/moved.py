@@ -22,6 +22,7 @@ class Move:
         questions: Its questions, likewise.
         base: Params that were otherwise by default, as the part had them.
         gone: Params that the part does not have any more; they are left out.
+        is_rest: Whether it is all of the lesson that no move before it names.
     """
 
     lesson: str
@@ -31,13 +32,14 @@ class Move:
     questions: Mapping[str, str]
     base: Mapping[str, Any] = field(default_factory=dict)
     gone: frozenset[str] = frozenset()
+    is_rest: bool = False
 
     def is_meant(self, preset: str | None, values: Mapping[str, Any]) -> bool:
         """Tell whether this part is meant by a preset and values of params."""
         name, value = self.where
         if name in values:
-            return str(values[name]) == value
-        return preset in self.presets
+            return str(values[name]) == value or self.is_rest
+        return preset in self.presets or self.is_rest
 
 
 def _same(*names: str) -> dict[str, str]:
@@ -54,12 +56,20 @@ MOVES = (
         base={"noise": 0.0},
         gone=frozenset({"stage", "signs", "fresh", "density", "seen", "stray"}),
     ),
+    Move(
+        lesson="alignment",
+        to="axes",
+        where=("stage", "axes"),
+        presets=_same(
+            *("home", "signs", "fresh", "box", "vase", "nearly", "cube"),
+            *("density", "part", "stray", "far"),
+        ),
+        questions=_same("predict-rotations", "predict-frames", "predict-signs"),
+        gone=frozenset({"stage", "scale", "mirrored", "flip"}),
+        is_rest=True,
+    ),
 )
-"""What moved."""
-LEFT: Mapping[str, frozenset[str]] = {
-    "alignment": frozenset({"stage", "scale", "mirrored", "flip"}),
-}
-"""Params that a lesson does not have any more, since they went with a part of it."""
+"""What moved; of a lesson's parts the first that is meant counts."""
 
 
 @dataclass(frozen=True)
@@ -79,14 +89,11 @@ def moved(lesson: str, preset: str | None, values: Mapping[str, Any]) -> Moved:
         (one for one in MOVES if one.lesson == lesson and one.is_meant(preset, values)), None
     )
     if move is None:
-        left = LEFT.get(lesson, frozenset())
-        return Moved(
-            lesson, preset, {name: value for name, value in values.items() if name not in left}
-        )
+        return Moved(lesson, preset, dict(values))
     kept = {name: value for name, value in values.items() if name not in move.gone}
     if preset is None:
         return Moved(move.to, None, {**move.base, **kept})
-    return Moved(move.to, move.presets.get(preset), kept)
+    return Moved(move.to, move.presets.get(preset, preset), kept)
 
 
 def runs_led_on(lesson: str) -> dict[str, tuple[str, str]]:
@@ -95,6 +102,13 @@ def runs_led_on(lesson: str) -> dict[str, tuple[str, str]]:
     """
     moves = [move for move in MOVES if move.lesson == lesson]
     return {name: (move.to, to) for move in moves for name, to in move.presets.items()}
+
+
+def lessons_led_on() -> dict[str, str]:
+    """Return the lessons that are in others altogether, each with the one that has the rest of
+    it.
+    """
+    return {move.lesson: move.to for move in MOVES if move.is_rest}
 
 
 def asked_before(lesson: str) -> dict[str, tuple[str, str]]:

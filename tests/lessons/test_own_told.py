@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from lessons.alignment.lesson import lesson as alignment
-from lessons.alignment.scans import scans_of
+from lessons.axes.lesson import lesson as axes
+from lessons.axes.scans import scans_of
 from lessons.graphs.presets import BALL, VIEW
 from workbench.data.shapes.clouds import pair
 from workbench.geometry.motions import exp_so3, motion
@@ -76,10 +76,10 @@ def test_a_few_far_points_push_no_cloud_out_of_the_picture(tmp_path):
     np.save(tmp_path / "own.npy", p)
     files = [tmp_path / "own.npy", *([CARS] if CARS.is_file() else [])]
     for file in files:
-        scans = scans_of(replace(alignment.params(), source=file))
+        scans = scans_of(replace(axes.params(), source=file))
         middle = (
             np.median(scans.p_target[:, 0])
             + scans.T_world_target[0, 3]
             + np.median(scans.p_source[:, 0])
         ) / 2
-        assert middle == pytest.approx(alignment.view.target[0], abs=0.15)
+        assert middle == pytest.approx(axes.view.target[0], abs=0.15)

@@ -16,7 +16,7 @@ from workbench.viewer.documents import course_page
 
 TODAY = {
     "Move": ["transforms", "coordinates"],
-    "Estimate": ["pairs", "icp", "alignment", "fitting", "ransac"],
+    "Estimate": ["pairs", "icp", "axes", "fitting", "ransac"],
     "See": ["pinhole", "calibration", "pose", "features", "epipolar", "disparity"],
     "Measure": ["representations", "measures", "curvature", "distances", "chamfer_emd"],
     "Connect": ["graphs"],

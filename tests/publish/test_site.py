@@ -370,4 +370,4 @@ def test_a_lesson_s_page_is_within_its_budget(name):
     files = (*STYLES, *RECORDED, *SCRIPTS, *((*STORY_STYLES, *STORY_SCRIPTS) if told else ()))
     shared = sum(len(bare(STATIC / file).encode()) for file in files) + len(math_font_css())
     budget = site.TOLD_BUDGET if told else site.PAGE_BUDGET
-    assert len(lesson_page(lesson, known).encode()) + shared < budget - 8_000
+    assert len(lesson_page(lesson, known).encode()) + shared < budget - 6_000

@@ -14,7 +14,7 @@ from workbench.errors import InputError
 from workbench.lesson import Lesson
 from workbench.machinery.progress import Progress
 from workbench.machinery.version import __version__
-from workbench.moved import runs_led_on
+from workbench.moved import lessons_led_on, runs_led_on
 from workbench.page.course import FRONT_FILES
 from workbench.page.document import (
     FONTS,
@@ -208,14 +208,21 @@ def _publish(
 def _leading_on(lessons: Sequence[Lesson], there: Collection[str]) -> dict[str, bytes]:
     """Return the pages of runs that are in another lesson of the site now, at their addresses of
     before.
+
+    A lesson that is in others altogether has a page of its own, which leads on as well.
     """
     titles = {lesson.name: lesson.title for lesson in lessons}
-    return {
-        f"{lesson.name}/runs/{old}.html": (
+    gone = {name: to for name, to in lessons_led_on().items() if to in titles and name not in there}
+    pages = {
+        f"{name}/{COURSE_PAGE}": leading_on(titles[to], f"../{to}/{COURSE_PAGE}").encode()
+        for name, to in gone.items()
+    }
+    return pages | {
+        f"{name}/runs/{old}.html": (
             leading_on(titles.get(to, to), f"../../{to}/runs/{run}.html").encode()
         )
-        for lesson in lessons
-        for old, (to, run) in runs_led_on(lesson.name).items()
+        for name in (*titles, *gone)
+        for old, (to, run) in runs_led_on(name).items()
         if to in there
     }
 

@@ -6,7 +6,7 @@ away.
 import numpy as np
 from jaxtyping import Float
 
-from lessons.alignment.exercises import GRADERS, STUDENTS
+from lessons.axes.exercises import GRADERS, STUDENTS
 from workbench.data.lopsided import a_lopsided_cloud, a_rotation
 from workbench.exercise import (
     Function,

@@ -1,30 +1,32 @@
-"""Own clouds in the alignment lesson: alone, in pairs, with a pose, real ones, and those that
+"""Own clouds in the lesson on axes: alone, in pairs, with a pose, real ones, and those that
 cannot be used.
 """
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from lessons.alignment.draw import draw
-from lessons.alignment.lesson import run
-from lessons.alignment.state import Params
+from lessons.axes.inputs import Input
+from lessons.axes.lesson import lesson, run, setup
 from tests.readings import metres
-from tests.truths.alignment import to_nearest
+from tests.truths.axes import to_nearest
 from workbench.data.files import read_cloud, read_mesh, read_pose
 from workbench.data.shapes.rabbit import rabbit
 from workbench.errors import InputError
 from workbench.geometry.motions import exp_so3, motion
-from workbench.scene import caption_of
+from workbench.run.timeline import Timeline
 
 R = exp_so3(np.array([0.4, -0.9, 0.6]))
 
 
-def steps(params: Params) -> list[Any]:
-    return list(run(params))
+def steps(params: Input) -> list[Any]:
+    return list(run(params, setup(params)))
+
+
+def text_of(params: Input, k: int) -> str:
+    return Timeline(lesson, params).complete()[k].caption.text
 
 
 def saved(folder: Path, **clouds: np.ndarray) -> dict[str, Any]:
@@ -40,27 +42,26 @@ def shape() -> np.ndarray:
 
 @pytest.mark.parametrize("place", [0.0, 5e5])
 def test_one_cloud_takes_the_place_of_the_rabbit_in_any_unit_and_place(tmp_path, shape, place):
-    params = Params(**saved(tmp_path, source=1000.0 * shape + place))
+    params = Input(**saved(tmp_path, source=1000.0 * shape + place))
     found = steps(params)
-    p = found[0].scans.p_target
+    p = setup(params).p_target
     assert np.ptp(p, axis=0).max() == pytest.approx(1.0, abs=0.15)
     assert np.abs(p.max(axis=0) + p.min(axis=0)).max() < 0.2
     assert found[-2].outcome.home
     assert found[-1].turns.home.all()
-    assert "source.npy" in caption_of(draw(found[0])).text
-    idle = caption_of(draw(steps(replace(params, shape="vase"))[0])).text
-    assert "shape has no effect" in idle
+    assert "source.npy" in text_of(params, 0)
+    assert {"shape", "side"} <= set(Timeline(lesson, params).complete().idle())
 
 
 @pytest.mark.parametrize(("up", "axis"), [("z", 2), ("y", 1), ("x", 0)])
 def test_it_stands_upright(tmp_path, shape, up, axis):
-    p = steps(Params(**saved(tmp_path, source=shape), up=up))[0].scans.p_target
+    p = setup(Input(**saved(tmp_path, source=shape), up=up)).p_target
     heights = shape[:, axis] - shape[:, axis].mean()
     np.testing.assert_allclose(np.corrcoef(p[:, 2], heights)[0, 1], 1.0)
 
 
 def test_what_goes_wrong_goes_wrong_with_an_own_cloud_too(tmp_path, shape):
-    params = Params(**saved(tmp_path, source=shape), density=3, seen=0.7, noise=0.01, fresh=True)
+    params = Input(**saved(tmp_path, source=shape), density=3, seen=0.7, noise=0.01, fresh=True)
     found = steps(params)
     assert found[-2].outcome.rotation > 5
     assert np.isfinite(found[-2].outcome.gap)
@@ -69,15 +70,14 @@ def test_what_goes_wrong_goes_wrong_with_an_own_cloud_too(tmp_path, shape):
 def test_two_clouds_go_by_axes_and_nobody_knows_the_truth(tmp_path, shape):
     T = motion(R, np.array([0.2, 3.0, -1.0]))
     files = saved(tmp_path, target=shape @ R.T + T[:3, 3], source=shape[:700])
-    found = steps(Params(**files))
-    text = caption_of(draw(found[-1])).text
+    params = Input(**files)
+    found = steps(params)
+    text = text_of(params, -1)
     assert found[-1].moment == "pose"
     assert "Nobody knows the truth" in text
-    assert metres(text.split("points lie ")[1].split(" (RMS)")[0]) == pytest.approx(
-        to_nearest(found[-1]), rel=0.01
-    )
-    idle = caption_of(draw(steps(Params(**files, turn=10.0, noise=0.1))[0])).text
-    assert "turn, noise have no effect" in idle
+    said = metres(text.split("Frame on frame: ")[1].split(" (RMS)")[0])
+    assert said == pytest.approx(to_nearest(setup(params), found[-1]), rel=0.01)
+    assert {"turn", "noise", "shape"} <= set(Timeline(lesson, params).complete().idle())
 
 
 @pytest.mark.parametrize("up", ["z", "y"])
@@ -85,7 +85,7 @@ def test_a_known_pose_is_the_truth(tmp_path, shape, up):
     T = motion(R, np.array([0.2, 3.0, -1.0]))
     np.savetxt(tmp_path / "pose.txt", T)
     files = saved(tmp_path, target=shape @ R.T + T[:3, 3], source=shape)
-    found = steps(Params(**files, truth=tmp_path / "pose.txt", up=up))
+    found = steps(Input(**files, truth=tmp_path / "pose.txt", up=up))
     assert found[-2].moment == "pose"
     assert found[-2].outcome.rotation < 1e-3
 
@@ -93,29 +93,29 @@ def test_a_known_pose_is_the_truth(tmp_path, shape, up):
 def test_what_cannot_be_used_is_refused_in_one_line(tmp_path, shape):
     files = saved(tmp_path, target=shape, source=shape[:30], one=np.ones((5, 3)), few=shape[:3])
     for params, words in (
-        (Params(target=files["target"]), "give “source” too"),
-        (Params(truth=tmp_path / "pose.txt"), "give “source” too"),
-        (Params(source=files["source"], truth=files["few"]), "give “target” too"),
-        (Params(source=tmp_path / "none.ply"), "no such file"),
-        (Params(source=files["one"]), "at one place"),
-        (Params(source=files["few"]), "3 points; at least 4"),
+        (Input(target=files["target"]), "give “source” too"),
+        (Input(truth=tmp_path / "pose.txt"), "give “source” too"),
+        (Input(source=files["source"], truth=files["few"]), "give “target” too"),
+        (Input(source=tmp_path / "none.ply"), "no such file"),
+        (Input(source=files["one"]), "at one place"),
+        (Input(source=files["few"]), "3 points; at least 4"),
     ):
         with pytest.raises(InputError, match=words):
-            next(run(params))
+            setup(params)
 
 
 def test_a_file_that_changed_is_read_anew(tmp_path, shape):
-    params = Params(**saved(tmp_path, source=shape))
-    first = steps(params)[0].scans.p_target
-    assert steps(params)[0].scans.p_target is first
+    params = Input(**saved(tmp_path, source=shape))
+    first = setup(params).p_target
+    assert setup(params).p_target is first
     saved(tmp_path, source=shape[:500])
-    assert len(steps(params)[0].scans.p_target) == 500
+    assert len(setup(params).p_target) == 500
 
 
 def test_real_scans_by_axes_are_not_where_they_belong(shared_data):
     folder = shared_data / "icp"
     files: dict[str, Any] = {"source": folder / "bun045.ply", "target": folder / "bun000.ply"}
-    found = steps(Params(**files, truth=folder / "bun.conf", up="y", points=5000))
+    found = steps(Input(**files, truth=folder / "bun.conf", up="y", points=5000))
     state = next(state for state in found if state.moment == "pose")
     assert state.outcome.rotation > 5  # each saw another part
     T = read_pose(folder / "bun.conf", files["target"], files["source"])
@@ -131,9 +131,9 @@ def test_real_scans_by_axes_are_not_where_they_belong(shared_data):
 def test_real_shapes_keep_their_frame_under_a_turn(shared_data, tmp_path, name):
     path = shared_data / name
     p = read_mesh(path)[0]
-    found = steps(Params(**saved(tmp_path, source=p), points=3000, up="y"))
+    found = steps(Input(**saved(tmp_path, source=p), points=3000, up="y"))
     assert found[-2].outcome.rotation < 1e-3
-    signs = steps(Params(**saved(tmp_path, source=p), points=3000, up="y", signs="largest-entry"))[
+    signs = steps(Input(**saved(tmp_path, source=p), points=3000, up="y", signs="largest-entry"))[
         -1
     ].turns
     assert signs.home.mean() < 0.5

@@ -1,4 +1,4 @@
-"""Which sentences would tell the answers of the questions in the alignment lesson, as patterns;
+"""Which sentences would tell the answers of the questions in the lesson on axes, as patterns;
 case does not matter.
 """
 
@@ -11,4 +11,7 @@ GIVEAWAYS = {
         r"2\d % come home",
         r"of four frames",
     ),
+    "second": (r"16[012]°", r"right angles?", r"perpendicular"),
+    "one-stray": (r"179° from the truth", r"half a turn (off|away) by a stray"),
+    "which-wins": (r"lowest RMSE (wins|is home)", r"frame 2 (is|comes) home"),
 }

@@ -1,4 +1,4 @@
-"""What is true of a run of the alignment lesson, with scipy from the scans and the truth that they
+"""What is true of a run of the lesson on axes, with scipy from the scans and the truth that they
 carry.
 """
 
@@ -6,7 +6,8 @@ import numpy as np
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
-from lessons.alignment.state import State
+from lessons.axes.scans import Scans
+from lessons.axes.space import State
 
 HOME = 10.0  # degrees
 
@@ -26,24 +27,24 @@ def unscaled(A: np.ndarray) -> np.ndarray:
     return A / np.cbrt(np.linalg.det(A))
 
 
-def moved(state: State) -> np.ndarray:
+def moved(scans: Scans, state: State) -> np.ndarray:
     assert state.outcome is not None
     T = state.outcome.T_target_source
-    return state.scans.p_source @ T[:3, :3].T + T[:3, 3]
+    return scans.p_source @ T[:3, :3].T + T[:3, 3]
 
 
-def turn_left(state: State) -> float:
+def turn_left(scans: Scans, state: State) -> float:
     """Degrees from the truth; NaN where no rotation is right, or the map is a mirror image."""
     assert state.outcome is not None
-    T, T_true = state.outcome.T_target_source, state.scans.T_target_source
+    T, T_true = state.outcome.T_target_source, scans.T_target_source
     if T_true is None or np.linalg.det(T[:3, :3]) < 0:
         return float("nan")
     return degrees(T[:3, :3], T_true[:3, :3])
 
 
-def to_nearest(state: State) -> float:
+def to_nearest(scans: Scans, state: State) -> float:
     return float(
-        np.sqrt(np.mean(np.asarray(KDTree(state.scans.p_target).query(moved(state))[0]) ** 2))
+        np.sqrt(np.mean(np.asarray(KDTree(scans.p_target).query(moved(scans, state))[0]) ** 2))
     )
 
 
