@@ -36,10 +36,8 @@ def epnp(
     """
     if p_world.shape[-2] < 4:
         raise ValueError(f"EPnP takes four points or more, not {p_world.shape[-2]}")
-    batch, (p, xy) = (
-        p_world.shape[:-2],
-        (p_world.reshape(-1, *p_world.shape[-2:]), xy.reshape(-1, *xy.shape[-2:])),
-    )
+    batch = p_world.shape[:-2]
+    p, xy = (rows.reshape(-1, *rows.shape[-2:]) for rows in (p_world, xy))
     p_mean = p.mean(axis=1)
     q = p - p_mean[:, None]
     _, extents, axes = np.linalg.svd(q, full_matrices=False)

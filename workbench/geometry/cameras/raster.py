@@ -35,10 +35,7 @@ PIECE = 0.06
 FAVOUR = 1.002
 STRAY = 3.0  # how far beyond the true picture a given camera model may look
 # Pixels that a row is longer at each end, so that neighbours leave no crack: straight, bent lens
-SLACK = (
-    1e-6,
-    0.1,
-)
+SLACK = (1e-6, 0.1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,13 +189,8 @@ def _draw_segments(item: SegmentItem, eye: _Eye) -> _Fragments:
     size = np.array([eye.width, eye.height])
     start, stop = clip_to_rectangle(uv, np.full(2, -0.5 - item.width), size - 0.5 + item.width)
     shown = start < stop
-    uv, w, owner, start, length = (
-        uv[shown],
-        w[shown],
-        owner[shown],
-        start[shown],
-        (stop - start)[shown],
-    )
+    uv, w, owner = uv[shown], w[shown], owner[shown]
+    start, length = start[shown], (stop - start)[shown]
     steps = (
         np.ceil(length * np.abs(uv[:, 1] - uv[:, 0]).max(axis=1, initial=0.0)).astype(np.int64) + 1
     )

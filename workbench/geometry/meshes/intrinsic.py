@@ -58,11 +58,8 @@ class _Sides:
 
     def _angle(self, h: int) -> float:
         """Return the angle where a side begins, radians."""
-        after, before, opposite = (
-            self.length[h],
-            self.length[_next(_next(h))],
-            self.length[_next(h)],
-        )
+        ahead = _next(h)
+        after, opposite, before = (self.length[side] for side in (h, ahead, _next(ahead)))
         if after * before == 0:
             return 0.0
         return acos(

@@ -20,32 +20,13 @@ from jaxtyping import Float
 from workbench.geometry.motions.rigid import exp_so3, log_so3
 
 Axis = Literal["x", "y", "z"]
-EulerOrder = Literal[
-    "xyz",
-    "xzy",
-    "yxz",
-    "yzx",
-    "zxy",
-    "zyx",
-    "xyx",
-    "xzx",
-    "yxy",
-    "yzy",
-    "zxz",
-    "zyz",
-    "XYZ",
-    "XZY",
-    "YXZ",
-    "YZX",
-    "ZXY",
-    "ZYX",
-    "XYX",
-    "XZX",
-    "YXY",
-    "YZY",
-    "ZXZ",
-    "ZYZ",
+FixedOrder = Literal[
+    "xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz"
 ]
+CarriedOrder = Literal[
+    "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ"
+]
+EulerOrder = Literal[FixedOrder, CarriedOrder]
 EULER_ORDERS: tuple[EulerOrder, ...] = get_args(EulerOrder)
 
 # Sine of the angle between the first and the third axis below which they count as one

@@ -45,9 +45,9 @@ def distance_of(
         case "cosine":
             return cosine_distance
         case "mahalanobis":
-            W = np.eye(1) if covariance is None else whitening(covariance)
             if covariance is None:
                 return distance_of("euclid")
+            W = whitening(covariance)
             return lambda a, b: np.linalg.norm((a - b) @ W.T, axis=-1)
 
 

@@ -52,10 +52,7 @@ class Nearest:
 
     def f_score(self, max_distance: float) -> float:
         """Return the harmonic mean of the shares within a distance (Knapitsch et al. 2017, 3.3)."""
-        precision, recall = (
-            float(np.mean(self.d_a <= max_distance)),
-            float(np.mean(self.d_b <= max_distance)),
-        )
+        precision, recall = (float(np.mean(d <= max_distance)) for d in (self.d_a, self.d_b))
         return 2 * precision * recall / (precision + recall) if precision + recall > 0 else 0.0
 
 

@@ -46,11 +46,8 @@ def costs_of_centers(
     p: Float[np.ndarray, "n d"], p_centers: Float[np.ndarray, "k d"]
 ) -> Float[np.ndarray, " k"]:
     """Return for each centre the sum of squared distances to its best sphere (Gander et al., 3)."""
-    columns, ways, squares = (
-        np.ascontiguousarray(p_centers.T),
-        np.zeros(len(p_centers)),
-        np.zeros(len(p_centers)),
-    )
+    columns = np.ascontiguousarray(p_centers.T)
+    ways, squares = np.zeros(len(p_centers)), np.zeros(len(p_centers))
     for point in p:
         square = np.square(columns - point[:, None]).sum(axis=0)
         ways += np.sqrt(square)
