@@ -4,7 +4,6 @@ All functions take world points in metres and their observed normalised image co
 Y/Z), and give T_camera_world. Points are taken relative to their mean first, so that coordinates of
 a map lose no digits; `centred=False` leaves that out. Leading dimensions are problems that are
 solved side by side.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 7.1 (DLT) and appendix 6
 (Levenberg-Marquardt); Terzakis and Lourakis, A Consistently Fast and Globally Optimal Solution to
 the Perspective-n-Point Problem, 2020.
@@ -50,8 +49,8 @@ def linearised(
 ) -> tuple[Float[np.ndarray, "*k m"], Float[np.ndarray, "*k m 6"]]:
     """Return the residuals, u and v of point after point, and their derivatives by a twist.
 
-    The twist is (v, w), metres and radians, in the camera's frame: T becomes exp(twist) T (Hartley
-    and Zisserman, A6.6; Solà et al. 2018, eq. 182).
+    The twist is (v, w), metres and radians, in the camera's frame: T becomes exp(twist) T (Solà,
+    182).
     """
     p_camera = _moved(Ts_camera_world, p_world)
     near = 1.0 / p_camera[..., 2]

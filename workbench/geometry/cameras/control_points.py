@@ -5,7 +5,6 @@ That each point lies on its ray is linear in the control points' coordinates x i
 frame: M x = 0. So x is a mix of the null vectors of M, or of its lowest ones where there is noise,
 and the mix is the one that keeps the control points' distances. The cost grows with the number of
 points.
-
 Reference: Lepetit, Moreno-Noguer and Fua, EPnP: An Accurate O(n) Solution to the PnP Problem, IJCV
 81, 2009.
 """

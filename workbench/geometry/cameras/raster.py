@@ -4,7 +4,6 @@ Everything becomes fragments (pixel, 1/Z, colour); of the fragments of one pixel
 What crosses the near plane is cut there in the world, before anything is divided by a depth. Where
 the lens bends lines, what is long in the picture is cut into short pieces first, so that the camera
 model is any function from world points to pixels.
-
 Reference: Foley, van Dam, Feiner and Hughes, Computer Graphics, 2nd ed., 3.6 (scan conversion) and
 15.4 (z-buffer).
 """

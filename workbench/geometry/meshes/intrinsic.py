@@ -2,7 +2,6 @@
 
 The surface stays as it is. A flipped edge is the straight line across the two triangles beside it,
 unfolded: it bends where the old edge was, so only its length is kept, and no point moves.
-
 Reference: Fisher, Springborn, Schroeder and Bobenko, An algorithm for the construction of intrinsic
 Delaunay triangulations with applications to digital geometry processing, Computing 81, 2007;
 Bobenko and Springborn, A discrete Laplace-Beltrami operator for simplicial surfaces, 2007, which

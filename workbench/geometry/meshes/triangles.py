@@ -3,7 +3,6 @@
 `p` are vertex positions in metres, one row per vertex; `faces` names three vertices per face,
 counterclockwise seen from outside. Corner k of a face is opposite its edge k. No function here
 checks its mesh: `check_mesh` does, once, where a mesh enters.
-
 Reference: Thuermer and Wuethrich, Computing vertex normals from polygonal facets, JGT 3(1), 1998.
 """
 

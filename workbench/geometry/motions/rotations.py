@@ -6,7 +6,6 @@ Euler order is three letters, with one angle for each. Lower case turns about th
 world, one after the other; upper case about the body's own axes, carried along by the earlier
 turns. So "xyz" with (a, b, c) is Rz(c) Ry(b) Rx(a), and "XYZ" is Rx(a) Ry(b) Rz(c). Another order
 raises ValueError.
-
 Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq.
 2.14. Diebel, Representing Attitude, 2006, 5.1; his R takes world to body. Solà, Quaternion
 kinematics for the error-state Kalman filter, 2017, 2.5.

@@ -1,7 +1,6 @@
 """Distances between points, some of them no metrics; the scatter for Mahalanobis; rms.
 
 A covariance C is positive definite; functions that find it is not raise ValueError.
-
 Reference: Deza and Deza, Encyclopedia of distances, 4th ed., 2016, chapters 1, 17 and 19;
 Mahalanobis, On the generalised distance in statistics, 1936.
 """

@@ -58,7 +58,7 @@ def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
     """Return lambda_0 / (lambda_0 + lambda_1 + lambda_2) of the covariance: 0 flat, at most 1/3.
 
     Reference: Pauly, Gross and Kobbelt, Efficient simplification of point-sampled surfaces, 2002,
-    eq. 4.
+    4.
     """
     values = np.linalg.eigvalsh(np.cov(p.T))
     return float(values[0] / values.sum()) if values.sum() > 0 else 0.0

@@ -3,7 +3,6 @@
 All compare p_a (n, 3) with p_b (m, 3), metres, one frame, in any order of rows; the mean square of
 index pairs is the exception, and here to be seen failing. A cloud that is empty or not finite
 raises ValueError. Distances that match one to one are in `workbench.algorithms.transport`.
-
 Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1.
 """
 

@@ -2,7 +2,6 @@
 
 Convention: the centre, then the radius, in metres: a circle is (x, y, r), a sphere (x, y, z, r).
 Distances are signed, negative inside.
-
 Reference: Gander, Golub and Strebel, Least-squares fitting of circles and ellipses, 1994.
 """
 

@@ -3,7 +3,6 @@
 Convention: `F` takes a pixel of the first image to its line in the second, `uv_second_h.T @ F @
 uv_first_h = 0`, and is scaled to Frobenius norm one. `uv_second` are the matches of `uv_first`, row
 by row.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), chapters 9 and 11.
 """
 

@@ -3,7 +3,6 @@
 Convention: `E` takes normalised points of the first camera to lines of the second, `xy_second_h.T @
 E @ xy_first_h = 0`, and `T_second_first` takes points of the first camera's frame to the second's:
 E = [t]x R. No picture tells how long t is.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), 9.6.
 """
 

@@ -2,7 +2,6 @@
 
 Convention: `H_b_a` takes pixels of image a to pixels of image b, `uv_b_h ~ H_b_a @ uv_a_h`, and has
 Frobenius norm one. `uv_b` are the matches of `uv_a`, row by row.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), chapter 4.
 """
 
