@@ -2,7 +2,6 @@
 
 A plane cuts away whatever is not at a positive signed distance `ahead`; results come with the row
 of `p` that each piece comes from. `low` and `high` are opposite corners of a rectangle or box.
-
 Reference: Liang and Barsky, A new concept and method for line clipping, 1984.
 """
 
@@ -127,8 +126,8 @@ def cut_finely(
 ) -> tuple[Float[np.ndarray, "m c 3"], Int[np.ndarray, " m"]]:
     """Return segments or triangles cut until no edge is longer than `longest` in a flat picture.
 
-    `flatten` gives places there, (n, 2). Pieces outside are dropped; edges are halved at most 12
-    times.
+    `flatten` gives places there, (n, 2). What is outside is dropped; edges are halved 12 times at
+    most.
     """
     source = np.arange(len(p))
     done = []

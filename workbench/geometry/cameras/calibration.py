@@ -3,7 +3,6 @@
 A board lies in the plane Z = 0 of its own frame, so a picture of it is a homography H ~ K [r1 r2
 t], which takes (X, Y) in metres to pixels. That r1 and r2 are orthonormal makes two equations for B
 = K^-T K^-1 of every picture.
-
 Reference: Zhang, A Flexible New Technique for Camera Calibration, PAMI 2000, sections 2 and 3.
 """
 

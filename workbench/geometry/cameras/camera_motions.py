@@ -4,7 +4,6 @@ All functions take world points in metres and their observed normalised image co
 Y/Z), and give T_camera_world. Points are taken relative to their mean first, so that coordinates of
 a map lose no digits; `centred=False` leaves that out. Leading dimensions are problems that are
 solved side by side.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 7.1 (DLT) and appendix 6
 (Levenberg-Marquardt); Terzakis and Lourakis, A Consistently Fast and Globally Optimal Solution to
 the Perspective-n-Point Problem, 2020.
@@ -26,10 +25,7 @@ def reprojection_errors(
     xy: Float[np.ndarray, "*i n 2"],
 ) -> Float[np.ndarray, "*k n"]:
     """Return how far each point is seen from where it was observed; infinite from behind."""
-    p_camera = (
-        p_world @ np.swapaxes(Ts_camera_world[..., :3, :3], -1, -2)
-        + Ts_camera_world[..., None, :3, 3]
-    )
+    p_camera = _moved(Ts_camera_world, p_world)
     with np.errstate(all="ignore"):
         off = p_camera[..., :2] / p_camera[..., 2:] - xy
         return np.where(p_camera[..., 2] > 0.0, np.sqrt(np.square(off).sum(axis=-1)), np.inf)
@@ -53,13 +49,10 @@ def linearised(
 ) -> tuple[Float[np.ndarray, "*k m"], Float[np.ndarray, "*k m 6"]]:
     """Return the residuals, u and v of point after point, and their derivatives by a twist.
 
-    The twist is (v, w), metres and radians, in the camera's frame: T becomes exp(twist) T (Hartley
-    and Zisserman, A6.6; Solà et al. 2018, eq. 182).
+    The twist is (v, w), metres and radians, in the camera's frame: T becomes exp(twist) T (Solà,
+    182).
     """
-    p_camera = (
-        p_world @ np.swapaxes(Ts_camera_world[..., :3, :3], -1, -2)
-        + Ts_camera_world[..., None, :3, 3]
-    )
+    p_camera = _moved(Ts_camera_world, p_world)
     near = 1.0 / p_camera[..., 2]
     x, y = p_camera[..., 0] * near, p_camera[..., 1] * near
     J = np.zeros((*x.shape, 2, 6))
@@ -96,10 +89,8 @@ def refined(
     """
     k = len(Ts_camera_world)
     p_mean = p_world.mean(axis=-2)
-    q, xy = (
-        np.broadcast_to(p_world - p_mean[..., None, :], (k, *p_world.shape[-2:])),
-        np.broadcast_to(xy, (k, *xy.shape[-2:])),
-    )
+    q = np.broadcast_to(p_world - p_mean[..., None, :], (k, *p_world.shape[-2:]))
+    xy = np.broadcast_to(xy, (k, *xy.shape[-2:]))
     T = _about(Ts_camera_world, p_mean)
     root = None if weights is None else np.repeat(np.sqrt(weights), 2)
     damping = np.full(k, 1e-6)
@@ -127,10 +118,8 @@ def refined(
             settled |= ~better & (np.abs(step).max(axis=1) < 1e-12)
             T[active[better]], cost[active[better]] = trial[better], lower[better]
             damping[active] *= np.where(better, 0.1, 10.0)
-            residuals, J = (
-                np.where(better[:, None], again, residuals),
-                np.where(better[:, None, None], J_again, J),
-            )
+            residuals = np.where(better[:, None], again, residuals)
+            J = np.where(better[:, None, None], J_again, J)
             going = ~settled & (damping[active] < 1e12)
             active, residuals, J = active[going], residuals[going], J[going]
             if not len(active):
@@ -184,10 +173,8 @@ def sqpnp(
     """
     if p_world.shape[-2] < 3:
         raise ValueError(f"three points at least are needed, not {p_world.shape[-2]}")
-    batch, (p, xy) = (
-        p_world.shape[:-2],
-        (p_world.reshape(-1, *p_world.shape[-2:]), xy.reshape(-1, *xy.shape[-2:])),
-    )
+    batch = p_world.shape[:-2]
+    p, xy = (rows.reshape(-1, *rows.shape[-2:]) for rows in (p_world, xy))
     p_mean = p.mean(axis=1) if centred else np.zeros((len(p), 3))
     q = p - p_mean[:, None]
     omega, t_of_r = _quadratic_form(q, xy)
@@ -263,6 +250,10 @@ def _programs(omega: np.ndarray, R: np.ndarray, most: int) -> np.ndarray:
         if not len(going):
             break
     return R.reshape(len(omega), -1, 3, 3)
+
+
+def _moved(T: np.ndarray, p: np.ndarray) -> np.ndarray:
+    return p @ np.swapaxes(T[..., :3, :3], -1, -2) + T[..., None, :3, 3]
 
 
 def _retracted(T: np.ndarray, twist: np.ndarray) -> np.ndarray:

@@ -5,7 +5,6 @@ That each point lies on its ray is linear in the control points' coordinates x i
 frame: M x = 0. So x is a mix of the null vectors of M, or of its lowest ones where there is noise,
 and the mix is the one that keeps the control points' distances. The cost grows with the number of
 points.
-
 Reference: Lepetit, Moreno-Noguer and Fua, EPnP: An Accurate O(n) Solution to the PnP Problem, IJCV
 81, 2009.
 """
@@ -36,10 +35,8 @@ def epnp(
     """
     if p_world.shape[-2] < 4:
         raise ValueError(f"EPnP takes four points or more, not {p_world.shape[-2]}")
-    batch, (p, xy) = (
-        p_world.shape[:-2],
-        (p_world.reshape(-1, *p_world.shape[-2:]), xy.reshape(-1, *xy.shape[-2:])),
-    )
+    batch = p_world.shape[:-2]
+    p, xy = (rows.reshape(-1, *rows.shape[-2:]) for rows in (p_world, xy))
     p_mean = p.mean(axis=1)
     q = p - p_mean[:, None]
     _, extents, axes = np.linalg.svd(q, full_matrices=False)

@@ -4,7 +4,6 @@ Everything becomes fragments (pixel, 1/Z, colour); of the fragments of one pixel
 What crosses the near plane is cut there in the world, before anything is divided by a depth. Where
 the lens bends lines, what is long in the picture is cut into short pieces first, so that the camera
 model is any function from world points to pixels.
-
 Reference: Foley, van Dam, Feiner and Hughes, Computer Graphics, 2nd ed., 3.6 (scan conversion) and
 15.4 (z-buffer).
 """
@@ -35,10 +34,7 @@ PIECE = 0.06
 FAVOUR = 1.002
 STRAY = 3.0  # how far beyond the true picture a given camera model may look
 # Pixels that a row is longer at each end, so that neighbours leave no crack: straight, bent lens
-SLACK = (
-    1e-6,
-    0.1,
-)
+SLACK = (1e-6, 0.1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,13 +188,8 @@ def _draw_segments(item: SegmentItem, eye: _Eye) -> _Fragments:
     size = np.array([eye.width, eye.height])
     start, stop = clip_to_rectangle(uv, np.full(2, -0.5 - item.width), size - 0.5 + item.width)
     shown = start < stop
-    uv, w, owner, start, length = (
-        uv[shown],
-        w[shown],
-        owner[shown],
-        start[shown],
-        (stop - start)[shown],
-    )
+    uv, w, owner = uv[shown], w[shown], owner[shown]
+    start, length = start[shown], (stop - start)[shown]
     steps = (
         np.ceil(length * np.abs(uv[:, 1] - uv[:, 0]).max(axis=1, initial=0.0)).astype(np.int64) + 1
     )

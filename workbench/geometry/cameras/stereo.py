@@ -6,7 +6,6 @@ column x - d of the right one: the disparity d is positive, and grows towards th
 principal points differ, `doffs` = cx_right - cx_left, in pixels (Middlebury's word), and d + doffs
 takes the place of d. At d + doffs = 0 the rays are parallel and what they see is infinitely far;
 NaN, not 0, means unknown. f is in pixels of pictures of the size in which d was measured.
-
 Reference: Szeliski, Computer Vision, 2nd ed., 12.1.1.
 """
 

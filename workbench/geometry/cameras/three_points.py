@@ -4,7 +4,6 @@ Notation: `n_camera` are the unit rays on which `p_world`, metres, are seen; s t
 three rays; a, b, c the sides of the triangle of the points, opposite to the first, second and
 third; u = s2 / s1 and v = s3 / s1. A sample may have several solutions: with them comes the sample
 of each.
-
 Reference: Haralick, Lee, Ottenberg and Nölle, Review and Analysis of Solutions of the Three Point
 Perspective Pose Estimation Problem, 1994, sections 2 and 3.1 (Grunert 1841).
 """

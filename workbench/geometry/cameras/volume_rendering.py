@@ -1,7 +1,6 @@
 """What a ray sees of a medium that emits and absorbs, and the gradient to density and colour.
 
 Spacings and reaches are metres, densities 1/m and not negative; samples go from near to far.
-
 Reference: Mildenhall et al., NeRF, ECCV 2020, eq. 3; Max, Optical models for direct volume
 rendering, 1995, section 4.
 """

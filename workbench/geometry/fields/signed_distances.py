@@ -18,11 +18,7 @@ Queries = Float[np.ndarray, "n 3"]
 
 _BLOCK = 1_000  # points that are looked at together: what they need stays near the processor
 # In which coordinates are summed; rounding, and so every recording, depends on it
-_ORDER = (
-    0,
-    2,
-    1,
-)
+_ORDER = (0, 2, 1)
 
 
 def box_sdf(p: Queries, half_size: Float[np.ndarray, "3"]) -> Float[np.ndarray, " n"]:

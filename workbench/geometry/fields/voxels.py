@@ -1,7 +1,6 @@
 """Solids as voxels: bits on a regular grid, how large they are, and the surface around them.
 
 `bits[i, j, k]` is the cell at column i, row j, layer k: along x, y and z.
-
 Reference: Lindblad, Surface area estimation of digitized 3D objects using weighted local
 configurations, Image and Vision Computing 23, 2005: why counted faces do not give an area. Lorensen
 and Cline, Marching cubes, SIGGRAPH 1987.

@@ -3,7 +3,6 @@
 A graph of n nodes is its adjacency matrix A (n, n): A_ij is the weight of the edge from i to j, 0
 where there is none. It is symmetric unless it is said to be directed. A `Matrix` is dense or
 sparse, and so is the answer.
-
 Reference: von Luxburg, A tutorial on spectral clustering, Statistics and Computing 17, 2007,
 sections 2 and 3.
 """
@@ -62,7 +61,7 @@ def joined(directed: Sparse, join: Join) -> Sparse:
 
 
 def knn_adjacency(p: Points, k: int) -> Float[np.ndarray, "n n"]:
-    """Return the dense adjacency, 0 or 1, of the (union) k-nearest neighbour graph (2.2)."""
+    """Return the dense 0-1 adjacency of the union k-nearest neighbour graph (von Luxburg, 2.2)."""
     rows, _ = neighbours(p, k)
     adjacency = np.zeros((len(p), len(p)))
     np.put_along_axis(adjacency, rows, 1.0, axis=1)
@@ -118,7 +117,7 @@ def hops(
 
 
 def laplacian(adjacency: Matrix) -> Matrix:
-    """Return L = D - A, D holding the degrees: (L u)_i = sum_j A_ij (u_i - u_j) (section 3.1).
+    """Return L = D - A, D holding the degrees: (L u)_i = sum_j A_ij (u_i - u_j) (von Luxburg, 3.1).
 
     Without negative weights its eigenvalue 0 comes once for every component; loops do not matter.
     """

@@ -4,7 +4,6 @@ A ray upwards leaves the mesh through faces that look up (+1) and enters it thro
 down (-1); the sum over all faces above a point is the winding number. Every edge decides by its own
 two ends on which side of it a ray passes, so that two faces never both claim a ray through their
 common edge, nor both miss it.
-
 Reference: Sunday, Inclusion of a point in a polygon, 2001 (winding number by edge crossings).
 Jacobson, Kavan and Sorkine-Hornung, Robust inside-outside segmentation using generalized winding
 numbers, SIGGRAPH 2013. Van Oosterom and Strackee, The solid angle of a plane triangle, IEEE Trans.

@@ -4,7 +4,6 @@ Signs: normals point outward; H and the principal curvatures are positive where 
 away from its normal, so that a sphere of radius r has k1 = k2 = H = 1/r. Turning all normals round
 changes the sign of H, k1 and k2, never that of K = k1 k2. On the border of an open mesh K and H are
 not defined by these formulas and are nan. H, k1 and k2 are in 1/m, K in 1/m^2.
-
 Reference: Meyer, Desbrun, Schroeder and Barr, Discrete differential-geometry operators for
 triangulated 2-manifolds, Visualization and Mathematics III, 2003.
 """

@@ -1,7 +1,6 @@
 """Lengths of shortest ways: along the edges of a graph, over the faces of a mesh, round a wall.
 
 Edges are pairs of nodes, undirected, with lengths that are not negative.
-
 Reference: Dijkstra, A note on two problems in connexion with graphs, 1959; Lanthier, Maheshwari and
 Sack, Approximating weighted shortest paths on polyhedral surfaces, 2001, section 3.1.
 """

@@ -2,7 +2,6 @@
 
 The surface stays as it is. A flipped edge is the straight line across the two triangles beside it,
 unfolded: it bends where the old edge was, so only its length is kept, and no point moves.
-
 Reference: Fisher, Springborn, Schroeder and Bobenko, An algorithm for the construction of intrinsic
 Delaunay triangulations with applications to digital geometry processing, Computing 81, 2007;
 Bobenko and Springborn, A discrete Laplace-Beltrami operator for simplicial surfaces, 2007, which
@@ -58,11 +57,8 @@ class _Sides:
 
     def _angle(self, h: int) -> float:
         """Return the angle where a side begins, radians."""
-        after, before, opposite = (
-            self.length[h],
-            self.length[_next(_next(h))],
-            self.length[_next(h)],
-        )
+        ahead = _next(h)
+        after, opposite, before = (self.length[side] for side in (h, ahead, _next(ahead)))
         if after * before == 0:
             return 0.0
         return acos(

@@ -2,7 +2,6 @@
 
 Nothing is concluded from the matrix: which measures survive is what tells a rigid motion from a
 similarity, an affine or a projective map.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., table 3.2.
 """
 

@@ -2,7 +2,6 @@
 
 All are sums over faces, counterclockwise seen from outside, in blocks that stay in the cache.
 Metres.
-
 Reference: Zhang and Chen, Efficient feature extraction for 2D/3D objects in mesh representation,
 ICIP 2001: signed tetrahedra. Mirtich, Fast and accurate computation of polyhedral mass properties,
 JGT 1(2), 1996: the middle.

@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
-from workbench.geometry.meshes.triangles import adjacency, edge_keys, half_edges
+from workbench.geometry.meshes.triangles import adjacency, half_edges, twins
 
 Points = Float[np.ndarray, "v 3"]
 Energy = tuple[float, Points]
@@ -57,10 +57,7 @@ def normal_energy(
 
 def face_pairs(faces: Int[np.ndarray, "f 3"]) -> Int[np.ndarray, "e 2"]:
     """Return for every edge with two faces which they are."""
-    keys = edge_keys(half_edges(faces))
-    order = np.argsort(keys, kind="stable")
-    same = np.flatnonzero(np.diff(keys[order]) == 0)
-    return np.stack([order[same], order[same + 1]], axis=1) % len(faces)
+    return np.stack(twins(half_edges(faces)), axis=1) % len(faces)
 
 
 def fold_angles(

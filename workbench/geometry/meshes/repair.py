@@ -7,7 +7,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
-from workbench.geometry.meshes.triangles import corner_fans, distinct_rows, edge_keys, half_edges
+from workbench.geometry.meshes.triangles import corner_fans, distinct_rows, half_edges, twins
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
@@ -27,12 +27,9 @@ def oriented(faces: Faces) -> Faces:
     A piece with one side only, and a mesh with more than two faces at an edge, stay as they are.
     """
     half, f = half_edges(faces), len(faces)
-    keys = edge_keys(half)
-    order = np.argsort(keys, kind="stable")
-    same = np.flatnonzero(np.diff(keys[order]) == 0)
-    if (np.diff(same) == 1).any():
+    one, two = twins(half)
+    if (two[:-1] == one[1:]).any():
         return faces
-    one, two = order[same], order[same + 1]
     # Each face twice, as it is (i) and turned (i + f); an edge joins those that agree. Half-edge
     # k*f + i is one of face i.
     agree = half[one, 0] != half[two, 0]

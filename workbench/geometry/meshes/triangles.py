@@ -3,7 +3,6 @@
 `p` are vertex positions in metres, one row per vertex; `faces` names three vertices per face,
 counterclockwise seen from outside. Corner k of a face is opposite its edge k. No function here
 checks its mesh: `check_mesh` does, once, where a mesh enters.
-
 Reference: Thuermer and Wuethrich, Computing vertex normals from polygonal facets, JGT 3(1), 1998.
 """
 
@@ -47,13 +46,8 @@ class Corners:
     @property
     def cotangents(self) -> Float[np.ndarray, "3 f"]:
         """The cotangent of every angle; 0 in a face without area, which then counts for nothing."""
-        inverse = np.divide(
-            1.0,
-            self.double_areas,
-            out=np.zeros_like(self.double_areas),
-            where=self.double_areas > 0,
-        )
-        return self.dots * inverse
+        area = self.double_areas
+        return self.dots * np.divide(1.0, area, out=np.zeros_like(area), where=area > 0)
 
     @property
     def squared_edges(self) -> Float[np.ndarray, "3 f"]:
@@ -304,21 +298,17 @@ def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " 
     A fan is a set of corners at one vertex, each sharing an edge with the next; a surface has one.
     """
     half, f = half_edges(faces), len(faces)
-    keys = edge_keys(half)
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.diff(keys[order]) == 0)
-    one, two = order[first], order[first + 1]
+    one, two = twins(half)
     # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way if
     # the two faces agree.
-    leaves, arrives = (
-        (lambda h: (h // f + 1) % 3 * f + h % f),
-        (lambda h: (h // f + 2) % 3 * f + h % f),
-    )
+
+    def corner(h: np.ndarray, step: int) -> np.ndarray:
+        return (h // f + step) % 3 * f + h % f
+
     agree = half[one, 0] != half[two, 0]
-    a = np.concatenate([leaves(one), arrives(one)])
-    b = np.concatenate(
-        [np.where(agree, arrives(two), leaves(two)), np.where(agree, leaves(two), arrives(two))]
-    )
+    a = np.concatenate([corner(one, 1), corner(one, 2)])
+    leaves, arrives = corner(two, 1), corner(two, 2)
+    b = np.concatenate([np.where(agree, arrives, leaves), np.where(agree, leaves, arrives)])
     links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(3 * f, 3 * f))
     count, fan = scipy.sparse.csgraph.connected_components(links, directed=False)
     fan_vertex = np.zeros(count, dtype=np.int64)
@@ -329,6 +319,14 @@ def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " 
 def half_edges(faces: Faces) -> Int[np.ndarray, "h 2"]:
     """Return edge 0 of all faces, then edge 1, then edge 2, each in the direction of its face."""
     return np.concatenate([faces[:, [1, 2]], faces[:, [2, 0]], faces[:, [0, 1]]])
+
+
+def twins(half: Int[np.ndarray, "h 2"]) -> tuple[Int[np.ndarray, " t"], Int[np.ndarray, " t"]]:
+    """Return which half-edges share an undirected edge with which, in pairs."""
+    keys = edge_keys(half)
+    order = np.argsort(keys, kind="stable")
+    same = np.flatnonzero(np.diff(keys[order]) == 0)
+    return order[same], order[same + 1]
 
 
 def edge_keys(half: Int[np.ndarray, "h 2"]) -> Int[np.ndarray, " h"]:

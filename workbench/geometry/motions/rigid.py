@@ -2,7 +2,6 @@
 
 A motion `T_a_b` is 4x4 and takes points of frame b to frame a: `p_a = apply(T_a_b, p_b)`. A twist
 is (v, w): the translational part in metres first, then the rotation vector in radians.
-
 Reference: Solà, Deray and Atchuthan, A micro Lie theory for state estimation in robotics, 2018,
 appendices B and D.
 """

@@ -2,7 +2,6 @@
 
 Batches throughout: outputs are (n, k), rotations (n, d, d) with d = 2 or 3. Every `pullback` takes
 the gradient of a loss by the entries of R to that by the numbers.
-
 References: Zhou et al., On the continuity of rotation representations in neural networks, CVPR
 2019, section 4 and eq. 15. Levinson et al., An analysis of SVD for deep rotation estimation,
 NeurIPS 2020, section 3.
@@ -244,8 +243,8 @@ def random_rotations(
 ) -> tuple[Rotations, Float[np.ndarray, "n w"]]:
     """Return uniformly random rotations by at most an angle, and their angles or rotation vectors.
 
-    Reference: Miles, On random rotations in R^3, Biometrika 1965: an angle's density is (1 - cos a)
-    / pi.
+    Reference: Miles, On random rotations in R^3, Biometrika 1965: angles have density (1 - cos a) /
+    pi.
     """
     if dimension == 2:
         a = rng.uniform(-largest, largest, (count, 1))

@@ -6,7 +6,6 @@ Euler order is three letters, with one angle for each. Lower case turns about th
 world, one after the other; upper case about the body's own axes, carried along by the earlier
 turns. So "xyz" with (a, b, c) is Rz(c) Ry(b) Rx(a), and "XYZ" is Rx(a) Ry(b) Rz(c). Another order
 raises ValueError.
-
 Reference: Murray, Li and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, eq.
 2.14. Diebel, Representing Attitude, 2006, 5.1; his R takes world to body. Solà, Quaternion
 kinematics for the error-state Kalman filter, 2017, 2.5.
@@ -20,32 +19,13 @@ from jaxtyping import Float
 from workbench.geometry.motions.rigid import exp_so3, log_so3
 
 Axis = Literal["x", "y", "z"]
-EulerOrder = Literal[
-    "xyz",
-    "xzy",
-    "yxz",
-    "yzx",
-    "zxy",
-    "zyx",
-    "xyx",
-    "xzx",
-    "yxy",
-    "yzy",
-    "zxz",
-    "zyz",
-    "XYZ",
-    "XZY",
-    "YXZ",
-    "YZX",
-    "ZXY",
-    "ZYX",
-    "XYX",
-    "XZX",
-    "YXY",
-    "YZY",
-    "ZXZ",
-    "ZYZ",
+FixedOrder = Literal[
+    "xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz"
 ]
+CarriedOrder = Literal[
+    "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ"
+]
+EulerOrder = Literal[FixedOrder, CarriedOrder]
 EULER_ORDERS: tuple[EulerOrder, ...] = get_args(EulerOrder)
 
 # Sine of the angle between the first and the third axis below which they count as one

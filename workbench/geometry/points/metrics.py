@@ -1,7 +1,6 @@
 """Distances between points, some of them no metrics; the scatter for Mahalanobis; rms.
 
 A covariance C is positive definite; functions that find it is not raise ValueError.
-
 Reference: Deza and Deza, Encyclopedia of distances, 4th ed., 2016, chapters 1, 17 and 19;
 Mahalanobis, On the generalised distance in statistics, 1936.
 """
@@ -45,9 +44,9 @@ def distance_of(
         case "cosine":
             return cosine_distance
         case "mahalanobis":
-            W = np.eye(1) if covariance is None else whitening(covariance)
             if covariance is None:
                 return distance_of("euclid")
+            W = whitening(covariance)
             return lambda a, b: np.linalg.norm((a - b) @ W.T, axis=-1)
 
 

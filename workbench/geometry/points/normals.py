@@ -58,7 +58,7 @@ def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
     """Return lambda_0 / (lambda_0 + lambda_1 + lambda_2) of the covariance: 0 flat, at most 1/3.
 
     Reference: Pauly, Gross and Kobbelt, Efficient simplification of point-sampled surfaces, 2002,
-    eq. 4.
+    4.
     """
     values = np.linalg.eigvalsh(np.cov(p.T))
     return float(values[0] / values.sum()) if values.sum() > 0 else 0.0
@@ -78,11 +78,7 @@ def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndar
 def _covariances(p: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
     """Return xx, yy, zz, xy, xz, yz of each neighbourhood, about the point itself first."""
     x, y, z = (p[neighbours] - p[rows][:, None]).transpose(2, 0, 1)
-    x, y, z = (
-        x - x.mean(1, keepdims=True),
-        y - y.mean(1, keepdims=True),
-        z - z.mean(1, keepdims=True),
-    )
+    x, y, z = (v - v.mean(1, keepdims=True) for v in (x, y, z))
     pairs = ((x, x), (y, y), (z, z), (x, y), (x, z), (y, z))
     return np.stack([np.einsum("ij,ij->i", a, b) for a, b in pairs])
 

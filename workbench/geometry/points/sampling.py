@@ -18,11 +18,7 @@ Draw = Literal["random", "stratified", "Sobol"]
 _PAIRS = 50_000  # pairs of a line and a face that are looked at together
 _BITS = 32
 # Of each axis: degree, coefficients and first m of Joe and Kuo
-_SOBOL = (
-    (0, 0, (1,)),
-    (1, 0, (1,)),
-    (2, 1, (1, 3)),
-)
+_SOBOL = ((0, 0, (1,)), (1, 0, (1,)), (2, 1, (1, 3)))
 
 
 def points_on_faces(

@@ -3,7 +3,6 @@
 All compare p_a (n, 3) with p_b (m, 3), metres, one frame, in any order of rows; the mean square of
 index pairs is the exception, and here to be seen failing. A cloud that is empty or not finite
 raises ValueError. Distances that match one to one are in `workbench.algorithms.transport`.
-
 Reference: Fan, Su and Guibas, A Point Set Generation Network, 2017, equation 1.
 """
 
@@ -52,10 +51,7 @@ class Nearest:
 
     def f_score(self, max_distance: float) -> float:
         """Return the harmonic mean of the shares within a distance (Knapitsch et al. 2017, 3.3)."""
-        precision, recall = (
-            float(np.mean(self.d_a <= max_distance)),
-            float(np.mean(self.d_b <= max_distance)),
-        )
+        precision, recall = (float(np.mean(d <= max_distance)) for d in (self.d_a, self.d_b))
         return 2 * precision * recall / (precision + recall) if precision + recall > 0 else 0.0
 
 

@@ -2,7 +2,6 @@
 
 A rational patch is a polynomial one in homogeneous coordinates (w x, w y, w z, w), divided by its
 last.
-
 Reference: Farin, Curves and Surfaces for CAGD, 5th ed., 2002: 4.1 (de Casteljau), 5.4 (degree
 elevation), 12.1 (conics), 14.1 (patches). Piegl and Tiller, The NURBS Book, 2nd ed., 1997, 7.5
 (circles) and 8.3 (surfaces of revolution).

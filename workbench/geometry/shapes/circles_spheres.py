@@ -2,7 +2,6 @@
 
 Convention: the centre, then the radius, in metres: a circle is (x, y, r), a sphere (x, y, z, r).
 Distances are signed, negative inside.
-
 Reference: Gander, Golub and Strebel, Least-squares fitting of circles and ellipses, 1994.
 """
 
@@ -46,11 +45,8 @@ def costs_of_centers(
     p: Float[np.ndarray, "n d"], p_centers: Float[np.ndarray, "k d"]
 ) -> Float[np.ndarray, " k"]:
     """Return for each centre the sum of squared distances to its best sphere (Gander et al., 3)."""
-    columns, ways, squares = (
-        np.ascontiguousarray(p_centers.T),
-        np.zeros(len(p_centers)),
-        np.zeros(len(p_centers)),
-    )
+    columns = np.ascontiguousarray(p_centers.T)
+    ways, squares = np.zeros(len(p_centers)), np.zeros(len(p_centers))
     for point in p:
         square = np.square(columns - point[:, None]).sum(axis=0)
         ways += np.sqrt(square)

@@ -3,7 +3,6 @@
 Spherical coordinates are (r, polar, azimuth), cylindrical ones (rho, azimuth, z): the polar angle
 from +Z in [0, pi], the azimuth from +X towards +Y in (-pi, pi], 0 on the axis where it has no
 meaning. Metres and radians.
-
 Reference: ISO 80000-2:2019, 2-17.2 and 2-17.3. Weisstein, MathWorld, "Spherical Coordinates", for
 what others call them.
 """

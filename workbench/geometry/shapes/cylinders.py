@@ -4,7 +4,6 @@ Convention: (x, y, z, u, v, w, r): a point of the axis, its unit direction, and 
 Sliding the point along the axis, or scaling the direction, changes nothing, so a small step has
 five numbers: two shifts across the axis (metres), two tilts of it (radians), and the change of
 radius.
-
 Reference: Lukács, Martin and Marshall, Faithful least-squares fitting of spheres, cylinders, cones
 and tori, 1998.
 """

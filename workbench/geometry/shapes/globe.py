@@ -2,7 +2,6 @@
 
 A place is (latitude, longitude) in degrees, north and east positive. A globe's axes: +Z to the
 north pole, +X to latitude 0, longitude 0.
-
 Reference: Veness, Movable Type Scripts, "Calculate distance, bearing and more between
 latitude/longitude points". Snyder, Map Projections: A Working Manual, USGS 1395, 1987, eq. 3-28 and
 5-3. Torge, Geodesy, 3rd ed., 4.1. Mardia and Jupp, Directional Statistics, 2000.

@@ -2,7 +2,6 @@
 
 A point (x, y, w) stands for (x / w, y / w), and with w = 0 for a direction: a point at infinity. A
 line (a, b, c) holds the points with a x + b y + c w = 0. All are the same up to a factor.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 2.2 and 2.3, eq. 2.2, 2.4 and
 2.6.
 """

@@ -3,7 +3,6 @@
 Convention: `F` takes a pixel of the first image to its line in the second, `uv_second_h.T @ F @
 uv_first_h = 0`, and is scaled to Frobenius norm one. `uv_second` are the matches of `uv_first`, row
 by row.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), chapters 9 and 11.
 """
 
@@ -12,10 +11,14 @@ from jaxtyping import Bool, Float
 
 from workbench.geometry.motions import skew
 from workbench.geometry.refinement import levenberg_marquardt
-from workbench.geometry.two_views.homography import homogeneous, normalising_similarity, null_vector
+from workbench.geometry.two_views.homography import (
+    cross,
+    homogeneous,
+    normalising_similarity,
+    null_vector,
+)
 
 _SMALLEST = 1e-300
-_NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
 _THIRDS = np.array([0.0, 2.0, -2.0]) * np.pi / 3.0
 _Factors = tuple[np.ndarray, np.ndarray, float]
 
@@ -59,7 +62,7 @@ def epipolar_lines(
     return np.divide(lines, lengths, out=np.full_like(lines, np.nan), where=lengths > 0.0)
 
 
-_GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
+GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
 
 
 def sampson_distances(
@@ -125,7 +128,7 @@ def orientation_agrees(
     crosses = _cofactors(columns)
     longest = np.square(crosses).sum(-1).argmax(-1)
     epipole = np.take_along_axis(crosses, longest[..., None, None], axis=-2)
-    twisted = np.swapaxes(_cross(columns, epipole), -1, -2)  # (e x y) . (F x) = y' twisted x
+    twisted = np.swapaxes(cross(columns, epipole), -1, -2)  # (e x y) . (F x) = y' twisted x
     x, y = homogeneous(uv_first)[..., None, :, :], homogeneous(uv_second)[..., None, :, :]
     side = ((y @ twisted) * x) @ np.ones(3)
     return np.asarray((side > 0.0).all(-1) | (side < 0.0).all(-1))
@@ -204,10 +207,7 @@ def refine_fundamental(
     root = np.ones(len(uv_first)) if weights is None else np.sqrt(weights)
     T = normalising_similarity(np.concatenate([uv_first, uv_second]))
     # One match per column: sums over rows are quick
-    x, y = (
-        T @ homogeneous(uv_first).T,
-        T @ homogeneous(uv_second).T,
-    )
+    x, y = (T @ homogeneous(uv).T for uv in (uv_first, uv_second))
     outer = outer_products(y, x)
 
     def linearise(unknown: _Factors) -> tuple[np.ndarray, np.ndarray]:
@@ -220,13 +220,8 @@ def refine_fundamental(
 
     back = np.linalg.inv(T)
     U, s, Vt = np.linalg.svd(back.T @ F @ back)
-    F = (
-        T.T
-        @ _compose(
-            levenberg_marquardt(linearise, retract, (U, Vt.T, np.arctan2(s[1], s[0])), steps=steps)
-        )
-        @ T
-    )
+    start = (U, Vt.T, np.arctan2(s[1], s[0]))
+    F = T.T @ _compose(levenberg_marquardt(linearise, retract, start, steps=steps)) @ T
     return F / np.linalg.norm(F)
 
 
@@ -289,11 +284,9 @@ def _compose(factors: _Factors) -> np.ndarray:
 def _tangent(factors: _Factors) -> np.ndarray:
     """Return the entries of F differentiated by the turn of U, that of V and the angle: (7, 9)."""
     U, V, angle = factors
-    S, turned = (
-        np.diag([np.cos(angle), np.sin(angle), 0.0]),
-        np.diag([-np.sin(angle), np.cos(angle), 0.0]),
-    )
-    middle = np.concatenate([_GENERATORS @ S, -S @ _GENERATORS, turned[None]])
+    S = np.diag([np.cos(angle), np.sin(angle), 0.0])
+    turned = np.diag([-np.sin(angle), np.cos(angle), 0.0])
+    middle = np.concatenate([GENERATORS @ S, -S @ GENERATORS, turned[None]])
     return (U @ middle @ V.T).reshape(7, 9)
 
 
@@ -303,13 +296,8 @@ def _turn(w: np.ndarray) -> np.ndarray:
     return np.eye(3) + (2.0 / (1.0 + 0.25 * (w @ w))) * (half + half @ half)
 
 
-def _cross(v: np.ndarray, w: np.ndarray) -> np.ndarray:
-    """Return the cross product; quicker than numpy's on many small blocks."""
-    return v[..., _NEXT] * w[..., _AFTER] - v[..., _AFTER] * w[..., _NEXT]
-
-
 def _cofactors(A: np.ndarray) -> np.ndarray:
     """Return the matrix of cofactors, row by row."""
     return np.stack(
-        [_cross(A[..., i, :], A[..., j, :]) for i, j in ((1, 2), (2, 0), (0, 1))], axis=-2
+        [cross(A[..., i, :], A[..., j, :]) for i, j in ((1, 2), (2, 0), (0, 1))], axis=-2
     )

@@ -3,7 +3,6 @@
 Convention: `E` takes normalised points of the first camera to lines of the second, `xy_second_h.T @
 E @ xy_first_h = 0`, and `T_second_first` takes points of the first camera's frame to the second's:
 E = [t]x R. No picture tells how long t is.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), 9.6.
 """
 
@@ -12,11 +11,10 @@ from jaxtyping import Float
 
 from workbench.geometry.motions import across, exp_so3, motion, skew
 from workbench.geometry.refinement import levenberg_marquardt
-from workbench.geometry.two_views.epipolar import outer_products, sampson_slopes
+from workbench.geometry.two_views.epipolar import GENERATORS, outer_products, sampson_slopes
 from workbench.geometry.two_views.homography import homogeneous, normalising_similarity
 
 _QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-_GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
 _FORTH = np.array([1.0, 0.61, 0.37])
 """Of t and -t the one with a part along this comes first; hardly a camera moves across it."""
 _Motion = tuple[np.ndarray, np.ndarray]
@@ -78,7 +76,7 @@ def refine_motion(
     def linearise(unknown: _Motion) -> tuple[np.ndarray, np.ndarray]:
         R, t = unknown
         residuals, by_F = sampson_slopes(left @ skew(t) @ R @ right, x, y, outer=outer)
-        turned = skew(t) @ _GENERATORS @ R
+        turned = skew(t) @ GENERATORS @ R
         moved = np.array([skew(side) @ R for side in across(t)])
         by_step = (left @ np.concatenate([turned, moved]) @ right).reshape(5, 9)
         return residuals, (by_step @ by_F).T

@@ -2,7 +2,6 @@
 
 Convention: `H_b_a` takes pixels of image a to pixels of image b, `uv_b_h ~ H_b_a @ uv_a_h`, and has
 Frobenius norm one. `uv_b` are the matches of `uv_a`, row by row.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), chapter 4.
 """
 
@@ -106,7 +105,7 @@ def homographies_from_four(
     areas_x, areas_y = _triangle_areas(x), _triangle_areas(y)
     usable = _in_general_position(x, y, areas_x, areas_b=areas_y)
     weights = areas_y[..., :3] / np.where(usable[..., None], areas_x[..., :3], np.nan)
-    crosses = _cross(x[..., [1, 2, 0], :], x[..., [2, 0, 1], :])
+    crosses = cross(x[..., [1, 2, 0], :], x[..., [2, 0, 1], :])
     H = np.linalg.inv(T) @ np.swapaxes(weights[..., None] * y[..., :3, :], -1, -2) @ crosses @ T
     return H / np.sqrt(np.square(H).sum((-2, -1), keepdims=True))
 
@@ -173,10 +172,8 @@ def refine_homography(
     root = np.ones(len(uv_a)) if weights is None else np.sqrt(weights)
     T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
     # One match per column: sums over rows are quick
-    x, y = (
-        T_a @ homogeneous(uv_a).T,
-        (T_b @ homogeneous(uv_b).T)[:2],
-    )
+    x = T_a @ homogeneous(uv_a).T
+    y = (T_b @ homogeneous(uv_b).T)[:2]
     h = (T_b @ H_b_a @ np.linalg.inv(T_a)).ravel()
     # The scale is of no account, so the largest entry stays as it is
     free = np.arange(9) != np.argmax(np.abs(h))
@@ -210,10 +207,8 @@ def _in_general_position(
 
 def _triangle_areas(p: np.ndarray) -> np.ndarray:
     """Return twice the signed areas of the triangles (3 1 2), (3 2 0), (3 0 1) and (0 1 2)."""
-    v, w = (
-        p[..., [1, 2, 0, 1], :2] - p[..., [3, 3, 3, 0], :2],
-        p[..., [2, 0, 1, 2], :2] - p[..., [3, 3, 3, 0], :2],
-    )
+    start = p[..., [3, 3, 3, 0], :2]
+    v, w = p[..., [1, 2, 0, 1], :2] - start, p[..., [2, 0, 1, 2], :2] - start
     return v[..., 0] * w[..., 1] - v[..., 1] * w[..., 0]
 
 
@@ -223,6 +218,6 @@ def _broad(p: np.ndarray, areas: np.ndarray) -> np.ndarray:
     return np.asarray(np.abs(areas).min(-1) > _FLAT * extent)
 
 
-def _cross(v: np.ndarray, w: np.ndarray) -> np.ndarray:
+def cross(v: Float[np.ndarray, "..."], w: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
     """Return the cross product; quicker than numpy's on many small blocks."""
     return v[..., _NEXT] * w[..., _AFTER] - v[..., _AFTER] * w[..., _NEXT]

@@ -2,7 +2,6 @@
 
 Both get one orientation, their common x axis along the baseline, and one K. A turn of a camera is a
 homography.
-
 Reference: Fusiello, Trucco and Verri, A compact algorithm for rectification of stereo pairs,
 Machine Vision and Applications, 2000; here the new optical axis is the mean of both old ones.
 """

@@ -1,7 +1,6 @@
 """From two pixels to a point: where the rays of two cameras meet, and how uncertain that is.
 
 Camera matrices are P = K [R | t], 3x4, and take points of one common frame to pixels.
-
 Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed. (HZ), chapter 12.
 """
 
