@@ -1,6 +1,4 @@
-"""Two recordings of one lesson as one: scenes side by side, curves in the same plots, on one step
-timeline.
-"""
+"""Two recordings of one lesson as one: scenes beside each other, curves in the same plots."""
 
 import tempfile
 from collections import Counter
@@ -44,9 +42,7 @@ def compare_files(a: Path, b: Path, *, native: bool, host: str, port: int, brows
 
 
 def compare_bytes(a: Path, b: Path) -> bytes:
-    """Return a recording that holds two recordings of one lesson, below the entities `/a` and
-    `/b`.
-    """
+    """Return a recording that holds two of one lesson, below `/a` and `/b`."""
     runs = dict(zip(ROOTS, (open_recording(a), open_recording(b)), strict=True))
     one, two = runs.values()
     if one.lesson != two.lesson:
@@ -94,9 +90,7 @@ def _beside(run: Recording) -> tuple[Contents, View]:
 
 
 def differences_of(a: Recording, b: Recording) -> list[tuple[str, str, str]]:
-    """Return what differs between two runs: parameters, length and how they ended, as name, of a,
-    of b.
-    """
+    """Return what differs between two runs, as name, of a, of b."""
     rows = [
         (name, _text(a.params.get(name)), _text(b.params.get(name)))
         for name in {**a.params, **b.params}

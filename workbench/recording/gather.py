@@ -1,10 +1,8 @@
-"""Clouds whose points come and go: all points of a run are said once, and per step which of them
-are there.
+"""Clouds whose points come and go: all points of a run are said once, per step which are there.
 
-A cloud that gains and loses points from step to step would be said again and again, 16 bytes a
-point. The union of all steps, in the order in which its points come and go, takes no more than a
-few times one step; which are there is a size per point, zero or not, that compresses to almost
-nothing.
+A cloud that gains and loses points would be said again and again, 16 bytes a point. The union of
+all steps, in the order in which its points come and go, takes no more than a few times one step;
+which are there is a size per point, zero or not, that compresses to almost nothing.
 """
 
 from collections.abc import Iterator, Mapping, Sequence

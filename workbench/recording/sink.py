@@ -1,6 +1,4 @@
-"""Makes a Rerun stream equal to scenes, one step after another, and says only what has changed
-since the step before.
-"""
+"""Makes a Rerun stream equal to scenes, step by step; says only what has changed."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
@@ -48,12 +46,11 @@ class RerunSink:
     """Writes scenes into a recording stream.
 
     Entities: `world/PATH` in space, `pictures/PATH`, `charts/TITLE`, `tables`, `legend`. Scalars
-    and captions are not said here: they go as whole columns.
+    and captions go as whole columns, not here.
 
     Args:
-        stream: Rerun's recording stream.
-        canvases: Where charts, pictures and tables are shown, by entity. While there are none, it
-            says so there.
+        canvases: Where charts, pictures and tables are shown, by entity; it says so if there are
+            none.
         unions: Clouds that are said once for all steps, by path.
     """
 

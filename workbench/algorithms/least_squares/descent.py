@@ -1,6 +1,8 @@
 """Nonlinear least squares in small steps: Gauss and Newton's, and Levenberg and Marquardt's.
 
-`linearise` gives the residuals (n,) at an unknown and their Jacobian (n, k) with respect to a small step; `retract` gives the unknown that a small step (k,) leads to. Both may take many unknowns in rows.
+`linearise` gives the residuals (n,) at an unknown and their Jacobian (n, k) with respect to a small
+step; `retract` gives the unknown that a small step (k,) leads to. Both may take many unknowns in
+rows.
 """
 
 from collections.abc import Callable, Iterator

@@ -54,7 +54,9 @@ class Stop(Enum):
 class Gate:
     """Which matches a fit may use: those within a limit found from the distances themselves.
 
-    `max_distance` is a fixed limit in metres. Among the pairs it leaves, `keep` takes that fraction with the smallest distances (trimming) and `medians` takes those within that many times the median. All three together: the smallest limit counts.
+    `max_distance` is a fixed limit in metres. Among the pairs it leaves, `keep` takes that fraction
+    with the smallest distances (trimming) and `medians` takes those within that many times the
+    median. All three together: the smallest limit counts.
     """
 
     max_distance: float = np.inf

@@ -59,7 +59,7 @@ class Blurred:
         return np.exp((self.f[:, None] + self.g - cost) / self.regularisation)
 
     def cost(self, cost: Float[np.ndarray, "n m"]) -> float:
-        """Return what the plan costs without entropy: at least the optimum if the sums are right."""
+        """Return what the plan costs without entropy: at least the optimum once it is settled."""
         return float(np.vdot(self.plan(cost), cost))
 
 

@@ -1,6 +1,4 @@
-"""A city in a valley with mountains behind it, seen from a hill: nothing in it is nearer than 180
-m.
-"""
+"""A city in a valley with mountains behind it: nothing in it is nearer than 180 m."""
 
 import functools
 from dataclasses import dataclass
@@ -26,13 +24,7 @@ GREENS = (202, 208, 200), (212, 218, 210)
 
 @dataclass(frozen=True, eq=False)
 class Skyline:
-    """The scene, metres, +Z up.
-
-    Attributes:
-        solids: Valley, mountains and towers, lit by the sun.
-        edges: The outlines of the towers.
-        storeys: Lines round their walls.
-    """
+    """The scene, metres, +Z up: solids lit by the sun, the towers' outlines, and their storeys."""
 
     solids: tuple[Solid, ...]
     edges: Float[np.ndarray, "e 2 3"]
@@ -63,9 +55,7 @@ def skyline() -> Skyline:
 
 @functools.cache
 def skyline_items() -> tuple[MeshItem | SegmentItem, ...]:
-    """Return what `workbench.geometry.cameras.raster.render` takes to make a photograph of the
-    city.
-    """
+    """Return what `cameras.raster.render` takes to make a photograph of the city."""
     scene = skyline()
     meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids]
     return (

@@ -1,5 +1,4 @@
-"""What a student's process takes from itself before the student's code runs; the kernel gives none
-of it back.
+"""What a student's process takes from itself for good before the student's code runs.
 
 Limits bound memory, processor time, files and processes. Where the grader asks for them, a filter
 of system calls (`syscalls`) and, in place of a sandbox around the process, Landlock: files outside

@@ -1,5 +1,4 @@
-"""The filter of system calls of a student's process: a list of what it may, as the kernel takes it
-(seccomp, classic BPF).
+"""The filter of system calls of a student's process: what it may (seccomp, classic BPF).
 
 The list is what Python, numpy and scipy were seen to use (strace, five of OpenBLAS's kernels), and
 their like: memory, threads, clocks, files, and what a process asks about itself. Everything else is
@@ -178,12 +177,7 @@ ENDS: list[Line] = [(RETURN, 0, 0, EPERM), (RETURN, 0, 0, ENOSYS), (RETURN, 0, 0
 
 
 def program(machine: str, *, writes: bool) -> bytes:
-    """Return the filter for a machine.
-
-    Args:
-        machine: One of `MACHINES`.
-        writes: Whether the process has a folder to write to.
-    """
+    """Return the filter for one of `MACHINES`; `writes` if the process has a folder to write to."""
     column, architecture = MACHINES[machine]
     free = MAY | OPEN | CHANGE if writes else MAY
     bound = (
