@@ -228,9 +228,8 @@ def _upright(path: Path, name: str, most: int | None = None, kind: str | None = 
     with opened_image(_source(path, name), PurePosixPath(name).name) as image:
         kind = kind or ("L" if image.mode in ("1", "L", "LA") else "RGB")
         if most is not None:
-            image.draft(
-                kind, (most, most)
-            )  # a JPEG is decoded at half or quarter size where that is enough
+            # a JPEG is decoded at half or quarter size where that is enough
+            image.draft(kind, (most, most))
         upright = (ImageOps.exif_transpose(image) if _is_of_a_camera(image) else image).convert(
             kind
         )

@@ -17,14 +17,12 @@ def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "
     """
     if not size > 0:
         raise ValueError(f"a voxel has a positive size, not {size}")
-    voxels = np.floor(
-        (p - p.min(axis=0)) / size
-    )  # stay floats: a far stray point would overflow whole numbers
+    # stay floats: a far stray point would overflow whole numbers
+    voxels = np.floor((p - p.min(axis=0)) / size)
     order = np.lexsort(voxels.T[::-1])
     starts = np.flatnonzero(np.r_[True, (np.diff(voxels[order], axis=0) != 0).any(axis=1)])
-    origin = p[
-        order[starts]
-    ]  # means about a point of the voxel keep their digits far from the origin
+    # means about a point of the voxel keep their digits far from the origin
+    origin = p[order[starts]]
     counts = np.diff(np.r_[starts, len(p)])
     offsets = p[order] - np.repeat(origin, counts, axis=0)
     return origin + np.add.reduceat(offsets, starts, axis=0) / counts[:, None]

@@ -29,9 +29,8 @@ class Hosts:
         found = name_in(host)
         if found is None:
             return False
-        return found in self._names or (
-            not self.local and _is_address(found)
-        )  # an address means one machine
+        # an address means one machine
+        return found in self._names or (not self.local and _is_address(found))
 
 
 def listening(host: str, port: int) -> socket.socket:

@@ -5,9 +5,8 @@ from typing import Any
 
 from workbench.lesson import Lesson
 
-os.environ.setdefault(
-    "RUST_LOG", "off"
-)  # else rerun writes into the terminal what it thinks of a damaged file
+# else rerun writes into the terminal what it thinks of a damaged file
+os.environ.setdefault("RUST_LOG", "off")
 
 _WHERE = {
     "record": "workbench.recording.write",

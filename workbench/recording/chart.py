@@ -96,9 +96,8 @@ def chart_curves(x: Scale, y: Scale, curves: Mapping[int, Curve]) -> list[Any]:
     for curve in curves.values():
         known = np.isfinite(curve.y)
         at = np.column_stack([x(curve.x), y(np.where(known, curve.y, 0.0))])
-        lonely = (
-            known & ~np.r_[False, known[:-1]] & ~np.r_[known[1:], False]
-        )  # a line of one point is a dot
+        # a line of one point is a dot
+        lonely = known & ~np.r_[False, known[:-1]] & ~np.r_[known[1:], False]
         if curve.kind == "dots" or (curve.kind == "line" and lonely.any()):
             shown = known if curve.kind == "dots" else lonely
             dots.append(at[shown])

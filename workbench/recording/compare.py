@@ -68,9 +68,8 @@ def compare_bytes(a: Path, b: Path) -> bytes:
         charts = Counter(scalar.chart for scalar in {**one.curves, **two.curves}.values())
         for root, run in runs.items():
             for path, scalar in run.curves.items():
-                letter = (
-                    root[1:].upper()
-                )  # alone in its plot a curve needs no other name: a long one hides what it names
+                # alone in its plot a curve needs no other name: a long one hides what it names
+                letter = root[1:].upper()
                 name = letter if charts[scalar.chart] == 1 else f"{scalar.name} · {letter}"
                 style = curve_style(scalar, name, second=root == ROOTS[1])
                 stream.log(root + plotted(path, scalar), style, static=True)

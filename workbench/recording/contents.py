@@ -124,7 +124,6 @@ def _common(title: str, other: str, path: str) -> str:
 
 def _picture_canvas(path: str, picture: Picture, first: int) -> Canvas:
     h, w = (picture.image.values if isinstance(picture.image, Field) else picture.image).shape[:2]
-    height = (
-        h + 0.17 * w if isinstance(picture.image, Field) else float(h)
-    )  # a colour bar takes its room below
+    # a colour bar takes its room below
+    height = h + 0.17 * w if isinstance(picture.image, Field) else float(h)
     return Canvas(picture.title or path, float(w), height, first)

@@ -60,9 +60,8 @@ def _union(clouds: Sequence[Points]) -> Union | None:
         mixed = (mixed ^ column) * np.uint64(0x9E3779B97F4A7C15)
         mixed ^= mixed >> np.uint64(29)
     keys, first, number = np.unique(mixed, return_index=True, return_inverse=True)
-    if len(first) > WORTH * len(rows) or not np.array_equal(
-        rows[first][number], rows
-    ):  # two points, one key
+    # two points, one key
+    if len(first) > WORTH * len(rows) or not np.array_equal(rows[first][number], rows):
         return None
     last = np.zeros(len(first), int)
     last[number] = cloud_of  # the last one counts

@@ -223,10 +223,11 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
         else (np.zeros(1), np.zeros(1))
     )
     up = value_axis([y])
+    # else the lowest number and the first step overprint
     low, high = (
         up.low - 0.1 * (up.high - up.low),
         up.high,
-    )  # else the lowest number and the first step overprint
+    )
     beyond = 1 + steps // 40  # so that the cursor can be seen at the last step too
     end, infinite = (
         rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond),

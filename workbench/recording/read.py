@@ -180,9 +180,8 @@ def read_chunks(path: Path) -> list[Any]:
     """
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter(
-                "ignore"
-            )  # of bytes behind the end: what is read is held to its digest
+            # of bytes behind the end: what is read is held to its digest
+            warnings.simplefilter("ignore")
             reader = RrdReader(path)
         stores = reader.recordings()
         chunks = [chunk for store in stores for chunk in reader.stream(store=store)]

@@ -75,9 +75,8 @@ class RerunSink:
         }
         for entity, said in self._said.items():
             if not said.keys() <= wanted.get(entity, {}).keys():  # it, or a part of it, is gone
-                for suffix in dict.fromkeys(
-                    aspect.suffix for aspect in said.values()
-                ):  # in the same order every time
+                # in the same order every time
+                for suffix in dict.fromkeys(aspect.suffix for aspect in said.values()):
                     self._stream.log(entity + suffix, gone(suffix))
         for entity, now in wanted.items():
             before = self._said.get(entity, {})

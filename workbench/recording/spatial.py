@@ -134,9 +134,8 @@ def _mesh(primitive: Mesh, numbers: ClassNumbers) -> Iterator[Aspect]:
             _painted, {"archetype": rr.LineStrips3D, "color": role, "opacity": mesh.opacity}
         )
     else:
-        make = (
-            _surface if isinstance(mesh.color, str) else _coloured_surface
-        )  # Rerun would multiply both's colours
+        # Rerun would multiply both's colours
+        make = _surface if isinstance(mesh.color, str) else _coloured_surface
         yield Aspect(make, {"mesh": replace(mesh, T_world_object=None)})
     yield pose(mesh.T_world_object)
 
@@ -176,9 +175,8 @@ def pose(T_world_object: np.ndarray | None) -> Aspect:
 
 
 def _width(pixels: float) -> Aspect:
-    return Aspect(
-        rr.LineStrips3D.from_fields, {"radii": -pixels / 2, "show_labels": False}
-    )  # negative: of the screen
+    # negative: of the screen
+    return Aspect(rr.LineStrips3D.from_fields, {"radii": -pixels / 2, "show_labels": False})
 
 
 def _colors(primitive: Points | Segments, archetype: Any, numbers: ClassNumbers) -> Aspect:

@@ -143,9 +143,8 @@ def descend(
         except np.linalg.LinAlgError:
             yield replace(now, phase="rejected", stop=Stop.SINGULAR)
             return
-        with np.errstate(
-            over="ignore", invalid="ignore"
-        ):  # what overflows has diverged, and is said to
+        # what overflows has diverged, and is said to
+        with np.errstate(over="ignore", invalid="ignore"):
             trial = retract(now.unknown, step)
             trial_residuals, trial_jacobian = linearise(trial)
             trial_cost = float(trial_residuals @ trial_residuals)

@@ -98,9 +98,8 @@ def ncc_cost_volume(
     """
     _check(left, right, max_disparity, window)
     window = max(window, 3)
-    a, b = (
-        picture - picture.mean() for picture in (left.astype(float), right.astype(float))
-    )  # keeps the sums small
+    # keeps the sums small
+    a, b = (picture - picture.mean() for picture in (left.astype(float), right.astype(float)))
     h, w = left.shape
     cost = np.full((max_disparity + 1, h, w), np.inf)
     energy_a, energy_b = (box_sum(picture * picture, window, float) for picture in (a, b))
@@ -127,9 +126,8 @@ def census(picture: Real[np.ndarray, "h w"]) -> UInt32[np.ndarray, "h w"]:
     padded = np.pad(picture, 2, mode="edge")
     neighbours = [(dy, dx) for dy in range(5) for dx in range(5) if (dy, dx) != (2, 2)]
     code = np.zeros((h, w), np.uint32)
-    for start in range(
-        0, CENSUS_BITS, 8
-    ):  # eight bits at a time in bytes, which numpy handles four times as fast
+    # eight bits at a time in bytes, which numpy handles four times as fast
+    for start in range(0, CENSUS_BITS, 8):
         byte = np.zeros((h, w), np.uint8)
         for dy, dx in neighbours[start : start + 8]:
             byte <<= 1

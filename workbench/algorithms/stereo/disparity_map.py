@@ -22,9 +22,8 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
     winner = np.zeros(lowest.shape, number)
     for d in range(1, len(cost)):
         better = (cost[d] < lowest).view(np.uint8)
-        np.maximum(
-            winner, better * number(d), out=winner
-        )  # d grows, so the latest winner is the largest
+        # d grows, so the latest winner is the largest
+        np.maximum(winner, better * number(d), out=winner)
         np.minimum(lowest, cost[d], out=lowest)
     return winner.astype(np.int16 if number is np.uint8 else np.int64)
 

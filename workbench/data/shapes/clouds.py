@@ -77,9 +77,8 @@ def pair(
     """
     if shape not in SHAPES or not 0 < overlap <= 1 or not 0 <= outliers < 1 or count < 1:
         raise ValueError(f"shape {shape!r}, count {count}, overlap {overlap}, outliers {outliers}")
-    cut = (1.0 - overlap) / (
-        2.0 - overlap
-    )  # each scan keeps 1 - cut of the shape; 1 - 2 cut of it is in both
+    # each scan keeps 1 - cut of the shape; 1 - 2 cut of it is in both
+    cut = (1.0 - overlap) / (2.0 - overlap)
     more = int(np.ceil(count / (1.0 - cut)))
     first, second = (SHAPES[shape](more, rng) for _ in range(2))  # both in the target frame
     first = first[np.argsort(first[:, 0], kind="stable")[:count]]

@@ -15,11 +15,12 @@ import numpy as np
 import scipy
 from jaxtyping import Complex, Float, Int, UInt8
 
+# pixels along the longer side at most, to which a picture is shrunk where corners are sought
 SIDES = (
     800,
     1200,
     400,
-)  # pixels along the longer side at most, to which a picture is shrunk where corners are sought
+)
 BLUR, RING, APART = 1.5, 4.5, 7  # pixels: of the saddles, of the ring around one, between two
 MOST, SEEDS = 500, 120  # saddles that are looked at, and those from which a board is grown
 FOURFOLD = 0.55  # share of a ring's changes that two dark and two bright sectors make

@@ -81,9 +81,8 @@ def board_poses(
             n = np.array([np.cos(np.pi * axis), np.sin(np.pi * axis), 0.0])
             R = exp_so3(size * n) @ exp_so3(np.array([0.0, 0.0, 0.6 * roll]))
             depth = distance * (1.1 + 0.2 * away)
-            inwards = 1.0 - k / (
-                _TRIES - 1
-            )  # from the sides to the middle, until all is in the picture
+            # from the sides to the middle, until all is in the picture
+            inwards = 1.0 - k / (_TRIES - 1)
             aside = inwards * spread * depth * np.array([0.38 * right, 0.3 * down])
             T = motion(R, np.array([*aside, depth]) - R @ middle)
             uv = project(p_board, T, K_TRUE, LENS_TRUE)

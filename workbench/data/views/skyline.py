@@ -11,10 +11,11 @@ from workbench.data.views.street import Solid, chequered, lit
 from workbench.geometry.cameras.raster import MeshItem, SegmentItem
 
 VALLEY = -83.0  # metres, +Z up: its ground; the camera stands at about 0 and looks along +Y
+# where the middle of the tallest tower's foot is, and its size
 LANDMARK = (
     (84.0, 300.0),
     (24.0, 24.0, 125.0),
-)  # where the middle of the tallest tower's foot is, and its size
+)
 BLOCKS = (270.0, 330.0, 400.0, 490.0, 600.0, 740.0, 920.0)  # how far rows of towers are
 STOREYS = 6.0  # metres from line to line on a wall
 WALLS = ((216, 202, 178), (200, 198, 206), (232, 222, 204), (186, 196, 208), (206, 186, 176))

@@ -67,9 +67,8 @@ def shut(settings: dict[str, Any]) -> None:
     _prctl(PR_SET_NO_NEW_PRIVS, 1)
     if settings["landlock"] is not None:
         _landlock(settings["landlock"])
-    _checked(
-        _libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24))
-    )  # of an administrator's powers, none
+    # of an administrator's powers, none
+    _checked(_libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24)))
     machine = platform.machine()
     if machine in syscalls.MACHINES:
         lines = syscalls.program(machine, writes=settings["writes"])

@@ -94,9 +94,8 @@ def _describe(value: Any, blobs: list[bytes], depth: int) -> Any:
         blobs.append(array.tobytes())
         return {"a": array.dtype.str, "s": list(array.shape)}
     if isinstance(value, (list, tuple)):
-        if value and {float, np.float64}.issuperset(
-            map(type, value)
-        ):  # a row of numbers is one part
+        # a row of numbers is one part
+        if value and {float, np.float64}.issuperset(map(type, value)):
             blobs.append(np.array(value, "<f8").tobytes())
             return {"n": len(value)}
         return {"l": [_describe(item, blobs, depth + 1) for item in value]}

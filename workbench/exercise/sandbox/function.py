@@ -265,18 +265,16 @@ class SandboxedFunction:
         process = self._process
         if process is not None:
             with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(
-                    2.0
-                )  # its pipe is closed: it is about to end, and its exit code tells why
+                # its pipe is closed: it is about to end, and its exit code tells why
+                process.wait(2.0)
         code = self._end()
         if doing == "start":
             return StudentError(
                 f"Python did not start: {self.printed().strip()[-200:] or f'exit code {code}'}",
                 "died",
             )
-        number = (
-            None if code is None else -code if code < 0 else code - 128
-        )  # bubblewrap says 128 and the signal
+        # bubblewrap says 128 and the signal
+        number = None if code is None else -code if code < 0 else code - 128
         how = f"ended (exit code {code}): does it call exit, or crash a library?"
         if number in (signal.SIGKILL, signal.SIGXCPU):
             how = "was killed: too much memory, or processor time?"

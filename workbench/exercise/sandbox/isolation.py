@@ -83,9 +83,8 @@ class Wall:
             "LANG": "C.UTF-8",
             "HOME": bubblewrap.FOLDER if boxed else folder,
         }
-        environment |= (
-            as_here()
-        )  # so that a mistake which hangs on the last bit is known for what it is
+        # so that a mistake which hangs on the last bit is known for what it is
+        environment |= as_here()
         command = [files.executable, "-I", "-S", "-B", "-u", *quiet, child, json.dumps(settings)]
         if boxed:
             known = [word for pair in environment.items() for word in ("--setenv", *pair)]
