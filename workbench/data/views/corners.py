@@ -37,24 +37,10 @@ _PIXELS = (
     ("corners", "corners2"),
     ("image_points", "image_points2"),
 )
-# fmt: skip
 _SIZES = (
-    (640, 480),
-    (752, 480),
-    (800, 600),
-    (1024, 768),
-    (1280, 720),
-    (1280, 960),
-    (1600, 1200),
-    (1920, 1080),
-    (2048, 1536),  # noqa: E501
-    (2592, 1944),
-    (3264, 2448),
-    (3840, 2160),
-    (4032, 3024),
-    (5184, 3456),
-    (6000, 4000),
-)
+    (640, 480), (752, 480), (800, 600), (1024, 768), (1280, 720), (1280, 960), (1600, 1200), (1920, 1080), (2048, 1536),  # noqa: E501
+    (2592, 1944), (3264, 2448), (3840, 2160), (4032, 3024), (5184, 3456), (6000, 4000),
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -314,8 +300,9 @@ def _from_text(path: Path) -> Corners:
         raise InputError(f"{path.name}: no lines view X Y u v")
     table = np.array(list(views.values()))
     known: np.ndarray = np.asarray(np.isfinite(table).all(axis=2))
-    # of each point, in the first view that has it
-    first = table[known.argmax(axis=0), np.arange(table.shape[1]), :2]
+    first = table[
+        known.argmax(axis=0), np.arange(table.shape[1]), :2
+    ]  # of each point, in the first view that has it
     if np.abs(table[:, :, :2] - first)[known].max(initial=0.0) > 0:
         raise InputError(
             f"{path.name}: the views do not list the same points of the board in the same order"
