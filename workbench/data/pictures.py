@@ -137,7 +137,7 @@ def pictures_of(path: Path, names: tuple[str | None, ...]) -> Pictures:
 def matched(path: Path, views: Sequence[str], count: int) -> tuple[str | None, ...]:
     """Return of every view its picture: the one of the view's name, or else all in order.
 
-    Without `views`, what their pictures are called, nobody said.
+    `views` are what their pictures are called; empty where nobody said.
 
     Raises:
         InputError: If no name fits and there are not as many pictures as views, or as `names_in`

@@ -51,7 +51,8 @@ def read_places(path: Path) -> Places:
     to 360.
 
     Raises:
-        InputError: If the file is missing, of another kind, not understood, or has one place only.
+        InputError: If the file is missing, of another kind, not understood, or has fewer than two
+            places.
     """
     rows = text_rows(path, "places", KINDS)
     names, degrees = list[str](), list[tuple[float, float]]()

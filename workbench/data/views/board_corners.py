@@ -69,7 +69,7 @@ def refined(
 ) -> Float[np.ndarray, "n 2"]:
     """Return corners where the gradients around them, at right angles to the way there, put them.
 
-    The window is `2 half + 1` pixels wide; gradients count less towards its border. A corner that
+    The window is twice `half` wide, pixels; gradients count less towards its border. A corner that
     would leave it stays.
 
     Reference: Foerstner and Guelch 1987; OpenCV's cornerSubPix, whose fixed points these are.
