@@ -1,6 +1,4 @@
-"""Points that people bring in the plane: two columns of a text file; and of something round, in the
-plane or in space.
-"""
+"""Points that people bring in the plane: two columns of text; and of something round."""
 
 import functools
 from pathlib import Path
@@ -26,17 +24,12 @@ _TEXT = (".xyz", ".txt", ".csv", ".tsv", ".dat")
 
 
 def read_flat_or_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n d"]:
-    """Return places in the plane (n, 2) from a text file of two columns, and else a cloud (n, 3),
-    as `read_cloud` does.
+    """Return places in the plane (n, 2) of a text file of two columns, else a cloud (n, 3).
 
     Columns are separated by commas, semicolons, tabs or spaces; a header is passed over.
 
-    Args:
-        path: The file.
-        fewest: How many points are needed.
-
     Raises:
-        InputError: If it is not understood, or has fewer points.
+        InputError: If it is not understood, or has fewer than `fewest` points.
     """
     return _read(path, fewest, stamp(path))
 
@@ -44,17 +37,10 @@ def read_flat_or_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n d"]:
 def read_round(
     path: Path, shape: Literal["circle", "sphere", "cylinder", "plane"], most: int
 ) -> tuple[Float[np.ndarray, "n d"], float]:
-    """Return the points of a shape about the origin, where the circle or sphere that fits them has
-    about the radius 1 m.
+    """Return a shape's points about the origin, its radius about 1 m, and the file's unit per m.
 
-    Args:
-        path: The file, as `read_flat_or_cloud` takes it.
-        shape: What they are points of: of a circle they have two coordinates, of the others three.
-        most: How many points are used; evenly chosen of more.
-
-    Returns:
-        The points, and how many units of the file 1 m of them is. Of a cylinder or a plane, and of
-        an arc so short that its circle is far larger, the box is about the origin, 2 m long.
+    At most `most` points are used, evenly chosen. Of a cylinder or a plane, and of an arc so short
+    that its circle is far larger, the box is about the origin, 2 m long.
 
     Raises:
         InputError: If the file is not understood, has other columns, or all points lie at one

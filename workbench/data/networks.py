@@ -1,7 +1,6 @@
-"""Graphs with known answers: two clubs, two lumps with a bridge, rings, grids, and pairs that are
-hard to tell apart.
+"""Graphs with known answers: clubs, lumps with a bridge, rings, grids, pairs hard to tell apart.
 
-Places are metres, flat ones at z = 0; the edges of those that come without points are part of them.
+Places are metres, flat ones at z = 0.
 """
 
 from dataclasses import dataclass, field
@@ -30,12 +29,10 @@ class Network:
     """A graph whose nodes have places to be drawn at.
 
     Attributes:
-        p: Where the nodes are, metres.
         edges: Each edge once.
-        weights: One per edge.
         classes: Which of two groups each node truly belongs to; empty where there is no such truth.
-        eigenvalues: Of the unweighted graph Laplacian in closed form, ascending; empty where there
-            is none.
+        eigenvalues: Of the unweighted Laplacian in closed form, ascending; empty where there is
+            none.
     """
 
     p: Float[np.ndarray, "n 3"]
@@ -46,15 +43,11 @@ class Network:
 
 
 def karate(weighted: bool = False) -> Network:
-    """Return Zachary's karate club: 34 members, 78 friendships, and which club each joined after
-    the split.
+    """Return Zachary's karate club: 34 members, 78 friendships, and the club each joined.
 
     Class 0 joined the instructor's (node 0, "Mr. Hi"), class 1 the officers' (node 33). Node 8
-    sided with the officers and yet joined the instructor's club: its class is 0 here, and 1 in
-    tables that list opinions.
-
-    Args:
-        weighted: Weights are in how many contexts two members met; 1 otherwise.
+    sided with the officers and yet joined the instructor's club: its class is 0. Weights are in how
+    many contexts two members met.
 
     Reference: Zachary, An information flow model for conflict and fission in small groups, Journal
     of Anthropological Research 33, 1977, figures 1 to 3, tables 1 and 3; the corrected matrix of 78
@@ -78,11 +71,9 @@ def karate(weighted: bool = False) -> Network:
 def drawn(
     edges: Int[np.ndarray, "e 2"], count: int, width: float = 2.4
 ) -> Float[np.ndarray, "n 3"]:
-    """Return places in the plane for nodes without any: as far apart as they are in edges, as well
-    as may be.
+    """Return places in the plane for nodes: as far apart as they are in edges, `width` m at most.
 
-    Nodes out of each other's reach count as two edges farther apart than any others. The longest
-    side is `width` metres.
+    Nodes out of each other's reach count as two edges farther apart than any others.
     """
     if count < 2:
         return np.zeros((count, 3))
@@ -96,18 +87,11 @@ def drawn(
 def dumbbell(
     count: int, share: float, bridge: int, *, rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return points of two round lumps, 2 m apart, with a row of points between them; and their
-    classes.
+    """Return points of two round lumps, 2 m apart, with a row between them; and 0 left, 1 right.
 
     Args:
-        count: Points of both lumps.
-        share: What part of them is on the left.
-        bridge: How many points the row has, about as far apart as those of the lumps where there
-            are 14; 0 leaves a gap, half a metre wider.
-        rng: Where chance comes from.
-
-    Returns:
-        Places (n, 3) at z = 0, and 0 or 1 for each: left or right of the middle.
+        share: What part of the points is on the left.
+        bridge: How many points the row has; 0 leaves a gap, half a metre wider.
     """
     left = round(share * count)
     lumps = rng.normal(size=(count, 2)) * 0.25 + np.where(np.arange(count) < left, -1.0, 1.0)[
@@ -133,8 +117,7 @@ def ring(count: int) -> Network:
 
 
 def grid(columns: int, rows: int) -> Network:
-    """Return a grid of nodes; its eigenvalues are the sums of those of two paths, 2 - 2 cos(pi j /
-    n).
+    """Return a grid of nodes; its eigenvalues are sums of two paths', 2 - 2 cos(pi j / n).
 
     Reference: Spielman 2019, sections 6.3 (products) and 6.6 (paths).
     """
@@ -149,11 +132,9 @@ def grid(columns: int, rows: int) -> Network:
 
 
 def star_and_square() -> Network:
-    """Return a star of five nodes, class 0, and a square with a lone node, class 1: their adjacency
-    has one spectrum.
+    """Return a star of five nodes, class 0, and a square with a lone node: they have one spectrum.
 
-    Reference: Cvetkovic, Doob and Sachs, Spectra of graphs, 1980, section 6.1: the smallest such
-    pair.
+    Reference: Cvetkovic, Doob and Sachs, Spectra of graphs, 1980, section 6.1.
     """
     square, edges = _cycle(4, 0.6)
     star = np.concatenate([[[0.0, 0, 0]], square])
@@ -163,8 +144,7 @@ def star_and_square() -> Network:
 
 
 def hexagon_and_triangles() -> Network:
-    """Return a hexagon, class 0, and two triangles, class 1: every node has two neighbours, and so
-    no message differs.
+    """Return a hexagon, class 0, and two triangles: every node has two neighbours.
 
     Reference: Xu, Hu, Leskovec and Jegelka, How powerful are graph neural networks?, ICLR 2019,
     section 5.

@@ -1,6 +1,4 @@
-"""A person's own mesh as a surface on which something can be measured: read, mended where its shape
-stays, or refused.
-"""
+"""A person's own mesh to measure on: read, mended where its shape stays, or refused."""
 
 from pathlib import Path
 
@@ -18,14 +16,9 @@ from workbench.numerals import counted
 def read_surface(
     path: Path, most: int
 ) -> tuple[Float[ndarray, "v 3"], Int[ndarray, "f 3"], tuple[str, ...]]:
-    """Read a mesh and mend it where its surface stays as it is.
+    """Read a mesh and mend it where its shape stays: vertices, faces, and in words what was mended.
 
-    Args:
-        path: A mesh file, as `read_mesh` takes it.
-        most: So many vertices it may have, and twice as many faces.
-
-    Returns:
-        Vertices in the unit of the file, faces, and in words what was mended.
+    It may have `most` vertices, and twice as many faces.
 
     Raises:
         InputError: If it is too large, or no surface whose curvature could be told; names the file.
@@ -68,15 +61,9 @@ def read_surface(
 def read_welded(
     path: Path, most: int, done: str
 ) -> tuple[Float[ndarray, "v 3"], Int[ndarray, "f 3"]]:
-    """Read a mesh as it is, equal vertices made one.
+    """Read a mesh of at most `most` faces as it is, equal vertices made one.
 
-    Args:
-        path: A mesh file, as `read_mesh` takes it.
-        most: So many faces it may have.
-        done: What is done with them, for a refusal: "measured".
-
-    Returns:
-        Vertices in the unit of the file, and faces.
+    `done` says what is done with the faces, for a refusal: "measured".
 
     Raises:
         InputError: If it is too large, or has no area; names the file.

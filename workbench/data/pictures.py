@@ -1,6 +1,4 @@
-"""A person's pictures of views, in a folder or a zip: found by name, and decoded one by one when
-they are shown.
-"""
+"""A person's pictures of views, in a folder or a zip; each is decoded when it is shown."""
 
 import functools
 import io
@@ -36,8 +34,8 @@ class Pictures:
 
     Attributes:
         path: The folder or zip that they are in, or a picture itself.
-        names: Of every view the name of its picture there, or None where it has none.
-        size: Their width and height, upright as a camera says that it was held.
+        names: Of every view the name of its picture, or None.
+        size: Width and height, upright as a camera says that it was held.
     """
 
     path: Path
@@ -45,11 +43,7 @@ class Pictures:
     size: tuple[int, int]
 
     def shown(self, view: int, most: int) -> UInt8[np.ndarray, "h w *channels"] | None:
-        """Return the picture of a view, (h, w) grey or (h, w, 3) RGB, or None where it has none.
-
-        Args:
-            view: Which view, from 0 on.
-            most: It is shrunk to this many pixels along its longer side, where it has more.
+        """Return the picture of a view, or None, its longer side at most `most` pixels.
 
         Raises:
             InputError: If it cannot be read any more.
@@ -73,7 +67,7 @@ def grey_picture(path: Path, name: str) -> UInt8[np.ndarray, "h w"]:
 
 
 def stamp_of(path: Path, name: str) -> tuple[int, int]:
-    """Return when a picture of a folder or zip, or what holds it, was changed, and its size.
+    """Return when a picture, or what holds it, was changed, and its size.
 
     Raises:
         InputError: If it is gone.
@@ -93,8 +87,7 @@ def names_in(path: Path) -> tuple[str, ...]:
     In a folder only what lies there itself is taken, no link that leads out of it.
 
     Raises:
-        InputError: If there is no such file, no picture in it, or too many, or two of the same
-            name.
+        InputError: If there is no such file, no picture, too many, or two of the same name.
     """
     if path.is_dir():
         home = path.resolve()
@@ -125,8 +118,7 @@ def names_in(path: Path) -> tuple[str, ...]:
 
 @apart
 def pictures_of(path: Path, names: tuple[str | None, ...]) -> Pictures:
-    """Return pictures by their names, of every view one or None, once all are seen to be pictures
-    of one size.
+    """Return pictures by their names, once all are seen to be pictures of one size.
 
     Raises:
         InputError: If one cannot be read, or has another size than the first.
@@ -143,14 +135,9 @@ def pictures_of(path: Path, names: tuple[str | None, ...]) -> Pictures:
 
 
 def matched(path: Path, views: Sequence[str], count: int) -> tuple[str | None, ...]:
-    """Return of every view the name of its picture: the one of the view's name, or else all in the
-    order of their names.
+    """Return of every view its picture: the one of the view's name, or else all in order.
 
-    Args:
-        path: A folder or a zip.
-        views: What the pictures of the views are called, with or without ending; empty where nobody
-            said.
-        count: How many views there are.
+    `views` are what their pictures are called; empty where nobody said.
 
     Raises:
         InputError: If no name fits and there are not as many pictures as views, or as `names_in`
@@ -196,9 +183,7 @@ def _opened_zip(path: Path) -> zipfile.ZipFile:
 
 
 def _source(path: Path, name: str) -> Path | io.BytesIO:
-    """Return where a picture is read from: a file, or the bytes of a zip's member, never more than
-    it said or may have.
-    """
+    """Return a file, or the bytes of a zip's member, never more than it said or may have."""
     if not holds_many(path):
         stamp(path)
         return path
@@ -227,9 +212,7 @@ def _size(path: Path, name: str) -> tuple[int, int]:
 
 
 def _is_of_a_camera(image: "Image.Image") -> bool:
-    """Tell whether a camera may have written how it was held; of a PNG that is only known once all
-    is decoded.
-    """
+    """Tell whether a camera may have written how it was held."""
     return image.format != "PNG"
 
 
@@ -245,9 +228,8 @@ def _upright(path: Path, name: str, most: int | None = None, kind: str | None = 
     with opened_image(_source(path, name), PurePosixPath(name).name) as image:
         kind = kind or ("L" if image.mode in ("1", "L", "LA") else "RGB")
         if most is not None:
-            image.draft(
-                kind, (most, most)
-            )  # a JPEG is decoded at half or quarter size where that is enough
+            # a JPEG is decoded at half or quarter size where that is enough
+            image.draft(kind, (most, most))
         upright = (ImageOps.exif_transpose(image) if _is_of_a_camera(image) else image).convert(
             kind
         )

@@ -45,8 +45,7 @@ def between_cities(route: str) -> Places:
 
 @apart
 def read_places(path: Path) -> Places:
-    """Return the places of a text file: per line latitude, longitude and maybe a name, between
-    commas, semicolons or tabs.
+    """Return the places of a text file: per line latitude, longitude and maybe a name.
 
     Lines that begin with #, empty ones, and a first line of words are left out. Longitudes may run
     to 360.

@@ -1,6 +1,4 @@
-"""A function under test: calls the student's function, holds its results to the contract, and
-remembers every call.
-"""
+"""Calls a function under test, holds its results to the contract, remembers every call."""
 
 import builtins
 import functools
@@ -32,7 +30,7 @@ class Answer:
 
 @dataclass(frozen=True, eq=False)
 class Call:
-    """One call of a candidate: what it was given, what it said, and what our function says.
+    """One call of a candidate: its arguments, its answer, and ours.
 
     Attributes:
         args: The arguments.
@@ -54,14 +52,12 @@ class Call:
 
 
 class Candidate:
-    """A function whose results have the shape, kind and finiteness of the reference's, else a
-    StudentError says why not.
+    """A function held to the reference's shape, kind and finiteness, else a StudentError.
 
     Args:
         function: The student's function in its process, or one of ours (a mistake, an alternative).
-        reference: Ours, called with the same arguments for the shape of the answer.
-        remember: Whether the calls are kept, to recognise mistakes by; a run that is only watched
-            does not need them.
+        remember: Whether calls are kept, to recognise mistakes by; a run that is watched needs
+            none.
     """
 
     def __init__(self, function: Function, reference: Function, *, remember: bool = True):
@@ -113,9 +109,7 @@ class Candidate:
 
     @property
     def changed_inputs(self) -> bool:
-        """Whether the last call changed what it was given, in a student's process or, for one of
-        ours, in this one.
-        """
+        """Whether the last call changed what it was given."""
         return self._changed or bool(getattr(self.function, "changed_inputs", False))
 
     def _keep(self, args: tuple[Any, ...], answer: Answer, right: Answer) -> None:
@@ -123,9 +117,7 @@ class Candidate:
             self.calls.append(Call(args, answer, right))
 
     def _right(self, args: tuple[Any, ...]) -> Answer:
-        """Ours; None and an error on input for which the contract asks for one: nothing to hold the
-        answer to.
-        """
+        """Ours; None and an error on input for which the contract asks for one."""
         try:
             with np.errstate(all="ignore"):
                 return Answer(self._reference(*_copied(args)), "")
@@ -134,9 +126,7 @@ class Candidate:
 
 
 def raised(error: Exception) -> Answer:
-    """Return what a function said that raised this: the name of Python's own error that it is one
-    of.
-    """
+    """Return what a function said that raised this: Python's own error that it is one of."""
     return Answer(None, _known(kind.__name__ for kind in type(error).__mro__))
 
 
@@ -150,8 +140,7 @@ def _copied(args: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def held_to_contract(value: Any, expected: Any, name: str) -> Any:
-    """Return a value as plain float64, int64 or bool, if it has the shape and kind of what is
-    expected.
+    """Return a value as plain float64, int64 or bool, of the expected shape and kind.
 
     Raises:
         StudentError: Says what came and what the contract asks for.
@@ -204,9 +193,7 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
 
 
 def _as_values(value: Any, expected: Sequence[Any]) -> Any:
-    """Return an array that has a part for each value asked for as these parts, numbers that count
-    as whole ones.
-    """
+    """Return an array with a part for each value asked for as these parts."""
     if not isinstance(value, np.ndarray) or value.shape[:1] != (len(expected),):
         return value
     whole = [np.asarray(one).dtype.kind in "iu" for one in expected]
@@ -218,9 +205,7 @@ def _as_values(value: Any, expected: Sequence[Any]) -> Any:
 
 
 def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
-    """Raise StudentError where a number that should be finite is not, or is too large to be
-    computed with.
-    """
+    """Raise StudentError where a number is not finite, or too large, and should not be."""
     known = np.isfinite(wanted)
     finite = np.isfinite(got)
     most = LARGEST * np.abs(wanted[known]).max(initial=1.0)

@@ -21,25 +21,18 @@ HOW = {
 
 
 def is_full(result: Result, worth: Mapping[str, float] | None = None) -> bool:
-    """Whether all that a student handed in, and all of an assignment, was graded and has full
-    marks.
-    """
+    """Whether all that was handed in, and all of an assignment, has full marks."""
     full = all(report["points"] == report["possible"] for report in result["reports"])
     whole = set(worth or ()) <= {report["exercise"] for report in result["reports"]}
     return bool(result["reports"]) and not result["ungraded"] and full and whole
 
 
 def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = None) -> str:
-    """Return one row per student: points in all and per exercise, and what was wrong but for wrong
-    answers.
+    """Return one row per student: points in all and per exercise, and what else went wrong.
 
-    What could not be graded counts out of its full points; what was not handed in is empty.
-
-    Args:
-        results: The class.
-        worth: The points of an assignment's exercises, in its order. Every student's points are out
-            of all of them, and other exercises count nothing. None counts the points of the checks,
-            out of what was handed in.
+    What could not be graded counts out of its full points; what was not handed in is empty. `worth`
+    has the points of an assignment's exercises, in its order: other exercises count nothing. None
+    counts the points of the checks, out of what was handed in.
     """
     names = list(
         worth
@@ -83,9 +76,7 @@ def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = Non
 
 
 def matrix_csv(results: Sequence[Result]) -> str:
-    """Return students by checks: the share of the points, or how it failed; below, sums and the
-    most frequent mistake.
-    """
+    """Return students by checks: shares or failures; below, sums and the most frequent mistake."""
     checks = list(
         dict.fromkeys(
             (r["exercise"], c["name"])
@@ -119,9 +110,7 @@ def matrix_csv(results: Sequence[Result]) -> str:
 
 
 def summary(results: Sequence[Result], worth: Mapping[str, float] | None = None) -> str:
-    """Return the class in a few lines of Markdown; of an assignment's exercises, where it is
-    given.
-    """
+    """Return the class, or an assignment's exercises, in a few lines of Markdown."""
     graded = [result for result in results if result["reports"]]
     perfect = sum(is_full(result, worth) for result in results)
     lines = [f"# {counted(len(results), 'submission')}", ""]

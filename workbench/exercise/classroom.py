@@ -1,5 +1,4 @@
-"""Grades a folder of submissions in parallel, so that one of them costs nobody else anything, and
-sums a class up.
+"""Grades a folder of submissions in parallel, none at another's cost, and sums a class up.
 
 Every finished student is written at once; a batch that was interrupted goes on where it stopped.
 What changed since is graded again: a student's files, the exercises, the grader, Python, or what
@@ -44,17 +43,14 @@ def grade_class(
     jobs: int = 2,
     progress: Progress | None = None,
 ) -> list[Result]:
-    """Grade all submissions of a folder and write results, class.csv, matrix.csv and summary.md
-    into `out`.
+    """Grade all submissions of a folder; write results, tables and a summary into `out`.
+
+    Submissions are read before the first of them runs; results in `out` that still fit stay.
 
     Args:
-        folder: Where the submissions are; they are read before the first of them runs.
-        out: Where the results go; what is there and still fits is not graded again.
-        asked: Which exercises, and what shuts submissions in.
         roster: A table of those who should have handed in.
         worth: The points of an assignment's exercises; None counts the points of the checks.
         executor: Where the work runs; None uses `jobs` processes of this machine.
-        jobs: How many students are graded at a time.
         progress: Told of each that is done.
 
     Raises:
@@ -119,9 +115,7 @@ def _lost(task: Task) -> Result:
 
 
 def stems(names: Mapping[str, Any]) -> dict[str, str]:
-    """Return the name of each student's file: none is another's, not even where capitals do not
-    count.
-    """
+    """Return the name of each student's file: none is another's, capitals apart."""
     plain = {name: re.sub(r"[^\w.-]", "_", name)[:80] for name in names}
     counted: dict[str, int] = {}
     for stem in plain.values():
@@ -165,16 +159,14 @@ def grade_folder(
     tell: TextIO,
     result: TextIO,
 ) -> int:
-    """Grade a folder as the command does, with a progress bar on `tell` and the summary on
-    `result`.
+    """Grade a folder as the command does: a progress bar on `tell`, the summary on `result`.
 
     Returns:
-        0 when every submission has full marks, 1 when not, 2 when none could be graded, 130 when it
-        was interrupted.
+        0 when all have full marks, 1 when not, 2 when none could be graded, 130 when interrupted.
 
     Raises:
-        InputError: If it cannot be done; also where nothing would shut submissions in and that was
-            not asked for.
+        InputError: If it cannot be done; also where nothing shuts submissions in and nobody asked
+            for that.
     """
     if jobs is not None and jobs < 1:
         raise InputError(f"--jobs {jobs}: at least 1")

@@ -1,8 +1,6 @@
-"""A lesson with the student's function in the slot, the reference's run beside it as a ghost, step
-by step.
+"""A lesson with the student's function in the slot, the reference's run beside it as a ghost.
 
-The result is an ordinary lesson, so it is watched live, stepped back through and recorded like any
-other.
+The result is an ordinary lesson, so it is watched live, stepped back through and recorded.
 """
 
 import itertools
@@ -37,15 +35,12 @@ DIFFERENCE = "exercise/difference"
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """One step of both runs, drawn once: `theirs` is None where the student's function gave
-    nothing.
+    """One step of both runs, drawn once.
 
-    Args:
-        ours: The reference's state.
-        theirs: The state of the student's run.
+    Attributes:
+        ours, theirs: The states; None where the student's function gave nothing.
         trouble: Why there is none.
-        line: The student's own line where it went wrong, 0 where it did not or the line is not
-            known.
+        line: The student's own line where it went wrong, 0 where it is not known.
         difference: How far the two scenes are apart.
         first: Whether this is the first step at which they differ.
         called: Whether the run has called the student's function, up to this step.
@@ -65,11 +60,9 @@ class Pair:
 
 
 class _Beside:
-    """A student's function as a run calls it; remembers whether it was called, and whether it
-    answered otherwise than ours.
+    """A student's function as a run calls it; remembers whether it was called, and differed.
 
-    Where it never did, the two runs part by rounding at most, however far: equal costs are told
-    apart by it.
+    Where it never did, the two runs part by rounding at most: equal costs are told apart by it.
     """
 
     def __init__(self, function: Function, exercise: Exercise):
@@ -160,9 +153,7 @@ class _Drawn:
 
 
 def _trouble(error: Exception, exercise: Exercise) -> tuple[str, int]:
-    """Say what went wrong, and in which line: the student's own error, or that the lesson cannot
-    use what came back.
-    """
+    """Say what went wrong, and in which line: the student's own error, or the lesson's."""
     if isinstance(error, StudentError):
         return str(error), error.line
     said = " ".join(str(error).split())[:200]
@@ -186,8 +177,7 @@ def _difference(value: float) -> Scalar:
 
 
 def gap(a: Scene, b: Scene) -> float:
-    """Return how far two scenes are apart: the largest distance between their points, or difference
-    of their scalars.
+    """Return how far two scenes are apart: the largest distance of points, or of scalars.
 
     Scalars are compared relative to their size where that is above 1. Things that one scene lacks,
     or that have another number of points, are infinitely far apart.
@@ -224,9 +214,7 @@ def _in_world(primitive: Points | Mesh | Segments) -> np.ndarray:
 
 
 def calls_it(timeline: Timeline) -> bool | None:
-    """Return whether a student's run calls the function; None where it is none, or that is not
-    known yet.
-    """
+    """Return whether a student's run calls the function; None where that is not known."""
     steps = timeline.known()
     if not steps or not isinstance(steps[-1].state, Pair):
         return None
@@ -236,9 +224,7 @@ def calls_it(timeline: Timeline) -> bool | None:
 
 
 def first_difference(steps: Iterable[Step]) -> int | None:
-    """Return the first step at which the student's run differs or fails, None where it never does
-    or there is none.
-    """
+    """Return the first step at which the student's run differs or fails, or None."""
     for k, step in enumerate(steps):
         if not isinstance(step.state, Pair):
             return None

@@ -1,6 +1,4 @@
-"""The first failing case as a recording that opens where the student's run leaves the
-reference's.
-"""
+"""The first failing case as a recording, open where the student's run leaves ours."""
 
 import time
 from dataclasses import replace
@@ -22,18 +20,10 @@ AFTER = 12
 def record_failing(
     exercise: Exercise, path: Path, out: Path | None = None, *, lesson: Lesson | None = None
 ) -> Path | None:
-    """Write a recording of the student's run beside the reference's, from just before the first
-    step that differs.
+    """Write a recording of the student's run beside ours, from just before the first difference.
 
-    Args:
-        exercise: What the file is for.
-        path: The student's file.
-        out: The recording; beside the file, with its name, by default.
-        lesson: The exercise's lesson, where the catalogue does not have it.
-
-    Returns:
-        The recording's path; None where the lesson's runs show no difference soon, or none could be
-        recorded.
+    `out` is beside the file by default; None is returned where runs show no difference soon, or
+    none could be recorded.
     """
     try:
         from workbench.recording import record_bytes
@@ -60,16 +50,9 @@ def record_failing(
 def failing_run(
     exercise: Exercise, student: SandboxedFunction, lesson: Lesson | None = None
 ) -> tuple[Timeline, int] | None:
-    """Return a run of the lesson in which a student's function differs from ours, and the first
-    step that does.
+    """Return a run in which a student's function differs from ours, and its first step that does.
 
-    Args:
-        exercise: What the function is for.
-        student: The function.
-        lesson: The exercise's lesson, where the catalogue does not have it.
-
-    Returns:
-        A few steps beyond the first difference; None where the lesson's runs show none soon.
+    It ends a few steps beyond; None where the lesson's runs show no difference soon.
     """
     lesson = catalog()[exercise.lesson] if lesson is None else lesson
     end = time.monotonic() + SECONDS

@@ -29,15 +29,13 @@ def exercises() -> dict[str, Exercise]:
 
 
 def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
-    """Return the exercises of a lesson: the files of the `exercises` folder beside it, in the order
-    of its run's keywords.
+    """Return the exercises of a lesson, its folder's files, in the order of its run's keywords.
 
     Of a third party's lesson, those that cannot be loaded or whose name is taken are left out with
     a warning.
 
     Raises:
-        InputError: If an exercise of the course, or of a lesson that is not in the catalogue, says
-            too little.
+        InputError: If one of the course, or of a lesson outside the catalogue, says too little.
     """
     listed = catalog().get(lesson.name)
     return (
@@ -49,8 +47,7 @@ def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
 
 @functools.cache
 def usable() -> dict[str, tuple[Exercise, ...]]:
-    """Return the exercises of the catalogue's lessons by the lesson's name; the course's come first
-    where names clash.
+    """Return the catalogue's exercises by lesson; the course's come first where names clash.
 
     Raises:
         InputError: If two lessons of the course have an exercise of one name; tells both places.
@@ -151,14 +148,8 @@ def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tupl
     They are those that `said_for` finds; where it finds none, those whose functions the file
     defines.
 
-    Args:
-        given: The file, or what was read of it.
-        lesson: The lesson whose exercises are looked for; all of the catalogue's where none is
-            given.
-
     Raises:
-        InputError: If the file cannot be read, does not parse (with the line), or defines none of
-            them.
+        InputError: If the file cannot be read, does not parse (with the line), or defines none.
     """
     submission = given if isinstance(given, Submission) else read_submission(given)
     if submission.broken:
@@ -185,8 +176,7 @@ def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exer
 
     A starter's first line says so, or else words of the file's name. What it says counts where the
     file defines such a function. Where it does not, the first line still counts, and so does a name
-    like `my_match.py`; other words may be no exercise's ("final_project.py"), and count only where
-    the file defines no exercise's function at all.
+    like `my_match.py`; other words count only where the file defines no exercise's function at all.
     """
     asked = known(lesson)
     lines, words = (
@@ -202,9 +192,7 @@ def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exer
 
 
 def _in_words(file: str, names: Iterable[str]) -> list[str]:
-    """Return those of some names whose words stand in a row in a file's name, in any case; of two
-    there the longer.
-    """
+    """Return the names whose words stand in a row in a file's name; of two the longer."""
     words = _words(file)
     places: list[tuple[int, int, str]] = []
     for name in names:

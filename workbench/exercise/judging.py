@@ -1,8 +1,6 @@
-"""Verdicts that many exercises need: the worst of several, motions in degrees and metres, errors
-asked for, inputs kept.
+"""Verdicts that many exercises need; they know numpy only.
 
-They know numpy only, so that what judges an answer is independent of the functions that made the
-right one.
+So what judges an answer is independent of the functions that made the right one.
 """
 
 from collections.abc import Iterable
@@ -31,9 +29,7 @@ def rotation_verdict(
     fair: float = 2.0,
     name: str = "R",
 ) -> Verdict:
-    """Judge a rotation by the angle to the right one, in degrees; what is no rotation earns
-    nothing.
-    """
+    """Judge a rotation by the angle to the right one, degrees; no rotation earns nothing."""
     hint = beside(R, R_right, hint, name)
     off, det = float(np.abs(R.T @ R - np.eye(3)).max()), float(np.linalg.det(R))
     if off > SKEWED or det < 0:
@@ -59,17 +55,12 @@ def motion_verdict(
     metres: tuple[float, float] = (1e-3, 2e-2),
     name: str = "T",
 ) -> Verdict:
-    """Judge a motion by its rotation error in degrees and by how far it takes points from where
-    they belong.
+    """Judge a motion by its rotation error and by how far it takes points from where they belong.
 
     Args:
-        T: The answer.
-        T_right: The right one.
-        hint: What to look at where it is wrong.
         p: The points, in metres; the origin where they are not given.
         degrees: Up to where all, and up to where half the points are earned.
         metres: The same for the largest distance.
-        name: What the answer is called.
     """
     off = float(np.abs(T[3] - [0.0, 0.0, 0.0, 1.0]).max())
     if off > SKEWED:
@@ -99,9 +90,7 @@ def degrees_between(R: np.ndarray, other: np.ndarray) -> float:
 
 
 def refused(candidate: Function, *args: Any, what: str) -> Verdict:
-    """Judge a call on which the contract asks for a ValueError: all for one, half for an error of
-    another name.
-    """
+    """Judge a call that asks for a ValueError: all for one, half for another error."""
     try:
         value = candidate(*args)
     except StudentError as error:
@@ -115,10 +104,9 @@ def refused(candidate: Function, *args: Any, what: str) -> Verdict:
 
 
 def left_alone(candidate: Function, verdict: Verdict) -> Verdict:
-    """Return the verdict on the last call's answer, or the failure to leave the arguments as they
-    were.
+    """Return the verdict on the last call's answer, or that the call changed its arguments.
 
-    The check that returns this one fails too where any call of another check changed its arguments.
+    The check that returns this one fails too where any call of another check changed them.
     """
     if isinstance(candidate, Candidate):
         candidate.looks_at_inputs = True
@@ -154,15 +142,9 @@ def changed(args: tuple[Any, ...]) -> Verdict:
 
 
 def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
-    """Return the hint behind the two numbers, yours and the right one, where an answer is farthest
-    off.
+    """Return the hint behind the two numbers, yours and right, where an answer is farthest off.
 
-    Args:
-        got: The answer: a number, a vector, a matrix, or points in rows, of which the whole row is
-            told.
-        right: The right one, of the same shape.
-        hint: What to look at.
-        name: What the answer is called, such as R.
+    Of points in rows the whole row is told.
     """
     got, right = np.asarray(got, dtype=float), np.asarray(right, dtype=float)
     if got.shape != right.shape or got.size == 0:

@@ -1,6 +1,4 @@
-"""Marks what one student handed in: which files are for which exercises, each graded, whatever goes
-wrong said.
-"""
+"""Marks what one student handed in: which files for which exercises, each graded."""
 
 import functools
 import hashlib
@@ -36,8 +34,7 @@ class Asked:
 
     Attributes:
         only: The exercises that are graded; empty for those that each file is handed in for.
-        lesson: The path of a lesson that the catalogue does not have; the processes that grade load
-            it by that.
+        lesson: The path of a lesson that the catalogue does not have.
         sandbox: The name of the wall that shuts submissions in.
         seed: A teacher's number that the hidden checks are drawn from; None takes their usual
             seeds.
@@ -88,9 +85,7 @@ class Asked:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A file of a student that is graded by an exercise: by its path in the student's folder, and
-    as it was read.
-    """
+    """A file that an exercise grades: its path in the student's folder, and as it was read."""
 
     file: str
     given: Submission
@@ -121,9 +116,7 @@ def _loaded(path: Path) -> Lesson:
 
 @functools.cache
 def _grader() -> str:
-    """Return what tells one grader from another: the text of the workbench, and the versions
-    beneath.
-    """
+    """Return what tells one grader from another: the workbench's text, and the versions beneath."""
     ours = _text(Path(__file__).parents[1])
     return f"{ours} {sys.version} {np.__version__} {scipy.__version__}"
 
@@ -135,9 +128,7 @@ def _text(folder: Path) -> str:
 
 
 def grade_student(handed: HandIn, asked: Asked) -> Result:
-    """Grade what one student handed in and return the result as plain data; whatever goes wrong is
-    part of it.
-    """
+    """Grade what one student handed in; whatever goes wrong is part of the result."""
     result = empty(handed, asked)
     try:
         wall = named(asked.sandbox)
@@ -170,14 +161,7 @@ def grade_student(handed: HandIn, asked: Asked) -> Result:
 def marked(
     part: Part, wall: Wall, megabytes: int | None = None, seed: int | None = None
 ) -> Report | dict[str, Any]:
-    """Return the report on a file, or as what `ungraded` makes of it that it cannot be graded.
-
-    Args:
-        part: The file, and the exercise.
-        wall: What shuts the student's process in.
-        megabytes: Address space of that process, where it is not what it has everywhere.
-        seed: What the hidden checks are drawn from; None takes their usual seeds.
-    """
+    """Return the report on a file, or what `ungraded` makes of it that it cannot be graded."""
     try:
         report = grade_file(part.given, part.exercise, wall=wall, megabytes=megabytes, seed=seed)
         return replace(report, file=part.file)
@@ -191,9 +175,7 @@ def not_handed_in(exercise: Exercise) -> dict[str, Any]:
 
 
 def _parts_of_lessons(result: Result, asked: Asked) -> list[str]:
-    """Say of each lesson of which some exercises are there and others not how many are: "pose 2 of
-    3".
-    """
+    """Say of each lesson of which only some exercises are there how many: "pose 2 of 3"."""
     all_of_them = finding.known(asked.loaded()).values()
     there = {item["exercise"] for item in (*result["reports"], *result["ungraded"])}
     lessons = dict.fromkeys(exercise.lesson for exercise in all_of_them if exercise.name in there)
@@ -229,9 +211,7 @@ def summed(result: Result) -> Result:
 
 
 def chosen(handed: HandIn, asked: Asked) -> Chosen:
-    """Return what is graded of what a student handed in, and what cannot be; what only helps other
-    files is neither.
-    """
+    """Return what is graded of a hand-in, and what cannot be; files that only help are neither."""
     troubles = [ungraded(file, None, said) for file, said in handed.troubles]
     read: dict[str, Submission] = {}
     with Reader() as reader:
@@ -311,9 +291,7 @@ def _read_one(handed: HandIn, file: str, reader: Reader) -> Submission:
 
 
 def digest(handed: HandIn, asked: Asked) -> str:
-    """Return what a kept result must agree with: what was handed in, what was asked for, and who
-    graded it.
-    """
+    """Return what a kept result must agree with: hand-in, what was asked for, and the grader."""
     parts = [handed.student, handed.note, asked.digest(), repr(handed.troubles)]
     parts += [f"{name} {hashlib.sha256(data).hexdigest()}" for name, data in handed.files.items()]
     return hashlib.sha256("\0".join(parts).encode("utf-8", "surrogateescape")).hexdigest()

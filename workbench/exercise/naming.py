@@ -39,8 +39,7 @@ class Evidence:
     """How some calls speak for a mistake.
 
     Attributes:
-        weight: How much in the answers differs from the right ones as the mistake's do, and is not
-            given by chance.
+        weight: How much in the answers is wrong as the mistake's are, and not by chance.
         made: On how many calls for which the contract asks for an error the mistake was made.
         spared: On how many of those on which the mistake is one the right error was raised.
         other: On how many such calls something else went wrong.
@@ -60,18 +59,12 @@ class Evidence:
 def diagnose(
     calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise
 ) -> Mistake | None:
-    """Return the one mistake whose answers are those of the calls and are not the right ones; None
-    if there is none.
+    """Return the one mistake whose answers are those of the calls and not the right ones, or None.
 
     It is looked for in all calls first, then in those of each failing check alone: who makes two
     mistakes makes one of them in most of the checks that fail, or it is not what to mend first. A
     mistake that refused calls alone tell of, and one whose sentence says that all else is right, is
     named only where all else is right.
-
-    Args:
-        calls: By check, what the student's function was asked, and what it said.
-        failing: The names of the checks that failed.
-        exercise: Whose mistakes are compared.
     """
     if not failing:
         return None
@@ -106,9 +99,7 @@ def _in_some_checks(
 
 
 def _the_most(weights: dict[Mistake, int], least: int) -> Mistake | None:
-    """Return the mistake with the most weight, if it has at least this much; none where two have as
-    much.
-    """
+    """Return the mistake with the most weight, at least this; none where two have as much."""
     most = max(weights.values(), default=0)
     first = [mistake for mistake, weight in weights.items() if weight == most]
     return first[0] if most >= least and len(first) == 1 else None
@@ -143,9 +134,7 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
 
 
 def _is_apart(mistaken: Answer, right: Sequence[Answer]) -> bool:
-    """Tell whether right answers that differ are near to each other, and the mistake's is none of
-    them.
-    """
+    """Tell whether the mistake's answer is none of the right ones, which are near each other."""
     spread = max(_gap(one, right[0]) for one in right)
     return _size(right[0]) * NEAR > spread < FAR * min(_gap(one, mistaken) for one in right)
 
@@ -172,9 +161,7 @@ def _gap(a: Answer, b: Answer) -> float:
 
 
 def _wrong_entries(mistaken: Any, right: Any, numbers: set[float]) -> int:
-    """Return how many entries of an array are wrong; a single number is added to those that were
-    given.
-    """
+    """Return how many entries are wrong; a single number is added to those given."""
     try:
         wrong, known = np.asarray(mistaken, dtype=float), np.asarray(right, dtype=float)
     except (TypeError, ValueError):
@@ -236,9 +223,7 @@ def _answered(function: Function, key: tuple[Any, ...]) -> Answer:
 
 
 def _is_beyond(arg: Any) -> bool:
-    """Tell whether an argument, which may come from a student's answer, has numbers that are too
-    large or too small.
-    """
+    """Tell whether an argument has numbers that are too large or too small."""
     if not (isinstance(arg, float) or (isinstance(arg, np.ndarray) and arg.dtype.kind == "f")):
         return False
     size = np.abs(arg)[()]

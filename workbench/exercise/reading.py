@@ -1,6 +1,4 @@
-"""Has hand-ins read by a process with limits, so that none of them can stall the grader or take its
-memory.
-"""
+"""Has hand-ins read by a process with limits, so that none can stall the grader."""
 
 import base64
 import contextlib
@@ -25,9 +23,7 @@ MOST_LOST = 3
 
 
 class Reader:
-    """Reads files, one after the other, in one process that is started when it is needed, and anew
-    after one that hangs.
-    """
+    """Reads files in one process, started when it is needed, and anew after one that hangs."""
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None

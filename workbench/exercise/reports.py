@@ -1,6 +1,4 @@
-"""What grading found, as text and as files: terminal, our JSON, Gradescope, JUnit, a Markdown
-summary.
-"""
+"""What grading found, as text and files: terminal, JSON, Gradescope, JUnit, Markdown."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -25,9 +23,7 @@ MARKS = {"pass": "✓", "partial": "◐", "fail": "✗"}
 
 
 def terminal(report: Report) -> str:
-    """Return a report for a person: per check its mark, points, promise and what was found, then
-    what was run.
-    """
+    """Return a report for a person: per check its mark, points, promise and what was found."""
     lines = [f"{report.exercise.name} · {one_line(report.file)}"]
     for outcome in report.outcomes:
         points = f"{outcome.points:g}/{outcome.check.points:g}"
@@ -49,9 +45,7 @@ def terminal(report: Report) -> str:
 
 
 def counted(report: Report) -> str:
-    """Return the last line of a report: what passed, and what was not run here. Never a sentence
-    that reads as done.
-    """
+    """Return the last line of a report: what passed, and what was not run here."""
     parts = []
     for word, public in (("public", True), ("hidden", False)):
         run = [outcome for outcome in report.outcomes if outcome.check.public is public]
@@ -65,9 +59,7 @@ def counted(report: Report) -> str:
 
 
 def shown(printed: str) -> list[str]:
-    """Return the first lines of what was printed, with signs that a terminal would obey written
-    out.
-    """
+    """Return the first lines of what was printed, signs for a terminal written out."""
     lines = [one_line(line)[:PRINTED_SIGNS] for line in printed.split("\n") if line.strip()]
     return [*lines[:PRINTED_LINES], *(["..."] if len(lines) > PRINTED_LINES else [])]
 
@@ -77,9 +69,7 @@ def _is_unsafe(report: Report) -> bool:
 
 
 def ungraded(file: str, exercise: Exercise | None, error: str) -> dict[str, Any]:
-    """Return what could not be graded as plain data: it has no points out of all those there
-    were.
-    """
+    """Return what could not be graded as plain data: no points out of all there were."""
     return {
         "file": one_line(file),
         "exercise": None if exercise is None else exercise.name,
@@ -144,10 +134,8 @@ def gradescope(
     """Return the `results.json` that Gradescope reads.
 
     Args:
-        reports: What was graded.
-        failed: What could not be, as `ungraded` says it.
-        factors: What a point of an exercise is worth, by the exercise's name; 1 where nothing is
-            said.
+        failed: What could not be graded, as `ungraded` says it.
+        factors: What a point of an exercise is worth, by name; 1 where nothing is said.
         hidden: When hidden checks are shown: `after_published` or `after_due_date`.
         notes: What else is to be said.
 
@@ -220,9 +208,7 @@ def _named(report: Report, outcome: Outcome) -> list[str]:
 
 
 def junit(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> str:
-    """Return JUnit XML, as Jenkins reads it: a suite per function, a case per check; an error where
-    none could be run.
-    """
+    """Return JUnit XML: a suite per function, a case per check; an error where none was run."""
     root = ElementTree.Element("testsuites")
     for report in reports:
         failures = sum(outcome.verdict.share < 1.0 for outcome in report.outcomes)
@@ -295,11 +281,6 @@ def write_files(
     reports: Sequence[Report], folder: Path, failed: Sequence[dict[str, Any]] = ()
 ) -> None:
     """Write result.json, Gradescope's results.json, junit.xml and summary.md into a folder.
-
-    Args:
-        reports: What was graded.
-        folder: Made where it is not there.
-        failed: What could not be graded, as `ungraded` says it.
 
     Raises:
         InputError: If one of them cannot be written; names it.

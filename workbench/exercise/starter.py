@@ -1,6 +1,4 @@
-"""Writes what a student starts from, a file with the signature, the contract and two examples, and
-a sample solution.
-"""
+"""Writes what a student starts from: signature, contract, two examples, a sample solution."""
 
 import inspect
 import textwrap
@@ -22,12 +20,7 @@ from workbench.run.loading import word_for
 
 
 def starter(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
-    """Return the text of a starter file.
-
-    Args:
-        exercise: What it is for.
-        megabytes: What one call may take where it is graded.
-    """
+    """Return the text of a starter file; one call may take `megabytes` where it is graded."""
     function = exercise.reference
     signature = inspect.signature(function)
     arguments = ", ".join(_argument(parameter) for parameter in signature.parameters.values())
@@ -63,8 +56,7 @@ def {exercise.name}({arguments}) -> {returned}:
 
 
 def sample(exercise: Exercise) -> str:
-    """Return the text of a file that earns full marks: a copy of the first alternative, which needs
-    numpy alone.
+    """Return the text of a file that earns full marks: the first alternative, in numpy alone.
 
     Raises:
         InputError: If the exercise has no alternative.
@@ -108,9 +100,7 @@ def allowed(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
 
 
 def commands(exercise: Exercise) -> tuple[str, str, str]:
-    """Return what a student types to get the starter file, to watch the function, and to have it
-    judged.
-    """
+    """Return what a student types to get the starter, to watch the function, to have it judged."""
     lesson = word_for(exercise.lesson, exercise.reference.__module__)
     given = "" if lesson == exercise.lesson and lesson in catalog() else f" --lesson {lesson}"
     file = f"my_{exercise.name}.py"

@@ -1,6 +1,4 @@
-"""What a student handed in, read once, before anything of it runs: text, and the modules beside it
-that it imports.
-"""
+"""What a student handed in, read before anything of it runs: text, and its own modules."""
 
 import os
 import stat
@@ -23,7 +21,6 @@ class Part:
 
     Attributes:
         binds: The names that it gives a value.
-        reads: The names that it reads.
         defines: Whether it is the definition of a function or a class.
         runs: Whether it does something as the file is loaded, beyond that or an import.
         uses: The modules, and what is in them, that it uses: whole paths, each with its line.
@@ -41,7 +38,6 @@ class Submission:
     """One file of a student, as it was when it was read.
 
     Attributes:
-        file: How it is named to people.
         source: Its text; of a notebook, its definitions.
         modules: The modules beside it that it imports, text by name.
         said: The exercises that it says it is for, as a starter's first line does.
@@ -79,13 +75,7 @@ def read_submission(path: Path) -> Submission:
 def submission(
     file: str, data: bytes, extra_file: Callable[[str], bytes | None], reader: Reader
 ) -> Submission:
-    """Return what the bytes of a file are.
-
-    Args:
-        file: Its name; a notebook ends in .ipynb.
-        data: What is in it.
-        extra_file: Gives what is in a file beside it by its name, None where there is none.
-        reader: What reads them.
+    """Return what the bytes of a file are; `extra_file` gives those beside it by name, or None.
 
     Raises:
         InputError: If they are no text, or take too long to read; one line.

@@ -1,6 +1,4 @@
-"""What a class handed in: a folder is read once, before anything of it runs; who handed in nothing
-is found by a roster.
-"""
+"""What a class handed in, read before anything of it runs; a roster tells who is missing."""
 
 import csv
 import io
@@ -29,7 +27,6 @@ class HandIn:
         student: By the file's or the folder's name.
         files: What is in each Python file or notebook, by its path in the student's folder.
         troubles: What could not be read: the file, and one line.
-        note: What else is to be said of the student.
     """
 
     student: str
@@ -39,12 +36,9 @@ class HandIn:
 
 
 def handed_in(folder: Path, out: Path | None = None) -> dict[str, HandIn]:
-    """Return what each student handed in: `NAME.py`, `NAME.ipynb`, or a folder `NAME` with files at
-    any depth.
+    """Return what each student handed in: `NAME.py`, `NAME.ipynb`, or a folder `NAME` of files.
 
-    Args:
-        folder: Where the students' files are.
-        out: Where the results are; it is no student's.
+    The results' folder `out` is no student's.
 
     Raises:
         InputError: If it is no folder or holds no file of any student.
@@ -102,16 +96,13 @@ def _noted(handed: HandIn, said: str) -> HandIn:
 
 
 def _was_meant(path: Path) -> bool:
-    """Whether a file that is not read was handed in all the same: an archive, or Python under
-    another name.
-    """
+    """Whether an unread file was handed in all the same: an archive, or misnamed Python."""
     name = path.name.lower()
     return name.endswith(ARCHIVES) or any(f"{suffix}." in name for suffix in SUFFIXES)
 
 
 def with_roster(found: dict[str, HandIn], roster: Path) -> dict[str, HandIn]:
-    """Return what was handed in by those of a roster, in its order, then by those who are not in
-    it.
+    """Return what was handed in by those of a roster, in its order, then by the others.
 
     Raises:
         InputError: If the roster cannot be read.

@@ -14,11 +14,10 @@ _PART = re.compile(rf"\..+\.{_MACHINE}-(\d+)-[0-9a-f]{{8}}\.part")
 
 
 def write_atomic(path: Path, data: bytes) -> None:
-    """Put the whole file in place, or nothing: whatever stood there stays until the new file is
-    complete.
+    """Put the whole file in place, or nothing: what stood there stays until it is complete.
 
     Until then it stands beside `path` under another name, which no exception leaves behind. A link
-    is replaced, not followed: give `path.resolve()` where it shall be.
+    is replaced, not followed.
 
     Raises:
         OSError: If it cannot be written.
@@ -35,9 +34,7 @@ def write_atomic(path: Path, data: bytes) -> None:
 
 
 def remove_leftovers(folder: Path) -> None:
-    """Remove the unfinished files that processes of this machine which are no more left in a
-    folder.
-    """
+    """Remove the unfinished files of this machine's dead processes from a folder."""
     for name in os.listdir(folder):
         found = _PART.fullmatch(name)
         if found is not None and not _is_alive(int(found[1])):

@@ -1,6 +1,4 @@
-"""Says where an author's code went wrong: one line with its file and line for people, the traceback
-for a terminal.
-"""
+"""Says where an author's code went wrong: one line for people, a traceback for terminals."""
 
 import inspect
 import sysconfig
@@ -19,16 +17,14 @@ _OURS = (
 
 
 class Blaming:
-    """A block of somebody's code: what it raises becomes an AuthorError that names the file and
-    line.
+    """A block of somebody's code: what it raises becomes an AuthorError with file and line.
 
-    What is an InputError already goes through, and so does the end of an iterator. Code that wants
-    to end the program (`sys.exit()`) does not: it ends its own run.
+    What is an InputError already goes through, and so does the end of an iterator; `sys.exit()`
+    ends its own run only.
 
     Args:
         who: Whose code it is, in words that begin the line: "lesson icp".
-        function: Where to look for the place: the innermost line beside this function's file is
-            named.
+        function: The innermost line beside this function's file is named.
     """
 
     def __init__(self, who: str, function: object = None):
@@ -48,9 +44,7 @@ class Blaming:
 
 
 def described(error: BaseException, function: object = None) -> str:
-    """Return an error as one line: where, of what kind, what it says, and the line of code it
-    stands in.
-    """
+    """Return an error as one line: where, of what kind, what it says, and its line of code."""
     said = " ".join((error.msg if isinstance(error, SyntaxError) else str(error)).split())
     kind = type(error).__name__ + (f": {said[:300]}" if said else "")
     if isinstance(error, SyntaxError) and error.filename:
@@ -67,16 +61,12 @@ def described(error: BaseException, function: object = None) -> str:
 
 
 def is_ours(file: str) -> bool:
-    """Tell whether a file is of the workbench, of Python or of a library, and so not an
-    author's.
-    """
+    """Tell whether a file is of the workbench, of Python or of a library."""
     return file.startswith(_OURS)
 
 
 def at(function: object) -> str:
-    """Return where a function is defined, as the beginning of a line; nothing where that is not
-    known.
-    """
+    """Return where a function is defined, as the beginning of a line; nothing if not known."""
     file, line = defined(function)
     return f"{place(file, line)}: " if file else ""
 
@@ -87,9 +77,7 @@ def place(file: str, line: int) -> str:
 
 
 def defined(function: object) -> tuple[str, int]:
-    """Return the file and line of a function's (or module's) definition, ("", 0) where that is not
-    known.
-    """
+    """Return the file and line of a function's or module's definition, or ("", 0)."""
     if inspect.ismodule(function):
         return function.__file__ or "", 1
     code = getattr(inspect.unwrap(function), "__code__", None) if callable(function) else None

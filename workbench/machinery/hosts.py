@@ -14,14 +14,7 @@ _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9._-]+)(?::(\d{1,5}))?")
 
 
 class Hosts:
-    """The hosts under which a server is known.
-
-    Args:
-        listens: The host where it listens.
-
-    Attributes:
-        local: Whether only this machine reaches it.
-    """
+    """The hosts under which a server that listens at `listens` is known; `local` if only here."""
 
     def __init__(self, listens: str):
         self.local = is_loopback(listens)
@@ -32,15 +25,12 @@ class Hosts:
         self._names.add(f"[{listens.strip('[]')}]" if ":" in listens else listens.lower())
 
     def know(self, host: str) -> bool:
-        """Tell whether a browser that names this host, with a port or without, has come to the
-        right place.
-        """
+        """Tell whether a browser that names this host has come to the right place."""
         found = name_in(host)
         if found is None:
             return False
-        return found in self._names or (
-            not self.local and _is_address(found)
-        )  # an address means one machine
+        # an address means one machine
+        return found in self._names or (not self.local and _is_address(found))
 
 
 def listening(host: str, port: int) -> socket.socket:
@@ -71,9 +61,7 @@ def listening(host: str, port: int) -> socket.socket:
 
 
 def name_in(host: str) -> str | None:
-    """Return the name or address of what a browser names as host, in small letters; None where it
-    is none.
-    """
+    """Return the name or address of what a browser names as host, in small letters; or None."""
     found = _HOST.fullmatch(host.lower())
     return None if found is None else found[1]
 

@@ -15,9 +15,7 @@ def png(image: np.ndarray, compress_level: int = 6) -> bytes:
 
 
 def png_of_levels(levels: np.ndarray, colors: np.ndarray) -> bytes:
-    """Return an image, (h, w) uint8 that number rows of `colors` (n, 3) uint8, as the bytes of a
-    PNG file.
-    """
+    """Return an image (h, w) of rows of `colors` (n, 3), both uint8, as a PNG file's bytes."""
     from PIL import Image
 
     file = io.BytesIO()
@@ -28,9 +26,7 @@ def png_of_levels(levels: np.ndarray, colors: np.ndarray) -> bytes:
 
 
 def resized(image: np.ndarray, width: int, height: int) -> np.ndarray:
-    """Return an image, (h, w) or (h, w, 3) uint8, in a smaller size, each pixel the mean of those
-    it stands for.
-    """
+    """Return a uint8 image, (h, w) or (h, w, 3), smaller, each pixel a mean."""
     from PIL import Image
 
     size = max(width, 1), max(height, 1)
@@ -40,9 +36,7 @@ def resized(image: np.ndarray, width: int, height: int) -> np.ndarray:
 
 
 def webp(image: np.ndarray) -> bytes:
-    """Return an image, (h, w) or (h, w, 3) uint8, as the bytes of a WebP file without loss: half of
-    a PNG's.
-    """
+    """Return a uint8 image as the bytes of a WebP file without loss: half of a PNG's."""
     from PIL import Image
 
     file = io.BytesIO()

@@ -10,9 +10,7 @@ Progress = Callable[[str, int, int | None], object]
 
 @contextmanager
 def bar(stream: TextIO | None, title: str) -> Iterator[Progress]:
-    """Show a bar for the length of the block; the value takes what is done, how much, and of how
-    much.
-    """
+    """Show a bar for the length of the block; the value takes what is done, how much, of what."""
     shown = stream if stream is not None and stream.isatty() else None
 
     def tell(what: str, done: int, of: int | None) -> None:

@@ -1,9 +1,7 @@
-"""How numpy's libraries compute in this process and in those that it starts: threads, and the same
-to the last bit.
+"""How numpy's libraries compute here and in started processes: threads, and the same last bit.
 
 They take as many threads as there are processors, and each waits for the others by spinning. The
-matrices of a lesson are small, and beside a second process (another student, a test) half of the
-processor's time goes into the waiting.
+matrices of a lesson are small, and beside a second process half of the time goes into the waiting.
 """
 
 import os
@@ -23,8 +21,7 @@ ROUNDING = (
 
 
 def one_each() -> None:
-    """Let linear algebra take one thread in this process and those that it starts, unless the
-    environment says otherwise.
+    """Let linear algebra take one thread here and below, unless the environment says otherwise.
 
     To be called before numpy is imported.
     """
@@ -33,10 +30,8 @@ def one_each() -> None:
 
 
 def as_here() -> dict[str, str]:
-    """Return the environment variables with which another process, one thread each, rounds as this
-    one does.
+    """Return environment variables with which another process, one thread each, rounds as this one.
 
-    Where a result hangs on the last bit, as the signs of singular vectors do, the two would else
-    differ.
+    Results that hang on the last bit, as the signs of singular vectors do, would else differ.
     """
     return ONE_EACH | {name: os.environ[name] for name in ROUNDING if name in os.environ}

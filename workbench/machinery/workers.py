@@ -1,6 +1,4 @@
-"""Processes that share out work. They end with it, and with the process that started them, however
-that ends.
-"""
+"""Processes that share out work; they end with it, and with the process that started them."""
 
 import contextlib
 import multiprocessing
@@ -52,18 +50,15 @@ def parallel_map(
     lost: Callable[[T], R] | None = None,
     start: Literal["spawn", "fork"] = "spawn",
 ) -> Iterator[tuple[T, R]]:
-    """Yield each task with `function(task)` when it is done, in any order; an exception is raised
-    here.
+    """Yield each task with `function(task)` when it is done, in any order.
 
     When the loop over them is left, for whatever reason, the processes are ended.
 
     Args:
         function: Of a module; it is called in other processes.
         tasks: What pickles.
-        processes: How many work at the same time.
         seconds: How long a task may take until its process is ended; None waits.
-        lost: What comes of a task whose process ended in the middle of it; another process goes on
-            in its place.
+        lost: What comes of a task whose process ended in the middle of it; another one goes on.
         start: How processes start: anew, or as copies of this one.
 
     Raises:
@@ -162,9 +157,7 @@ def _be_quiet() -> None:
 
 @contextlib.contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Let a process that starts in this block be born deaf to Ctrl+C, until it can ignore it
-    itself.
-    """
+    """Let a process that starts in this block be born deaf to Ctrl+C."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

@@ -1,10 +1,8 @@
-"""The same chunks, under the same id, for the same content: rerun gives ids of the moment, and cuts
-where time does.
+"""The same chunks and id for the same content; rerun gives ids of the moment, and cuts by time.
 
 Rows are put together, one chunk per entity, ordered and numbered by step and then as they were
 logged. The recording's id is made from the content. What is left to chance is the index that rerun
-writes at a file's end, and the id of its layout: two files of one run have the same id, and differ
-in some bytes.
+writes at a file's end, and the id of its layout.
 """
 
 import tempfile
@@ -22,9 +20,7 @@ _KINDS = {b"control": 0, b"index": 1, b"data": 2}
 
 
 def tidied(data: bytes) -> list[pa.Table]:
-    """Return the content of a file with one recording or one layout: a table per entity, static
-    ones apart.
-    """
+    """Return a file's one recording or layout: a table per entity, static ones apart."""
     with _as_file(data) as file:
         reader = RrdReader(file)
         stores = [*reader.recordings(), *reader.blueprints()]
@@ -60,9 +56,7 @@ def _joined(batches: Sequence[pa.RecordBatch]) -> pa.Table:
 
 
 def _order(table: pa.Table) -> list[tuple[int, bytes]]:
-    """Return what orders the rows: the step, then the moment of logging. Rerun takes both columns
-    for sorted.
-    """
+    """Return what orders the rows: step, then moment of logging; Rerun takes both for sorted."""
     ids = table.column(ROW_ID).to_pylist()
     times = [name for name in table.column_names if _kind(table, name) == b"index"]
     return list(

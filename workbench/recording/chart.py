@@ -29,9 +29,7 @@ Legend: TypeAlias = tuple[tuple[str, Rgb], ...]
 
 @dataclass(frozen=True)
 class Canvas:
-    """A view in two dimensions: its title, its size, and the step at which something appears on
-    it.
-    """
+    """A view in two dimensions: title, size, and the step at which something appears on it."""
 
     title: str
     width: float
@@ -98,9 +96,8 @@ def chart_curves(x: Scale, y: Scale, curves: Mapping[int, Curve]) -> list[Any]:
     for curve in curves.values():
         known = np.isfinite(curve.y)
         at = np.column_stack([x(curve.x), y(np.where(known, curve.y, 0.0))])
-        lonely = (
-            known & ~np.r_[False, known[:-1]] & ~np.r_[known[1:], False]
-        )  # a line of one point is a dot
+        # a line of one point is a dot
+        lonely = known & ~np.r_[False, known[:-1]] & ~np.r_[known[1:], False]
         if curve.kind == "dots" or (curve.kind == "line" and lonely.any()):
             shown = known if curve.kind == "dots" else lonely
             dots.append(at[shown])
@@ -141,9 +138,7 @@ def color_bar(
     width: float,
     height: float = 10.0,
 ) -> list[Any]:
-    """Return a colour bar from `at` to the right and down, with its ends, title and unit below
-    it.
-    """
+    """Return a colour bar from `at` to the right and down, with its ends, title and unit."""
     n = 64
     x, y = at
     left, middle = x + np.arange(n) * width / n, np.full(n, y + height / 2)
@@ -199,9 +194,7 @@ def _bar_width(curve: Curve) -> float:
 
 
 def _bars(curve: Curve, x: Scale, y: Scale) -> list[np.ndarray]:
-    """Return outlines of bars, hatched by one line down their middle, so that they read as
-    solid.
-    """
+    """Return outlines of bars, hatched by one line down their middle to read as solid."""
     half, pieces = 0.45 * _bar_width(curve), []
     for at, value in zip(curve.x, curve.y, strict=True):
         if np.isfinite(value):

@@ -1,7 +1,6 @@
-"""What has one value per step, scalars and captions, sent as whole columns: one message instead of
-one per step.
+"""Scalars and captions, one value per step, sent as whole columns: one message for all.
 
-They go first into a file. A viewer then knows all steps at once, and opens at the first of them.
+They go first into a file. A viewer then knows all steps at once, and opens at the first.
 """
 
 from collections.abc import Sequence
@@ -35,16 +34,13 @@ def send_captions(stream: Any, captions: Sequence[Caption]) -> None:
 def facts(**values: Any) -> rr.AnyValues:
     """Return named values for a recording; empty text is left out.
 
-    Rerun would leave it out too, but only until it has met the name with text: two recordings would
-    differ by what was recorded before them.
+    Rerun leaves it out only until it has met the name with text: recordings would differ by it.
     """
     return rr.AnyValues(**{name: value for name, value in values.items() if value != ""})
 
 
 def send_series(stream: Any, path: str, series: Series, *, order: int) -> None:
-    """Send one scalar over all steps, how it is drawn, and its logarithm where that is what is
-    drawn.
-    """
+    """Send one scalar over all steps, how it is drawn, and its logarithm if that is drawn."""
     scalar, values = series.scalar, series.values.astype(float)
     entity, shown = entity_of("scalars", path), plotted(path, scalar)
     stream.send_columns(entity, [_steps(len(values))], rr.Scalars.columns(scalars=values))

@@ -1,6 +1,4 @@
-"""Two recordings of one lesson as one: scenes side by side, curves in the same plots, on one step
-timeline.
-"""
+"""Two recordings of one lesson as one: scenes beside each other, curves in the same plots."""
 
 import tempfile
 from collections import Counter
@@ -44,9 +42,7 @@ def compare_files(a: Path, b: Path, *, native: bool, host: str, port: int, brows
 
 
 def compare_bytes(a: Path, b: Path) -> bytes:
-    """Return a recording that holds two recordings of one lesson, below the entities `/a` and
-    `/b`.
-    """
+    """Return a recording that holds two of one lesson, below `/a` and `/b`."""
     runs = dict(zip(ROOTS, (open_recording(a), open_recording(b)), strict=True))
     one, two = runs.values()
     if one.lesson != two.lesson:
@@ -72,9 +68,8 @@ def compare_bytes(a: Path, b: Path) -> bytes:
         charts = Counter(scalar.chart for scalar in {**one.curves, **two.curves}.values())
         for root, run in runs.items():
             for path, scalar in run.curves.items():
-                letter = (
-                    root[1:].upper()
-                )  # alone in its plot a curve needs no other name: a long one hides what it names
+                # alone in its plot a curve needs no other name: a long one hides what it names
+                letter = root[1:].upper()
                 name = letter if charts[scalar.chart] == 1 else f"{scalar.name} · {letter}"
                 style = curve_style(scalar, name, second=root == ROOTS[1])
                 stream.log(root + plotted(path, scalar), style, static=True)
@@ -94,9 +89,7 @@ def _beside(run: Recording) -> tuple[Contents, View]:
 
 
 def differences_of(a: Recording, b: Recording) -> list[tuple[str, str, str]]:
-    """Return what differs between two runs: parameters, length and how they ended, as name, of a,
-    of b.
-    """
+    """Return what differs between two runs, as name, of a, of b."""
     rows = [
         (name, _text(a.params.get(name)), _text(b.params.get(name)))
         for name in {**a.params, **b.params}

@@ -1,6 +1,4 @@
-"""What a run shows beside its scene: enough to lay out the views before anything is drawn, and kept
-in the recording.
-"""
+"""What a run shows beside its scene: enough to lay out the views before anything is drawn."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -53,9 +51,7 @@ def contents_of(scenes: Sequence[Scene]) -> Contents:
 
 
 def to_json(contents: Contents, view: View) -> str:
-    """Return everything but the scalars, which stand in a recording themselves, and how the scene
-    is first seen.
-    """
+    """Return everything but the scalars, and how the scene is first seen."""
     canvases = {entity: asdict(canvas) for entity, canvas in contents.canvases.items()}
     return json.dumps(
         {"canvases": canvases, "legend_height": contents.legend_height, "view": asdict(view)}
@@ -116,9 +112,7 @@ def _chart_title(curve: Curve) -> str:
 
 
 def _common(title: str, other: str, path: str) -> str:
-    """Return one title for both: their common beginning where they differ, or the path where they
-    have none.
-    """
+    """Return one title for both: their common beginning, or the path where they have none."""
     if title == other:
         return title
     pairs = takewhile(
@@ -130,7 +124,6 @@ def _common(title: str, other: str, path: str) -> str:
 
 def _picture_canvas(path: str, picture: Picture, first: int) -> Canvas:
     h, w = (picture.image.values if isinstance(picture.image, Field) else picture.image).shape[:2]
-    height = (
-        h + 0.17 * w if isinstance(picture.image, Field) else float(h)
-    )  # a colour bar takes its room below
+    # a colour bar takes its room below
+    height = h + 0.17 * w if isinstance(picture.image, Field) else float(h)
     return Canvas(picture.title or path, float(w), height, first)

@@ -1,10 +1,8 @@
-"""Clouds whose points come and go: all points of a run are said once, and per step which of them
-are there.
+"""Clouds whose points come and go: all points of a run are said once, per step which are there.
 
-A cloud that gains and loses points from step to step would be said again and again, 16 bytes a
-point. The union of all steps, in the order in which its points come and go, takes no more than a
-few times one step; which are there is a size per point, zero or not, that compresses to almost
-nothing.
+A cloud that gains and loses points would be said again and again, 16 bytes a point. The union of
+all steps, in the order in which its points come and go, takes no more than a few times one step;
+which are there is a size per point, zero or not, that compresses to almost nothing.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -62,9 +60,8 @@ def _union(clouds: Sequence[Points]) -> Union | None:
         mixed = (mixed ^ column) * np.uint64(0x9E3779B97F4A7C15)
         mixed ^= mixed >> np.uint64(29)
     keys, first, number = np.unique(mixed, return_index=True, return_inverse=True)
-    if len(first) > WORTH * len(rows) or not np.array_equal(
-        rows[first][number], rows
-    ):  # two points, one key
+    # two points, one key
+    if len(first) > WORTH * len(rows) or not np.array_equal(rows[first][number], rows):
         return None
     last = np.zeros(len(first), int)
     last[number] = cloud_of  # the last one counts

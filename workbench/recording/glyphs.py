@@ -1,6 +1,4 @@
-"""Words that Rerun's fonts can draw: its viewer stops, or shows boxes, at glyphs it does not
-have.
-"""
+"""Words that Rerun's fonts can draw: its viewer stops, or shows boxes, at other glyphs."""
 
 import unicodedata
 

@@ -1,6 +1,4 @@
-"""The layout a recording opens with: the scene with its legend and caption left, curves, charts and
-pictures right.
-"""
+"""The layout a recording opens with: scene, legend and caption left, the rest right."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -59,9 +57,7 @@ def one_run(view: View, contents: Contents, values: Values) -> Any:
 def two_runs(
     view: View, contents: Contents, runs: Mapping[str, Values], *, names: Mapping[str, str]
 ) -> Any:
-    """Return the layout of two runs, given by their root entities: scenes side by side, curves in
-    the same plots.
-    """
+    """Return the layout of two runs by root entities: scenes side by side, curves in one plot."""
     scenes = [
         rrb.Vertical(scene_view(root, view, names[root]), caption_view(root), row_shares=[4, 1.9])
         for root in runs
@@ -188,9 +184,7 @@ def _rows(views: Sequence[Any], share: float, at_once: int) -> list[tuple[Any, f
 
 
 def _column(rows: Sequence[tuple[Any, float]], late: Sequence[tuple[Any, float]]) -> Any:
-    """Return rows below each other, those that do not fit or are late behind further tabs; None
-    where there is no row.
-    """
+    """Return rows below each other, those too many or late behind tabs; None without a row."""
     stacks: list[list[tuple[Any, float]]] = []
     for row in rows:
         if not stacks or sum(share for _, share in stacks[-1]) + row[1] > MOST_ROWS:
@@ -229,10 +223,11 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
         else (np.zeros(1), np.zeros(1))
     )
     up = value_axis([y])
+    # else the lowest number and the first step overprint
     low, high = (
         up.low - 0.1 * (up.high - up.low),
         up.high,
-    )  # else the lowest number and the first step overprint
+    )
     beyond = 1 + steps // 40  # so that the cursor can be seen at the last step too
     end, infinite = (
         rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond),
@@ -256,9 +251,7 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
 
 
 def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
-    """Return the corner of a plot, 0 to 1 both ways, in which the fewest values lie: the legend
-    shall cover none.
-    """
+    """Return the corner of a plot, 0 to 1 both ways, in which the fewest values lie."""
     corners = {
         rrb.Corner2D.RightTop: (x > 0.5) & (y > 0.6),
         rrb.Corner2D.LeftTop: (x < 0.5) & (y > 0.6),
@@ -269,11 +262,7 @@ def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
 
 
 def _eye(view: View) -> np.ndarray:
-    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's
-    does.
-
-    Where it looks along up it is moved further aside, the same way as the lesson's.
-    """
+    """Return the eye as near as Rerun's own field of view needs it; never right along up."""
     target, up = np.array(view.target), np.array(view.up) / np.linalg.norm(view.up)
     share = np.tan(np.radians(view.fov_degrees) / 2) / np.tan(np.radians(RERUN_FOV) / 2)
     away = (view.seen_from() - target) * share

@@ -1,6 +1,4 @@
-"""A lesson's page for a reader without maths: Rerun shows Markdown, so the MathML of formulas
-becomes plain signs.
-"""
+"""A lesson's page for a reader without maths: formulas in plain signs, for Rerun."""
 
 import re
 from collections.abc import Iterable
@@ -21,9 +19,7 @@ _LOWERED = dict(
 
 
 def plain_page(markdown: str) -> str:
-    """Return a page as Markdown with its formulas in plain signs and pictures as their words; code
-    is left as it is.
-    """
+    """Return a page with its formulas in plain signs and pictures as words; code stays."""
     code_or_picture = r"(```.*?```|`[^`\n]*`)|!\[([^\]]*)\]\([^)]*\)"
     markdown = re.sub(
         code_or_picture, lambda found: found[1] or found[2], markdown, flags=re.DOTALL
@@ -41,9 +37,7 @@ def _part(part: str) -> str:
 
 
 def plain_formula(tex: str) -> str:
-    """Return a TeX formula in plain signs, in one line; one that cannot be read as it was
-    written.
-    """
+    """Return a TeX formula in plain signs, in one line; as written if it cannot be read."""
     try:
         typeset = ElementTree.fromstring(
             math_html(tex).replace(' xmlns="http://www.w3.org/1998/Math/MathML"', "")
@@ -89,9 +83,7 @@ def _said(part: Element) -> str:
 
 
 def _row(parts: Iterable[Element]) -> str:
-    """Return what stands side by side; names that are multiplied have a space between them, a sign
-    has none behind it.
-    """
+    """Return what stands side by side, a space between names that are multiplied."""
     said, named, operand = "", False, False
     for part in parts:
         text = (part.text or "").strip()

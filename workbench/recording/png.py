@@ -25,8 +25,7 @@ def encoded(image: np.ndarray | Field) -> Any:
 
 
 def texture(image: np.ndarray) -> np.ndarray:
-    """Return an image (h, w, 3) as it is drawn in space: with pixels that fit where rerun looks for
-    repetitions, 64 kB.
+    """Return an image (h, w, 3) as drawn in space, of pixels that fit rerun's 64 kB of repetitions.
 
     A picture that changes in a corner from step to step then costs what has changed.
     """
@@ -46,7 +45,5 @@ def _field_png(field: Field) -> bytes:
 
 
 def gone(suffix: str) -> Any:
-    """Return what takes away what stands at this suffix: Rerun's viewer overlooks a `Clear` of an
-    encoded image.
-    """
+    """Return what takes away what stands here: Rerun's viewer overlooks a `Clear` of an image."""
     return rr.EncodedImage.cleared() if suffix == IMAGE else rr.Clear(recursive=False)

@@ -1,6 +1,4 @@
-"""Reads a recording back: lesson, params, scalars per step, captions; without a viewer, and wary of
-damaged files.
-"""
+"""Reads a recording back, without a viewer, and wary of damaged files."""
 
 import json
 import re
@@ -36,19 +34,15 @@ class Recording:
     """What a recording says of its run.
 
     Attributes:
-        path: The file.
-        lesson: The lesson's name.
-        title: The lesson's title.
         params: Field name to value, as JSON has them; `Params` themselves come from `typed_params`.
         preset: Where the params come from, or None.
-        seed: The seed, or None where the lesson has none.
+        seed: None where the lesson has none.
         status: `complete`, or why the run ended before its end.
         format: The format's number.
         version: The version of the workbench that wrote it.
         captions: What happened, step by step.
         tones: `info`, `good` or `wrong`, step by step.
-        scalars: One column per curve, by path, NaN where a step has none; with `step` first, a
-            table. Read-only.
+        scalars: Read-only columns by path, `step` first, NaN where a step has none.
         curves: How each scalar is drawn, by path: name, unit, colour; with its last value.
         layout: What stands beside the scene and how that is first seen, for a viewer.
     """
@@ -73,9 +67,7 @@ class Recording:
         return len(self.captions)
 
     def __repr__(self) -> str:
-        """Return one short line: the file, the lesson, where it comes from, how many steps, and how
-        it ended.
-        """
+        """Return one short line: file, lesson, preset, how many steps, how it ended."""
         words = [
             self.path.name,
             self.lesson,
@@ -101,8 +93,7 @@ def open_recording(path: str | Path) -> Recording:
     """Read a recording.
 
     Raises:
-        InputError: One line, if the file is missing, empty, damaged, cut short, or no recording of
-            a run.
+        InputError: If the file is missing, empty, damaged, cut short, or no recording of a run.
     """
     path = Path(path)
     _check_file(path)
@@ -118,16 +109,10 @@ def open_recording(path: str | Path) -> Recording:
 def reopening(
     path: Path, given: Lesson | None = None, *, files: bool = False
 ) -> tuple[Lesson, Any, list[str]]:
-    """Return the lesson and the params of a recording, and a line for everything that is not as it
-    was.
+    """Return the lesson and the params of a recording, and a line for what is not as it was.
 
     The lesson's name is looked up in the catalogue and nowhere else: a recording may come from
-    anybody.
-
-    Args:
-        path: The recording.
-        given: The lesson, where the person named its file; it has to have the recording's name.
-        files: Whether the person lets the run read the files that the recording names.
+    anybody. A `given` lesson has to have that name; `files` lets the run read the files named.
 
     Raises:
         InputError: If the file cannot be read, its lesson is not here, or it names files and may
@@ -176,9 +161,7 @@ def reopening(
 
 
 def _lesson_of(recording: Recording, name: str, given: Lesson | None) -> Lesson:
-    """Return the lesson of a recording: the one given if it has the name, or the one that the
-    catalogue has.
-    """
+    """Return the lesson of a recording: the one given if it has the name, or the catalogue's."""
     path = recording.path
     if given is not None and given.name == recording.lesson:
         return given
@@ -206,9 +189,8 @@ def read_chunks(path: Path) -> list[Any]:
     """
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter(
-                "ignore"
-            )  # of bytes behind the end: what is read is held to its digest
+            # of bytes behind the end: what is read is held to its digest
+            warnings.simplefilter("ignore")
             reader = RrdReader(path)
         stores = reader.recordings()
         chunks = [chunk for store in stores for chunk in reader.stream(store=store)]
@@ -222,9 +204,7 @@ def read_chunks(path: Path) -> list[Any]:
 
 
 def _check_file(path: Path) -> None:
-    """Raise InputError if the file is missing, empty, foreign, or so damaged that rerun cannot
-    decode it.
-    """
+    """Raise InputError if the file is missing, empty, foreign, or not to be decoded."""
     try:
         if not path.is_file():
             raise InputError(f"{path}: no such file")

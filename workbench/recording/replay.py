@@ -1,6 +1,4 @@
-"""Plays recordings in Rerun's viewer: in the browser, under the names of this machine only, or in
-Rerun's own window.
-"""
+"""Plays recordings in Rerun's viewer: in the browser of this machine, or in its own window."""
 
 import html
 import json
@@ -89,13 +87,11 @@ def _play_native(paths: Sequence[Path]) -> None:
 
 
 class Replay:
-    """A web server that hands out a page with Rerun's viewer, and recordings. Serves from a thread
-    of its own.
+    """A web server, in its own thread, for a page with Rerun's viewer, and recordings.
 
     Args:
         files: Recordings by file name: a path, or the bytes.
-        title: The page's title.
-        host, port: Where it listens; port 0 picks a free one.
+        port: 0 picks a free one.
 
     Raises:
         InputError: If the port is taken or may not be used.
@@ -137,9 +133,7 @@ class Replay:
         self._thread.join()
 
     def _answer(self, request: Request) -> Response:
-        """Return one of a fixed set of files, and nothing else, where it is asked for by this
-        machine's name.
-        """
+        """Return one of fixed files, asked for by this machine's name, and nothing else."""
         if not self._hosts.know(request.headers.get("host", "")):
             return Response("This server is not known under that name.", 403)
         name = request.url.path

@@ -1,6 +1,4 @@
-"""Makes a Rerun stream equal to scenes, one step after another, and says only what has changed
-since the step before.
-"""
+"""Makes a Rerun stream equal to scenes, step by step; says only what has changed."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
@@ -48,12 +46,11 @@ class RerunSink:
     """Writes scenes into a recording stream.
 
     Entities: `world/PATH` in space, `pictures/PATH`, `charts/TITLE`, `tables`, `legend`. Scalars
-    and captions are not said here: they go as whole columns.
+    and captions go as whole columns, not here.
 
     Args:
-        stream: Rerun's recording stream.
-        canvases: Where charts, pictures and tables are shown, by entity. While there are none, it
-            says so there.
+        canvases: Where charts, pictures and tables are shown, by entity; it says so if there are
+            none.
         unions: Clouds that are said once for all steps, by path.
     """
 
@@ -78,9 +75,8 @@ class RerunSink:
         }
         for entity, said in self._said.items():
             if not said.keys() <= wanted.get(entity, {}).keys():  # it, or a part of it, is gone
-                for suffix in dict.fromkeys(
-                    aspect.suffix for aspect in said.values()
-                ):  # in the same order every time
+                # in the same order every time
+                for suffix in dict.fromkeys(aspect.suffix for aspect in said.values()):
                     self._stream.log(entity + suffix, gone(suffix))
         for entity, now in wanted.items():
             before = self._said.get(entity, {})

@@ -1,6 +1,4 @@
-"""Streams of rerun that end as bytes and leave nothing behind: no thread, no memory, no
-statistics.
-"""
+"""Streams of rerun that end as bytes and leave no thread, memory or statistics behind."""
 
 import re
 import threading
@@ -17,9 +15,7 @@ _one_at_a_time = threading.Lock()
 
 
 def application_id(lesson_name: str) -> str:
-    """Return the name by which viewers tell a lesson's recordings from others; `stream_bytes` adds
-    to it.
-    """
+    """Return the name by which viewers tell a lesson's recordings from others."""
     return f"workbench-{re.sub('[^a-z0-9]+', '-', lesson_name.lower()).strip('-')}"
 
 
@@ -54,9 +50,7 @@ def stream_bytes(application: str, fill: Callable[[Any], None], layout: Any = No
 
 
 def _send(stream: Any, application: str, chunks: Sequence[Any], layout: Sequence[Any]) -> None:
-    """Send all chunks. `stream.send_blueprint` would leave two threads and a megabyte behind each
-    time.
-    """
+    """Send all chunks; `stream.send_blueprint` would leave two threads and a megabyte behind."""
     if layout:
         own = _layout(application)
         memory = own.memory_recording()

@@ -1,6 +1,4 @@
-"""Rerun's own programs: the viewer's binary, and the two files of its web viewer that the binary
-carries inside.
-"""
+"""Rerun's own programs: the viewer's binary, and the web viewer's files inside it."""
 
 import importlib.metadata
 import os
@@ -28,9 +26,7 @@ def rerun_version() -> str:
 
 
 def binary() -> Path:
-    """Return Rerun's binary itself: ending the Python wrapper around it would leave the binary
-    behind.
-    """
+    """Return Rerun's binary itself: ending its Python wrapper would leave it behind."""
     import rerun_cli
 
     folder = Path(str(rerun_cli.__file__)).parent
@@ -42,9 +38,7 @@ def binary() -> Path:
 
 
 def quiet_environment() -> dict[str, str]:
-    """Return the environment for the binary: it says its address, and sends statistics only if
-    RERUN_ANALYTICS is set.
-    """
+    """Return the environment for the binary: statistics only if RERUN_ANALYTICS is set."""
     environment = {**os.environ, "RUST_LOG": "info"}
     if "RERUN_ANALYTICS" not in environment:
         environment["CI"] = "1"
@@ -82,9 +76,7 @@ def _fetch(address: str, file: Path) -> None:
 
 @contextmanager
 def _serving() -> Iterator[str]:
-    """Run the binary as a web server without a recording, which costs nothing, and yield its
-    address.
-    """
+    """Run the binary as a web server without a recording, and yield its address."""
     command = [
         str(binary()),
         "--serve-web",

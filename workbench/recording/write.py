@@ -1,6 +1,4 @@
-"""Writes runs to recordings: into a file that is there whole or not at all, into a pipe, or into
-bytes.
-"""
+"""Writes runs to recordings: into a whole file or none, into a pipe, or into bytes."""
 
 import json
 import os
@@ -53,18 +51,14 @@ def record(
     force: bool = False,
     **values: Any,
 ) -> Path:
-    """Run a lesson and write the run to a recording.
+    """Run a lesson and write the run to a recording, `.rrd`.
 
     `record("icp", "icp.rrd", start_angle=120)` runs the defaults with one field changed;
-    `preset="far"` starts from a preset instead.
+    `preset="far"` starts from a preset instead, whose name is kept where no value differs.
 
     Args:
-        lesson: The lesson, its name, or the `Path` of its file or folder, which is run (text is
-            only looked up).
-        path: Where to write, `.rrd`.
+        lesson: The lesson, its name, or the `Path` of its file or folder, which is run.
         params: The whole inputs, as the lesson's Params; instead of a preset and values.
-        preset: The preset to start from. Its name is kept in the recording where no value differs
-            from it.
         force: Replace a file that is there.
         values: Fields of the lesson's Params, by name.
 
@@ -103,8 +97,7 @@ def record_file(
     force: bool = False,
     progress: TextIO | None = None,
 ) -> Written:
-    """Run a lesson and write the run to `path`; a bar is drawn on `progress` where that is a
-    terminal.
+    """Run a lesson and write the run to `path`, with a bar on `progress` if a terminal.
 
     Raises:
         InputError: If the run fails, or the file is there or cannot be written; then nothing has
@@ -119,8 +112,7 @@ def record_file(
 
 
 def record_to_stdout(lesson: Lesson, params: Any, *, preset: str | None = None) -> None:
-    """Run a lesson and write the recording to standard output; a bar is drawn where errors go, if
-    that is a terminal.
+    """Run a lesson and write the recording to standard output, with a bar on a terminal.
 
     Raises:
         InputError: If the run fails, or standard output is a terminal, closed, or full.
@@ -150,11 +142,7 @@ def record_bytes(
 ) -> bytes:
     """Return a recording of the steps of a run that are known so far.
 
-    Args:
-        timeline: The run.
-        preset: The preset that the params started from; it is kept where they still are the
-            preset's.
-        progress: Told of each step.
+    The preset's name is kept where the params still are the preset's.
 
     Raises:
         InputError: If no step is known.
@@ -200,9 +188,7 @@ def record_bytes(
 
 
 def _run(lesson: Lesson, params: Any, tell: Progress) -> Timeline:
-    """Return a run to its end, or to the bound at which it was cut; raise InputError where it
-    failed.
-    """
+    """Return a run to its end, or to the bound where it was cut; raise InputError if it failed."""
     timeline = Timeline(lesson, params)
     while timeline.extend():
         tell("computed", len(timeline), None)
@@ -255,9 +241,7 @@ def _check_place(path: Path, force: bool, how: str = "--force") -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Put the whole file in place, or nothing; a link is followed. What a killed process left half
-    written goes.
-    """
+    """Put the whole file in place, or nothing; a link is followed, killed writers' leftovers go."""
     final = path.resolve()
     try:
         remove_leftovers(final.parent)

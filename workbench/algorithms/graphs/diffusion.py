@@ -79,7 +79,6 @@ def smooth(
     for step in range(1, steps + 1):
         p = p + inward * (mean @ p - p)  # (2) and (3)
         if outward:
-            p = p - outward * (
-                mean @ p - p
-            )  # section 3: a pass that grows what the first has shrunk
+            # section 3: a pass that grows what the first has shrunk
+            p = p - outward * (mean @ p - p)
         yield Smoothed(step, p)

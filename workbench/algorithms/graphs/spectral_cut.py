@@ -60,9 +60,8 @@ def spectral_cut(adjacency: Sparse, laplacian: Laplacian, shown: int = 6) -> Ite
     now = Cut(phase="graph", adjacency=adjacency)
     yield now
 
-    values, fiedler = laplacian.second(
-        min(3, adjacency.shape[0])
-    )  # the first is constant and tells nothing
+    # the first is constant and tells nothing
+    values, fiedler = laplacian.second(min(3, adjacency.shape[0]))
     yield (now := replace(now, phase="fiedler", eigenvalues=values, fiedler=fiedler))
 
     yield (now := _with(now, "sign", fiedler > 0, k=-1))

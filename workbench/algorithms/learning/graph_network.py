@@ -54,9 +54,8 @@ def spread(
         yield Layer(1, "normalised", features, gathers)
         yield Layer(1, "gathered", gathers @ features, gathers)
         for layer, w in enumerate(weights, 1):
-            features = np.asarray(
-                gcn_layer(adjacency, features, w), float
-            )  # eq. (2): ReLU(A_hat X W)
+            # eq. (2): ReLU(A_hat X W)
+            features = np.asarray(gcn_layer(adjacency, features, w), float)
             yield Layer(layer, "layer", features, gathers)
 
 

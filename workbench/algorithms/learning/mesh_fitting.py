@@ -76,9 +76,8 @@ def fit_mesh(
     """
     p, count = p.copy(), len(p)
     L, edges, pairs = umbrella(faces, count), edges_of(faces), face_pairs(faces)
-    u = (
-        np.random.default_rng(0).random((3, MEASURED)).T
-    )  # the same at every state, so that curves do not tremble
+    # the same at every state, so that curves do not tremble
+    u = np.random.default_rng(0).random((3, MEASURED)).T
 
     def gradient() -> tuple[float, np.ndarray]:
         k, shares = places_on_faces(p, faces, rng.random((3, SAMPLES)).T)

@@ -23,11 +23,12 @@ from workbench.geometry.cameras.volume_rendering import (
 from workbench.tracing import traced
 
 CELLS, SAMPLES, RAYS, RATE = 32, 40, 160, 0.25
+# raw density beyond the grid and at the start; 1/m that one unit is
 OUTSIDE, LEAST, PER_UNIT = (
     -6.0,
     -2.0,
     10.0,
-)  # raw density beyond the grid and at the start; 1/m that one unit is
+)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -86,9 +86,8 @@ def regress(
             off = y - representation.numbers(R_true)
             slope = 2 * off / BATCH
         else:
-            off = (
-                representation.decode(y) - R_true
-            )  # |R - R_true|², 8 sin²(a / 2) of the angle a between them
+            # |R - R_true|², 8 sin²(a / 2) of the angle a between them
+            off = representation.decode(y) - R_true
             slope = representation.pullback(y, 2 * off / BATCH)
         backward(layers, outputs, slope, "relu", into)
         return float((off * off).sum() / BATCH), slopes

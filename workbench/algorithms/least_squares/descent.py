@@ -1,6 +1,8 @@
 """Nonlinear least squares in small steps: Gauss and Newton's, and Levenberg and Marquardt's.
 
-`linearise` gives the residuals (n,) at an unknown and their Jacobian (n, k) with respect to a small step; `retract` gives the unknown that a small step (k,) leads to. Both may take many unknowns in rows.
+`linearise` gives the residuals (n,) at an unknown and their Jacobian (n, k) with respect to a small
+step; `retract` gives the unknown that a small step (k,) leads to. Both may take many unknowns in
+rows.
 """
 
 from collections.abc import Callable, Iterator
@@ -141,9 +143,8 @@ def descend(
         except np.linalg.LinAlgError:
             yield replace(now, phase="rejected", stop=Stop.SINGULAR)
             return
-        with np.errstate(
-            over="ignore", invalid="ignore"
-        ):  # what overflows has diverged, and is said to
+        # what overflows has diverged, and is said to
+        with np.errstate(over="ignore", invalid="ignore"):
             trial = retract(now.unknown, step)
             trial_residuals, trial_jacobian = linearise(trial)
             trial_cost = float(trial_residuals @ trial_residuals)

@@ -190,9 +190,8 @@ def icp(
         if n_match is None:
             T_new = align(p_match[kept], p_source[kept])  # step b: Umeyama 1991, eq. 40-42
         else:
-            T_new = (
-                step(p_match[kept], p_moved[kept], n_match[kept]) @ T_target_source
-            )  # Low 2004, eq. 10
+            # Low 2004, eq. 10
+            T_new = step(p_match[kept], p_moved[kept], n_match[kept]) @ T_target_source
         if not np.isfinite(T_new).all():
             yield summary(
                 "fit",

@@ -66,7 +66,8 @@ def procrustes(
 ) -> Iterator[State]:
     """Yield the map from source to target after each stage; points in metres, pairs row by row.
 
-    `flip` is the direction whose sign changes where the SVD gives a mirror image; "least" is right.
+    `flip` is the direction that changes its sign where the SVD gives a mirror image; only "least"
+    is right.
     """
     m_target, m_source = p_target.mean(axis=0), p_source.mean(axis=0)
 

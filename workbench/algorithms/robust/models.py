@@ -154,9 +154,8 @@ def _solve_rigid(samples: np.ndarray) -> np.ndarray:
     if len(T_target_source):
         p, q = p_source[alike], p_target[alike]
         mean_p, mean_q = p.mean(axis=1, keepdims=True), q.mean(axis=1, keepdims=True)
-        R = nearest_rotation(
-            np.swapaxes(q - mean_q, 1, 2) @ (p - mean_p)
-        )  # as align_rigid, for many triangles
+        # as align_rigid, for many triangles
+        R = nearest_rotation(np.swapaxes(q - mean_q, 1, 2) @ (p - mean_p))
         T_target_source[:, :3, :3], T_target_source[:, :3, 3] = (
             R,
             (mean_q - mean_p @ np.swapaxes(R, 1, 2))[:, 0],

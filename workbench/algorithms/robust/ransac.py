@@ -172,9 +172,8 @@ def ransac(
             if trial.score > (best.score if best else 0.0):
                 best = polished(p, model, trial, judge=judge) if local_refit else trial
                 share = best.count / len(p) if share_of is None else share_of(best)
-                needed = min(
-                    max_iterations, needed_for(share, model.sample_size, confidence)
-                )  # eq. 4.18
+                # eq. 4.18
+                needed = min(max_iterations, needed_for(share, model.sample_size, confidence))
                 yield State("best", iteration, needed, sample, best.estimate, best, best)
         if iteration >= needed:
             stop = Stop.MAX_ITERATIONS if needed == max_iterations else Stop.ENOUGH

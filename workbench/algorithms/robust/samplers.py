@@ -86,9 +86,8 @@ def termination_length(
     """
     found = np.cumsum(inliers[np.argsort(-quality, kind="stable")])
     n = np.arange(1, len(found) + 1)
-    chance = bdtrc(
-        found - size - 1.0, np.maximum(n - size, 1), by_chance
-    )  # of at least so many beside the sample
+    # of at least so many beside the sample
+    chance = bdtrc(found - size - 1.0, np.maximum(n - size, 1), by_chance)
     counts = (n >= min(FEWEST_TRUSTED, len(n))) & (n > size) & (found > size) & (chance < doubt)
     if not counts.any():
         return 0, 0.0

@@ -10,13 +10,13 @@ from jaxtyping import Float, Shaped
 
 from workbench.geometry.shapes.lines_planes import hyperplane_distances
 
+Distances = Float[np.ndarray, "*k n"]
+
 Score = Callable[[np.ndarray, float], np.ndarray]
 """score(distances, inlier_distance) -> one number per row of distances."""
 
 
-def count_score(
-    distances: Float[np.ndarray, "*k n"], inlier_distance: float
-) -> Shaped[np.ndarray, "*k"]:
+def count_score(distances: Distances, inlier_distance: float) -> Shaped[np.ndarray, "*k"]:
     """Return the number of points within the inlier distance: the score of RANSAC.
 
     Reference: Fischler and Bolles, Random Sample Consensus, 1981, section II.
@@ -24,9 +24,7 @@ def count_score(
     return np.asarray(np.count_nonzero(distances <= inlier_distance, axis=-1))
 
 
-def msac_score(
-    distances: Float[np.ndarray, "*k n"], inlier_distance: float
-) -> Shaped[np.ndarray, "*k"]:
+def msac_score(distances: Distances, inlier_distance: float) -> Shaped[np.ndarray, "*k"]:
     """Return the sum of 1 - (distance / inlier distance)² over the points within that distance.
 
     It is n minus the truncated sum of squares of the paper, in units of the squared inlier
@@ -40,7 +38,7 @@ def msac_score(
 
 
 def mlesac_score(
-    distances: Float[np.ndarray, "*k n"], inlier_distance: float, *, span: float, steps: int = 4
+    distances: Distances, inlier_distance: float, *, span: float, steps: int = 4
 ) -> Shaped[np.ndarray, "*k"]:
     """Return how much likelier the distances are than if all points were outliers, as a logarithm.
 

@@ -122,9 +122,8 @@ def search(tree: Tree, q: Float[np.ndarray, " d"]) -> Iterator[Visit]:
     first, last, at = tree.first.tolist(), tree.last.tolist(), q.tolist()
     best, nearest, looked = np.inf, -1, 0
     passed: tuple[int, ...] = ()
-    waiting: list[tuple[int, float, dict[int, float]]] = [
-        (0, 0.0, {})
-    ]  # cell, its squared distance, axis by axis
+    # cell, its squared distance, axis by axis
+    waiting: list[tuple[int, float, dict[int, float]]] = [(0, 0.0, {})]
     while waiting:
         cell, squared, parts = waiting.pop()
         while axes[cell] >= 0:

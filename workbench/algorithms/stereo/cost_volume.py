@@ -20,6 +20,9 @@ from typing import TypeAlias
 import numpy as np
 from jaxtyping import Real, UInt8, UInt32
 
+Costs = Real[np.ndarray, "d h w"]
+Grey = Real[np.ndarray, "h w"]
+
 CostVolume: TypeAlias = Callable[[np.ndarray, np.ndarray, int, int], np.ndarray]
 """cost_volume(left, right, max_disparity, window) -> cost (max_disparity + 1, h, w)."""
 
@@ -27,12 +30,7 @@ CENSUS_BITS = 24
 """Bits of the census code: the neighbours in a 5 x 5 window."""
 
 
-def sad_cost_volume(
-    left: Real[np.ndarray, "h w"],
-    right: Real[np.ndarray, "h w"],
-    max_disparity: int,
-    window: int = 1,
-) -> Real[np.ndarray, "d h w"]:
+def sad_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1) -> Costs:
     """Return the sum of absolute grey differences over a window: cheap, and needs equal exposure.
 
     Raises:
@@ -48,12 +46,7 @@ def sad_cost_volume(
     return _windowed(left, right, max_disparity, window, _absolute_difference, 255)
 
 
-def ssd_cost_volume(
-    left: Real[np.ndarray, "h w"],
-    right: Real[np.ndarray, "h w"],
-    max_disparity: int,
-    window: int = 1,
-) -> Real[np.ndarray, "d h w"]:
+def ssd_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1) -> Costs:
     """Return the sum of squared grey differences over a window; outliers weigh more.
 
     Raises:
@@ -62,12 +55,7 @@ def ssd_cost_volume(
     return _windowed(left, right, max_disparity, window, _squared_difference, 255**2)
 
 
-def census_cost_volume(
-    left: Real[np.ndarray, "h w"],
-    right: Real[np.ndarray, "h w"],
-    max_disparity: int,
-    window: int = 1,
-) -> Real[np.ndarray, "d h w"]:
+def census_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 1) -> Costs:
     """Return the number of bits in which the census codes differ, summed over a window.
 
     Only the order of grey values within a window matters. The costs are whole numbers (24 per pixel
@@ -82,12 +70,7 @@ def census_cost_volume(
     return _windowed(census(left), census(right), max_disparity, window, _hamming, CENSUS_BITS)
 
 
-def ncc_cost_volume(
-    left: Real[np.ndarray, "h w"],
-    right: Real[np.ndarray, "h w"],
-    max_disparity: int,
-    window: int = 3,
-) -> Real[np.ndarray, "d h w"]:
+def ncc_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 3) -> Costs:
     """Return 1 - the normalised correlation of the windows: 0 (alike up to exposure) to 2.
 
     A window without contrast correlates with nothing: its cost is 1. One pixel has no correlation,
@@ -98,9 +81,8 @@ def ncc_cost_volume(
     """
     _check(left, right, max_disparity, window)
     window = max(window, 3)
-    a, b = (
-        picture - picture.mean() for picture in (left.astype(float), right.astype(float))
-    )  # keeps the sums small
+    # keeps the sums small
+    a, b = (picture - picture.mean() for picture in (left.astype(float), right.astype(float)))
     h, w = left.shape
     cost = np.full((max_disparity + 1, h, w), np.inf)
     energy_a, energy_b = (box_sum(picture * picture, window, float) for picture in (a, b))
@@ -121,15 +103,14 @@ def ncc_cost_volume(
     return cost
 
 
-def census(picture: Real[np.ndarray, "h w"]) -> UInt32[np.ndarray, "h w"]:
+def census(picture: Grey) -> UInt32[np.ndarray, "h w"]:
     """Return a 24-bit code: whether each neighbour in a 5 x 5 window is darker than the pixel."""
     h, w = picture.shape
     padded = np.pad(picture, 2, mode="edge")
     neighbours = [(dy, dx) for dy in range(5) for dx in range(5) if (dy, dx) != (2, 2)]
     code = np.zeros((h, w), np.uint32)
-    for start in range(
-        0, CENSUS_BITS, 8
-    ):  # eight bits at a time in bytes, which numpy handles four times as fast
+    # eight bits at a time in bytes, which numpy handles four times as fast
+    for start in range(0, CENSUS_BITS, 8):
         byte = np.zeros((h, w), np.uint8)
         for dy, dx in neighbours[start : start + 8]:
             byte <<= 1
@@ -138,9 +119,7 @@ def census(picture: Real[np.ndarray, "h w"]) -> UInt32[np.ndarray, "h w"]:
     return code
 
 
-def box_sum(
-    image: Real[np.ndarray, "h w"], window: int, dtype: type | np.dtype
-) -> Real[np.ndarray, "h w"]:
+def box_sum(image: Grey, window: int, dtype: type | np.dtype) -> Grey:
     """Return the sum over the window around every pixel; border pixels stand in beyond it.
 
     Running sums over 1, 2, 4, 8, ... pixels are joined, rows first and then columns: the work grows

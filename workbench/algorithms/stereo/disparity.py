@@ -146,7 +146,6 @@ def reconstruct(
     Z = depth_of(disparity, f, baseline)  # Z = f B / d
     yield Depths(Z)
 
-    uncertainty = depth_uncertainty(
-        Z, f, baseline, disparity_error=disparity_error
-    )  # |dZ/dd| sigma_d = Z² / (f B) sigma_d
+    # |dZ/dd| sigma_d = Z² / (f B) sigma_d
+    uncertainty = depth_uncertainty(Z, f, baseline, disparity_error=disparity_error)
     yield Depths(Z, uncertainty)

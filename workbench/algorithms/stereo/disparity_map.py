@@ -6,8 +6,10 @@ A map is for the left picture, pixels: d = x_left - x_right. Costs are as in `co
 import numpy as np
 from jaxtyping import Bool, Float, Int, Real
 
+WholeMap = Int[np.ndarray, "h w"]
 
-def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
+
+def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> WholeMap:
     """Return the disparity of the lowest cost at every pixel; the smallest of several.
 
     Reference: Scharstein and Szeliski, IJCV 2002, section 3.3.
@@ -22,9 +24,8 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
     winner = np.zeros(lowest.shape, number)
     for d in range(1, len(cost)):
         better = (cost[d] < lowest).view(np.uint8)
-        np.maximum(
-            winner, better * number(d), out=winner
-        )  # d grows, so the latest winner is the largest
+        # d grows, so the latest winner is the largest
+        np.maximum(winner, better * number(d), out=winner)
         np.minimum(lowest, cost[d], out=lowest)
     return winner.astype(np.int16 if number is np.uint8 else np.int64)
 
@@ -40,9 +41,7 @@ def seen_from_right(cost: Real[np.ndarray, "d h w"]) -> Real[np.ndarray, "d h w"
 
 
 def agree(
-    left_disparity: Int[np.ndarray, "h w"],
-    right_disparity: Int[np.ndarray, "h w"],
-    tolerance: int = 1,
+    left_disparity: WholeMap, right_disparity: WholeMap, tolerance: int = 1
 ) -> Bool[np.ndarray, "h w"]:
     """Return whether each left pixel's partner has it as its own, within `tolerance` pixels.
 
@@ -58,9 +57,7 @@ def agree(
     return inside & (np.abs(back - left_disparity) <= tolerance)
 
 
-def sub_pixel(
-    cost: Real[np.ndarray, "d h w"], disparity: Int[np.ndarray, "h w"]
-) -> Float[np.ndarray, "h w"]:
+def sub_pixel(cost: Real[np.ndarray, "d h w"], disparity: WholeMap) -> Float[np.ndarray, "h w"]:
     """Return disparities at the lowest point of the parabola through a cost and the two beside it.
 
     No disparity moves by more than half a pixel. At either end of the range, beside an infinite

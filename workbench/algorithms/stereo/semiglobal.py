@@ -17,6 +17,8 @@ from jaxtyping import Real
 
 from workbench.tracing import traced
 
+Costs = Real[np.ndarray, "d h w"]
+
 DIRECTIONS = ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1))
 """The eight steps (rows down, columns right) from one pixel of a path to the next."""
 
@@ -32,12 +34,12 @@ class PathSum:
     """
 
     direction: tuple[int, int]
-    path: Real[np.ndarray, "d h w"]
-    total: Real[np.ndarray, "d h w"]
+    path: Costs
+    total: Costs
 
 
 @traced
-def semi_global(cost: Real[np.ndarray, "d h w"], P1: float, P2: float) -> Iterator[PathSum]:
+def semi_global(cost: Costs, P1: float, P2: float) -> Iterator[PathSum]:
     """Yield the sum of path costs after each of the eight directions.
 
     P1 and P2 are rounded where the cost is whole numbers.
@@ -69,9 +71,7 @@ class Jumps:
         return np.dtype(whole if self.whole else np.float32)
 
 
-def prepare(
-    cost: Real[np.ndarray, "d h w"], P1: float, P2: float
-) -> tuple[Real[np.ndarray, "d h w"], Jumps]:
+def prepare(cost: Costs, P1: float, P2: float) -> tuple[Costs, Jumps]:
     """Return the cost for the sweeps: whole numbers as they are, others as finite float32.
 
     Raises:
@@ -85,9 +85,7 @@ def prepare(
     return np.minimum(cost, top).astype(np.float32), Jumps(P1, P2, top, False)
 
 
-def path_costs(
-    cost: Real[np.ndarray, "d h w"], direction: tuple[int, int], jumps: Jumps
-) -> Real[np.ndarray, "d h w"]:
+def path_costs(cost: Costs, direction: tuple[int, int], jumps: Jumps) -> Costs:
     """Return the path costs L_r(p, d) of one direction (rows down, columns right), by eq. 13."""
     down, right = direction
     path = np.zeros(cost.shape, jumps.type_of_sum(1))
@@ -134,9 +132,7 @@ def sweep(
         path[line] = L[:, :w]
 
 
-def energy(
-    cost: Real[np.ndarray, "d h w"], disparity: Real[np.ndarray, "h w"], P1: float, P2: float
-) -> float:
+def energy(cost: Costs, disparity: Real[np.ndarray, "h w"], P1: float, P2: float) -> float:
     """Return E(D) of eq. 11 per known pixel of a disparity map.
 
     Every pair among the eight neighbours counts once, at the nearest whole disparity; NaN is

@@ -129,14 +129,12 @@ def measure_curvature(
     K = gaussian_curvature(p, faces)  # (9): defect / area
     yield (now := replace(now, stage="gaussian", areas=areas, K=K))
 
-    normals_2H = mean_curvature_normals(
-        p, faces
-    )  # (8): sum of (cot a + cot b) (p_i - p_j) / 2 area
+    # (8): sum of (cot a + cot b) (p_i - p_j) / 2 area
+    normals_2H = mean_curvature_normals(p, faces)
     yield (now := replace(now, stage="normal", normals_2H=normals_2H))
 
-    H = mean_from_normals(
-        normals_2H, normals
-    )  # half its length, with the sign of the side it points to
+    # half its length, with the sign of the side it points to
+    H = mean_from_normals(normals_2H, normals)
     yield (now := replace(now, stage="mean", H=H))
 
     k1, k2 = principal_curvatures(K, H)  # section 5.1: H +- sqrt(H^2 - K)

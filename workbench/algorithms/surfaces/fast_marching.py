@@ -77,9 +77,8 @@ def march(
         update: As `eikonal_update`. What is no number, or below both neighbours, is not taken.
     """
     n, m = start.shape
-    d = np.full(
-        (n + 2, m + 2), np.inf
-    )  # a rim that is never reached spares questions at the border
+    # a rim that is never reached spares questions at the border
+    d = np.full((n + 2, m + 2), np.inf)
     d[1:-1, 1:-1] = start
     inner = np.zeros((n + 2, m + 2), bool)
     inner[1:-1, 1:-1] = free

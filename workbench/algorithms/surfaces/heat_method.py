@@ -122,9 +122,8 @@ def directions_of(measured: Corners, u: Float[np.ndarray, " v"]) -> Float[np.nda
     """Return -grad u / |grad u|, u linear on each face: grad u = sum_k u_k (N x e_k) / 2 A."""
     e, N, at = measured.edges, measured.normals, u[measured.vertices]
     level = np.abs(at).max(axis=0)
-    at = np.divide(
-        at, level, out=np.zeros_like(at), where=level > 0
-    )  # far away heat is all but 0, its direction is not
+    # far away heat is all but 0, its direction is not
+    at = np.divide(at, level, out=np.zeros_like(at), where=level > 0)
     v = np.einsum("kf,xkf->xf", at, e)
     X = -np.stack([N[1] * v[2] - N[2] * v[1], N[2] * v[0] - N[0] * v[2], N[0] * v[1] - N[1] * v[0]])
     size = np.sqrt(np.einsum("xf,xf->f", X, X))
@@ -133,8 +132,7 @@ def directions_of(measured: Corners, u: Float[np.ndarray, " v"]) -> Float[np.nda
 
 def _divergence(measured: Corners, X: np.ndarray) -> np.ndarray:
     """Return the divergence about each vertex: 1/2 sum of cot a (e_1 . X) + cot b (e_2 . X)."""
-    along = np.einsum(
-        "xkf,fx->kf", measured.edges, X
-    )  # edge k goes from corner k + 1 to corner k + 2
+    # edge k goes from corner k + 1 to corner k + 2
+    along = np.einsum("xkf,fx->kf", measured.edges, X)
     weighted = measured.cotangents * along / 2
     return measured.sums(weighted[[2, 0, 1]] - weighted[[1, 2, 0]])

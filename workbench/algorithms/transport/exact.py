@@ -182,9 +182,8 @@ def best_plan(
             f" {MOST_UNEQUAL:,} pairs, or blurred transport"
         )
     copies = int(np.lcm(n, m))
-    if copies <= max(
-        FEW_COPIES, 5 * np.sqrt(cost.size)
-    ):  # below, the assignment is the faster of the two
+    # below, the assignment is the faster of the two
+    if copies <= max(FEW_COPIES, 5 * np.sqrt(cost.size)):
         i, j = best_assignment(cost.repeat(copies // n, axis=0).repeat(copies // m, axis=1))
         times = np.zeros((n, m))
         np.add.at(times, (i // (copies // n), j // (copies // m)), 1)
@@ -246,9 +245,8 @@ def blurred_potentials(cost: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n"]
             for _ in range(sweeps):
                 u *= (u * np.vecdot(K, v)) ** -_RELAXATION
                 v *= (v * np.vecdot(K_transposed, u)) ** -_RELAXATION
-        if not (
-            np.isfinite(v) & (v > 0)
-        ).all():  # overrelaxed scalings may run away; what was found before will do
+        # overrelaxed scalings may run away; what was found before will do
+        if not (np.isfinite(v) & (v > 0)).all():
             break
         g = g + regularisation * np.log(v)
     return g.astype(float)

@@ -18,6 +18,8 @@ from jaxtyping import Float
 
 from workbench.tracing import traced, untraced
 
+Cost = Float[np.ndarray, "n m"]
+
 MOST_ENTRIES = 50_000_000  # of a cost matrix: 400 MB, and the plan is as large again
 
 _WIDEST = 1e40  # scalings beyond this are absorbed into the potentials
@@ -54,22 +56,18 @@ class Blurred:
     marginal_error: float
     stop: Stop | None = None
 
-    def plan(self, cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, "n m"]:
+    def plan(self, cost: Cost) -> Cost:
         """Return how much mass goes from each row to each column."""
         return np.exp((self.f[:, None] + self.g - cost) / self.regularisation)
 
-    def cost(self, cost: Float[np.ndarray, "n m"]) -> float:
-        """Return the cost of the plan without entropy: at least the optimum if the sums are right."""
+    def cost(self, cost: Cost) -> float:
+        """Return the plan's cost without entropy: at least the optimum if its sums are right."""
         return float(np.vdot(self.plan(cost), cost))
 
 
 @traced
 def sinkhorn_steps(
-    cost: Float[np.ndarray, "n m"],
-    regularisation: float,
-    *,
-    max_sweeps: int = 10_000,
-    tolerance: float = 1e-9,
+    cost: Cost, regularisation: float, *, max_sweeps: int = 10_000, tolerance: float = 1e-9
 ) -> Iterator[Blurred]:
     """Yield the entropic plan's potentials after every few sweeps, until its sums are right.
 
@@ -112,11 +110,7 @@ def sinkhorn_steps(
 
 
 def sinkhorn(
-    cost: Float[np.ndarray, "n m"],
-    regularisation: float,
-    *,
-    max_sweeps: int = 10_000,
-    tolerance: float = 1e-9,
+    cost: Cost, regularisation: float, *, max_sweeps: int = 10_000, tolerance: float = 1e-9
 ) -> Blurred:
     """Return the last state of `sinkhorn_steps`.
 
@@ -132,7 +126,7 @@ def sinkhorn(
 
 
 def tight_potentials(
-    cost: Float[np.ndarray, "n m"], g: Float[np.ndarray, "m"]
+    cost: Cost, g: Float[np.ndarray, "m"]
 ) -> tuple[Float[np.ndarray, "n"], Float[np.ndarray, "m"]]:
     """Return the largest f, then the largest g, with f_i + g_j <= cost_ij (the c-transform).
 
@@ -143,11 +137,8 @@ def tight_potentials(
 
 
 def kernel(
-    cost: Float[np.ndarray, "n m"],
-    f: Float[np.ndarray, "n"],
-    g: Float[np.ndarray, "m"],
-    regularisation: float,
-) -> Float[np.ndarray, "n m"]:
+    cost: Cost, f: Float[np.ndarray, "n"], g: Float[np.ndarray, "m"], regularisation: float
+) -> Cost:
     """Return exp((f_i + g_j - cost_ij) / regularisation), kept above the slow denormals."""
     K = f[:, None] + g
     K -= cost

@@ -1,6 +1,4 @@
-"""Arrays out of the bytes of npy and npz files: nothing in them is run, and nothing unpacks without
-bound.
-"""
+"""Arrays of npy and npz files: nothing in them is run, and nothing unpacks without bound."""
 
 import io
 import zipfile
@@ -12,12 +10,10 @@ from workbench.errors import InputError
 
 
 def read_arrays(content: bytes, name: str) -> dict[str, np.ndarray]:
-    """Return the arrays of an npz file by name; the array of an npy file is named by the empty
-    text.
+    """Return the arrays of an npz file by name; that of an npy file is named by the empty text.
 
     Raises:
-        InputError: If it is no such file, is damaged, unpacks to too much, or holds objects, which
-            are never unpickled.
+        InputError: If it is no such file, is damaged, unpacks to too much, or holds objects.
     """
     try:
         if zipfile.is_zipfile(io.BytesIO(content)):

@@ -20,9 +20,7 @@ class EdgeList:
     """The edges of a file: nodes numbered in the order in which they are named first.
 
     Attributes:
-        names: What the file calls each node.
-        edges: Each edge once, smaller number first; one listed several times has the sum of its
-            weights.
+        edges: Each edge once, smaller number first; one listed several times has the summed weight.
         weights: One per edge; 1 where the file has none.
     """
 
@@ -33,15 +31,10 @@ class EdgeList:
 
 @apart
 def read_edges(path: Path, most_nodes: int) -> EdgeList:
-    """Return the edges of a text file: per line two names and maybe a weight, between commas,
-    semicolons or blanks.
+    """Return the edges of a text file: per line two names, maybe a weight, by commas or blanks.
 
-    Lines that begin with # or %, empty ones, and a first line of words such as "source target" are
-    left out, as are edges from a node to itself. Directions do not matter.
-
-    Args:
-        path: The file: csv, txt, tsv, edges or edgelist.
-        most_nodes: More nodes are refused.
+    Lines that begin with # or %, empty ones, a first line of words and edges from a node to itself
+    are left out. Directions do not matter. More than `most_nodes` nodes are refused.
 
     Raises:
         InputError: If the file is missing, of another kind, not understood, or too large.

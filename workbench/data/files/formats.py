@@ -1,8 +1,6 @@
-"""Points out of the bytes of ply, pcd, obj and text files, in the dialects that people's scanners
-write.
+"""Points of ply, pcd, obj and text files, in the dialects that people's scanners write.
 
-Every function takes the whole file as bytes and its name for messages, and raises `InputError` with
-one clear line.
+Functions take the whole file as bytes, and its name for the one line of an `InputError`.
 """
 
 import re
@@ -96,8 +94,7 @@ def _ply_header(header: str, name: str) -> tuple[str, list[_PlyElement]]:
 
 
 def pcd_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
-    """Return the points of a pcd file (ascii, binary or binary_compressed); what the scanner did
-    not see is NaN.
+    """Return the points of a pcd file (ascii, binary, compressed), NaN where nothing was seen.
 
     Raises:
         InputError: If it is no pcd file, is cut short, or has no x, y, z.
@@ -156,9 +153,7 @@ def _compressed_columns(
 
 
 def _unpack_lzf(packed: bytes, size: int, name: str) -> bytes:
-    """Undo LZF: runs of up to 32 plain bytes, and copies of 3 to 264 bytes from at most 8192
-    back.
-    """
+    """Undo LZF: up to 32 plain bytes, and copies of 3 to 264 from at most 8192 back."""
     out, i = bytearray(), 0
     try:
         while i < len(packed):
@@ -210,9 +205,9 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     """Return the points of a text table, one row each.
 
     Columns are separated by commas, semicolons (then numbers may have decimal commas), tabs or
-    spaces. A header names the columns x, y and z (units may follow the letter); without one the
-    first three columns count, and the rest is left out. Empty lines and those that start with # or
-    // are skipped, and so is a first line with the number of points.
+    spaces. A header names x, y and z (units may follow); without one the first three columns count.
+    Empty lines, those that start with # or //, and a first line with the number of points are
+    skipped.
 
     Raises:
         InputError: If the file is no text, or its columns are not understood; names the line.
@@ -235,9 +230,7 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
 
 
 def _columns(row: str, separator: str | None, name: str) -> tuple[list[int], int]:
-    """Return which columns are x, y and z by the first row of a table, and how many rows of titles
-    there are, 0 or 1.
-    """
+    """Return which columns are x, y and z by the first row, and how many rows are titles."""
     if separator == ";":
         row = row.replace(",", ".")
     first = [word.strip().strip("\"'") for word in row.split(separator)]
@@ -254,8 +247,7 @@ def _columns(row: str, separator: str | None, name: str) -> tuple[list[int], int
 
 
 def text_of(content: bytes, name: str) -> str:
-    """Return a file as text, lines ending as here: UTF-8, or UTF-16 that begins with its mark
-    (spreadsheets write it).
+    """Return a file as text, lines ending as here: UTF-8, or UTF-16 with its mark.
 
     Raises:
         InputError: If it is neither.
@@ -272,9 +264,7 @@ def text_of(content: bytes, name: str) -> str:
 
 
 def _blocks(text: str) -> Iterator[list[str]]:
-    """Yield the lines of a text, some at a time: a list of all of them takes many times the memory
-    of the text.
-    """
+    """Yield the lines of a text, some at a time: all of them take many times its memory."""
     start = 0
     while start < len(text):
         end = text.find("\n", start + BLOCK) + 1 or len(text)
@@ -296,9 +286,7 @@ def _first_rows(body: bytes, n: int, columns: list[int], *, name: str) -> np.nda
 
 
 def not_too_many(n: int, name: str, what: str = "points") -> None:
-    """Raise InputError where there are more points, or lines with a point each, than may be
-    read.
-    """
+    """Raise InputError where there are more points than may be read."""
     most = allowance().points
     if n > most:
         raise InputError(

@@ -17,8 +17,7 @@ def read_intrinsics(path: Path) -> Float[np.ndarray, "3 3"]:
     """Return K from a text file: four numbers fx fy cx cy, or three rows of three.
 
     Raises:
-        InputError: If it is neither, or no camera: focal lengths are positive, the last row is 0 0
-            1.
+        InputError: If it is neither, or no camera, as `checked_intrinsics` says.
     """
     words = [word for _, row in word_rows(path, "intrinsics", _KINDS) for word in row]
     try:
@@ -38,15 +37,10 @@ def read_intrinsics(path: Path) -> Float[np.ndarray, "3 3"]:
 
 
 def checked_intrinsics(K: Float[np.ndarray, "3 3"], where: str) -> Float[np.ndarray, "3 3"]:
-    """Return K as it is.
-
-    Args:
-        K: What somebody gave as intrinsics, pixels.
-        where: How a refusal begins: which file, and what of it.
+    """Return K as it is; a refusal begins with `where` it stands.
 
     Raises:
-        InputError: If a focal length is not positive, the last row is not 0 0 1, or rows depend on
-            x.
+        InputError: If a focal length is not positive, the last row not 0 0 1, or rows depend on x.
     """
     if not (K[0, 0] > 0 and K[1, 1] > 0 and K[2].tolist() == [0.0, 0.0, 1.0] and K[1, 0] == 0.0):
         raise InputError(

@@ -20,18 +20,14 @@ _BOTH, _QUALITY = ("matches", "p"), ("quality", "score", "scores")
 
 @dataclass(frozen=True, eq=False)
 class Matches:
-    """Matches of a file.
+    """Matches of a file; what it does not have is None.
 
     Attributes:
         p: Rows (u, v, u', v'), pixels of the first image and of the second.
-        quality: How much each is trusted, more is better; None where the file does not say.
-        H: The true homography, first to second, where the file has one.
-        F: The true fundamental matrix, `uv_second_h.T @ F @ uv_first_h = 0`, where the file has
-            one.
-        K_first: Intrinsics of the first camera, where the file has them.
-        K_second: Those of the second.
-        T_second_first: The true motion between the cameras, where the file has one; its length
-            means nothing.
+        quality: How much each is trusted, more is better.
+        H: The true homography, first to second.
+        F: The true fundamental matrix, `uv_second_h.T @ F @ uv_first_h = 0`.
+        T_second_first: The true motion between the cameras; its length means nothing.
     """
 
     p: Float[np.ndarray, "n 4"]
@@ -49,8 +45,8 @@ def read_matches(path: Path, fewest: int = 4) -> Matches:
 
     Formats: npz with arrays x1 and x2 (n, 2), or matches (n, 4), and optionally quality (n,), H, F,
     K or K1 and K2 (3, 3), R (or R_rel) and t (or t_rel) from the first camera to the second; or
-    text with four numbers a line, u v u' v', separated by commas or white space, and optionally a
-    quality as the fifth. Rows with NaN or infinity are left out, and counted.
+    text lines u v u' v' and optionally a quality. Rows with NaN or infinity are left out, and
+    counted.
 
     Raises:
         InputError: If the file is missing, too large, not understood, or has fewer than `fewest`

@@ -1,6 +1,4 @@
-"""Files that people bring: clouds, meshes, images and known poses, each read or refused in one
-clear line.
-"""
+"""Files that people bring: clouds, meshes, images and poses, read or refused in one line."""
 
 import contextlib
 import functools
@@ -48,13 +46,12 @@ _MESHES = (".off", ".stl", ".glb", ".gltf", ".obj", ".ply")
 
 
 def read_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n 3"]:
-    """Return the points of a file, in its own unit and frame, read-only; a second call for the same
-    file is free.
+    """Return the points of a file, in its own unit and frame, read-only; kept for a second call.
 
     Formats: ply, pcd, obj, npy, npz (an array named p, points, xyz or vertices, or the only one)
-    and text (xyz, txt, csv, ...; see `text_points`), each also gzipped. A mesh is refused: its
-    vertices are rarely the samples that a cloud is taken for. Points with NaN or infinity are left
-    out: a scanner did not see them. How many is told with the first step.
+    and text (see `text_points`), each also gzipped. A mesh is refused: its vertices are rarely the
+    samples that a cloud is taken for. Points with NaN or infinity are left out; the first step
+    tells how many.
 
     Raises:
         InputError: If the file is missing, too large, not understood, or has fewer than `fewest`
@@ -70,8 +67,7 @@ def read_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n 3"]:
 
 @apart
 def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Return the vertices and triangles of a mesh file (off, obj, ply, stl, glb; also gzipped);
-    polygons are cut up.
+    """Return vertices and triangles of a mesh file (off, obj, ply, stl, glb; also gzipped).
 
     Raises:
         InputError: If the file is missing, too large, not understood, has no faces, or holds NaN.
@@ -112,9 +108,7 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
 
 
 def lost_rows(path: Path) -> bool:
-    """Tell whether a cloud that was read has rows less than its file: they had no finite
-    numbers.
-    """
+    """Tell whether a cloud has rows less than its file: they had no finite numbers."""
     return len(told(path)) > 0
 
 
@@ -128,12 +122,10 @@ def _one_mesh(scene: Any, name: str) -> Any:
 
 @apart
 def read_voxels(path: Path) -> Shaped[np.ndarray, "x y z"]:
-    """Return bits or labels on a regular grid, (x, y, z) whole numbers: of an npy file, or the only
-    such array of an npz.
+    """Return bits or labels (x, y, z) of an npy file or the only such array of an npz.
 
     Raises:
-        InputError: If the file is missing, too large, not understood, or has no array of three
-            axes, or several.
+        InputError: If the file is missing, too large, not understood, or has not one such array.
     """
     path = Path(path)
     stamp(path)
@@ -178,9 +170,7 @@ def _plain(image: "Image.Image") -> np.ndarray:
 
 
 def shipped(name: str) -> Path:
-    """Return where scikit-image keeps one of the samples in its wheel: to import its own readers
-    takes 0.3 s.
-    """
+    """Return where scikit-image keeps a sample: to import its own readers takes 0.3 s."""
     import skimage
 
     return Path(skimage.__file__).with_name("data") / name
@@ -188,8 +178,7 @@ def shipped(name: str) -> Path:
 
 @contextlib.contextmanager
 def opened_image(source: Path | io.BytesIO, name: str) -> "Iterator[Image.Image]":
-    """Give an image of Pillow's, its size and depth judged and nothing decoded yet; what fails on
-    it is told in one line.
+    """Give an image of Pillow's, its size and depth judged and nothing decoded yet.
 
     Raises:
         InputError: If it is no image of 8 bits a channel, or too large.
@@ -223,16 +212,11 @@ def read_pose(
 
     The file is 16 numbers row by row (text or npy), or a list of poses by the name of a scan, each
     from the scan into one common frame: rows of 12 or 16 numbers, or a Stanford .conf (translation,
-    then a quaternion x, y, z, w that is stored conjugated).
-
-    Args:
-        path: The file.
-        target: The scan in whose frame the pose is, to find its row in a list; a single 4x4 does
-            not need it.
-        source: The scan that the pose moves, likewise.
+    then a quaternion x, y, z, w that is stored conjugated). A list needs `target`, the scan in
+    whose frame the pose is, and `source`, the scan that it moves.
 
     Raises:
-        InputError: If the file is missing, not understood, not a pose, or a list without the two
+        InputError: If the file is missing, not understood, no pose, or a list without the two
             scans.
     """
     path = Path(path)
@@ -339,9 +323,7 @@ def _points(path: Path) -> np.ndarray:
 def finite(
     p: Float[np.ndarray, "n d"], name: str, one: str = "point", many: str = "points"
 ) -> Float[np.ndarray, "m d"]:
-    """Return the rows without NaN and infinity; how many are left out is told with the first step
-    of the run.
-    """
+    """Return the rows without NaN and infinity; the first step tells how many are left out."""
     good = np.isfinite(p).all(axis=1)
     if len(p) and not good.any():
         raise InputError(f"{name}: all {len(p):,} {many} are NaN or infinite")
@@ -395,10 +377,9 @@ def text_rows(
     """Return the lines of a text file with their numbers from 1, without empty ones and comments.
 
     Args:
-        path: The file.
         what: What is read from it, for a refusal.
         kinds: The endings that its name may have, in lower case; None takes any.
-        comments: A line that begins with one of these signs is a comment.
+        comments: The signs that begin a comment.
 
     Raises:
         InputError: If it is no file, too large, of another kind, or no text.
@@ -420,31 +401,22 @@ def text_rows(
 
 
 def word_rows(path: Path, what: str, kinds: tuple[str, ...] | None) -> list[tuple[int, list[str]]]:
-    """Return the words of each line of a text file with its number, as `text_rows` does; none
-    without a word.
-
-    Args:
-        path: The file.
-        what: What is read from it, for a refusal.
-        kinds: The endings that its name may have, in lower case.
+    """Return the words of each line of a text file with its number, as `text_rows` does.
 
     Raises:
-        InputError: If it is no file, too large, of another kind, or no UTF-8.
+        InputError: As `text_rows`.
     """
     return [(i, words) for i, line in text_rows(path, what, kinds) if (words := words_of(line))]
 
 
 def number_rows(path: Path, what: str, kinds: tuple[str, ...]) -> list[tuple[int, list[str]]]:
-    """Return what `word_rows` does, without a first line of names: one that begins with no
-    number.
-    """
+    """Return what `word_rows` does, without a first line that begins with no number."""
     rows = word_rows(path, what, kinds)
     return rows[bool(rows) and not is_number(rows[0][1][0]) :]
 
 
 def stamp(path: Path) -> tuple[int, int]:
-    """Return when a file was changed and its size: what is read from it may be kept as long as they
-    stay.
+    """Return when a file was changed and its size: as long as they stay, readings are kept.
 
     Raises:
         InputError: If it is no file, or too large.

@@ -1,6 +1,4 @@
-"""The rim of something bright and round on a dark ground, such as a coin, found from a pixel
-inside.
-"""
+"""The rim of something bright and round on a dark ground, found from a pixel inside."""
 
 import functools
 from dataclasses import dataclass
@@ -24,11 +22,8 @@ class Rim:
     """The rim of something round in a photograph.
 
     Attributes:
-        photograph: Grey or coloured.
-        p: Its points in order round it, y upwards, in radii of the circle through all of them,
-            about its centre.
-        center: Of that circle, pixels.
-        radius: Likewise.
+        p: Its points in order, y upwards, in radii of the circle through them, about its centre.
+        center, radius: Of that circle, pixels.
     """
 
     photograph: UInt8[np.ndarray, "h w *channels"]
@@ -37,9 +32,7 @@ class Rim:
     radius: float
 
     def windows(self, arc: float) -> Float[np.ndarray, "k m 2"]:
-        """Return parts of it that are an arc of so many degrees long and begin in twelve places,
-        the first about +x.
-        """
+        """Return twelve arcs of so many degrees, the first about +x."""
         n = len(self.p)
         count = max(round(n * arc / 360.0), 4)
         first = np.arange(WINDOWS) * n // WINDOWS - count // 2
@@ -47,11 +40,7 @@ class Rim:
 
 
 def find_rim(photograph: UInt8[np.ndarray, "h w *channels"], pixel: tuple[int, int]) -> Rim:
-    """Return the rim of what a pixel is inside of.
-
-    Args:
-        photograph: Of something bright on dark.
-        pixel: Column and row; one beyond the photograph is its last.
+    """Return the rim of what a pixel (column, row) is inside of, bright on dark.
 
     Raises:
         InputError: If the photograph is too large, or no rim is found.
@@ -87,15 +76,7 @@ def rim_points(
 ) -> Float[np.ndarray, "n 2"]:
     """Return where the picture darkens most along rays from a pixel, in order round it, pixels.
 
-    Args:
-        image: Grey or coloured.
-        uv_inside: The pixel, column first.
-        rays: How many, evenly all round.
-        farthest: How far they go, pixels.
-
-    Note:
-        A ray on which nothing darkens gives some place on it: what is fitted to the rim may have to
-        be robust.
+    A ray on which nothing darkens gives some place on it.
     """
     gray = image if image.ndim == 2 else image[..., :3].mean(axis=-1)
     smooth = scipy.ndimage.gaussian_filter(gray.astype(float), SMOOTH)

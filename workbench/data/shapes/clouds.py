@@ -1,5 +1,4 @@
-"""Seeded synthetic clouds for registration: one shape with no symmetry, one with, one that slides,
-and scans of them.
+"""Seeded clouds for registration: with no symmetry, with one, one that slides, and scans of them.
 
 Lengths in metres, +Z up, every shape about a metre in size.
 """
@@ -17,14 +16,7 @@ Cloud = Float[np.ndarray, "n 3"]
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two scans of one shape and the motion between them.
-
-    Attributes:
-        p_target: Scan in the target frame.
-        p_source: Scan in the source frame.
-        T_target_source: The true motion.
-        is_outlier: Whether a source point is none of the shape's.
-    """
+    """Two scans of one shape, their true motion, and which source points are not the shape's."""
 
     p_target: Float[np.ndarray, "m 3"]
     p_source: Float[np.ndarray, "n 3"]
@@ -33,9 +25,7 @@ class Pair:
 
 
 def vase(count: int, rng: np.random.Generator) -> Cloud:
-    """Return points on a surface of revolution about z: no cloud of it can tell how far it was
-    turned.
-    """
+    """Return points on a surface of revolution about z: nothing tells how far it was turned."""
     z = np.linspace(-0.45, 0.45, 400)
     area = _vase_radius(z) * np.hypot(1.0, np.gradient(_vase_radius(z), z))
     height = np.interp(rng.random(count), np.cumsum(area) / area.sum(), z)
@@ -45,22 +35,14 @@ def vase(count: int, rng: np.random.Generator) -> Cloud:
 
 
 def corner(count: int, rng: np.random.Generator) -> Cloud:
-    """Return points on a floor and a wall that meet along x, 2 m long: nothing holds a slide along
-    x but the ends.
-    """
+    """Return points on a floor and a wall, 2 m long: only the ends hold a slide along x."""
     floor = np.arange(count) < 0.55 * count
     x, s = rng.uniform(-1.0, 1.0, count), rng.uniform(0.0, 0.8, count)
     return np.column_stack([x, np.where(floor, s, 0.0) - 0.3, np.where(floor, 0.0, s) - 0.3])
 
 
 def box_surface(count: int, size: tuple[float, float, float], rng: np.random.Generator) -> Cloud:
-    """Return points on the surface of a box about the origin; a box of height 0 is a plate.
-
-    Args:
-        count: How many.
-        size: Its sides along x, y and z, metres; at most one of them is 0.
-        rng: Draws the places.
-    """
+    """Return points on the surface of a box about the origin; a box of height 0 is a plate."""
     x, y, z = size
     areas = np.array([y * z, x * z, x * y])
     across = rng.choice(3, count, p=areas / areas.sum())  # the axis that the point's face is across
@@ -86,11 +68,7 @@ def pair(
 
     Args:
         shape: One of `SHAPES`.
-        count: Points of each scan.
-        T_target_source: The true motion.
-        rng: Draws points, noise and outliers.
-        overlap: Share of the source scan that the target scan saw too; the two lose opposite ends
-            along x.
+        overlap: Share of the source scan that the target scan saw too; the two lose opposite ends.
         noise: Standard deviation of each coordinate, in both scans, metres.
         outliers: Share of the source points that lie anywhere in twice the shape's box.
 
@@ -99,9 +77,8 @@ def pair(
     """
     if shape not in SHAPES or not 0 < overlap <= 1 or not 0 <= outliers < 1 or count < 1:
         raise ValueError(f"shape {shape!r}, count {count}, overlap {overlap}, outliers {outliers}")
-    cut = (1.0 - overlap) / (
-        2.0 - overlap
-    )  # each scan keeps 1 - cut of the shape; 1 - 2 cut of it is in both
+    # each scan keeps 1 - cut of the shape; 1 - 2 cut of it is in both
+    cut = (1.0 - overlap) / (2.0 - overlap)
     more = int(np.ceil(count / (1.0 - cut)))
     first, second = (SHAPES[shape](more, rng) for _ in range(2))  # both in the target frame
     first = first[np.argsort(first[:, 0], kind="stable")[:count]]

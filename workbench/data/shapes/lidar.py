@@ -1,5 +1,4 @@
-"""A seeded lidar pair: rings of a spinning scanner on a street with houses, cars and poles, from
-two places.
+"""A seeded lidar pair: rings of a spinning scanner on a street, from two places.
 
 Lengths in metres, +Z up. The rings lie densely along themselves and far apart from each other, and
 they move with the scanner: what the two scans have in common is the street, not the rings.
@@ -74,9 +73,6 @@ def lidar_scan(
     """Return what a spinning scanner sees, in its own frame.
 
     Args:
-        scene: The street; the ground is always there.
-        T_world_sensor: Where the scanner stands, metres.
-        rng: Draws the first column's direction and the noise.
         rings: Beams, evenly between LOWEST and HIGHEST.
         columns: Directions of one turn.
         noise: Standard deviation of each coordinate, metres.
@@ -104,9 +100,7 @@ def lidar_pair(
     columns: int = 1000,
     noise: float = 0.02,
 ) -> tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "n 3"]]:
-    """Return target and source: scans of one street, the second after the scanner has moved by
-    T_target_source.
-    """
+    """Return target and source: scans of one street, before and after the motion."""
     scene = street(rng)
     T_world_target = motion(np.eye(3), np.array([0.0, 0.0, SENSOR_HEIGHT]))
     p_target = lidar_scan(scene, T_world_target, rng, rings=rings, columns=columns, noise=noise)
@@ -117,9 +111,7 @@ def lidar_pair(
 
 
 def _distances(scene: Street, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
-    """Return how far rays from one place go until they hit something; infinity where they hit
-    nothing.
-    """
+    """Return how far rays from one place go until they hit something, or infinity."""
     with np.errstate(divide="ignore", invalid="ignore"):  # rays along an axis
         hits = np.where(v_world[:, 2] < 0, -p_world[2] / v_world[:, 2], np.inf)
         flat = np.square(v_world[:, :2]).sum(axis=1)
@@ -134,9 +126,7 @@ def _distances(scene: Street, p_world: np.ndarray, v_world: np.ndarray) -> np.nd
 
 
 def _towards(off: np.ndarray, reach: float, v_world: np.ndarray, *, flat: np.ndarray) -> np.ndarray:
-    """Return which rays, seen from above, pass a middle by `reach` or little more; `flat` is their
-    squared length.
-    """
+    """Return which rays pass a middle by `reach`; `flat` is their squared length from above."""
     along = v_world[:, :2] @ off
     beside = off @ off - (1.01 * reach) ** 2  # square of how far it is to the circle's edge
     return (

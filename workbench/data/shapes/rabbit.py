@@ -1,5 +1,4 @@
-"""A rabbit of blended ellipsoids, the course's shape without any symmetry: its field, points on it,
-and a mesh of it.
+"""A rabbit of blended ellipsoids, the course's shape without any symmetry.
 
 Lengths in metres, +Z up, nose towards +X; about 0.9 by 0.6 by 1.0 m.
 """
@@ -32,8 +31,7 @@ _ROUNDS = 5  # of moving vertices towards the middle of their neighbours
 
 
 def rabbit(count: int, rng: np.random.Generator) -> Cloud:
-    """Return points on a rabbit: a smooth closed surface of blended ellipsoids that no motion takes
-    to itself.
+    """Return points on the rabbit.
 
     The points of each ellipsoid that lie inside another are left out, and the rest is projected
     onto the surface where the smooth minimum of all ellipsoid distances is zero.
@@ -51,14 +49,11 @@ def rabbit(count: int, rng: np.random.Generator) -> Cloud:
 
 @lru_cache(maxsize=4)
 def rabbit_mesh(spacing: float = 0.03) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Return the rabbit as a closed triangle mesh without holes or handles; read-only arrays, the
-    same at every call.
+    """Return the rabbit as a closed mesh without holes or handles; read-only, always the same.
 
     Its field is marched on a grid; then vertices move along the surface towards the middle of their
-    neighbours, which rounds off the slivers that marching cubes leaves, and back onto it.
-
-    Args:
-        spacing: Of the grid, metres: 0.03 gives 2,844 vertices, 0.05 gives 994, 0.015 gives 11,460.
+    neighbours, which rounds off the slivers of marching cubes, and back onto it. A spacing of 0.03
+    m gives 2,844 vertices, 0.05 gives 994, 0.015 gives 11,460.
 
     Raises:
         ValueError: If the grid is too coarse for the ears (over 0.05 m), or finer than 0.01 m.
@@ -87,8 +82,7 @@ def rabbit_mesh(spacing: float = 0.03) -> tuple[Float[np.ndarray, "v 3"], Int[np
 
 
 def rabbit_field(p: Cloud) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
-    """Return the smooth minimum of the blobs' distances, and its gradient: 0 on the rabbit,
-    negative inside, metres.
+    """Return the smooth minimum of the blobs' distances, negative inside, and its gradient.
 
     It is no distance: its gradient is 0.57 to 0.97 long in the box around the rabbit.
     """
@@ -109,9 +103,7 @@ def _onto_surface(p: np.ndarray, steps: int = 4) -> np.ndarray:
 
 
 def _ellipsoid(count: int, radii: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Return about half as many points as asked for, uniform on an ellipsoid: sphere points kept by
-    their area.
-    """
+    """Return about half of `count` points, uniform on an ellipsoid by their area."""
     u = rng.standard_normal((count, 3))
     u /= np.linalg.norm(u, axis=1, keepdims=True)
     stretch = np.linalg.norm(u / radii, axis=1) * radii.min()

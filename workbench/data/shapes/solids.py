@@ -1,6 +1,4 @@
-"""Small closed solids whose left and right, front and back can be told apart. Metres, +Z up, foot
-at z = 0.
-"""
+"""Small solids whose left and right, front and back differ. Metres, +Z up, foot at z = 0."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -16,9 +14,7 @@ Shape = Literal["house", "L block", "box"]
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """A triangle mesh, faces counter-clockwise seen from outside, and the lines that are drawn on
-    it.
-    """
+    """A triangle mesh, counter-clockwise seen from outside, and the lines drawn on it."""
 
     p: Float[np.ndarray, "v 3"]
     faces: Int[np.ndarray, "f 3"]
@@ -48,9 +44,7 @@ def box(size: tuple[float, float, float] = (1.0, 0.7, 0.6)) -> Solid:
 
 
 def house() -> Solid:
-    """Return a house with a door; ridge off the middle, hipped behind: no mirror and no turn maps
-    it to itself.
-    """
+    """Return a house with a door, ridge off the middle: no mirror and no turn keeps it."""
     p = np.vstack([box().p, [[0.15, -0.35, 1.0], [0.15, 0.1, 1.0]]])
     foot, sides = (3, 2, 1, 0), ((0, 1, 5, 8, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
     body = _of_polygons(p, (foot, *sides, (5, 6, 9, 8), (4, 8, 9, 7), (6, 7, 9)))
@@ -72,9 +66,7 @@ def l_block() -> Solid:
 def sharp_edges(
     p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], angle: float = 0.02
 ) -> Int[np.ndarray, "e 2"]:
-    """Return the edges at which two faces meet at more than an angle in radians, or that only one
-    face has.
-    """
+    """Return the edges where faces meet at more than `angle`, radians, or that one face has."""
     ends = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     edge, inverse = np.unique(ends, axis=0, return_inverse=True)
     total = np.zeros((len(edge), 3))

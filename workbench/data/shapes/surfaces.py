@@ -49,9 +49,7 @@ class Surface:
 def sphere(
     count: int, radius: float = 1.0, *, jitter: float = 0.0, rng: np.random.Generator | None = None
 ) -> Surface:
-    """Sample a sphere by a subdivided icosahedron: all vertices have six neighbours but twelve,
-    which have five.
-    """
+    """Sample a sphere by a subdivided icosahedron: all but twelve vertices have six neighbours."""
     normals, faces = _geodesic(max(1, round(np.sqrt(max(count - 2, 10) / 10))))
     if _checked(jitter):
         spacing = np.sqrt(4 * np.pi / len(normals))
@@ -68,9 +66,7 @@ def torus(
     jitter: float = 0.0,
     rng: np.random.Generator | None = None,
 ) -> Surface:
-    """Sample a torus around z: K > 0 outside, K < 0 inside, K = 0 along the two circles on which it
-    could lie.
-    """
+    """Sample a torus around z: K > 0 outside, K < 0 inside, K = 0 on the top and bottom circle."""
     across = max(3, round(np.sqrt(count * tube / ring)))
     around = max(3, round(count / across))
     uv, faces = _grid(
@@ -120,9 +116,7 @@ def catenoid(
     jitter: float = 0.0,
     rng: np.random.Generator | None = None,
 ) -> Surface:
-    """Sample a catenoid around z, a minimal surface: H = 0 and K = -1 / (waist^2 cosh^4(z /
-    waist)).
-    """
+    """Sample a catenoid around z, a minimal surface: K = -1 / (waist^2 cosh^4(z / waist))."""
     # With t = z / waist the metric is waist^2 cosh^2(t) (du^2 + dt^2): square cells in (u, t) are
     # square in space.
     span = height / waist
@@ -152,9 +146,7 @@ def saddle(
     jitter: float = 0.0,
     rng: np.random.Generator | None = None,
 ) -> Surface:
-    """Sample z = bend (x^2 - y^2) / 2 over the square |x|, |y| <= half: K < 0 everywhere, K =
-    -bend^2 in the middle.
-    """
+    """Sample z = bend (x^2 - y^2) / 2 over |x|, |y| <= half: K = -bend^2 in the middle."""
     side = max(2, round(np.sqrt(count)))
     xy, faces = _grid(
         side, side, (-half, half), (-half, half), closed=(False, False), jitter=jitter, rng=rng
@@ -183,18 +175,14 @@ SURFACES: dict[str, Callable[..., Surface]] = {
 
 
 def scaled(surface: Surface, factor: float) -> Surface:
-    """Return the surface enlarged about the origin: curvatures shrink by the factor, K by its
-    square.
-    """
+    """Return the surface enlarged about the origin: curvatures shrink, K by the square."""
     if factor <= 0:
         raise InputError(f"the size must be positive, not {factor:g}")
     return replace(surface, p=factor * surface.p, k1=surface.k1 / factor, k2=surface.k2 / factor)
 
 
 def inside_out(surface: Surface) -> Surface:
-    """Return the surface with its outside in: normals turn round, k1 and k2 change sign and places,
-    K stays.
-    """
+    """Return the surface with its outside in: k1 and k2 change sign and places, K stays."""
     along = np.cross(surface.normals, surface.along_k1)
     return replace(
         surface,
@@ -207,9 +195,7 @@ def inside_out(surface: Surface) -> Surface:
 
 
 def with_noise(surface: Surface, sigma: float, rng: np.random.Generator) -> Surface:
-    """Move every vertex along its normal by Gaussian noise of sigma metres; the analytic values
-    stay the smooth ones.
-    """
+    """Move every vertex along its normal by Gaussian noise, metres; analytic values stay."""
     return replace(
         surface,
         p=surface.p + sigma * rng.standard_normal(len(surface.p))[:, None] * surface.normals,
@@ -224,9 +210,7 @@ def _monge(
     hessian: Float[np.ndarray, "n 2 2"],
     faces: Int[np.ndarray, "f 3"],
 ) -> Surface:
-    """Return a height field with its curvature from first and second derivatives (do Carmo 3.3,
-    example 5).
-    """
+    """Return a height field with its curvature (do Carmo 3.3, example 5)."""
     w = np.sqrt(1 + (slope**2).sum(axis=1))
     normals = np.c_[-slope, np.ones(len(xy))] / w[:, None]
     metric = np.eye(2) + slope[:, :, None] * slope[:, None, :]
@@ -250,9 +234,7 @@ def _grid(
     jitter: float,
     rng: np.random.Generator | None,
 ) -> tuple[UV, Int[np.ndarray, "f 3"]]:
-    """Return a grid of parameters, its cells cut along one diagonal; jitter, in cells, leaves open
-    borders alone.
-    """
+    """Return a grid of parameters, cells cut in two; jitter, in cells, leaves borders alone."""
     ends = [
         np.linspace(*span, n, endpoint=not c)
         for span, n, c in zip((u_span, v_span), (n_u, n_v), closed, strict=True)
@@ -277,9 +259,7 @@ def _grid(
 
 
 def _geodesic(frequency: int) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Return the icosahedron with every edge cut into `frequency` parts, pushed out to the unit
-    sphere.
-    """
+    """Return the icosahedron, every edge cut in `frequency` parts, on the unit sphere."""
     golden = (1 + np.sqrt(5)) / 2
     corners = np.array([[s, t * golden, 0] for s in (-1, 1) for t in (-1, 1)], dtype=float)
     corners = _unit(np.concatenate([np.roll(corners, k, axis=1) for k in range(3)]))

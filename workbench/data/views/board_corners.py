@@ -15,11 +15,12 @@ import numpy as np
 import scipy
 from jaxtyping import Complex, Float, Int, UInt8
 
+# pixels along the longer side at most, to which a picture is shrunk where corners are sought
 SIDES = (
     800,
     1200,
     400,
-)  # pixels along the longer side at most, to which a picture is shrunk where corners are sought
+)
 BLUR, RING, APART = 1.5, 4.5, 7  # pixels: of the saddles, of the ring around one, between two
 MOST, SEEDS = 500, 120  # saddles that are looked at, and those from which a board is grown
 FOURFOLD = 0.55  # share of a ring's changes that two dark and two bright sectors make
@@ -38,16 +39,11 @@ Table = Int[np.ndarray, "rows columns"]
 def board_corners(
     grey: UInt8[np.ndarray, "h w"], columns: int, rows: int
 ) -> Float[np.ndarray, "n 2"] | None:
-    """Return the inner corners of a whole checkerboard, pixels, row by row; None where there is
-    none, or a larger one.
+    """Return the inner corners of a whole checkerboard, pixels, row by row; or None.
 
     Rows run to the right where the first corner is at the upper left. That is the one of the two
-    ends between dark squares where colours tell them apart, else the upper one.
-
-    Args:
-        grey: A picture.
-        columns: Inner corners in a row.
-        rows: Rows.
+    ends between dark squares where colours tell them apart, else the upper one. None too where the
+    board is larger.
     """
     for side in SIDES:
         k = -(-max(grey.shape) // side)
@@ -71,13 +67,10 @@ def board_corners(
 def refined(
     grey: UInt8[np.ndarray, "h w"], uv: Float[np.ndarray, "n 2"], half: int
 ) -> Float[np.ndarray, "n 2"]:
-    """Return corners where the gradients around them, each at right angles to the way there, put
-    them, pixels.
+    """Return corners where the gradients around them, at right angles to the way there, put them.
 
-    Args:
-        grey: A picture.
-        uv: Where they are, roughly. One that would leave its window stays.
-        half: Half of the window's side, pixels; gradients count less towards its border.
+    The window is twice `half` wide, pixels; gradients count less towards its border. A corner that
+    would leave it stays.
 
     Reference: Foerstner and Guelch 1987; OpenCV's cornerSubPix, whose fixed points these are.
     """
@@ -108,9 +101,7 @@ def refined(
 
 
 def _saddles(grey: np.ndarray) -> tuple[Float[np.ndarray, "n 2"], Complex[np.ndarray, " n"]]:
-    """Return pixels around which dark and bright take turns twice, and where they do: twice the
-    angle of the bright.
-    """
+    """Return pixels around which dark and bright alternate twice, and twice the bright's angle."""
     yy, xx, xy = (
         scipy.ndimage.gaussian_filter(grey, BLUR, order=order) for order in ((2, 0), (0, 2), (1, 1))
     )
@@ -135,9 +126,7 @@ def _saddles(grey: np.ndarray) -> tuple[Float[np.ndarray, "n 2"], Complex[np.nda
 
 
 def _tables(uv: np.ndarray, wave: np.ndarray, columns: int, rows: int) -> Iterator[Table]:
-    """Yield whole boards of that shape as tables of saddles, grown from one saddle and two beside
-    it.
-    """
+    """Yield whole boards as tables of saddles, grown from one saddle and two beside it."""
     if len(uv) < columns * rows:
         return
     tree, known = scipy.spatial.cKDTree(uv), set[int]()
@@ -194,9 +183,7 @@ def _grown(
 
 
 def _whole(grid: dict[tuple[int, int], int], columns: int, rows: int) -> Iterator[Table]:
-    """Yield the board in a grid, where it has that shape and no more than half of a further row or
-    column beside it.
-    """
+    """Yield the board in a grid that has that shape, no further row or column half full."""
     places = np.array(list(grid))
     high, wide = (np.ptp(places, axis=0) + 3).tolist()
     table = np.full((high, wide), -1)
@@ -211,9 +198,7 @@ def _whole(grid: dict[tuple[int, int], int], columns: int, rows: int) -> Iterato
 
 
 def _from_the_first(uv: np.ndarray, wave: np.ndarray, table: Table) -> Table:
-    """Return the table so turned that its first corner lies between dark squares, or else that it
-    is the upper one.
-    """
+    """Return the table turned so that its first corner is between dark squares, or upper."""
     diagonal = complex(*(uv[table[1, 1]] - uv[table[0, 0]]))
     back = table[::-1, ::-1]
     if sum(table.shape) % 2:  # the two ends differ

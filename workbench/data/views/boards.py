@@ -1,6 +1,4 @@
-"""A checkerboard before a camera with a lens: seeded poses, what goes wrong with a print, and the
-pixels of its corners.
-"""
+"""A checkerboard before a camera: seeded poses, what goes wrong with a print, its corners."""
 
 from typing import Literal
 
@@ -28,19 +26,15 @@ _MARGIN = 3.0  # pixels that corners stay away from the border
 def board_points(
     columns: int = COLUMNS, rows: int = ROWS, square: float = SQUARE
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the inner corners of a board in its own frame, metres: row by row, Z = 0, the first at
-    the origin.
-    """
+    """Return a board's inner corners, metres: row by row, Z = 0, first at the origin."""
     y, x = np.mgrid[:rows, :columns]
     return square * np.stack([x.ravel(), y.ravel(), np.zeros(columns * rows)], axis=1)
 
 
 def printed(p_board: Float[np.ndarray, "n 3"], fault: Fault) -> Float[np.ndarray, "n 3"]:
-    """Return where points of the board really are, metres, once something went wrong with the
-    print.
+    """Return where points of the board really are, metres, with a fault of the print.
 
-    Stretched prints are too long along x only; a bent one is bowed along x, towards -Z, by so much
-    in the middle.
+    Stretched prints are too long along x only; a bent one is bowed along x, towards -Z.
     """
     if fault == "bent 1 mm":
         middle, half = SQUARE * (COLUMNS - 1) / 2, SQUARE * (COLUMNS - 1) / 2
@@ -52,9 +46,7 @@ def printed(p_board: Float[np.ndarray, "n 3"], fault: Fault) -> Float[np.ndarray
 def board_mesh() -> tuple[
     Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"], UInt8[np.ndarray, "f 3"]
 ]:
-    """Return the squares of the board as triangles: corners in metres, faces, and a colour for each
-    face.
-    """
+    """Return the squares as triangles: corners in metres, faces, and a colour per face."""
     j, i = (axis.ravel() for axis in np.mgrid[-1:ROWS, -1:COLUMNS])
     corner = np.stack([i, j, np.zeros_like(i)], axis=1)
     p = SQUARE * (corner[:, None] + np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])).reshape(
@@ -74,11 +66,8 @@ def board_poses(
     far as they fit.
 
     Args:
-        rng: Where chance comes from.
-        views: How many.
-        tilt: By how much boards are turned away from the picture's plane, radians: 0.6 to 1.2 times
-            this.
-        distance: To the middle of the board, metres: 0.9 to 1.3 times this.
+        tilt: Boards are turned away from the picture's plane by 0.6 to 1.2 times this, radians.
+        distance: Boards' middles are 0.9 to 1.3 times this away, metres.
         spread: How far boards go to the sides: 0 stays in the middle, 1 covers the picture.
     """
     p_board = board_points()
@@ -92,9 +81,8 @@ def board_poses(
             n = np.array([np.cos(np.pi * axis), np.sin(np.pi * axis), 0.0])
             R = exp_so3(size * n) @ exp_so3(np.array([0.0, 0.0, 0.6 * roll]))
             depth = distance * (1.1 + 0.2 * away)
-            inwards = 1.0 - k / (
-                _TRIES - 1
-            )  # from the sides to the middle, until all is in the picture
+            # from the sides to the middle, until all is in the picture
+            inwards = 1.0 - k / (_TRIES - 1)
             aside = inwards * spread * depth * np.array([0.38 * right, 0.3 * down])
             T = motion(R, np.array([*aside, depth]) - R @ middle)
             uv = project(p_board, T, K_TRUE, LENS_TRUE)
@@ -115,10 +103,7 @@ def board_pixels(
     """Return the measured pixels of all corners in every view.
 
     Args:
-        rng: Where the noise comes from.
-        Ts_camera_board: Poses of the board.
         sigma: Standard deviation of each coordinate, pixels.
-        fault: What is wrong with the print.
         bad_corners: So many corners of the second view were taken for something 5 px away.
     """
     p = printed(board_points(), fault)

@@ -1,6 +1,4 @@
-"""Corners of a board in people's own pictures: read or refused in one clear line, or found in the
-pictures themselves.
-"""
+"""Corners of a board in people's own pictures: read from a file, or found in pictures."""
 
 import functools
 from dataclasses import dataclass, replace
@@ -52,10 +50,9 @@ class Corners:
     Attributes:
         p_board: Points of the board, in the file's unit, Z = 0.
         uv: Their pixels in every view that is left.
-        names: What the views of the file are called; empty where the file does not say.
+        names: What the views are called; empty where the file does not say.
         stated: Width and height of the pictures, as the file says, or None.
-        left_out: Views of the file that are not in `uv`, for too many of their corners have no
-            number; counted from 0.
+        left_out: Views, from 0, that are not in `uv`: too many of their corners have no number.
     """
 
     p_board: Float[np.ndarray, "n 3"]
@@ -76,15 +73,13 @@ class Corners:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height of the pictures: as stated, or the least usual size that holds all
-        corners.
-        """
+        """Width and height: as stated, or the least usual size that holds all corners."""
         return self.stated or _size_of(self.uv)
 
 
 @apart
 def read_corners(path: Path, which: Which = "first") -> Corners:
-    """Return the corners of a file.
+    """Return the corners of a file, of the first or the second camera.
 
     Formats: npz with object_points (n, 3) or (n, 2), and left, corners, uv or image_points (k, n,
     2), a second camera's in right, corners2, uv2 or image_points2, and optionally size (width,
@@ -93,13 +88,9 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
     the same points, so with a corner goes its point in all views, or its view: whichever lacks the
     larger share of its corners.
 
-    Args:
-        path: The file.
-        which: Of which of two cameras.
-
     Raises:
-        InputError: If it is no such file, too little of it is left, or the board is not flat, not
-            broad, or not the same in all views.
+        InputError: If it is no such file, too little is left, or the board is not flat, not broad,
+            or not the same in all views.
     """
     stamp(path)
     given = _from_arrays(path, which) if path.suffix.lower() == ".npz" else _from_text(path)
@@ -137,12 +128,8 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
 def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
     """Return a person's own pictures in which corners were found, as large as these or shrunk.
 
-    Args:
-        found: The corners; they have to lie in the pictures, or their file says of which size these
-            were.
-        path: A folder or a zip, matched by the names of views or in order; or a picture of one
-            view.
-        only: That view, where it is one picture.
+    `path` is a folder or a zip, matched by the names of views or in order; or a picture of the view
+    `only`. The corners have to lie in the pictures, or their file says of which size these were.
 
     Raises:
         InputError: If they are no pictures, not as many as views, or of another size than each
@@ -166,20 +153,14 @@ def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
 
 
 def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures, tuple[str, ...]]:
-    """Return the corners of a board that are found in a person's pictures, these pictures, and the
-    names of the others.
+    """Return a board's corners found in a person's pictures, these pictures, and the others' names.
 
     Squares are as large as ours, since nobody can tell: it changes how far away boards are, and
     nothing else.
 
-    Args:
-        path: A folder or a zip of pictures.
-        columns: Inner corners of the board in a row.
-        rows: Its rows.
-
     Raises:
-        InputError: If they are no pictures of one size, too many, or fewer than two show a whole
-            board of that shape.
+        InputError: If they are no pictures of one size, too many, or fewer than two show such a
+            board.
     """
     names = names_in(path) if holds_many(path) else (path.name,)
     if len(names) > MOST_VIEWS:
@@ -215,9 +196,7 @@ def _found(
 
 
 def _with_numbers(given: Corners, name: str) -> Corners:
-    """Return the views and points that all have numbers, and tell how many corners have none and
-    what went with them.
-    """
+    """Return the views and points that all have numbers, and tell what was left out."""
     unknown: np.ndarray = np.asarray(
         ~np.isfinite(given.uv).all(axis=2) | ~np.isfinite(given.p_board).all(axis=1)
     )

@@ -17,9 +17,7 @@ MOST = 2000
 
 @dataclass(frozen=True, eq=False)
 class Sightings:
-    """World points, metres, and the pixels at which they were seen; which of them are outliers,
-    where that is known.
-    """
+    """World points, metres, their pixels, and which are outliers, where that is known."""
 
     p_world: Float[np.ndarray, "n 3"]
     uv: Float[np.ndarray, "n 2"]
@@ -35,16 +33,9 @@ def seen(
     sigma: float,
     is_outlier: Bool[np.ndarray, " n"],
 ) -> Sightings:
-    """Return how a camera sees points: with normal noise, and some of them anywhere else where
-    others are.
+    """Return how a camera sees points, all in front of it, with noise of `sigma` pixels.
 
-    Args:
-        p_world: The points, metres, all in front of the camera.
-        T_camera_world: The camera's motion.
-        K: Its intrinsics.
-        rng: Chance.
-        sigma: Noise of each pixel coordinate.
-        is_outlier: Which points are seen somewhere in the box around all pixels.
+    Outliers are seen somewhere in the box around all pixels.
     """
     uv = project(p_world, T_camera_world, K)
     low, high = uv.min(axis=0), uv.max(axis=0)
@@ -71,9 +62,7 @@ def random_views(
 ) -> tuple[
     Float[np.ndarray, "count 3 3"], Float[np.ndarray, "count n 3"], Float[np.ndarray, "count n 2"]
 ]:
-    """Return R_camera_world of cameras turned anyhow, n points 4 to 8 m before each, and where it
-    sees them, normalised.
-    """
+    """Return cameras' R_camera_world, n points 4 to 8 m before each, and their images."""
     z = rng.uniform(4.0, 8.0, (count, n, 1))
     p_camera = np.concatenate([rng.uniform(-2.0, 2.0, (count, n, 2)), z], axis=2)
     R_camera_world, _ = np.linalg.qr(rng.standard_normal((count, 3, 3)))
@@ -86,8 +75,7 @@ def read_sightings(path: Path) -> Sightings:
     """Return the rows X Y Z u v of a text file (txt, csv): world points in metres and their pixels.
 
     Raises:
-        InputError: If the file cannot be read, has other rows, too few or too many, or numbers that
-            are not finite.
+        InputError: If the file cannot be read, or has other, too few, too many or not finite rows.
     """
     rows = []
     for i, words in number_rows(path, "points with their pixels", (".txt", ".csv")):

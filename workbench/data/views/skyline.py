@@ -1,6 +1,4 @@
-"""A city in a valley with mountains behind it, seen from a hill: nothing in it is nearer than 180
-m.
-"""
+"""A city in a valley with mountains behind it: nothing in it is nearer than 180 m."""
 
 import functools
 from dataclasses import dataclass
@@ -13,10 +11,11 @@ from workbench.data.views.street import Solid, chequered, lit
 from workbench.geometry.cameras.raster import MeshItem, SegmentItem
 
 VALLEY = -83.0  # metres, +Z up: its ground; the camera stands at about 0 and looks along +Y
+# where the middle of the tallest tower's foot is, and its size
 LANDMARK = (
     (84.0, 300.0),
     (24.0, 24.0, 125.0),
-)  # where the middle of the tallest tower's foot is, and its size
+)
 BLOCKS = (270.0, 330.0, 400.0, 490.0, 600.0, 740.0, 920.0)  # how far rows of towers are
 STOREYS = 6.0  # metres from line to line on a wall
 WALLS = ((216, 202, 178), (200, 198, 206), (232, 222, 204), (186, 196, 208), (206, 186, 176))
@@ -26,13 +25,7 @@ GREENS = (202, 208, 200), (212, 218, 210)
 
 @dataclass(frozen=True, eq=False)
 class Skyline:
-    """The scene, metres, +Z up.
-
-    Attributes:
-        solids: Valley, mountains and towers, lit by the sun.
-        edges: The outlines of the towers.
-        storeys: Lines round their walls.
-    """
+    """The scene, metres, +Z up: solids lit by the sun, the towers' outlines, and their storeys."""
 
     solids: tuple[Solid, ...]
     edges: Float[np.ndarray, "e 2 3"]
@@ -63,9 +56,7 @@ def skyline() -> Skyline:
 
 @functools.cache
 def skyline_items() -> tuple[MeshItem | SegmentItem, ...]:
-    """Return what `workbench.geometry.cameras.raster.render` takes to make a photograph of the
-    city.
-    """
+    """Return what `cameras.raster.render` takes to make a photograph of the city."""
     scene = skyline()
     meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids]
     return (

@@ -1,6 +1,4 @@
-"""Rectified pairs of pictures: made ones whose every disparity is known, the Middlebury motorcycle,
-and people's own.
-"""
+"""Rectified pairs: made ones with known disparities, the Middlebury motorcycle, people's."""
 
 import functools
 from dataclasses import dataclass, replace
@@ -20,13 +18,10 @@ MOST_PIXELS = 16_000_000
 
 @dataclass(frozen=True, eq=False)
 class StereoPair:
-    """Two pictures of which rows correspond, and what is known of them.
+    """Two RGB pictures of which rows correspond, and what is known of them.
 
-    Args:
-        left: The left camera's picture, RGB.
-        right: The right camera's.
-        camera: The cameras that took them.
-        disparity: The true disparity of left pixels, NaN where unknown; None without truth.
+    Attributes:
+        disparity: The true one of left pixels, NaN where unknown; None without truth.
         visible: Which left pixels the right camera sees too; None where it is not known.
     """
 
@@ -50,20 +45,10 @@ def synthetic_pair(
     noise: float,
     rng: np.random.Generator,
 ) -> StereoPair:
-    """Take two pictures of a made scene.
+    """Take two pictures of a scene in `SCENES`, with exact disparities.
 
-    Args:
-        scene: A name in `SCENES`.
-        camera: The cameras.
-        size: Width and height, pixels.
-        noise: Standard deviation of the sensors' noise, grey levels of 255; each picture has its
-            own.
-        rng: Draws textures and noise.
-
-    Returns:
-        The pair; its disparities are exact, and `visible` is too: a left pixel is visible in the
-        right picture when the point that it shows lies inside that and nothing stands nearer on the
-        way to it.
+    Each picture has its own noise, in grey levels of 255. A left pixel is visible in the right
+    picture when its point lies inside that and nothing stands nearer on the way to it.
     """
     things = SCENES[scene](rng, 1.0 / camera.f)
     w, h = size
@@ -87,8 +72,7 @@ def synthetic_pair(
 
 @functools.lru_cache(maxsize=1)
 def motorcycle_pair() -> StereoPair:
-    """Return the Middlebury 2014 motorcycle, 741 x 500 pixels, as scikit-image ships it, with
-    disparities to +-0.1 px or so.
+    """Return the Middlebury 2014 motorcycle of scikit-image, 741 x 500 pixels, true to 0.1 px.
 
     Reference: Scharstein et al., High-resolution stereo datasets with subpixel-accurate ground
     truth, GCPR 2014.
@@ -103,16 +87,12 @@ def motorcycle_pair() -> StereoPair:
 
 
 def read_pair(left: Path, right: Path, f: float, baseline: float, doffs: float = 0.0) -> StereoPair:
-    """Return a rectified pair from two image files; grey ones become RGB, so the two may differ in
-    that.
+    """Return a rectified pair from two image files; grey ones become RGB.
 
     Args:
-        left: File of the left picture.
-        right: File of the right picture.
         f: Focal length, pixels of these files.
-        baseline: Distance between the cameras, metres.
-        doffs: cx_right - cx_left, pixels; the left principal point is taken to be in the middle of
-            the picture.
+        baseline: Metres.
+        doffs: cx_right - cx_left, pixels; the left principal point is taken to be in the middle.
 
     Raises:
         InputError: If a file is missing, no image, too large, or the two differ in size.
@@ -129,8 +109,7 @@ def read_pair(left: Path, right: Path, f: float, baseline: float, doffs: float =
 
 
 def shrunk(pair: StereoPair, k: int) -> StereoPair:
-    """Return the pair with every block of k x k pixels averaged; its disparities, f and doffs
-    shrink as well.
+    """Return the pair with every block of k x k pixels averaged; f, doffs and disparities too.
 
     What is left over at the right and lower border is cut off. A block's true disparity is that of
     the pixel in its middle: the mean over an edge would be the depth of nothing.
@@ -165,7 +144,7 @@ def in_both(disparity: Float[np.ndarray, "h w"], tolerance: float = 1.0) -> Bool
     """Say which left pixels both cameras see, judged from the true left disparities alone.
 
     Of all left pixels that land on one right pixel, those within `tolerance` pixels of the largest
-    disparity (the nearest) are seen; so are none that land outside, and none that are unknown.
+    disparity are seen; none that land outside, and none that are unknown.
     """
     h, w = disparity.shape
     known = np.isfinite(disparity)

@@ -1,8 +1,7 @@
-"""Small scenes of textured boards and balls, and the rays that see them: where every depth is known
-exactly.
+"""Small scenes of textured boards and balls, and the rays that see them, every depth exact.
 
 Everything is in the frame of the left camera (OpenCV: +X right, +Y down, +Z forward), metres. A ray
-direction has Z = 1, so that the distance along it is the depth.
+direction v has Z = 1, so that the distance along it is the depth; rays start at p_eye.
 """
 
 from collections.abc import Callable, Mapping
@@ -38,9 +37,7 @@ class Board:
     color: int = 0
 
     def hit(self, p_eye: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return per ray the depth of the hit, infinity where there is none, and the surface point
-        (s, t).
-        """
+        """Return per ray the depth of the hit, or infinity, and the surface point (s, t)."""
         corner, right, down = (
             np.array(a, float) for a in (self.p_corner, self.v_right, self.v_down)
         )
@@ -63,9 +60,7 @@ class Ball:
     color: int = 0
 
     def hit(self, p_eye: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return per ray the depth of the nearer hit, infinity where there is none, and the surface
-        point (s, t).
-        """
+        """Return per ray the depth of the nearer hit, or infinity, and the point (s, t)."""
         to_center = np.array(self.p_center, float) - p_eye
         a, b = np.einsum("...i,...i->...", v, v), v @ to_center
         root = b * b - a * (to_center @ to_center - self.radius**2)
@@ -95,13 +90,9 @@ Thing = Board | Ball | Sky
 def look(
     things: tuple[Thing, ...], p_eye: np.ndarray, v: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return per ray the depth of the nearest thing (infinity for the sky) and its colour 0 .. 255,
-    (..., 3).
+    """Return per ray the depth of the nearest thing (infinity: sky) and its colour, 0 .. 255.
 
-    Args:
-        things: The scene; the first is seen where no other is hit.
-        p_eye: (3,) where the rays start.
-        v: (..., 3) their directions, with Z = 1.
+    The first thing is seen where no other is hit.
     """
     depth = np.full(v.shape[:-1], np.inf)
     seen = np.zeros(v.shape[:-1], np.int64)
@@ -119,9 +110,7 @@ def look(
 
 
 def speckle(rng: np.random.Generator, grain: float, contrast: float = 1.0) -> Paint:
-    """Return a paint of random blots: some `grain` metres wide, fainter ones four times as wide;
-    around 0.6 on average.
-    """
+    """Return a paint of random blots, `grain` and four times `grain` metres wide."""
     fine, coarse = rng.random((128, 128)), rng.random((128, 128))
 
     def paint(s: np.ndarray, t: np.ndarray) -> np.ndarray:
@@ -199,9 +188,7 @@ def repeated(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
 
 
 def boards(rng: np.random.Generator, pixel: float) -> tuple[Thing, ...]:
-    """Return boards at 1, 5 and 20 m before an infinitely far sky, none of which hides another;
-    made for f = 640 px.
-    """
+    """Return boards at 1, 5 and 20 m before the sky, none hides another at f = 640 px."""
     flat = [
         Board(
             (x * z, y * z, z),

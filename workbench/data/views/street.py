@@ -1,6 +1,4 @@
-"""A small street to look at with a camera: two rails to the horizon, sleepers, boxes, spheres and a
-house.
-"""
+"""A small street to look at: two rails, sleepers, boxes, spheres and a house."""
 
 import functools
 from dataclasses import dataclass
@@ -36,11 +34,9 @@ class Street:
 
     Attributes:
         solids: What stands there, by name.
-        rails: Two parallel segments.
         edges: The outlines of boxes, house and roof.
-        points: Points worth following: those with a name first, then corners, and points along
-            rails and on balls.
-        names: The names of the first points.
+        points: Worth following: those with a name first, then corners, points along rails and on
+            balls.
     """
 
     solids: dict[str, Solid]
@@ -119,9 +115,7 @@ def standing() -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
 
 @functools.cache
 def street_map() -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
-    """Return the points of a map of the street and their normals: on what stands there, evenly by
-    area, always the same.
-    """
+    """Return points on what stands in the street, evenly by area, and their normals."""
     p, faces = standing()
     k, shares = places_on_faces(p, faces, np.random.default_rng(0).random((MAPPED, 3)))
     return np.einsum("ni,nix->nx", shares, p[faces[k]]), face_normals(p, faces)[k]
@@ -129,9 +123,7 @@ def street_map() -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
 
 @functools.cache
 def street_items() -> tuple[MeshItem | SegmentItem, ...]:
-    """Return what `workbench.geometry.cameras.raster.render` takes to make a photograph of the
-    street.
-    """
+    """Return what `cameras.raster.render` takes to make a photograph of the street."""
     scene = street()
     meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids.values()]
     return (*meshes, SegmentItem(scene.rails, np.tile(np.array(RAIL_COLOR, np.uint8), (2, 1)), 2))
@@ -151,9 +143,7 @@ def _box(foot: tuple[float, float, float], size: tuple[float, float, float]) -> 
 
 
 def _roof(foot: tuple[float, float, float], size: tuple[float, float, float]) -> Mesh:
-    """Return a gable along y: four eaves corners, then the two ends of the ridge, the one at low y
-    first.
-    """
+    """Return a gable along y: four eaves corners, then the ends of the ridge, low y first."""
     x, y, h = np.array(size) * (0.5, 0.5, 1.0)
     p = np.array(foot) + np.array(
         [[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0], [0, -y, h], [0, y, h]]
@@ -204,14 +194,9 @@ def chequered(
     height: float,
     colors: tuple[tuple[int, int, int], tuple[int, int, int]],
 ) -> Solid:
-    """Return level ground of square tiles, two colours by turns.
+    """Return level ground of square tiles, two colours by turns; the first is at the origin.
 
-    Args:
-        x: Where tiles begin along x, in tiles.
-        y: Likewise along y.
-        tile: How long a side is, metres.
-        height: Of the ground, metres.
-        colors: Of the tile at the origin, and of those beside it.
+    x and y say where tiles begin, in tiles; `tile` is how long a side is, metres.
     """
     corner = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
     p = tile * (corner[:, None] + [[0, 0], [1, 0], [1, 1], [0, 1]]).reshape(-1, 2)
@@ -230,9 +215,7 @@ def _merge(meshes: list[Mesh]) -> Mesh:
 
 
 def lit(mesh: Mesh, color: tuple[int, int, int]) -> Solid:
-    """Return vertices and faces with a colour for each face, by Lambert's law, half of the light
-    from everywhere.
-    """
+    """Return a mesh with a colour per face, by Lambert's law, half of the light from everywhere."""
     p, faces = mesh
     a, b, c = p[faces[:, 0]], p[faces[:, 1]], p[faces[:, 2]]
     normal = np.cross(b - a, c - a)

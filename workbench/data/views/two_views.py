@@ -1,6 +1,4 @@
-"""Two pictures of one scene with matches between them: of a made one, where all is known, or from
-people's files.
-"""
+"""Two pictures of one scene with matches between them, made or from people's files."""
 
 import functools
 from dataclasses import dataclass, replace
@@ -41,22 +39,17 @@ What = Literal["street", "plane", "far"]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TwoViews:
-    """Two pictures and their matches.
+    """Two pictures and their matches; what is not known is None, metres where the scene was made.
 
     Attributes:
-        images: Both, RGB, as large as they are shown; None where there is none.
+        images: Both, RGB, as large as they are shown.
         sizes: Width and height of both in the pixels of the matches.
         strides: Every so many of these pixels one is shown.
-        K_first: Intrinsics of the first camera.
-        K_second: Those of the second.
         matches: Rows (u, v, u', v').
-        sigma: Standard deviation of each number of a match, where known.
-        T_first_world: Where the first camera stands, world to camera.
-        T_second_first: The true motion between the cameras, where known; metres where the scene was
-            made.
-        p_first: The true points of the matches in the first camera's frame, where known.
-        clean: Other matches of the same scene without noise, none where not known.
-        depth: Of every pixel of the first picture, metres, where known.
+        sigma: Standard deviation of each number of a match.
+        p_first: The true points of the matches.
+        clean: Other matches of the same scene without noise.
+        depth: Of every pixel of the first picture.
         model: How many metres one metre of the drawing stands for, about the first camera.
     """
 
@@ -88,12 +81,10 @@ def made_views(
 
     Args:
         what: The street, its level ground alone, or a city far away.
-        count: How many matches.
-        sigma: Standard deviation of the noise of each of their numbers, pixels.
-        baseline: Distance between the cameras, metres; 0 for a camera that only turns.
-        heading: Where the second camera stands as seen from the first, radians: 0 right of it, pi /
-            2 ahead, pi left.
-        rng: A numpy random generator; draws which surface points are matched, and the noise.
+        sigma: Standard deviation of each number of a match, pixels.
+        baseline: Metres; 0 for a camera that only turns.
+        heading: Where the second camera stands, radians: 0 right of the first, pi / 2 ahead, pi
+            left.
 
     Raises:
         InputError: If both cameras see less than `count` points.
@@ -165,14 +156,10 @@ def _photograph(T_camera_world: bytes, far: bool) -> Image:
 def own_views(
     matches: Path, first_image: Path | None, second_image: Path | None, *, K: Path | None, most: int
 ) -> TwoViews:
-    """Return a person's matches, with their pictures where they are given.
+    """Return at most `most` of a person's matches, with their pictures where they are given.
 
-    Args:
-        matches: As `read_matches` takes it; an npz may have K, or K1 and K2, and the true R and t.
-        first_image: The first picture.
-        second_image: The second.
-        K: Intrinsics of both cameras, as `read_intrinsics` takes them; in place of the file's.
-        most: How many matches are used; evenly chosen of more.
+    An npz of matches may have K, or K1 and K2, and the true R and t; the file K stands in place of
+    those.
 
     Raises:
         InputError: If a file cannot be read, or nobody says what K is.
@@ -205,11 +192,9 @@ def own_views(
 
 
 def shown_length(views: TwoViews) -> float:
-    """Return how long the baseline is drawn, metres: as long as it is, and in a person's scene so
-    that it fits.
+    """Return how long the baseline is drawn, metres: as it is, or so that a person's scene fits.
 
-    No picture tells how long it is. Where it is 0, a motion that is found all the same is drawn
-    with 1 m.
+    Where it is 0, a motion that is found all the same is drawn with 1 m.
     """
     if views.depth is not None and views.T_second_first is not None:
         return float(np.linalg.norm(views.T_second_first[:3, 3])) or 1.0
@@ -226,9 +211,7 @@ def shown_length(views: TwoViews) -> float:
 
 
 def _shown(file: Path | None, uv: np.ndarray) -> tuple[np.ndarray | None, tuple[int, int], int]:
-    """Return a picture as it is shown, its whole size, and its stride; without one, the size that
-    its pixels need.
-    """
+    """Return a picture as it is shown, its whole size and stride; or the size its pixels need."""
     if file is None:
         w, h = np.ceil(1.05 * np.maximum(uv.max(axis=0), 10.0) + 1.0).astype(int).tolist()
         return None, (w, h), 1

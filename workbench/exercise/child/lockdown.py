@@ -1,5 +1,4 @@
-"""What a student's process takes from itself before the student's code runs; the kernel gives none
-of it back.
+"""What a student's process takes from itself for good before the student's code runs.
 
 Limits bound memory, processor time, files and processes. Where the grader asks for them, a filter
 of system calls (`syscalls`) and, in place of a sandbox around the process, Landlock: files outside
@@ -68,9 +67,8 @@ def shut(settings: dict[str, Any]) -> None:
     _prctl(PR_SET_NO_NEW_PRIVS, 1)
     if settings["landlock"] is not None:
         _landlock(settings["landlock"])
-    _checked(
-        _libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24))
-    )  # of an administrator's powers, none
+    # of an administrator's powers, none
+    _checked(_libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24)))
     machine = platform.machine()
     if machine in syscalls.MACHINES:
         lines = syscalls.program(machine, writes=settings["writes"])

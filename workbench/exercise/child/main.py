@@ -19,8 +19,7 @@ Message = dict[str, Any]
 
 
 class Allowed:
-    """Imports the installed packages that may be used; says of ours, which hold the solutions, why
-    they may not.
+    """Imports the packages that may be used, by the folder of each; refuses ours with a reason.
 
     Args:
         places: By package, the folder that holds its folder.
@@ -37,7 +36,7 @@ class Allowed:
 
 
 class Beside:
-    """Imports the modules that were handed in beside the student's file.
+    """Imports the modules, text by name, that were handed in beside the student's file.
 
     Args:
         sources: Their text by name.
@@ -61,8 +60,7 @@ class Beside:
 
 
 class Kept(io.RawIOBase):
-    """Writes the first bytes and drops the rest without a word: who prints too much loses the
-    output, not the mark.
+    """Writes the first `most` bytes and drops the rest: who prints too much loses the output only.
 
     Args:
         most: How many bytes are kept.
@@ -169,9 +167,7 @@ def flush() -> None:
 
 
 def told(error: BaseException, file: str) -> Message:
-    """Return what the grader is told of an exception: its names, its text, and the student's
-    line.
-    """
+    """Return what the grader is told of an exception: names, text, the student's line."""
     names = [kind.__name__ for kind in type(error).__mro__[:12]]
     return {"error": names[0], "errors": names, "message": _said(error), "line": _line(error, file)}
 

@@ -1,5 +1,4 @@
-"""Reads what was handed in, in a process of its own with limits: started as `python -I -S -B
-reading.py`, never imported.
+"""Reads what was handed in, in a process with limits: `python -I -S -B reading.py`, never imported.
 
 Nothing of a hand-in is run here. But to read one costs what its author wants it to cost: a name of
 400,000 parts keeps Python's parser busy for minutes. Requests and replies are lines of JSON. It
@@ -50,8 +49,7 @@ def main() -> None:
 
 
 def read(file: str, content: bytes) -> dict[str, Any]:
-    """Return what is in a file: its text, what it says that it is for, what it defines and imports,
-    or why it is no Python.
+    """Return what is in a file: text, what it is for, defines and imports, or why it is no Python.
 
     Raises:
         UnreadableError: If it is no text, or a notebook that is none.
@@ -132,8 +130,7 @@ DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 
 
 def parts(tree: ast.Module) -> Iterator[dict[str, Any]]:
-    """Yield of each statement what it gives a value, which names it reads, and which modules it
-    uses, in which line.
+    """Yield of each statement what it binds, which names it reads, and modules with lines.
 
     A module is told by its whole path, however it came by a shorter name: `import scipy as sp` and
     `sp.spatial.distance` use scipy.spatial.distance, and so do `from scipy import spatial`, and a
@@ -184,9 +181,7 @@ def bound(node: ast.Import | ast.ImportFrom) -> Iterator[tuple[str, str]]:
 
 
 def used(statement: ast.stmt, known: dict[str, str]) -> Iterator[tuple[str, int]]:
-    """Yield the paths of modules and of what is in them that a statement uses, each with its
-    line.
-    """
+    """Yield paths of modules, and of what is in them, that a statement uses, with lines."""
     for node in ast.walk(statement):
         if isinstance(node, ast.Import):
             yield from ((alias.name, node.lineno) for alias in node.names)
@@ -199,9 +194,7 @@ def used(statement: ast.stmt, known: dict[str, str]) -> Iterator[tuple[str, int]
 
 
 def path_of(node: ast.expr, known: dict[str, str]) -> str | None:
-    """Return the path that an expression stands for, where it is one of a module: a name, an
-    attribute, or a call for it.
-    """
+    """Return the path of a module that an expression stands for: a name, an attribute, a call."""
     behind = list[str]()
     while isinstance(node, ast.Attribute):
         behind.append(node.attr)
@@ -226,9 +219,7 @@ def _called_for(call: ast.Call, known: dict[str, str]) -> str | None:
 
 
 def text_of(node: ast.expr) -> str | None:
-    """Return the text that an expression is, also where it is put together of pieces; None where it
-    is none.
-    """
+    """Return the text that an expression is, also put together of pieces; or None."""
     if isinstance(node, ast.Constant):
         return node.value if isinstance(node.value, str) else None
     pieces = list[str | None]()
@@ -249,8 +240,7 @@ TAGS = {"exercise", "solution", "workbench"}
 
 
 def of_notebook(file: str, content: bytes) -> str:
-    """Return the imports, definitions and constants of the code cells, each in its line of all
-    cells joined.
+    """Return imports, definitions and constants of code cells, each in its line of all.
 
     What else is in the cells was written to be looked at. Of several definitions the last counts, a
     tagged one first.
@@ -294,9 +284,7 @@ def of_notebook(file: str, content: bytes) -> str:
 
 
 def is_constant(node: ast.stmt) -> bool:
-    """Whether a statement gives a name a value that is made without running anything of the
-    student's.
-    """
+    """Whether a statement binds a name without running anything of the student's."""
     if not isinstance(node, (ast.Assign, ast.AnnAssign)) or node.value is None:
         return False
     calls = [call.func for call in ast.walk(node.value) if isinstance(call, ast.Call)]

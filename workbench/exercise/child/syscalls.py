@@ -1,5 +1,4 @@
-"""The filter of system calls of a student's process: a list of what it may, as the kernel takes it
-(seccomp, classic BPF).
+"""The filter of system calls of a student's process: what it may (seccomp, classic BPF).
 
 The list is what Python, numpy and scipy were seen to use (strace, five of OpenBLAS's kernels), and
 their like: memory, threads, clocks, files, and what a process asks about itself. Everything else is
@@ -12,12 +11,10 @@ Source: Linux, Documentation/userspace-api/seccomp_filter.rst and include/uapi/l
 
 import struct
 
-Numbers = tuple[
-    int | None, int | None
-]  # of a call on x86_64 and on aarch64; None where there is none
-Way = tuple[
-    tuple[int, int, tuple[int, ...]], ...
-]  # of each word, these bits are one of these values
+# of a call on x86_64 and on aarch64; None where there is none
+Numbers = tuple[int | None, int | None]
+# of each word, these bits are one of these values
+Way = tuple[tuple[int, int, tuple[int, ...]], ...]
 
 MAY: dict[str, Numbers] = {
     "brk": (12, 214),
@@ -123,10 +120,11 @@ READ_ONLY: dict[str, tuple[Way, ...]] = {
     "open": (((2, CHANGING, (0,)),),),
     "openat": (((4, CHANGING, (0,)),),),
 }
+# the one that makes a thread; all that the C libraries give for one
 CLONE_THREAD, OF_THREADS = (
     0x10000,
     0x7D0F00,
-)  # the one that makes a thread; all that the C libraries give for one
+)
 O_ASYNC = 0x2000
 MAY_IF: dict[str, tuple[Numbers, tuple[Way, ...]]] = {
     # name: its numbers, and the ways in which it may be called
@@ -160,30 +158,27 @@ NEW = 424
 take older ones.
 """
 
+# column above, audit's number of the architecture
 MACHINES = {
     "x86_64": (0, 0xC000003E),
     "aarch64": (1, 0xC00000B7),
-}  # column above, audit's number of the architecture
+}
 NUMBER, ARCHITECTURE, WORDS = 0, 4, 16  # where struct seccomp_data has them
+# BPF: take a word, mask it, jump if, end
 LOAD, AND, EQUAL, AT_LEAST, RETURN = (
     0x20,
     0x54,
     0x15,
     0x35,
     0x06,
-)  # BPF: take a word, mask it, jump if, end
+)
 ALLOW, EPERM, ENOSYS = 0x7FFF0000, 0x00050001, 0x00050000 | 38
 Line = tuple[int, int, int, int]  # what, lines to skip if so, lines to skip if not, with
 ENDS: list[Line] = [(RETURN, 0, 0, EPERM), (RETURN, 0, 0, ENOSYS), (RETURN, 0, 0, ALLOW)]
 
 
 def program(machine: str, *, writes: bool) -> bytes:
-    """Return the filter for a machine.
-
-    Args:
-        machine: One of `MACHINES`.
-        writes: Whether the process has a folder to write to.
-    """
+    """Return the filter for one of `MACHINES`; `writes` if the process has a folder to write to."""
     column, architecture = MACHINES[machine]
     free = MAY | OPEN | CHANGE if writes else MAY
     bound = (
@@ -229,9 +224,8 @@ def _part(ways: tuple[Way, ...]) -> list[Line]:
             tests: list[Line] = [
                 (EQUAL, len(values) - k - 1, 0, value) for k, value in enumerate(values[:-1])
             ]
-            tests.append(
-                (EQUAL, 0, len(rest), values[-1])
-            )  # none of them: over the rest, to the next way
+            # none of them: over the rest, to the next way
+            tests.append((EQUAL, 0, len(rest), values[-1]))
             rest = [(LOAD, 0, 0, WORDS + 4 * word), (AND, 0, 0, mask), *tests, *rest]
         lines += rest
     return [*lines, (RETURN, 0, 0, EPERM)]

@@ -1,5 +1,4 @@
-"""Values as plain bytes, for the pipe between the grader and a student's process: nothing is
-unpickled on either side.
+"""Values as plain bytes, for the pipe to a student's process: nothing is unpickled.
 
 A message is 8 bytes of lengths (header, payload), a JSON header that describes the value, and the
 payload: the raw bytes of all arrays, in order. Used by both processes, so it imports nothing of
@@ -24,8 +23,7 @@ class WireError(ValueError):
 
 
 def pack(message: dict[str, Any]) -> bytes:
-    """Return the bytes of a message: a dict whose values are None, bools, numbers, text, arrays, or
-    lists of these.
+    """Return the bytes of a message: a dict of None, bools, numbers, text, arrays, lists of these.
 
     Raises:
         WireError: If a value is of another kind; says which.
@@ -96,9 +94,8 @@ def _describe(value: Any, blobs: list[bytes], depth: int) -> Any:
         blobs.append(array.tobytes())
         return {"a": array.dtype.str, "s": list(array.shape)}
     if isinstance(value, (list, tuple)):
-        if value and {float, np.float64}.issuperset(
-            map(type, value)
-        ):  # a row of numbers is one part
+        # a row of numbers is one part
+        if value and {float, np.float64}.issuperset(map(type, value)):
             blobs.append(np.array(value, "<f8").tobytes())
             return {"n": len(value)}
         return {"l": [_describe(item, blobs, depth + 1) for item in value]}

@@ -1,6 +1,4 @@
-"""A student's process under bubblewrap: namespaces of its own, and a file system that holds Python
-and nothing else.
-"""
+"""A student's process under bubblewrap: own namespaces, files of Python and nothing else."""
 
 import functools
 import os
@@ -57,9 +55,7 @@ def arguments(python: Python) -> list[str]:
 
 @functools.cache
 def _knows_sizes() -> bool:
-    """Whether a folder's size can be bounded; an older bubblewrap gives a folder that nobody can
-    write to.
-    """
+    """Whether a folder's size can be bounded; in an older bubblewrap nobody can write to it."""
     try:
         said = subprocess.run(
             [program() or "bwrap", "--help"], capture_output=True, timeout=SECONDS, check=False

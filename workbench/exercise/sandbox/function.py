@@ -25,11 +25,9 @@ LOAD_SECONDS = 10.0
 
 
 class StudentError(InputError):
-    """The student's function gave no result; the message says what happened and where in the
-    student's file.
+    """The student's function gave no result; the message says what happened and where.
 
     Args:
-        message: One line for the student.
         kind: `raised`, `timeout`, `died`, `result` (what came back is no value) or `load`.
         error: The name of the exception that was raised, if one was.
         line: The student's own line, 0 where it is not known.
@@ -44,12 +42,10 @@ class StudentError(InputError):
 
 
 class SandboxedFunction:
-    """A student's function, callable; every call crosses to a process of its own, which is started
-    when it is needed.
+    """A student's function; every call crosses to a process of its own, started when it is needed.
 
     Args:
         given: The student's file, or what was read of it.
-        name: The function's name in it.
         seconds: The longest one call may take, wall time; the process is killed then.
         megabytes: Address space of the process.
         wall: What shuts it in; the best of this machine by default.
@@ -85,8 +81,7 @@ class SandboxedFunction:
         """Return what the student's function returns for these arguments, as plain values.
 
         Raises:
-            StudentError: If it raised, took too long, ended its process, or returned what is no
-                value.
+            StudentError: If it raised, took too long, ended its process, or returned no value.
         """
         with self._lock:
             if self._budget is not None and self._budget.over:
@@ -167,9 +162,7 @@ class SandboxedFunction:
             return ""
 
     def close(self) -> None:
-        """End the process and everything it started; nothing of it is left, and a run that goes on
-        cannot start it again.
-        """
+        """End the process and all it started; a run that goes on cannot restart it."""
         self._closed = True
         self._end()
         if self._printed is not None:
@@ -229,9 +222,7 @@ class SandboxedFunction:
         return reply
 
     def _lost(self) -> float:
-        """Return how long the student's process has waited for a processor: a busy machine is not
-        the function's fault.
-        """
+        """Return how long the process has waited for a processor: not its fault."""
         return 0.0 if self._process is None else waited(self._process.pid)
 
     def _raised(self, reply: dict[str, Any], loading: bool) -> StudentError:
@@ -274,18 +265,16 @@ class SandboxedFunction:
         process = self._process
         if process is not None:
             with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(
-                    2.0
-                )  # its pipe is closed: it is about to end, and its exit code tells why
+                # its pipe is closed: it is about to end, and its exit code tells why
+                process.wait(2.0)
         code = self._end()
         if doing == "start":
             return StudentError(
                 f"Python did not start: {self.printed().strip()[-200:] or f'exit code {code}'}",
                 "died",
             )
-        number = (
-            None if code is None else -code if code < 0 else code - 128
-        )  # bubblewrap says 128 and the signal
+        # bubblewrap says 128 and the signal
+        number = None if code is None else -code if code < 0 else code - 128
         how = f"ended (exit code {code}): does it call exit, or crash a library?"
         if number in (signal.SIGKILL, signal.SIGXCPU):
             how = "was killed: too much memory, or processor time?"

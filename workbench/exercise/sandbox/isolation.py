@@ -1,5 +1,4 @@
-"""What shuts a student's process in on this machine: bubblewrap, else Landlock, else nothing but
-limits.
+"""What shuts a student's process in here: bubblewrap, else Landlock, else limits alone.
 
 Whether a wall holds here is tried, not looked up: a program may be installed and not be allowed to
 do its work.
@@ -34,8 +33,8 @@ class Wall:
     """What stands between a student's process and this machine.
 
     Attributes:
-        name: `bubblewrap`, `landlock`, `user` (another one, to whom what matters is closed), or
-            `none`: limits only, so that marks are not safe.
+        name: `bubblewrap`, `landlock`, `user` (to whom what matters is closed), or `none`: limits
+            only, so that marks are not safe.
         why: Where it is `none`, why there is nothing better; one line.
     """
 
@@ -59,13 +58,7 @@ class Wall:
     ) -> subprocess.Popen:
         """Start a student's process; it dies with this one wherever the wall holds.
 
-        Args:
-            pipe_in: Where it reads, a descriptor.
-            pipe_out: Where it answers.
-            printed: Where what it prints goes.
-            folder: Where it works, if it has no folder of its own.
-            megabytes: Most address space.
-            cpu_seconds: Most processor time.
+        It reads and answers at two descriptors, and works in `folder` if it has none of its own.
         """
         files = python.here()
         boxed = self.name == "bubblewrap"
@@ -90,9 +83,8 @@ class Wall:
             "LANG": "C.UTF-8",
             "HOME": bubblewrap.FOLDER if boxed else folder,
         }
-        environment |= (
-            as_here()
-        )  # so that a mistake which hangs on the last bit is known for what it is
+        # so that a mistake which hangs on the last bit is known for what it is
+        environment |= as_here()
         command = [files.executable, "-I", "-S", "-B", "-u", *quiet, child, json.dumps(settings)]
         if boxed:
             known = [word for pair in environment.items() for word in ("--setenv", *pair)]
@@ -116,10 +108,8 @@ class Wall:
 def best(*, alone: bool = False) -> Wall:
     """Return the best wall of this machine.
 
-    Args:
-        alone: Whether the machine is a container for this one submission, closed to others but
-            root: then another user is a wall too. Elsewhere it could read what other students
-            handed in.
+    If it is a container for this one submission `alone`, closed to others but root, another user is
+    a wall too. Elsewhere it could read what other students handed in.
     """
     troubles = []
     for name in NAMES[:3] if alone else NAMES[:2]:
@@ -159,9 +149,7 @@ def _without(name: str) -> str:
 
 @functools.cache
 def _tried(wall: Wall) -> str:
-    """Return why a process cannot be shut in by a wall here; nothing where it can: it starts, and
-    ends with its pipe.
-    """
+    """Return why a process cannot be shut in by a wall here; nothing where it can."""
     pipe_in, other = os.pipe()
     os.close(other)
     pipe_out = os.open(os.devnull, os.O_WRONLY)
@@ -194,9 +182,7 @@ def _tried(wall: Wall) -> str:
 
 
 def anonymous() -> IO[bytes]:
-    """Return a file without a name, so that nothing can stay behind: in memory where there is such
-    a thing.
-    """
+    """Return a file without a name, in memory where that is possible: nothing stays behind."""
     if hasattr(os, "memfd_create"):
         return os.fdopen(os.memfd_create("printed", os.MFD_CLOEXEC), "w+b", buffering=0)
     import tempfile
@@ -205,9 +191,7 @@ def anonymous() -> IO[bytes]:
 
 
 def _from_a_lasting_thread(start: Callable[[], subprocess.Popen]) -> subprocess.Popen:
-    """Start a process from a thread that lives as long as this process: the kernel ends it with the
-    thread it came from.
-    """
+    """Start a process from a lasting thread: the kernel ends it with its thread."""
     if threading.current_thread() is threading.main_thread():
         return start()
     return _thread(os.getpid()).submit(start).result()

@@ -1,6 +1,4 @@
-"""Messages to a student's process and back, each within its time; whatever comes is read as bytes
-of somebody else.
-"""
+"""Messages to a student's process and back, each in its time, read as foreign bytes."""
 
 import os
 import select
@@ -62,13 +60,10 @@ class Pipe:
     def ask(
         self, message: dict[str, Any], seconds: float, lost: Callable[[], float] = lambda: 0.0
     ) -> dict[str, Any]:
-        """Send a message and return the answer.
+        """Send a message and return the answer, waited for `seconds`.
 
-        Args:
-            message: What is sent.
-            seconds: How long the answer may take.
-            lost: Tells how long the process has waited for a processor so far, seconds: that is not
-                its own time.
+        What `lost` says, the seconds that the process has waited for a processor, is not its own
+        time.
 
         Raises:
             WireError: If what came is no message.

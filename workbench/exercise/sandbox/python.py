@@ -1,6 +1,4 @@
-"""What a student's process needs of this machine: the interpreter, its library, the system's
-libraries, numpy and scipy.
-"""
+"""What a student's process needs of this machine: interpreter, libraries, numpy, scipy."""
 
 import functools
 import importlib.util
@@ -29,8 +27,7 @@ class Python:
         trees: Folders to read.
         links: Links that stand for some of these folders, and where they lead.
         masked: Folders in the trees of which nothing is seen.
-        packages: The folders of what may be imported, with the libraries that wheels keep beside
-            them.
+        packages: The folders of what may be imported, and of wheels' libraries.
     """
 
     executable: str
@@ -97,9 +94,7 @@ def ours() -> list[str]:
 
 
 def _libraries(folder: str) -> str:
-    """Return where in a system's folder the shared libraries are; on Debian and its like one folder
-    of many.
-    """
+    """Return where a system's folder has shared libraries; on Debian one folder of many."""
     narrower = os.path.join(folder, getattr(sys.implementation, "_multiarch", ""))
     return narrower if os.path.isdir(narrower) else folder
 
