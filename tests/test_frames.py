@@ -78,22 +78,22 @@ class FrameError(Exception):
     pass
 
 
-def product(node: ast.AST, left, right):
+def product(node: ast.expr, left, right):
     if left is None or right is None:
         return None
     if len(left) == 2 and len(right) == 2:
         if left[1] != right[0]:
-            raise FrameError(f"line {node.lineno}: {left} @ {right}")  # type: ignore[attr-defined]
+            raise FrameError(f"line {node.lineno}: {left} @ {right}")
         return (left[0], right[1])
     if len(left) == 2 and len(right) == 1:
         if left[1] != right[0]:
             raise FrameError(
                 f"line {node.lineno}: a motion from {left[1]} meets a point in {right[0]}"
-            )  # type: ignore[attr-defined]
+            )
         return (left[0],)
     if len(left) == 1 and len(right) == 2:  # rows: p_b @ R_a_b.T is a point in a
         if left[0] != right[0]:
-            raise FrameError(f"line {node.lineno}: rows in {left[0]} meet {right}")  # type: ignore[attr-defined]
+            raise FrameError(f"line {node.lineno}: rows in {left[0]} meet {right}")
         return (right[1],)
     return None
 

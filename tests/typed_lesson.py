@@ -37,8 +37,9 @@ def draw_words(state: str) -> Scene:
 
 
 def lessons() -> None:
-    """Make one that fits, and those that do not."""
-    Lesson(name="a", title="A", summary="Fits.", params=Params, run=run, draw=draw, order=1)
+    """Make one that fits and run it, and make those that do not."""
+    fits = Lesson(name="a", title="A", summary="Fits.", params=Params, run=run, draw=draw, order=1)
+    fits.run(Params(), twice=True)
     Lesson(name="b", title="B", summary="", params=Others, run=run, draw=draw, order=1)  # pyright: ignore
     Lesson(name="c", title="C", summary="", params=Params, run=run, draw=draw_words, order=1)  # pyright: ignore
     preset = Preset("x", "X", "", Others())
@@ -50,5 +51,5 @@ def lessons() -> None:
         run=run,
         draw=draw,
         order=1,
-        presets=(preset,),
-    )  # pyright: ignore
+        presets=(preset,),  # pyright: ignore
+    )

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Generic, TypeVar
+from typing import Any, Concatenate, Generic, TypeVar
 
 from workbench import chapters, form1
 from workbench.cached import cached
@@ -92,7 +92,7 @@ class Lesson(Generic[P, S]):
     summary: str
     page: Path | None = None
     params: type[P]
-    run: Callable[[P], Iterator[S]] | Callable[[P, Any], Iterator[S]]
+    run: Callable[Concatenate[P, ...], Iterator[S]]
     draw: Callable[[S], Scene] | Callable[[Look[P, Any, S]], Scene]
     setup: Callable[[P], Any] | None = None
     slots: tuple[str, ...] = ()

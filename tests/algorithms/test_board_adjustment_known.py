@@ -14,7 +14,7 @@ from workbench.data.views import boards
 
 def test_deviations_are_unknown_until_the_end_and_zero_for_what_is_fixed():
     Ts, uv = views(2)
-    *before, last = adjust(boards.K_TRUE, LENS, Ts, P, uv, coefficients=2)
+    *before, last = adjust(boards.K_TRUE, LENS, Ts, p_board=P, uv=uv, coefficients=2)
     assert before
     for state in before:
         assert np.isnan(state.deviations[:6]).all()
@@ -27,9 +27,9 @@ def test_deviations_are_unknown_until_the_end_and_zero_for_what_is_fixed():
 def test_it_ends_at_rest_unless_told_otherwise():
     Ts, uv = views(3)
     start = boards.K_TRUE * np.array([[1.2, 1.0, 1.0], [1.0, 1.2, 1.0], [1.0, 1.0, 1.0]])
-    *_, found = adjust(start, LENS, Ts, P, uv)
-    *_, finer = adjust(start, LENS, Ts, P, uv, tolerance=1e-15)
-    *_, coarse = adjust(start, LENS, Ts, P, uv, tolerance=0.5)
+    *_, found = adjust(start, LENS, Ts, p_board=P, uv=uv)
+    *_, finer = adjust(start, LENS, Ts, p_board=P, uv=uv, tolerance=1e-15)
+    *_, coarse = adjust(start, LENS, Ts, p_board=P, uv=uv, tolerance=0.5)
     assert found.cost == pytest.approx(finer.cost, rel=1e-7)
     np.testing.assert_allclose(found.K, finer.K, atol=1e-4)
     assert coarse.cost > found.cost * (1 + 1e-5)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from workbench.algorithms.least_squares import _damped_steps
+from workbench.algorithms.least_squares.descent import _damped_steps
 
 
 def test_each_step_solves_the_system_with_its_diagonal_raised():

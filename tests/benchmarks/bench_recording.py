@@ -15,10 +15,8 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from lessons.icp.draw import draw as draw_icp
-from lessons.icp.state import State as IcpState
-
-from workbench.lesson import Lesson, catalog
+from lessons.icp.lesson import draw as draw_icp
+from workbench.lesson import Lesson, Look, catalog
 from workbench.recording.write import record_file
 from workbench.run.timeline import Timeline
 from workbench.scene import Scene
@@ -42,11 +40,11 @@ def tasks() -> Iterator[Task]:
     icp = catalog()["icp"]
     params = replace(icp.params(), points=20_000)
 
-    def fifty(params: Any) -> Iterator[Any]:
-        yield from islice(icp.run(params), STEPS)
+    def fifty(params: Any, subject: Any) -> Iterator[Any]:
+        yield from islice(icp.run(params, subject), STEPS)
 
-    def moving(state: IcpState) -> Scene:
-        return {path: shown for path, shown in draw_icp(state).items() if path != "matches"}
+    def moving(look: Look) -> Scene:
+        return {path: shown for path, shown in draw_icp(look).items() if path != "matches"}
 
     yield Task("ICP 20k, 50 steps, rigid", replace(icp, run=fifty, draw=moving), params)
     yield Task("ICP 20k, 50 steps, with matches", replace(icp, run=fifty), params)

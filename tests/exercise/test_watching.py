@@ -161,13 +161,13 @@ def test_the_run_that_is_opened_calls_the_function(exercise, opened, tmp_path):
         calls.append(args)
         return exercise.reference(*args)
 
-    run = lesson.run(params, **{exercise.contract.slot: counting})
+    run = lesson.form.states(params, {exercise.contract.slot: counting})
     assert next((True for _ in run if calls), False)
     preset = exercise.contract.preset
     assert step == (None if preset is None else lesson.preset(preset).step)
     if preset is not None:  # or else the default run would do
         calls.clear()
-        for _ in lesson.run(lesson.params(), **{exercise.contract.slot: counting}):
+        for _ in lesson.form.states(lesson.params(), {exercise.contract.slot: counting}):
             assert not calls
 
 

@@ -9,7 +9,7 @@ from workbench.geometry.graphs.spectra import Laplacian
 
 def of_path(count: int) -> Laplacian:
     one = np.ones(count - 1)
-    return of(scipy.sparse.diags_array([one, one], offsets=[-1, 1]))
+    return of(scipy.sparse.diags_array(np.stack([one, one]), offsets=[-1, 1]))
 
 
 def of(adjacency) -> Laplacian:

@@ -10,9 +10,10 @@ import pytest
 from PIL import Image
 from scipy import ndimage
 
-from lessons.calibration.lesson import lesson, run
+from lessons.calibration.lesson import draw, lesson, run
 from lessons.calibration.state import Params, State
 from workbench import open_recording, record
+from workbench.certain import as_a, sure
 from workbench.data.views.boards import board_points
 from workbench.errors import InputError
 from workbench.run.timeline import Timeline
@@ -47,8 +48,8 @@ def test_the_left_camera(corners, shared_data):
     views = next(state for state in states if state.ending is not None)
     assert views.ending is not None
     assert views.ending.worst == 1
-    assert "69 % of the sum of squares" in caption_of(lesson.draw(views)).text
-    scene = lesson.draw(last)
+    assert "69 % of the sum of squares" in caption_of(draw(views)).text
+    scene = draw(last)
     caption, picture = caption_of(scene), scene["picture"]
     assert caption.tone == "info"
     assert "Nobody knows the truth" in caption.text
@@ -57,7 +58,7 @@ def test_the_left_camera(corners, shared_data):
     assert isinstance(picture, Picture)
     assert picture.size == (640, 480)
     assert picture.rgb().std() > 20
-    other = lesson.draw(views)["picture"]  # of view 1 there is no picture
+    other = draw(views)["picture"]  # of view 1 there is no picture
     assert isinstance(other, Picture)
     assert other.rgb().std() == 0
 
@@ -75,7 +76,7 @@ def test_pictures_lie_below_the_corners_of_their_views(corners, tmp_path):
             (states[13], "left14.jpg"),
             (states[-3], "left02.jpg"),
         ):
-            picture = lesson.draw(state)["picture"]
+            picture = draw(state)["picture"]
             assert isinstance(picture, Picture)
             assert picture.title == f"View {state.shown}, {name}"
             assert picture.size == (640, 480)
@@ -115,7 +116,7 @@ def test_corners_without_a_number_leave_the_same_camera(corners, tmp_path):
     fifth = next(
         step.state for step in timeline.known() if step.state.subject.views[step.state.shown] == 5
     )
-    picture = lesson.draw(fifth)["picture"]
+    picture = draw(fifth)["picture"]
     assert isinstance(picture, Picture)
     assert picture.title == "View 5, left06.jpg"
 
@@ -128,14 +129,14 @@ def test_pictures_alone(corners, tmp_path):
     states = list(run(Params(images=tmp_path, lens="k1 k2 p1 p2 k3")))
     assert (
         "No whole board was found in 4 pictures: a0.png, a1.png, a2.png …."
-        in caption_of(lesson.draw(states[0])).text
+        in caption_of(draw(states[0])).text
     )
     last = states[-1]
     assert len(last.subject.views) == 13
     assert last.rms == pytest.approx(0.179, abs=0.001)
     assert last.now.K is not None
     assert last.now.K[0, 0] == pytest.approx(533.1, abs=0.1)
-    picture = lesson.draw(last)["picture"]
+    picture = draw(last)["picture"]
     assert isinstance(picture, Picture)
     assert picture.title == "View 0, left01.jpg"
     turned = end(Params(images=tmp_path, board=(6, 9), lens="k1 k2 p1 p2 k3"))
@@ -181,7 +182,7 @@ def test_pictures_without_names_shrunk_and_one_missing(corners, tmp_path):
     )
     state = next(run(Params(corners=tmp_path / "sized.npz", images=small)))
     assert state.subject.size == (640, 480)
-    picture = lesson.draw(state)["picture"]
+    picture = draw(state)["picture"]
     assert isinstance(picture, Picture)
     assert (picture.title, picture.size) == ("View 0, p0.png", (320, 240))
     with pytest.raises(
@@ -191,9 +192,7 @@ def test_pictures_without_names_shrunk_and_one_missing(corners, tmp_path):
     (small / "p0.png").unlink()
     with pytest.raises(InputError, match="small: 12 pictures for 13 views"):
         next(run(Params(corners=tmp_path / "sized.npz", images=small)))
-    picture = lesson.draw(next(run(Params(corners=tmp_path / "named.npz", images=small))))[
-        "picture"
-    ]
+    picture = draw(next(run(Params(corners=tmp_path / "named.npz", images=small))))["picture"]
     assert isinstance(picture, Picture)
     assert picture.title == "View 0, no picture"
     Image.new("L", (320, 320)).save(small / "p4.png")
@@ -243,15 +242,15 @@ def test_the_right_camera_and_a_board_in_millimetres(corners, tmp_path):
     assert last.now.K is not None
     np.testing.assert_allclose(other.now.K, last.now.K, atol=1e-3)
     np.testing.assert_allclose(other.now.Ts_camera_board, last.now.Ts_camera_board, atol=1e-5)
-    wrong = lesson.draw(
+    wrong = draw(
         end(Params(corners=tmp_path / "mm.npz", lens="k1 k2 p1 p2 k3"))
     )  # metres that are millimetres
-    right = lesson.draw(last)
-    for path in ("boards/0", "camera"):
-        assert isinstance(wrong[path], Segments | Camera)
-        np.testing.assert_allclose(
-            wrong[path].T_world_object, right[path].T_world_object, atol=1e-5
-        )  # type: ignore[union-attr]
+    right = draw(last)
+    for path, kind in (("boards/0", Segments), ("camera", Camera)):
+        T_wrong, T_right = (
+            sure(as_a(kind, scene[path]).T_world_object) for scene in (wrong, right)
+        )
+        np.testing.assert_allclose(T_wrong, T_right, atol=1e-5)
 
 
 def test_another_board_shape_and_a_table_without_truth(tmp_path):
@@ -262,7 +261,7 @@ def test_another_board_shape_and_a_table_without_truth(tmp_path):
         c = p @ np.array([[1, 0, -x], [0, 1, -y], [x, y, 1]]) + [-0.2, -0.15, 1.2]  # nearly turns
         uv.append(600 * c[:, :2] / c[:, 2:] + [320, 240] + 0.1 * rng.normal(size=(20, 2)))
     np.savez(tmp_path / "c.npz", board=p, uv=np.array(uv), size=[640, 480])
-    scene = lesson.draw(end(Params(corners=tmp_path / "c.npz", lens="none")))
+    scene = draw(end(Params(corners=tmp_path / "c.npz", lens="none")))
     table = scene["camera in numbers"]
     assert isinstance(table, Table)
     assert table.header == ("", "found", "±")

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.coordinates.lesson import TURNS, lesson, moments, run
+from lessons.coordinates.lesson import TURNS, draw, lesson, moments, run
 from lessons.coordinates.placing import Walked
 from lessons.coordinates.state import Params
 from tests.runs import finished
@@ -35,7 +35,7 @@ def last_of(params: Params, **slots: Any) -> Any:
 
 
 def tone(name: str) -> str:
-    return caption_of(lesson.draw(of(name)[-1])).tone
+    return caption_of(draw(of(name)[-1])).tone
 
 
 # presets ------------------------------------------------------------------------------------------
@@ -49,7 +49,7 @@ def test_past_the_axis_one_coordinate_turns_half_round_within_two_steps():
         assert tone(name) == "good"
     steps = np.abs(np.diff(last("cartesian").c, axis=0))
     assert steps.max() == pytest.approx(0.075)
-    assert caption_of(lesson.draw(of("home")[20])).text.endswith(
+    assert caption_of(draw(of("home")[20])).text.endswith(
         "changed φ by 79.5°."
     )  # where the page sends a reader
 
@@ -126,10 +126,7 @@ def test_straight_on_the_map_costs(name, more):
 
 
 def test_how_much_longer_is_said_with_digits_that_mean_something():
-    said = [
-        caption_of(lesson.draw(of(name)[-2])).text
-        for name in ("great-circle", "equator", "dateline")
-    ]
+    said = [caption_of(draw(of(name)[-2])).text for name in ("great-circle", "equator", "dateline")]
     assert [text.rsplit(", ", 1)[1] for text in said] == [
         "11.9 % more.",
         "less than 0.01 % more.",
@@ -261,9 +258,9 @@ def by_arctan(p: np.ndarray) -> np.ndarray:
 
 def test_wrong_angles_are_told_by_the_walk_and_by_the_camera():
     walked = last_of(Params(), spherical_from_cartesian=by_arctan)
-    assert caption_of(lesson.draw(walked)).tone == "wrong"
+    assert caption_of(draw(walked)).tone == "wrong"
     first = next(run(Params(stage="mount"), spherical_from_cartesian=by_arctan))
-    assert caption_of(lesson.draw(first)).tone == "wrong"
+    assert caption_of(draw(first)).tone == "wrong"
 
 
 def test_wrong_meetings_are_told():
@@ -273,12 +270,11 @@ def test_wrong_meetings_are_told():
         lambda a, b: np.zeros((1, 3)),
     ):
         state = last_of(Params(stage="projective"), meet=wrong)
-        assert caption_of(lesson.draw(state)).tone == "wrong"
+        assert caption_of(draw(state)).tone == "wrong"
     by_w = lambda a, b: np.cross(a, b) / np.cross(a, b)[:, 2:]  # noqa: E731
     with np.errstate(all="ignore"):
         found = [
-            caption_of(lesson.draw(state)).tone
-            for state in run(Params(stage="projective"), meet=by_w)
+            caption_of(draw(state)).tone for state in run(Params(stage="projective"), meet=by_w)
         ]
     assert [k for k, tone in enumerate(found) if tone == "wrong"] == [11]
 
@@ -291,7 +287,7 @@ def test_ways_are_as_long_as_they_are_measured():
             great_circle_distance=lambda a, b, radius, v=value: np.full(len(a), v),
         )
         np.testing.assert_equal(found[-1].now.circle_length, 192 * value)
-        assert [caption_of(lesson.draw(state)).tone for state in found] == ["info"] + 16 * ["wrong"]
+        assert [caption_of(draw(state)).tone for state in found] == ["info"] + 16 * ["wrong"]
     assert great_circle_distance(np.zeros((1, 2)), np.array([[0.0, 90.0]]))[0] == pytest.approx(
         EARTH * np.pi / 2
     )
@@ -301,16 +297,13 @@ def test_ways_are_as_long_as_they_are_measured():
 
 
 def test_what_leaves_the_picture_is_an_arrow():
-    shown = [
-        ("point" in lesson.draw(state), "arrow" in lesson.draw(state))
-        for state in of("weights")[:-1]
-    ]
+    shown = [("point" in draw(state), "arrow" in draw(state)) for state in of("weights")[:-1]]
     assert shown[0] == (True, False)
     assert shown[-1] == (False, True)
 
 
 def test_the_globe_turns_its_way_to_the_eye():
-    scene = lesson.draw(of("dateline")[-1])
+    scene = draw(of("dateline")[-1])
     label = scene["name/0"]
     assert isinstance(label, Label)
     assert label.T_world_object is not None
@@ -322,7 +315,7 @@ def test_the_globe_turns_its_way_to_the_eye():
 
 def test_pictures_of_the_eye_are_what_the_eye_computed():
     state = of("near-far")[3]
-    picture = lesson.draw(state)["perspective"]
+    picture = draw(state)["perspective"]
     assert isinstance(picture, Segments)
     corners = np.unique(picture.ends.reshape(-1, 3)[:, [0, 2]].round(6), axis=0)
     seen = np.unique(state.now.perspective.round(6), axis=0)
@@ -330,7 +323,7 @@ def test_pictures_of_the_eye_are_what_the_eye_computed():
 
 
 def test_the_plumb_line_is_drawn_at_its_latitude():
-    scene = lesson.draw(of("latitude")[9])
+    scene = draw(of("latitude")[9])
     plumb, place = scene["plumb"], scene["place"]
     assert isinstance(plumb, Segments)
     assert isinstance(place, Points)

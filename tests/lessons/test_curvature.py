@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from lessons.curvature.lesson import lesson
+from lessons.curvature.lesson import draw, lesson
 from lessons.curvature.presets import DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL, UNFOLDING
 from lessons.curvature.state import Params, at_stage
 from tests.lessons.curvature_runs import (
@@ -83,7 +83,7 @@ def test_a_defect_taken_for_k_is_far_too_small_and_smaller_on_finer_meshes():
     outside = [np.percentile(state.now.K, 90) for state in (wrong, finer)]
     assert outside[0] / outside[1] == pytest.approx(4, rel=0.15)
     for stage in ("gaussian", "finer"):
-        assert caption_of(lesson.draw(at(preset("no-area"), stage))).tone == "wrong"
+        assert caption_of(draw(at(preset("no-area"), stage))).tone == "wrong"
         assert caption_of(scene(preset("no-area"), stage)).tone == "info"  # it is meant to be
 
 
@@ -111,7 +111,7 @@ def test_two_pi_on_the_border_adds_pi_for_each_of_its_vertices():
     state = at(preset("border-2pi"), "total")
     border = int(state.subject.border.sum())
     assert state.now.total == pytest.approx(2 * np.pi + np.pi * border)
-    caption = caption_of(lesson.draw(at(preset("border-2pi"), "total")))
+    caption = caption_of(draw(at(preset("border-2pi"), "total")))
     assert caption.tone == "wrong"
     assert f"each of the {border} border vertices" in caption.text
     right = at(dataclasses.replace(preset("border-2pi"), mistake="none"), "total")

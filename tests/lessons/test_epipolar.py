@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.epipolar.lesson import lesson, run
+from lessons.epipolar.lesson import draw, lesson, run
 from lessons.epipolar.presets import DEPTH, depth_sigma
 from lessons.epipolar.state import Params
 from tests.runs import finished
@@ -38,7 +38,7 @@ def at(name: str, stage: str) -> Any:
 
 def end(name: str) -> Caption:
     return caption_of(
-        lesson.draw(of(name)[-1])
+        draw(of(name)[-1])
     )  # not as it is shown: what breaks on purpose is shown calmly
 
 
@@ -179,13 +179,13 @@ def test_far_away_there_is_a_rotation_and_hardly_more():
     points = of("far")[16]
     assert points.now.stage == "points"
     assert max(points.now.in_front) < 60
-    assert f"parallax is {points.parallax:.2f} px" in caption_of(lesson.draw(points)).text
+    assert f"parallax is {points.parallax:.2f} px" in caption_of(draw(points)).text
     assert end("far").tone == "wrong"
 
 
 def test_what_is_far_is_drawn_as_a_model():
     state = of("far")[16]
-    scene = lesson.draw(state)
+    scene = draw(state)
     seen = {
         name: scene[name]
         for name in ("true points", "points", "direction/camera", "direction/true camera")
@@ -208,11 +208,11 @@ def test_what_is_far_is_drawn_as_a_model():
         np.testing.assert_allclose(
             way / np.linalg.norm(way), -T[:3, :3].T @ T[:3, 3] / np.linalg.norm(T[:3, 3]), atol=1e-9
         )
-    assert "direction/camera" not in lesson.draw(of("home")[16])  # there it is seen
-    marks = lesson.draw(of("far")[3])["marks"]
+    assert "direction/camera" not in draw(of("home")[16])  # there it is seen
+    marks = draw(of("far")[3])["marks"]
     assert isinstance(marks, Points)
     np.testing.assert_allclose(marks.p[:, 2], [3, 4, 6, 8])
-    assert [label for label in lesson.draw(of("far")[3]) if label.startswith("mark/")] == [
+    assert [label for label in draw(of("far")[3]) if label.startswith("mark/")] == [
         "mark/150",
         "mark/300",
     ]
@@ -269,7 +269,7 @@ def test_without_noise_all_is_exact():
     assert max(errors(last) or (9, 9)) < 1e-4
     assert at("exact", "equations").now.singular_values[8] < 1e-12
     np.testing.assert_allclose(last.length * last.now.p_first, last.views.p_first, atol=1e-6)
-    assert "rank two already" in caption_of(lesson.draw(of("exact")[9])).text
+    assert "rank two already" in caption_of(draw(of("exact")[9])).text
 
 
 def test_every_run_ends_with_its_rectification():
@@ -310,7 +310,7 @@ def test_answers_are_read_off_the_run():
 
 def last_tone(**slots: Any) -> str:
     *_, state = run(Params(), **slots)
-    return caption_of(lesson.draw(state)).tone
+    return caption_of(draw(state)).tone
 
 
 def test_wrong_functions_show():
@@ -333,7 +333,7 @@ def test_wrong_functions_show():
     with pytest.raises(InputError, match="eight_point"):
         steps_of(run(Params(), eight_point=lambda a, b: np.full((3, 3), np.inf)))
     nothing = steps_of(run(Params(), triangulate=lambda P, Q, a, b: np.full((len(a), 3), np.nan)))
-    assert all(lesson.draw(state) for state in nothing)
+    assert all(draw(state) for state in nothing)
 
 
 # pictures -----------------------------------------------------------------------------------------
@@ -343,7 +343,7 @@ def test_the_followed_pixel_is_where_one_clicks():
     for pixel in ((0, 0), (719, 719), (100, 200)):
         first = next(run(Params(pixel=pixel)))
         assert first.uv_first.tolist() == [min(pixel[0], 479), min(pixel[1], 319)]
-        scene = lesson.draw(first)
+        scene = draw(first)
         dot, picture = scene["first/pixel"], scene["first/picture"]
         assert isinstance(dot, Points)
         np.testing.assert_allclose(dot.p[0], picture.places(first.uv_first, 0.12), atol=1e-9)  # type: ignore[union-attr]
@@ -357,7 +357,7 @@ def test_rectified_lines_are_level():
         assert np.ptp(lines.ends[..., 2], axis=1).max() < 0.02
     state = of("sideways")[3]
     assert isinstance(state.now, Followed)
-    shown = lesson.draw(state)["marks"]
+    shown = draw(state)["marks"]
     assert isinstance(shown, Points)
     np.testing.assert_allclose(shown.p[:, 2], [3, 4, 6, 8])
 
@@ -370,7 +370,7 @@ def test_ellipsoids_are_longer_the_shorter_the_baseline():
             for state in run(Params(baseline=baseline, noise=0.05))
             if state.now.stage == "points"
         )
-        shown = lesson.draw(found)["uncertainty"]
+        shown = draw(found)["uncertainty"]
         assert isinstance(shown, Segments)
         lengths.append(np.linalg.norm(shown.ends[:, 0] - shown.ends[:, 1], axis=1).max())
     assert lengths[1] > 3 * lengths[0]

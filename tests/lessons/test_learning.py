@@ -6,15 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.learning.lesson import lesson, run
+from lessons.learning.lesson import draw, lesson, run
 from lessons.learning.presets import RABBIT
 from lessons.learning.state import Params
 from tests.runs import finished
 from tests.truths.learning import farthest, folded, named, overlap, radii, wrong_by
+from workbench.certain import as_a
 from workbench.geometry.motions.rotation_outputs import rotation_from_six
 from workbench.geometry.points.shape_distances import chamfer_gradient
 from workbench.knobs import fields_of
-from workbench.scene import Mesh, caption_of
+from workbench.scene import Mesh, Points, caption_of
 
 
 def states(params: Params) -> tuple[Any, ...]:
@@ -26,7 +27,7 @@ def end(name: str) -> Any:
 
 
 def tone(state: Any) -> str:
-    return caption_of(lesson.draw(state)).tone
+    return caption_of(draw(state)).tone
 
 
 def last_of(params: Params, **slots: Any) -> Any:
@@ -127,7 +128,7 @@ def test_without_a_regulariser_a_mesh_is_nearer_to_the_data_and_farther_from_the
 
 
 def test_the_true_surface_stands_beside_the_fitted_mesh():
-    scene = lesson.draw(end("smooth"))
+    scene = draw(end("smooth"))
     true, fitted = scene["true"], scene["mesh"]
     assert isinstance(true, Mesh)
     assert isinstance(fitted, Mesh)
@@ -241,12 +242,12 @@ def test_weights_that_hide_nothing_spoil_the_field():
 def test_whatever_is_clicked_on_is_looked_at():
     knob = next(field.knob for field in fields_of(Params) if field.name == "picked")
     counts = [
-        len(lesson.draw(next(run(Params(task=task))))["inputs"].p)
+        len(as_a(Points, draw(next(run(Params(task=task))))["inputs"]).p)
         for task in ("angle", "rotation", "field")
-    ]  # type: ignore[union-attr]
+    ]
     assert knob.high == max(counts) - 1
     for task, count in zip(("angle", "rotation"), counts, strict=False):
-        scene = lesson.draw(next(run(Params(task=task, picked=count - 1))))
+        scene = draw(next(run(Params(task=task, picked=count - 1))))
         np.testing.assert_allclose(scene["picked"].p[0][:2], scene["inputs"].p[-1][:2])  # type: ignore[union-attr]
 
 

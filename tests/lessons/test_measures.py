@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.measures.lesson import lesson, run
+from lessons.measures.lesson import draw, lesson, run
 from lessons.measures.state import Params, State
 from lessons.measures.subjects import built_in
 from tests.runs import finished
@@ -44,7 +44,7 @@ def cells_of(name: str) -> tuple[State, Cells]:
 
 
 def tone(name: str) -> str:
-    return caption_of(lesson.draw(whole(of(name))[0])).tone
+    return caption_of(draw(whole(of(name))[0])).tone
 
 
 # presets ------------------------------------------------------------------------------------------
@@ -58,7 +58,7 @@ def test_the_sum_falls_below_zero_and_comes_back():
     state, now = whole(found)
     assert state.volume_error == pytest.approx(0, abs=1e-12)
     assert now.area == pytest.approx(6.888, abs=1e-3)
-    assert caption_of(lesson.draw(state)).tone == "good"
+    assert caption_of(draw(state)).tone == "good"
     minus = found[8].now.parts[found[8].now.order[: found[8].now.count]] < 0
     assert minus.mean() > 0.6
 
@@ -315,7 +315,7 @@ def test_every_grid_begins_elsewhere_and_its_cells_are_halved_every_second_step(
 def test_slots_drive_the_run():
     last = last_of(Params(), signed_volume=lambda p, faces: 42.0)
     assert last.now.volume == 42.0
-    assert caption_of(lesson.draw(last)).tone == "wrong"
+    assert caption_of(draw(last)).tone == "wrong"
     last = last_of(Params(method="chance"), volume_by_chance=lambda inside, box: (2.0, 0.5))
     assert (last.now.estimates.values[-1], last.now.estimates.errors[-1]) == (2.0, 0.5)
     first, *_ = run(

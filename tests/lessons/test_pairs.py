@@ -9,11 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from lessons.pairs.flat import bands_of
 from lessons.pairs.inputs import Input
 from lessons.pairs.lesson import lesson, run, setup
 from lessons.pairs.presets import SCALE, START
+from lessons.pairs.space import Scans, State
 from tests.runs import finished
 from workbench.algorithms.turning import cost_of_pairs
+from workbench.certain import as_a
 from workbench.data.files import read_cloud
 from workbench.data.shapes.rabbit import rabbit
 from workbench.errors import InputError
@@ -66,7 +69,7 @@ class TestFlat:
         ("pull", "degrees"), [(0.25, 3.8), (0.5, 7.6), (1.0, 15.2), (2.0, 29.1)]
     )
     def test_one_far_partner_turns_them_all(self, pull, degrees):
-        assert setup(Input(stage="flat", pull=pull)).best == pytest.approx(degrees, abs=0.05)
+        assert bands_of(pull).best == pytest.approx(degrees, abs=0.05)
 
     def test_the_picture_turns_as_the_mark_on_the_chart_moves(self):
         """Seen from +y, x runs to the left: a positive turn takes the top of the rabbit to the
@@ -140,7 +143,8 @@ class TestSpace:
 
     def test_up_to_seven_in_ten_wrong_partners_the_turn_is_a_few_degrees_off(self):
         for seed in range(4):
-            off = setup(replace(lesson.preset("half-wrong-pairs").params, seed=seed)).off
+            params = replace(lesson.preset("half-wrong-pairs").params, seed=seed)
+            off = as_a(Scans, setup(params)).off
             assert off["shuffled"][:8].max() < 5.5
             assert off["shuffled"][9] > 2
             assert off["together"][1] == pytest.approx(7.1, abs=0.3)
@@ -153,7 +157,8 @@ class TestSpace:
             assert shown["rotation error"].value == pytest.approx(error)
 
     def test_shuffled_partners_are_nobodys_own(self):
-        clean, wrong = setup(Input()), setup(lesson.preset("half-wrong-pairs").params)
+        runs = Input(), lesson.preset("half-wrong-pairs").params
+        clean, wrong = (as_a(Scans, setup(params)) for params in runs)
         same = np.linalg.norm(clean.p_target - wrong.p_target, axis=1) == 0
         np.testing.assert_array_equal(same, ~wrong.is_wrong)
 
@@ -199,6 +204,7 @@ class TestSlots:
             return 2.0
 
         *_, last = run(SCALE, setup(SCALE), similarity_scale=scale)
+        last = as_a(State, last)
         assert last.now.scale == last.back == 2.0
         assert asked[0][0] is asked[1][1]
 

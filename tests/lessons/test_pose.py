@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.pose.lesson import lesson, run
+from lessons.pose.lesson import draw, lesson, run
 from lessons.pose.presets import FEW, HALF, PLANE, TILTED, needed
 from lessons.pose.scenes import subject_of
 from lessons.pose.state import Params, Repeated
@@ -73,7 +73,7 @@ def test_four_cameras_see_one_picture():
         for b in state.now.candidates[:k]
     ]
     assert min(apart) > 1
-    drawn = lesson.draw(state)
+    drawn = draw(state)
     assert (
         sum(isinstance(one, Camera) for one in drawn.values()) == 5
     )  # with the true one, on which one of them stands
@@ -149,7 +149,7 @@ def test_the_street_is_known_by_its_map_and_seen_by_a_camera_in_it():
     assert np.ptp(subject.p_shown @ subject.T_true[2, :3]) > 5  # metres of depth
     assert off(last.T, subject.T_true)[0] < 0.2
     assert share_near(others(found), subject) == 1
-    photograph = lesson.draw(found[0])["picture"]
+    photograph = draw(found[0])["picture"]
     assert isinstance(photograph, Picture)
     assert (
         len(np.unique(np.asarray(photograph.image).reshape(-1, 3), axis=0)) > 50
@@ -197,7 +197,7 @@ def test_epnp_on_four_points_may_end_in_a_wrong_mix():
     assert 0.1 < epnp < 0.2
     assert sqpnp < 0.02
     assert others(states(replace(wrong.params, points=6))).far == (0.0, 0.0)
-    scene = lesson.draw(found[-1])
+    scene = draw(found[-1])
     for name, share in (("EPnP", epnp), ("SQPnP", sqpnp)):
         curve = scene[f"anew/{name}"]
         assert isinstance(curve, Curve)
@@ -209,7 +209,7 @@ def test_least_squares_believes_two_wrong_points():
     assert last.subject.given.is_outlier.sum() == 2
     right = ~last.subject.given.is_outlier
     assert np.median(pixels_off(last.T, last.subject)[right]) > 5  # the good ones suffer too
-    assert caption_of(lesson.draw(last)).tone == "wrong"
+    assert caption_of(draw(last)).tone == "wrong"
 
 
 def test_ransac_needs_few_hundred_samples_at_70_percent():
@@ -265,17 +265,17 @@ def test_a_wrong_pose_from_distances_is_seen():
     found = list(
         run(Params(), pose_from_distances=lambda p, rays, d: np.diag([1.0, 1.0, 1.0, 1.0]))
     )
-    text = caption_of(lesson.draw(phase(tuple(found), "root"))).text
+    text = caption_of(draw(phase(tuple(found), "root"))).text
     assert "from where they were seen" in text
     assert "exactly" not in text
     for broken in (np.full((4, 4), np.nan), np.zeros((4, 4)), 2 * np.eye(4)):
         for state in run(Params(), pose_from_distances=lambda p, rays, d, broken=broken: broken):
-            lesson.draw(state)
+            draw(state)
 
 
 def test_a_wrong_choice_is_seen():
     found = list(run(replace(Params(), refine=False), choose_pose=lambda Ts, p, xy: Ts[-1]))
-    assert caption_of(lesson.draw(phase(tuple(found), "choose"))).tone == "wrong"
+    assert caption_of(draw(phase(tuple(found), "choose"))).tone == "wrong"
 
 
 def test_a_wrong_step_is_seen():
@@ -284,7 +284,7 @@ def test_a_wrong_step_is_seen():
     assert off(stuck.T, stuck.subject.T_true)[0] > 1
     wild = last_but(Params(), pose_step=lambda T, p, xy: np.diag([-1.0, -1.0, 1.0, 1.0]) @ T)
     assert wild.now.stop is not None
-    assert caption_of(lesson.draw(wild)).tone != "good" or is_near(wild.T, wild.subject)
+    assert caption_of(draw(wild)).tone != "good" or is_near(wild.T, wild.subject)
 
 
 # the picture --------------------------------------------------------------------------------------
@@ -292,7 +292,7 @@ def test_a_wrong_step_is_seen():
 
 def test_residuals_are_drawn_from_where_points_were_seen():
     state = phase(states(Params()), "stop")
-    scene = lesson.draw(state)
+    scene = draw(state)
     picture, seen, calculated, ends = (
         scene[f"picture{path}"] for path in ("", "/seen", "/calculated", "/residuals")
     )
@@ -307,7 +307,7 @@ def test_residuals_are_drawn_from_where_points_were_seen():
 
 
 def test_votes_colour_the_pixels():
-    scene = lesson.draw(of("seventy")[-1])
+    scene = draw(of("seventy")[-1])
     seen = scene["picture/seen"]
     assert isinstance(seen, Points)
     assert isinstance(seen.color, Classes)
@@ -327,4 +327,4 @@ def test_what_cannot_be_done_is_said():
 def test_four_points_of_the_box_will_do():
     for method in ("P3P", "SQPnP", "EPnP", "RANSAC"):
         for state in run(Params(points=4, method=method)):
-            lesson.draw(state)
+            draw(state)

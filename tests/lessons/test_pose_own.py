@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.pose.lesson import lesson, run
+from lessons.pose.lesson import draw, run
 from lessons.pose.state import Params
 from tests.geometry.views import view
 from workbench.errors import InputError
@@ -33,7 +33,7 @@ def test_own_points_give_their_camera(tmp_path, method):
     last = stop_of(Params(sightings=path, method=method, principal=(400.0, 300.0)))
     assert last.T is not None
     np.testing.assert_allclose(last.T[:3, :3], T[:3, :3], atol=0.01)
-    scene = lesson.draw(last)
+    scene = draw(last)
     assert caption_of(scene).tone == "info"  # nobody knows the truth
     points, camera = scene["points"], scene["estimate"]
     assert isinstance(points, Points)
@@ -88,7 +88,7 @@ def test_points_on_a_line_come_to_an_end(tmp_path):
     path = written(tmp_path, line, 300 + 100 * line[:, :2])
     for method in ("P3P", "SQPnP"):
         for state in run(Params(sightings=path, method=method)):
-            lesson.draw(state)
+            draw(state)
     with pytest.raises(InputError, match="one line"):
         stop_of(Params(sightings=path, method="EPnP"))
 

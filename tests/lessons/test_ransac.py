@@ -8,7 +8,7 @@ import pytest
 
 from lessons.ransac import presets
 from lessons.ransac.captions import is_right
-from lessons.ransac.lesson import lesson
+from lessons.ransac.lesson import draw, lesson
 from lessons.ransac.presets import clean_share, end, first, share_reached
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params
@@ -69,7 +69,7 @@ def test_the_inlier_distances_that_are_set_keep_95_percent_of_the_inliers():
 
 def test_a_caption_about_a_sample_cannot_be_read_as_about_the_inliers():
     states = states_of(Params())
-    said = [part(lesson.draw(state), "caption", Caption).text for state in states[:3]]
+    said = [part(draw(state), "caption", Caption).text for state in states[:3]]
     assert said[0].startswith("Sample 1: three points, drawn by chance. Of its three points ")
     assert said[1].endswith("Now all 600 points vote: yes from those within 30 mm of it.")
     assert re.fullmatch(
@@ -139,7 +139,7 @@ def test_an_inlier_distance_too_large():
     assert last.best_error == pytest.approx(0.04, abs=0.005)
     assert best(last).inliers[~members(last.subject)].mean() > 0.3
     assert not is_right(last)
-    assert part(lesson.draw(last), "caption", Caption).tone == "wrong"
+    assert part(draw(last), "caption", Caption).tone == "wrong"
     assert (
         Timeline(lesson, presets.LOOSE).complete()[-1].caption.tone == "info"
     )  # it is meant to be
@@ -236,7 +236,7 @@ def test_a_vote_is_never_called_inlier():
     for name in ("line", "near-sample", "epipolar"):
         params = lesson.preset(name).params
         for state in states_of(params):
-            scene = lesson.draw(state)
+            scene = draw(state)
             legend = [getattr(one, "name", "") for one in scene.values()]
             legend += [
                 word
@@ -258,8 +258,7 @@ def test_what_is_quoted_is_at_rest_or_says_that_it_is_not():
             assert params == presets.TIGHT
             assert "500 samples do not suffice" in lesson.preset("tight").line
             assert (
-                "maximum number of samples is reached"
-                in part(lesson.draw(last), "caption", Caption).text
+                "maximum number of samples is reached" in part(draw(last), "caption", Caption).text
             )
 
 

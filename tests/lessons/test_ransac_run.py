@@ -7,7 +7,7 @@ import pytest
 
 from lessons.ransac import presets
 from lessons.ransac.captions import is_right
-from lessons.ransac.lesson import chosen_sample, lesson, run
+from lessons.ransac.lesson import chosen_sample, draw, lesson, run
 from lessons.ransac.presets import end, first
 from lessons.ransac.rows import subject_of
 from lessons.ransac.shapes import outline
@@ -80,7 +80,7 @@ def test_a_count_decides_what_is_best_and_how_many_samples_follow():
         theirs = first(run(Params(score=score), count_inliers=tenfold), "best")
         assert best(theirs).count == 10 * best(ours).count
         assert best(theirs).score == best(ours).score * (10 if score == "count" else 1)
-        assert f"{best(theirs).count:,} votes" in part(lesson.draw(theirs), "caption", Caption).text
+        assert f"{best(theirs).count:,} votes" in part(draw(theirs), "caption", Caption).text
         share = best(theirs).count / len(theirs.subject.p)
         assert theirs.now.needed == iterations_needed(share, 3, 0.99) < ours.now.needed
 
@@ -125,7 +125,7 @@ RIGHT = [
 def test_another_right_function_draws_the_same_pictures(exercise, function):
     """Whatever side its normals are on, and however it rounds."""
     for params in (Params(), presets.WIRE):
-        pairs = list(driven(lesson, exercise, function).run(params))
+        pairs = list(driven(lesson, exercise, function).form.states(params))
         assert end([pair.theirs for pair in pairs])
         assert [pair.trouble for pair in pairs if pair.trouble] == []
         assert [k for k, pair in enumerate(pairs) if pair.first] == []

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from lessons.representations.forms import FORMS, Functions, cube
-from lessons.representations.lesson import lesson, run
+from lessons.representations.lesson import draw, lesson, run
 from lessons.representations.state import Cells, Fitted, Joined, Params, Patches, Searched, State
 from lessons.representations.subjects import HALF, measured, subject_of
 from tests.runs import finished
 from workbench.algorithms.spatial.octree import Level
+from workbench.certain import sure
 from workbench.geometry.fields.signed_distances import box_sdf
 from workbench.geometry.level_sets import edge_crossings, level_surface
 from workbench.geometry.meshes import euler_characteristic
@@ -96,7 +97,7 @@ def test_what_is_thinner_than_a_cell_is_lost_though_its_cells_count():
         kept[thickness], counted[thickness] = np.mean(areas), np.mean(volumes)
     assert kept[0.2] < 0.1 < 0.25 < kept[0.5] < 0.5 < 0.75 < kept[0.8] < 0.95
     np.testing.assert_allclose(list(counted.values()), 1, atol=0.1)
-    end = caption_of(lesson.draw(of("thin")[-1]))
+    end = caption_of(draw(of("thin")[-1]))
     assert end.tone == "wrong"
     assert "came back" in end.text
 
@@ -189,15 +190,11 @@ def test_without_waves_it_stays_behind_and_the_clamp_can_kill_it():
     assert [plain.surface.mean, waves.surface.mean] == pytest.approx([0.078, 0.019], abs=0.0005)
     dead = of("clamp")
     assert len(dead[-1].surface.faces) == 0
-    assert caption_of(lesson.draw(dead[-1])).tone == "wrong"
+    assert caption_of(draw(dead[-1])).tone == "wrong"
     assert dead[-1].now.values.min() > 0.1  # beyond the clamp everywhere
+    clamped = lesson.preset("clamp").params
     alive = [
-        len(
-            last_before_others(
-                replace(lesson.preset("clamp").params, seed=seed, iterations=100)
-            ).surface.faces
-        )
-        > 0  # type: ignore[union-attr]
+        len(sure(last_before_others(replace(clamped, seed=seed, iterations=100)).surface).faces) > 0
         for seed in range(8)
     ]
     assert 2 <= sum(alive) <= 6
@@ -244,7 +241,7 @@ def test_slots_drive_the_run():
     assert last.surface is not None
     assert last.surface.mean > 0.3
     *_, last = run(Params(shape="box", resolution=16), box_sdf=lambda p, half: np.ones(len(p)))
-    assert caption_of(lesson.draw(last)).tone == "wrong"
+    assert caption_of(draw(last)).tone == "wrong"
 
 
 def test_the_same_box_by_another_function_is_the_same_run():
@@ -258,7 +255,7 @@ def test_the_same_box_by_another_function_is_the_same_run():
 
 def test_what_was_looked_at_is_drawn():
     state = next(s for s in of("search") if isinstance(s.now, Searched))
-    scene = lesson.draw(state)
+    scene = draw(state)
     looked, rest = scene["looked"], scene["points"]
     assert isinstance(looked, Points)
     assert isinstance(rest, Points)

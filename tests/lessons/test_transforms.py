@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lessons.transforms.body import numbers_of
-from lessons.transforms.lesson import lesson
+from lessons.transforms.lesson import draw, lesson
 from lessons.transforms.presets import ENTRIES, directions_left, halfway
 from lessons.transforms.state import Compare, Method, Params
 from tests.lessons.transforms_runs import (
@@ -190,7 +190,7 @@ def test_a_hidden_scale_grows_squared():
     (ghost,) = state.ghosts
     np.testing.assert_allclose(ghost.T[:3, :3], 1.69 * np.eye(3), atol=1e-12)
     assert ghost.distance > 0.5
-    assert caption_of(lesson.draw(state)).tone == "wrong"
+    assert caption_of(draw(state)).tone == "wrong"
     assert opened("hidden-scale").caption.tone == "info"  # it is meant to be
 
 
@@ -289,7 +289,7 @@ def test_averaged_matrices_are_flat():
     assert middle.volume == pytest.approx(np.cos(np.radians(85)) ** 2)
     assert middle.volume < 0.01
     assert kind_of(middle.T_world_body) is Kind.AFFINE
-    assert caption_of(lesson.draw(middle)).tone == "wrong"
+    assert caption_of(draw(middle)).tone == "wrong"
 
 
 def test_a_screw_takes_the_origin_along_an_arc():

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 
 from lessons.transforms.composition import Factor, compose
-from lessons.transforms.lesson import lesson, run
+from lessons.transforms.lesson import draw, lesson, run
 from lessons.transforms.presets import complete
 from lessons.transforms.state import Built, Moved, Params
 from tests.lessons.transforms_runs import MOVE, built, opened, opened_at, preset, timeline
@@ -34,7 +34,7 @@ def last_moved(params: Params, **slots) -> Moved:
 def test_the_inverse_of_the_student_undoes_the_run():
     wrong = last_built(Params(), invert_rigid=lambda T: motion(T[:3, :3].T, -T[:3, 3]))
     assert wrong.left > 0.5
-    assert caption_of(lesson.draw(wrong)).tone == "wrong"
+    assert caption_of(draw(wrong)).tone == "wrong"
     params = dataclasses.replace(MOVE, method="screw")
     off = last_moved(params, invert_rigid=lambda T: motion(T[:3, :3], -T[:3, 3]))
     assert np.abs(off.T_world_body - off.T_world_end).max() > 0.1
@@ -155,13 +155,13 @@ def test_a_students_wrong_function_is_not_said_to_be_right():
         return 0.9 * euler_to_matrix(angles, order)
 
     turned = list(run(Params(scale=(1, 1, 1)), euler_to_matrix=shrinking))[1]
-    caption = caption_of(lesson.draw(turned))
+    caption = caption_of(draw(turned))
     assert caption.tone == "wrong"
     assert "edge lengths" in caption.text
     backwards = last_moved(
         MOVE, rotation_from_axis_angle=lambda axis, angle: rotation_from_axis_angle(axis, -angle)
     )
-    end = caption_of(lesson.draw(backwards))
+    end = caption_of(draw(backwards))
     assert end.tone == "wrong"
     assert "The end is missed" in end.text
 

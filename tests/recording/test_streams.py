@@ -54,7 +54,8 @@ def test_runs_share_an_application_where_they_share_a_layout_and_nowhere_else(tm
 def test_a_rigid_run_of_20k_points_and_50_steps_stays_below_a_megabyte():
     icp = catalog()["icp"]
     long = Timeline(
-        replace(icp, run=lambda params: islice(icp.run(params), 50)), icp.params(points=20_000)
+        replace(icp, run=lambda params, subject: islice(icp.run(params, subject), 50)),
+        icp.params(points=20_000),
     ).complete()
     assert len(long) == 50
     assert len(record_bytes(long)) < 1_000_000

@@ -6,14 +6,19 @@ from dataclasses import replace
 import pytest
 
 from tests.story.hill import lesson
+from workbench.certain import sure
 from workbench.errors import AuthorError
 from workbench.story import has_story, plain_text, story_data, story_of
 
 
-def told(tmp_path, text, home="live"):
+def with_page(tmp_path, text):
     page = tmp_path / "page.md"
     page.write_text(text, encoding="utf-8")
-    return story_of(replace(lesson, page=page), home)
+    return replace(lesson, page=page)
+
+
+def told(tmp_path, text, home="live"):
+    return sure(story_of(with_page(tmp_path, text), home))
 
 
 def beats(story, scene=0):
@@ -22,11 +27,12 @@ def beats(story, scene=0):
 
 def test_a_page_without_a_named_heading_tells_no_story(tmp_path):
     assert has_story(lesson)
-    assert told(tmp_path, "# Title\n\n## Match\n\nWords {not a name}.") is None
+    unnamed = with_page(tmp_path, "# Title\n\n## Match\n\nWords {not a name}.")
+    assert story_of(unnamed, "live") is None
 
 
 def test_scenes_stand_in_order_with_their_names_and_titles():
-    story = story_of(lesson, "live")
+    story = sure(story_of(lesson, "live"))
     assert [(one.name, one.title) for one in story.scenes] == [
         ("hill", "The hill"),
         ("downhill", "A step goes downhill"),
@@ -66,7 +72,7 @@ def test_runs_are_named_as_every_home_names_them(tmp_path):
 
 
 def test_numbers_under_the_hand_and_numbers_of_the_run():
-    live, site = story_of(lesson, "live").html, story_of(lesson, "site").html
+    live, site = (sure(story_of(lesson, home)).html for home in ("live", "site"))
     assert '<span class="num" data-steps="place" data-unit=" m">−2.0 m</span>' in live
     assert '<span class="value" data-value="height" data-at="default@1">' in live
     assert '<span class="num" data-knob="share" data-unit="">0.10</span>' in site  # it has a sweep
@@ -116,7 +122,7 @@ def test_words_are_counted_without_questions_what_ifs_and_formulas(tmp_path):
 
 
 def test_what_is_for_reference_is_folded_and_its_links_lead_somewhere():
-    html = story_of(lesson, "live").reference
+    html = sure(story_of(lesson, "live")).reference
     assert html.startswith(
         '<details class="reference" id="reference"><summary>For reference</summary>'
     )

@@ -9,9 +9,8 @@ from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 from lessons.icp.lesson import run as run_icp
-from lessons.icp.lesson import setup
 from lessons.icp.presets import OVERLAP
-from lessons.icp.scans import Scans
+from lessons.icp.scans import Scans, scans_of
 from lessons.icp.space import Try
 from tests.verdicts import Run
 from workbench.algorithms.registration import icp
@@ -93,9 +92,9 @@ def try_home(run: Run, k: int) -> bool:
 def fixed_gate(seed: int) -> float:
     """Degrees that the fixed gate leaves at this seed."""
     params = type(OVERLAP)(**{**vars(OVERLAP), "seed": seed})
-    scans = setup(params)
+    scans = scans_of(params)
     for state in run_icp(params, scans):
-        if state.stop:
+        if isinstance(state, icp.State) and state.stop:
             return off_by(scans, state.T_target_source)[0]
     raise AssertionError
 
