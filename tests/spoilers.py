@@ -3,10 +3,11 @@ r"""Finds what tells the answer of a question before it is asked.
 A page may teach the principle from which an answer follows; it may not state the case that a
 question asks about.
 
-What is looked at (`passages`): every paragraph, list item and table row of page.md, the title and
-summary, each preset's title and line, each question's text, each knob's label, hint, choices and
-default, and the captions that are seen before anybody moves: of the default run where it opens, and
-of each preset where it opens.
+What is looked at (`passages`): every paragraph, list item and table row of page.md (of a story
+those above the question's card: what follows comes after the answer), the title and summary, each
+preset's title and line, each question's text, each knob's label, hint, choices and default, and the
+captions that are seen before anybody moves: of the default run where it opens, and of each preset
+where it opens.
 
 Which passages are about a question: those of its own run (the preset with its params, a list item
 that names that preset, the caption of a run with its params), and those that share content words
@@ -45,7 +46,11 @@ from typing import Any
 from tests.runs import finished
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, Preset, Question, catalog
+from workbench.story import has_story
 from workbench.words.typeset import inline_html, page_html
+
+ATTRIBUTES = re.compile(r"\{[#.:\w][^{}]*\}|^:::.*$", re.MULTILINE)
+"""What page.md says to the page alone."""
 
 
 @dataclass(frozen=True)
@@ -63,13 +68,25 @@ class Passage:
 @functools.cache
 def passages(name: str) -> tuple[Passage, ...]:
     """Return every text of a lesson that is seen before a question is answered."""
-    return tuple(_passages(catalog()[name]))
+    lesson = catalog()[name]
+    return tuple(_passages(lesson, lesson.text()))
 
 
-def _passages(lesson: Lesson) -> Iterator[Passage]:
+@functools.cache
+def before(name: str, question: str) -> tuple[Passage, ...]:
+    """Return every text that is seen before a question: of a story what stands above its card."""
+    lesson = catalog()[name]
+    above, card, _ = lesson.text().partition(f"{{.ask #{question}")
+    if not has_story(lesson):
+        return passages(name)
+    assert card, f"{name}: page.md does not ask {question}"
+    return tuple(_passages(lesson, ATTRIBUTES.sub("", above)))
+
+
+def _passages(lesson: Lesson, page: str) -> Iterator[Passage]:
     captions, default = facts(lesson.name)[0], lesson.params()
     yield Passage("title and summary", f"{lesson.title}. {lesson.summary}")
-    for block in blocks(page_html(lesson.text())):
+    for block in blocks(page_html(page)):
         yield from (Passage("page.md", text, params) for text, params in _by_preset(lesson, block))
     for preset in lesson.presets:
         yield Passage(f"preset {preset.name}", f"{preset.title}. {preset.line}", preset.params)
@@ -121,9 +138,9 @@ def _by_preset(lesson: Lesson, text: str) -> Iterator[tuple[str, Any]]:
         yield text[here:there], starts[here]
 
 
-def read(name: str, innocent: str) -> Iterator[Passage]:
+def read(name: str, question: str, innocent: str) -> Iterator[Passage]:
     """Yield the passages that stand before a question, without what the rules would misread."""
-    for passage in passages(name):
+    for passage in before(name, question):
         yield replace(
             passage, text=re.sub(innocent or "(?!)", "…", passage.text, flags=re.IGNORECASE)
         )
@@ -385,7 +402,7 @@ def spoilers(
     name: str, question: Question, giveaways: Iterable[str], innocent: str = ""
 ) -> list[str]:
     """Return one line for every passage that gives the answer away, with what does."""
-    texts, right = list(read(name, innocent)), facts(name)[1][question.name]
+    texts, right = list(read(name, question.name, innocent)), facts(name)[1][question.name]
     found = [*(by_choice if question.choices else by_number)(question, right, texts)]
     reasons: dict[str, list[str]] = {}
     for passage, why in [*found, *by_hand(question, giveaways, texts)]:

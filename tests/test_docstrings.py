@@ -19,6 +19,7 @@ VERBS = ("Return", "Yield", "Raise", "Write")  # what a function can do for its 
 
 NO_PAPER = {
     "algorithms.robust.models": "a table of functions that name their sources themselves",
+    "geometry.upright": "a drawing stood up in space, found in no paper",
     "geometry.polylines": "points in a row, found in no paper",
     "geometry.meshes.repair": "bookkeeping on faces, found in no paper",
 }

@@ -50,7 +50,9 @@ ALLOWED = {
     "workbench.view": set(),
     "workbench.run.listing": {"workbench.lesson", "workbench.chapters"},
     "workbench.moved": set(),
-    "workbench.lesson": FORM | {"workbench.form1", "workbench.presets", "workbench.chapters"},
+    "workbench.lesson": (
+        FORM | {"workbench.form1", "workbench.presets", "workbench.chapters", "workbench.moved"}
+    ),
     "workbench.run": LESSON,
     "workbench.run.picking": DRAWING,
     "workbench.wire": LESSON | {"workbench.wire"},

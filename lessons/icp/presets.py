@@ -74,7 +74,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="from-75",
         title="In the flat, from 75°",
-        line="The same rules, a start 30° farther away, and another valley.",
+        line="The same rules, from a start 30° farther away.",
         params=FROM_75,
         step=0,
         view=FRONT,
@@ -177,18 +177,15 @@ PRESETS: tuple[Preset[Input], ...] = (
     ),
     Preset(
         name="keep-70",
-        title="Outliers, trimmed to 70 %",
-        line="Keep the closest 70 % of the matches at each fit, and ICP comes home.",
+        title="Outliers, and a gate that trims",
+        line="Each fit leaves out a share of the matches, those that are farthest apart.",
         params=KEEP_70,
         step=0,
     ),
     Preset(
         name="outliers-trimmed",
-        title="Outliers, trimmed to 65 %",
-        line=(
-            "Keep only the closest 65 % of the matches: nearly all outliers fall out, and ICP comes"
-            " home."
-        ),
+        title="Outliers, trimmed a little more",
+        line="The gate leaves out somewhat more than there are outliers, and ICP comes home.",
         params=replace(OUTLIERS, keep=0.65),
         step=0,
     ),

@@ -30,7 +30,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="turned",
         title="Turned by hand",
-        line="Twelve bands hold two outlines of the rabbit. Turn one of them and read the RMSE.",
+        line="Twelve bands hold two outlines of the rabbit. Turn orange, and read the RMSE.",
         params=TURNED,
         step=START,
         view=FRONT,
@@ -123,7 +123,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         title="Half of the pairs are wrong",
         line="750 of 1,500 points have the partner of another point. Read how far the fit is off.",
         params=HALF,
-        step=FLIP,
+        step=1,
     ),
     Preset(
         name="together",

@@ -83,12 +83,16 @@ def test_new_data_in_a_lessons_folder_counts(course):
     assert sources_digest(lesson) != before
 
 
+DRAWS = ("draw.py", "drawing.py", "flat.py", "space.py")  # where lessons draw
+
+
 @pytest.mark.parametrize("name", catalog())
 def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
     found = {str(file.relative_to(ROOT)) for file in sources_of(catalog()[name])}
     assert {
         f"lessons/{name}/page.md",
-        f"lessons/{name}/draw.py",
+        f"lessons/{name}/lesson.py",
+        *(f"lessons/{name}/{part}" for part in DRAWS if (ROOT / f"lessons/{name}/{part}").exists()),
         "workbench/run/timeline.py",
         "workbench/recording/sink.py",
         "workbench/recording/write.py",

@@ -25,7 +25,6 @@ from workbench.geometry.motions import alignment
 
 @contract(
     slot="similarity_scale",
-    preset="scale",
     examples=(
         (
             (
