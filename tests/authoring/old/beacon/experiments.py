@@ -43,11 +43,8 @@ def equal_error(states: Sequence[State]) -> float:
 
 def equal_reason(states: Sequence[State]) -> str:
     """Say what came out, and what the formula of the page says."""
-    # three coordinates, 15 fixes by each sensor
-    rms = 1000 * np.sqrt(3 * 15 * (0.02**2 + 0.2**2)) / 30
-    return (
-        f"It is {equal_error(states):.0f} mm; over all noise the formula says {rms:.0f} mm (RMS)."
-    )
+    rms = 1000 * np.sqrt(3 * 15 * (0.02**2 + 0.2**2)) / 30  # three coordinates, 15 fixes by each sensor
+    return f"It is {equal_error(states):.0f} mm; over all noise the formula says {rms:.0f} mm (RMS)."
 
 
 def drop(states: Sequence[State]) -> str:
@@ -59,10 +56,7 @@ def drop(states: Sequence[State]) -> str:
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         name="how-far",
-        text=(
-            "15 fixes have σ = 2 cm, 15 have σ = 20 cm in each coordinate. All count the same. How"
-            " far off is the mean?"
-        ),
+        text="15 fixes have σ = 2 cm, 15 have σ = 20 cm in each coordinate. All count the same. How far off is the mean?",
         answer=equal_error,
         why=equal_reason,
         params=EQUAL,
@@ -71,14 +65,9 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
     ),
     Question(
         name="what-becomes",
-        text=(
-            "Two of 30 fixes are of another beacon, 85 cm away. The weights do not know. What"
-            " becomes of the estimate?"
-        ),
+        text="Two of 30 fixes are of another beacon, 85 cm away. The weights do not know. What becomes of the estimate?",
         choices=("hardly moves", "moves by some 10 cm", "jumps to the other beacon"),
-        answer=lambda states: (
-            1 if 0.03 < states[-1].error < 0.4 else 0 if states[-1].error <= 0.03 else 2
-        ),
+        answer=lambda states: 1 if 0.03 < states[-1].error < 0.4 else 0 if states[-1].error <= 0.03 else 2,
         why=drop,
         params=STRAY,
     ),

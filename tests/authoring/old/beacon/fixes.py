@@ -11,9 +11,7 @@ LEAST = 1e-3
 
 
 def measured(params: Params, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """Return the fixes (n, 3), metres, and their weights (n,): even rows by the good sensor, odd
-    ones by the bad.
-    """
+    """Return the fixes (n, 3), metres, and their weights (n,): even rows by the good sensor, odd ones by the bad."""
     even = np.arange(params.fixes) % 2 == 0
     sigma = np.where(even, params.good, params.bad)
     p = P_TRUE + sigma[:, None] * rng.standard_normal((params.fixes, 3))

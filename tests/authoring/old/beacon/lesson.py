@@ -1,11 +1,10 @@
 """Where is the beacon? The mean of many measurements, each with the weight that it deserves.
 
-What it teaches: weights of one over the variance give the best mean there is, equal weights waste
-the better sensor, and no weights protect from a measurement that is of something else.
+What it teaches: weights of one over the variance give the best mean there is, equal weights waste the better sensor, and
+no weights protect from a measurement that is of something else.
 
-`state.py` has the inputs and the state, `fixes.py` the made data, `draw.py` and `words.py` the
-picture and its sentences, `experiments.py` the presets and questions, `exercises/` what students
-write.
+`state.py` has the inputs and the state, `fixes.py` the made data, `draw.py` and `words.py` the picture and its sentences,
+`experiments.py` the presets and questions, `exercises/` what students write.
 """
 
 from collections.abc import Callable, Iterator
@@ -43,9 +42,7 @@ def run(params: Params, *, weighted_centroid: Centroid = weighted_centroid) -> I
 lesson = Lesson(
     name="beacon",
     title="The weighted mean",
-    summary=(
-        "Two sensors, one beacon: every measurement counts, but not all of them count the same."
-    ),
+    summary="Two sensors, one beacon: every measurement counts, but not all of them count the same.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

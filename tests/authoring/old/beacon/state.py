@@ -13,19 +13,13 @@ P_TRUE = np.array([0.2, -0.1, 0.4])
 
 @dataclass(frozen=True)
 class Params:
-    """The inputs of a run: every field becomes a control, a flag of the commands and a part of
-    links.
-    """
+    """The inputs of a run: every field becomes a control, a flag of the commands and a part of links."""
 
     fixes: Annotated[int, Knob("How many times the beacon is measured", 2, 60)] = 30
     good: Annotated[float, Knob("Standard deviation of the good sensor", 0, 0.3, unit="m")] = 0.02
     bad: Annotated[float, Knob("Standard deviation of the bad sensor", 0, 0.3, unit="m")] = 0.2
-    weights: Annotated[Literal["one over variance", "equal"], Knob("How much a fix counts")] = (
-        "one over variance"
-    )
-    outliers: Annotated[
-        int, Knob("How many fixes of the good sensor are of another beacon", 0, 5)
-    ] = 0
+    weights: Annotated[Literal["one over variance", "equal"], Knob("How much a fix counts")] = "one over variance"
+    outliers: Annotated[int, Knob("How many fixes of the good sensor are of another beacon", 0, 5)] = 0
     seed: Annotated[int, Knob("Which noise is drawn", 0, 99)] = 0
 
 
@@ -39,9 +33,7 @@ class State:
 
     @property
     def spread(self) -> float:
-        """The weighted RMS distance of the fixes from the estimate, metres: what the centroid
-        makes smallest.
-        """
+        """The weighted RMS distance of the fixes from the estimate, metres: what the centroid makes smallest."""
         squared = ((self.p - self.p_estimate) ** 2).sum(axis=1)
         return float(np.sqrt(self.w @ squared / self.w.sum()))
 

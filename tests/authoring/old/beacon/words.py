@@ -11,6 +11,5 @@ def caption(state: State) -> Caption:
     if n == 1:
         return Caption(f"One fix is the estimate: {1000 * state.error:.0f} mm from the beacon.")
     return Caption(
-        f"Fix {n} has {100 * share:.1f} % of all weight. The estimate is {1000 * state.error:.0f}"
-        " mm from the beacon."
+        f"Fix {n} has {100 * share:.1f} % of all weight. The estimate is {1000 * state.error:.0f} mm from the beacon."
     )

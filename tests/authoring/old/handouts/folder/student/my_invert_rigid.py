@@ -18,13 +18,11 @@ import numpy as np
 def invert_rigid(T_a_b: np.ndarray) -> np.ndarray:
     """Return the motion T_b_a that takes points back from frame a to frame b.
 
-    With T_a_b = (R, t) a point goes p_a = R p_b + t, metres. The inverse undoes that for every
-    point.
+    With T_a_b = (R, t) a point goes p_a = R p_b + t, metres. The inverse undoes that for every point.
 
     Args:
-        T_a_b: A rigid motion: rotation R in the upper left 3x3, translation t (metres) in the last
-            column, and (0, 0, 0, 1) as last row. It may be the identity. Nobody gives you a motion
-            that scales or shears.
+        T_a_b: A rigid motion: rotation R in the upper left 3x3, translation t (metres) in the last column, and
+            (0, 0, 0, 1) as last row. It may be the identity. Nobody gives you a motion that scales or shears.
 
     Returns:
         T_b_a, again a rigid motion, in a new array: the input stays as it is.

@@ -20,13 +20,11 @@ def match(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
     Args:
         p_target: The cloud to find partners in, metres.
-        p_source: The points that want a partner, metres; in the target frame, as ICP has moved them
-            so far.
+        p_source: The points that want a partner, metres; in the target frame, as ICP has moved them so far.
 
     Returns:
-        n whole numbers from 0 to m - 1, Euclidean distances deciding. Several source points may
-        share a partner, and target points may stay without one. Where two target points are equally
-        near, either is right.
+        n whole numbers from 0 to m - 1, Euclidean distances deciding. Several source points may share a partner, and target
+        points may stay without one. Where two target points are equally near, either is right.
 
     Raises:
         ValueError: If there is no target point (m = 0).
