@@ -18,6 +18,7 @@ from workbench.lesson import Lesson, Question, Sweep
 from workbench.notebook import Replay
 from workbench.publish.site import publish
 from workbench.run.timeline import Timeline
+from workbench.story import has_story
 from workbench.viewer.server import Server
 
 WIDTH, HEIGHT = 1280, 720
@@ -150,7 +151,8 @@ class Browser:
 
 
 def _live(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str]:
-    return lesson, f"{server.address}/?lesson={lesson.name}"
+    bench = f"&step={lesson.first_step}" if has_story(lesson) else ""
+    return lesson, f"{server.address}/?lesson={lesson.name}{bench}"
 
 
 def _site(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str]:
@@ -193,9 +195,10 @@ def few(lesson: Lesson, folder: Path) -> Lesson:
     first = linked(lesson) or next((preset.name for preset in lesson.presets), None)
     kept = {"default", "this", "", first}
     page = folder / "page.md"
-    page.write_text(
-        LINKED.sub(lambda found: found[0] if found[2] in kept else found[1], lesson.text())
-    )
+    text = LINKED.sub(lambda found: found[0] if found[2] in kept else found[1], lesson.text())
+    if has_story(lesson):  # whose scenes name runs that are left out here: its workbench alone
+        text = f"# {lesson.title}\n\n{lesson.summary} [Look](run:{first or 'default'}).\n"
+    page.write_text(text)
     sweeps = ()
     if lesson.sweeps:
         sweep = lesson.sweeps[0]
