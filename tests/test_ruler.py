@@ -46,9 +46,9 @@ def counted(folder: str) -> dict[str, int]:
 
 
 CEILINGS: dict[str, dict[str, int]] = {
-    "workbench": {"unlike": 685, "nested": 24, "positional": 103, "long files": 7},
-    "lessons": {"unlike": 767, "nested": 43, "positional": 219, "long files": 7},
-    "tests": {"unlike": 1089, "nested": 19, "positional": 365, "long files": 21},
+    "workbench": {"unlike": 704, "nested": 25, "positional": 125, "long files": 4},
+    "lessons": {"unlike": 830, "nested": 43, "positional": 231, "long files": 8},
+    "tests": {"unlike": 1152, "nested": 22, "positional": 374, "long files": 23},
 }
 
 
