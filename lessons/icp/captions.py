@@ -91,13 +91,15 @@ def _of_try(look: SpaceLook, now: Try) -> Caption:
     n = len(scans.p_source)
     few = len(range(n)[every(n, TRIED)])
     fewer = f" (with {few:,} of its points)" if few < n else ""
-    words = "From {start} away ICP {what}, {off} off, at an RMSE of {rmse}" + fewer + "."
+    ended = ", at an RMSE of {rmse}" if np.isfinite(now.rmse) else ", without a match that is kept"
+    words = "From {start} away ICP {what}, {off} off" + ended + fewer + "."
     values = {
         "start": degrees(now.start_angle),
         "what": "comes home" if home else "ends elsewhere",
         "off": degrees(now.error.rotation),
-        "rmse": metres(now.rmse),
     }
+    if np.isfinite(now.rmse):
+        values["rmse"] = metres(now.rmse)
     if now.start_angle < 180:
         return say(words, place="other starts", **values)
     last = edge(tries_of(look), scans)
