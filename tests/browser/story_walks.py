@@ -35,7 +35,10 @@ window.turned = (number) => number?.dispatchEvent(new KeyboardEvent("keydown",
   { key: Math.random() < 0.5 ? "ArrowRight" : "PageDown", bubbles: true }));
 window.apart = () => {
   const { place } = storyStage, { run } = page;
-  if (page.face !== "story") return "the workbench is open";
+  if (page.face !== "story") {  // she went back to it, and comes again
+    story.turn("story");
+    return "the workbench was open";
+  }
   if (story.flying || transport.playing) return "on the way";
   if ($(".ask.asked:not(.done)")) return "an answer is played";
   if (!story.here || story.read() !== story.here) return "other words are read";
@@ -46,7 +49,7 @@ window.apart = () => {
   if ($("#caption").textContent !== run.steps[k]?.caption) return "another caption";
   if ($("#back").hidden === story.hand) return "the button does not say whose the stage is";
   const said = story.placeAt(story.here.el);
-  if (!story.hand && !story.here.el.matches(".ask.done") &&
+  if (!story.hand &&
     (canonical(said.run) !== canonical(place.run) || String(own(said.step)) !== String(place.step)))
     return `the text's stage is at ${place.run} ${place.step}, its words at ${said.run} ${said.step}`;
   if (JSON.stringify(sceneView.hide) !== JSON.stringify(place.hide ?? [])) return "hidden things";
@@ -65,7 +68,8 @@ def walk(page: Any, seed: int, acts: int, told: Callable[[str], None] = lambda _
             act = "next scene"
         text = ACTS[act]
         told(f"{seed}: {act}")
-        page.evaluate(text % chance.random() if "%f" in text else text)
+        text = text % chance.random() if "%f" in text else text
+        page.evaluate(f"() => {{ {text}; }}")  # she does not wait for what it promises
         if chance.random() < 0.25:  # she does not wait
             continue
         rests(page, f"walk {seed}, act {k}, {act}")

@@ -22,7 +22,7 @@ const story = {
     storyParts.build(this);
     for (const part of [storyAsk, storyChart, storyStage, storyWords]) part.start();
     page.listeners.push({
-      told: () => storyStage.pursue(), came: () => storyStage.pursue(),
+      told: (run) => storyStage.told(run), came: () => storyStage.pursue(),
       drawn: () => { storyStage.show(); storyStage.pursue(); },
       answered: (answer) => storyAsk.answered(answer), tidied: (inside) => storyParts.tidied(inside),
     });
@@ -69,6 +69,15 @@ const story = {
   },
 
   named: (hash) => story.scenes.findIndex((scene) => `#${scene.id}` === hash),
+
+  // a question that is answered stands where its run ended
+  answered(form) {
+    const beat = this.beats.find(({ el }) => el === form);
+    if (!beat) return;
+    const { from, ...place } = beat.place, { to } = STORY.starts[form.dataset.question] ?? {};
+    beat.place = { ...place, step: to ?? "stop" };
+    beat.key = `${beat.scene.id} ${JSON.stringify(beat.place)}`;
+  },
 
   // reading ---------------------------------------------------------------------------------------
 
@@ -133,10 +142,7 @@ const story = {
     storyStage.pause();
     this.plate();
     storyWords.unpick();
-    const { from, ...place } = beat.place, form = beat.el.matches(".ask") && beat.el;
-    if (form && !storyAsk.isOpen(form)) {
-      place.step = STORY.starts[form.dataset.question]?.to ?? "stop";
-    }
+    const { from, ...place } = beat.place;
     const plays = from !== undefined && down && !isStill() && !beat.played;
     if (!plays) return void storyStage.go(place);
     beat.played = true;
@@ -147,7 +153,7 @@ const story = {
   // the hand ----------------------------------------------------------------------------------
 
   // the reader's hand takes the stage until other words are read
-  async took(act, { lasts = true } = {}) {
+  async took(act, { lasts = () => true } = {}) {
     const turn = this.turns = {};
     this.hand = true;
     storyStage.pause();
@@ -155,7 +161,7 @@ const story = {
     storyWords.unpick();
     this.back();
     await act?.();
-    if (lasts || this.turns !== turn) return;
+    if (this.turns !== turn || lasts()) return;
     this.hand = false;
     this.back();
   },
@@ -187,8 +193,10 @@ const story = {
   },
 
   act(verb) {
-    if (verb === "next") return this.step(page.k + 1);
-    if (verb === "back") return this.step(page.k - 1);
+    const { place } = storyStage, coming = !storyStage.is(page.run, place);
+    const k = coming && typeof place?.step === "number" ? place.step : page.k;
+    if (verb === "next") return this.step(k + 1);
+    if (verb === "back") return this.step(k - 1);
     if (verb !== "play") return;
     if (transport.playing) {
       storyStage.pause();
@@ -197,7 +205,8 @@ const story = {
     this.took(async () => {
       const end = storyStage.found(page.run, "stop"), whole = page.known() - 1;
       const past = page.k > (end ?? Infinity);
-      if (page.k === end || page.k === whole) await storyStage.go({ ...storyStage.place, step: 0 });
+      const again = page.k === end || page.k === whole;
+      if (again && !(await storyStage.go({ ...storyStage.place, step: 0 }))) return;
       storyStage.play(past ? whole : "stop", 9);
     });
   },
@@ -264,6 +273,7 @@ const story = {
   },
 
   left(push) {
+    storyStage.sent = storyStage.base = "";  // the workbench opens what it wants
     feed.lead(null);
     sceneView.hide = [];
     sceneView.swift = false;

@@ -90,7 +90,7 @@ const storyAsk = {
     await story.took(async () => {
       const place = { ...story.placeAt(form), ...start, from: undefined };
       if (await storyStage.go(place)) await storyStage.play(start.to ?? "stop", 7);
-    }, { lasts: false });
+    }, { lasts: () => story.here?.el !== form });  // other words are read: it is their hand's
     this.tell(form, { ...told, given });
     const kept_ = kept.get(`answers ${LESSON.name}`) ?? {}, before = kept_[question];
     kept.set(`answers ${LESSON.name}`, { ...kept_, [question]: { ...before, story: { ...told, given } } });
@@ -112,6 +112,7 @@ const storyAsk = {
   tell(form, { given, right, truth, why, reply }) {
     const skipped = given === null || given === undefined;
     form.classList.add("asked", "done");
+    story.answered(form);
     for (const label of $$("label:has([type=radio])", form)) {
       const { value } = $("input", label);
       label.classList.toggle("right", value === truth);

@@ -11,6 +11,7 @@ const storyStage = {
   base: "",       // ... before a param of it was changed
   sought: "",     // the step that was asked for last
   view: null,     // the name of the camera that was put last
+  refused: null,  // the id of a run that came instead of the one that was asked for
   token: null,    // of what plays
   gliding: 0,     // the frame request of the camera
 
@@ -64,7 +65,22 @@ const storyStage = {
   },
 
   // whether a step that has come is one to be seen: not one on the way to that which is wanted
-  awaits(k) { return !this.place || typeof this.place.step !== "number" || this.place.step === k; },
+  awaits(k) {
+    const { place } = this, { run } = page;
+    if (!place || typeof place.step !== "number" || place.step === k) return true;
+    return this.is(run, place) && this.found(run, place.step) === k;
+  },
+
+  // a run is told: one that somebody else opened meanwhile is answered by asking again, once
+  told(run) {
+    const { place } = this, other = place && place.id === undefined && !this.is(run, place);
+    const base = place?.knob && (!run.name || canonical(run.name) === canonical(place.run));
+    if (other && !base && this.refused !== run.id) {
+      this.refused = run.id;
+      this.sent = this.base = "";
+    }
+    this.pursue();
+  },
 
   // asks for the run of a place, once
   ask({ run, knob, id, step }) {
@@ -108,8 +124,9 @@ const storyStage = {
     const named = run.name && { run: run.name };
     this.place = { ...this.place, knob: undefined, run: this.place?.run, id: undefined, ...named,
       ...(named ? {} : { id: run.id }), step: k };
-    this.sent = named ? JSON.stringify([run.name, {}]) : "";
-    this.base = named ? run.name : "";
+    sceneView.hide = this.place.hide ?? [];
+    sceneView.again();
+    this.sent = this.base = "";
     this.sought = "";
   },
 
