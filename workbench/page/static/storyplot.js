@@ -2,7 +2,7 @@
 // knows a lesson. A part is text; where something is to be found again it has a class.
 "use strict";
 
-const FRAME = { left: 46, right: 14, top: 18, bottom: 34 };
+const FRAME = { left: 46, right: 14, top: 25, bottom: 34 };
 
 // the word by which page.md names a chart, a curve or a series
 function slug(text) {
@@ -60,10 +60,10 @@ function axes(at) {
     `<text x="${px(tick)}" y="${h - bottom + 26}" text-anchor="middle">${escape(word)}</text>`));
   const words = (plot.x_label ?? plot.xLabel ?? "").trim();
   const up = plot.y_label || plot.yLabel || plot.title;
-  parts.push(`<text x="${left - 38}" y="${top - 7}">${escape(up)}</text>`);
+  parts.push(`<text x="${left - 38}" y="${top - 13}">${escape(up)}</text>`);
   const room = 7 * (up.length + words.length) + 60 < w;
   if (words && room) parts.push(
-    `<text x="${w - right}" y="${top - 7}" text-anchor="end">${escape(words)} →</text>`);
+    `<text x="${w - right}" y="${top - 13}" text-anchor="end">${escape(words)} →</text>`);
   return parts;
 }
 
