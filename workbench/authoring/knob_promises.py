@@ -108,7 +108,8 @@ def _effect(plain: Timeline, turned: Timeline) -> str | None:
     """Return what differs between two runs: the path of a thing, or that they end otherwise."""
     pairs = zip(plain.known(), turned.known(), strict=False)
     found = next((path for one, two in pairs if (path := differs(one.scene, two.scene))), None)
-    same_end = plain.stopped == turned.stopped and len(plain) == len(turned)
+    whole = plain.finished and turned.finished  # of a longer run only its first steps are made
+    same_end = not whole or (plain.stopped == turned.stopped and len(plain) == len(turned))
     return found or (None if same_end else "how the run ends")
 
 

@@ -26,6 +26,7 @@ class RobustScene:
         p_true: The inliers without their noise, for the error to the truth.
         quality: How much each row is trusted before anything is fitted, as by the score of a match. Inliers mostly have
             more.
+        is_other: Which rows were made from a second model, where there is one.
     """
 
     p: Float[np.ndarray, "n d"]
@@ -33,20 +34,40 @@ class RobustScene:
     truth: Float[np.ndarray, "..."]
     p_true: Float[np.ndarray, "m d"]
     quality: Float[np.ndarray, " n"]
+    is_other: Bool[np.ndarray, " n"] | None = None
 
 
-def line_scene(rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float) -> RobustScene:
+def line_scene(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+) -> RobustScene:
     """Return points along a line across a window of 2 m by 2 m, with clutter above it, which drags least squares up."""
     inliers, outliers = _split(count, outlier_ratio)
     slope, height = rng.uniform(-0.3, 0.3), rng.uniform(-0.6, -0.3)
     x = rng.uniform(-1.0, 1.0, inliers)
     p_true = np.column_stack([x, height + slope * x])
-    clutter = np.column_stack([rng.uniform(-1.0, 1.0, outliers), rng.uniform(0.0, 1.0, outliers) ** 0.7 - 0.1])
+    clutter = np.column_stack(
+        [rng.uniform(-1.0, 1.0, outliers), rng.uniform(0.0, 1.0, outliers) ** 0.7 - 0.1]
+    )
     truth = np.array([-slope, 1.0, -height]) / np.hypot(slope, 1.0)
     return _mixed(rng, p_true, clutter, truth, sigma)
 
 
-def plane_scene(rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float) -> RobustScene:
+def scattered_line_scene(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+) -> RobustScene:
+    """Return points of y = 0.25 x - 0.1, then clutter all over a window of 2 m, near the line too. Not shuffled."""
+    inliers, outliers = _split(count, outlier_ratio)
+    x = rng.uniform(-1.0, 1.0, inliers)
+    p_true = np.column_stack([x, 0.25 * x - 0.1])
+    clutter = rng.uniform(-1.0, 1.0, (outliers, 2))
+    p = np.concatenate([p_true + sigma * rng.normal(size=p_true.shape), clutter])
+    truth = np.array([-0.25, 1.0, 0.1]) / np.hypot(0.25, 1.0)
+    return RobustScene(p, np.arange(count) < inliers, truth, p_true, np.ones(count))
+
+
+def plane_scene(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+) -> RobustScene:
     """Return points of a tilted table top of 2 m by 2 m, with clutter standing on it, which drags least squares up."""
     inliers, outliers = _split(count, outlier_ratio)
     truth, up = _table(rng)
@@ -55,19 +76,25 @@ def plane_scene(rng: np.random.Generator, *, count: int, outlier_ratio: float, s
     return _mixed(rng, p_true, clutter, truth, sigma)
 
 
-def two_planes_scene(rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float) -> RobustScene:
-    """Return a small table top, which is the truth, beside a wall that holds twice as many points, and clutter."""
+def two_planes_scene(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float, wall: float = 2.0
+) -> RobustScene:
+    """Return a small table top, the truth, beside a wall with `wall` times as many points, and clutter."""
     inliers, outliers = _split(count, outlier_ratio)
-    table = inliers // 3
+    table = max(1, round(inliers / (1.0 + wall)))
     truth, up = _table(rng)
     p_true = up(rng.uniform(-1.0, 1.0, (table, 2)), np.zeros(table))
-    wall = np.column_stack([np.full(inliers - table, 1.0), rng.uniform(-1.0, 1.0, inliers - table)])
-    on_wall = up(wall[:, ::-1], 1.6 * rng.random(inliers - table)) + sigma * rng.normal(size=(inliers - table, 3))
+    foot = np.column_stack([np.full(inliers - table, 1.0), rng.uniform(-1.0, 1.0, inliers - table)])
+    on_wall = up(foot[:, ::-1], 1.6 * rng.random(inliers - table))
+    on_wall += sigma * rng.normal(size=on_wall.shape)
     clutter = up(_clutter_places(rng, outliers), 1.2 * rng.random(outliers) ** 1.3)
-    return _mixed(rng, p_true, np.concatenate([on_wall, clutter]), truth, sigma)
+    others = np.concatenate([on_wall, clutter])
+    return _mixed(rng, p_true, others, truth, sigma, other=len(on_wall))
 
 
-def wire_scene(rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float) -> RobustScene:
+def wire_scene(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+) -> RobustScene:
     """Return a table top with two thirds of its points exactly along a taut wire: samples of the wire are degenerate.
 
     The first three rows are points of the wire.
@@ -85,7 +112,9 @@ def wire_scene(rng: np.random.Generator, *, count: int, outlier_ratio: float, si
     return RobustScene(scene.p, scene.is_inlier, truth, np.concatenate([wire, rest]), scene.quality)
 
 
-def circle_scene(rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float) -> RobustScene:
+def circle_scene(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+) -> RobustScene:
     """Return points of two thirds of a circle in a window of 2 m by 2 m, with clutter mostly to one side."""
     inliers, outliers = _split(count, outlier_ratio)
     center, radius = rng.uniform(-0.35, 0.0, 2), rng.uniform(0.45, 0.6)
@@ -95,7 +124,9 @@ def circle_scene(rng: np.random.Generator, *, count: int, outlier_ratio: float, 
     return _mixed(rng, p_true, clutter, np.append(center, radius), sigma)
 
 
-def sphere_scene(rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float) -> RobustScene:
+def sphere_scene(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+) -> RobustScene:
     """Return points of the upper half of a ball, with clutter in a box of 2 m around it."""
     inliers, outliers = _split(count, outlier_ratio)
     center, radius = np.append(rng.uniform(-0.3, 0.3, 2), 0.3), rng.uniform(0.4, 0.55)
@@ -127,24 +158,42 @@ def match_scene(
         p_second = rays * depth[:, None] @ T_second_first[:3, :3].T + T_second_first[:3, 3]
         seen = transform_pixels(_K, p_second[:, :2] / p_second[:, 2:])
         kept = (p_second[:, 2] > 0.0) & (seen >= 0.0).all(1) & (seen <= size - 1.0).all(1)
-        uv_first, uv_second = np.concatenate([uv_first, uv[kept]]), np.concatenate([uv_second, seen[kept]])
+        uv_first, uv_second = (
+            np.concatenate([uv_first, uv[kept]]),
+            np.concatenate([uv_second, seen[kept]]),
+        )
     p_true = np.concatenate([uv_first, uv_second], axis=1)[:inliers]
     wrong = rng.uniform(0.0, np.tile(size - 1.0, 2), (outliers, 4))
     truth = fundamental_from_cameras(_K, _K, T_second_first)
     if flat:
-        truth = _K @ (T_second_first[:3, :3] - np.outer(T_second_first[:3, 3], normal) / 7.0) @ np.linalg.inv(_K)
+        truth = (
+            _K
+            @ (T_second_first[:3, :3] - np.outer(T_second_first[:3, 3], normal) / 7.0)
+            @ np.linalg.inv(_K)
+        )
         truth = truth / np.linalg.norm(truth)
     return _mixed(rng, p_true, wrong, truth, sigma)
 
 
+def wall_matches(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+) -> RobustScene:
+    """Return matches between two views of one wall: as `match_scene`, with H as the truth."""
+    return match_scene(rng, count=count, outlier_ratio=outlier_ratio, sigma=sigma, flat=True)
+
+
 def _split(count: int, outlier_ratio: float) -> tuple[int, int]:
     if not (count >= 1 and 0.0 <= outlier_ratio < 1.0):
-        raise ValueError(f"count >= 1 and 0 <= outlier_ratio < 1 are needed, not {count} and {outlier_ratio}")
+        raise ValueError(
+            f"count >= 1 and 0 <= outlier_ratio < 1 are needed, not {count} and {outlier_ratio}"
+        )
     outliers = min(round(count * outlier_ratio), count - 1)
     return count - outliers, outliers
 
 
-def _table(rng: np.random.Generator) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
+def _table(
+    rng: np.random.Generator,
+) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
     """Return a tilted plane, and the function that puts places on it, at heights above it, into the world."""
     R_world_table = exp_so3(np.append(rng.uniform(-0.15, 0.15, 2), 0.0))
     shift = np.array([0.0, 0.0, rng.uniform(-0.05, 0.05)])
@@ -161,12 +210,24 @@ def _clutter_places(rng: np.random.Generator, count: int) -> np.ndarray:
 
 
 def _mixed(
-    rng: np.random.Generator, p_true: np.ndarray, others: np.ndarray, truth: np.ndarray, sigma: float, first: int = 0
+    rng: np.random.Generator,
+    p_true: np.ndarray,
+    others: np.ndarray,
+    truth: np.ndarray,
+    sigma: float,
+    *,
+    first: int = 0,
+    other: int = 0,
 ) -> RobustScene:
-    """Add the noise and the qualities, and shuffle all rows but the first few."""
+    """Add the noise and the qualities, and shuffle all rows but the first few.
+
+    The first `other` of the others are of a second model.
+    """
     noisy = p_true + sigma * rng.normal(size=p_true.shape)
     p = np.concatenate([noisy, others])
-    is_inlier = np.arange(len(p)) < len(p_true)
+    rows, end = np.arange(len(p)), len(p_true)
+    is_inlier, is_other = rows < end, (rows >= end) & (rows < end + other)
     quality = np.clip(rng.normal(np.where(is_inlier, 0.65, 0.4), 0.15), 0.0, 1.0)
     order = np.append(np.arange(first), first + rng.permutation(len(p) - first))
-    return RobustScene(p[order], is_inlier[order], truth, p_true, quality[order])
+    known = is_other[order] if other else None
+    return RobustScene(p[order], is_inlier[order], truth, p_true, quality[order], known)
