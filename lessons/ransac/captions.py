@@ -122,26 +122,28 @@ def _refit(look: SearchLook) -> Caption:
 
 def _stop(look: SearchLook) -> Caption:
     subject, now, best = look.subject, look.now, look.now.best
-    reason = sure(now.stop).message
-    values: dict = {"n": counted(now.iteration, "sample")}
-    words = f"Stop after {{n}}: {reason}."
+    settled = now.stop is Stop.ENOUGH
+    reason = "" if settled else f": {sure(now.stop).message}"
+    words, values = f"It stops after {{n}}{reason}", {"n": counted(now.iteration, "sample")}
     if best is None:
-        return say(f"{words} {_why_none(look)}", tone="wrong", place="compare", **values)
+        return say(f"{words}. {_why_none(look)}", tone="wrong", place="compare", **values)
     values |= {"votes": best.count, "all": len(best.inliers)}
-    words += " {votes} of {all} vote for it"
+    words += " with {votes} votes of {all}" if settled else ", with {votes} votes of {all}"
     error = subject.error(best.estimate)
     if not np.isfinite(error):
         values["rms"] = distance(subject, best.rms)
-        words += ", {rms} away (RMS)." + _proportion(look)
+        words += f"; they lie {{rms}} from the {subject.model.name} (RMS).{_proportion(look)}"
         return say(words, place="compare", **values)
     values["error"] = distance(subject, error)
-    words += f". {subject.model.name.capitalize()} to truth: {{error}}"
+    words += ", {error} from the truth"
+    others = []
     for name, estimate in (subject.rivals or {}).items():
         key = name.split()[-1].lower()
-        words += f", {name} {{{key}}}"
+        others.append(f"{name} {{{key}}}")
         values[key] = distance(subject, subject.error(estimate))
-    right, settled = is_right(look.params, subject, now), now.stop is Stop.ENOUGH
-    return say(words + ".", right=right, settled=settled, place="compare", **values)
+    words += f" ({', '.join(others)})." if others else "."
+    right = is_right(look.params, subject, now)
+    return say(words, right=right, settled=settled, place="compare", **values)
 
 
 def _why_none(look: SearchLook) -> str:

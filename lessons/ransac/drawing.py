@@ -103,7 +103,7 @@ def _models(look: SearchLook) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {}
     if subject.truth is not None and (over or look.params.who_is_right):
         scene |= _model(subject, "truth", subject.truth, "truth", 3.0, "truth")
-    if over and not subject.sizes:
+    if now.phase == "stop" and not subject.sizes:
         for name, estimate in (subject.rivals or {}).items():
             scene |= _model(subject, f"rival {name}", estimate, COLORS[name], 2.0, name)
     tested = now.estimate if now.phase in ("model", "inliers") else None
@@ -162,15 +162,13 @@ def _two_planes(look: SearchLook) -> dict[str, Primitive]:
     if subject.is_other is None or subject.is_inlier is None:
         return {}
     scene: dict[str, Primitive] = {}
-    for name, rows, up in (("table", subject.is_inlier, 0.1), ("wall", subject.is_other, 0.9)):
+    for name, rows, up in (("table", subject.is_inlier, 0.1), ("wall", subject.is_other, 0.6)):
         votes = 0 if best is None else int(best.inliers[rows].sum())
         if rows.any():
             place = subject.shown[0][rows].mean(axis=0) + np.array([0.0, 0.0, up])
-            scene[f"count/{name}"] = Label(
-                f"{name}: {votes} of {rows.sum()} vote for the best", place
-            )
+            scene[f"count/{name}"] = Label(f"{name}: {votes} votes", place)
         role: Role = "truth" if name == "table" else "source"
-        scene[f"votes/{name}"] = VOTERS.scalar(votes, f"points of the {name}", role)
+        scene[f"votes/{name}"] = VOTERS.scalar(votes, name, role)
     return scene
 
 

@@ -53,7 +53,7 @@ APART = Chart(
     "Votes and distance", "distance between the two points", "votes", x_range=(0.0, 1.8),
     x_unit="m", y_range=(0.0, 35.0),
 )  # fmt: skip
-CLEAN = {2: "a line: 2", 3: "a plane: 3", 4: "4", 7: "7 points a sample"}
+CLEAN = {2: "a line, m = 2", 3: "a plane, m = 3", 4: "m = 4", 7: "m = 7"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,7 +224,7 @@ def _of_draw(look: Look[Input, Subject, State], now: Draw) -> Scene:
         "sample": Points(
             stand_up(subject.p[now.sample], 0.01), "highlight", 1.6 * DOT, name="the sample"
         ),
-        "count": Label(f"{votes} of {len(subject.p)}", np.array([0.0, 0.0, 1.9]), "target"),
+        "count": Label(f"{votes} votes of {len(subject.p)}", np.array([0.0, 0.0, 1.88]), "target"),
         "draw": Chart("Draw").scalar(now.n, "draw"),
         "votes/whole": VOTES.whole(numbers, _all_votes(params), "votes", "target"),
         "votes/mark": VOTES.mark(now.n, votes, "this draw", "target", steps="draw"),
@@ -235,7 +235,7 @@ def _of_draw(look: Look[Input, Subject, State], now: Draw) -> Scene:
         color = Classes.marking(~clean, "neutral", "spoilt", others=("truth", "clean sample"))
         scene["strip"] = Points(dots, color, 0.035, name="samples so far")
         words = f"{int(clean.sum())} of {now.n} are clean"
-        scene["strip/count"] = Label(words, np.array([1.5, 0.0, 1.9]), "truth")
+        scene["strip/count"] = Label(words, np.array([1.5, 0.0, 1.88]), "truth")
         scene["clean"] = Chart("Clean samples").scalar(int(clean.sum()), "clean samples", "truth")
         scene |= chances(1.0 - params.outliers, 2, now.n)
     else:
@@ -299,14 +299,14 @@ def _of_width(look: Look[Input, Subject, State], now: Width) -> Scene:
         "points": _points(subject, votes),
         **_line("truth", subject, subject.truth, "truth", "true line"),
         **_band(subject, subject.truth, now.width, "target"),
-        "ringed": Label(f"{ringed} of {n} ringed points vote", np.array([-0.5, 0, 1.9]), "truth"),
-        "others": Label(f"{others} of {m} others vote", np.array([0.6, 0, 1.9]), "neutral"),
+        "ringed": Label(f"{ringed} of {n} ringed points vote", np.array([-0.5, 0.0, 1.88]), "truth"),
+        "others": Label(f"{others} of {m} others vote", np.array([0.6, 0.0, 1.88]), "neutral"),
         "width": Chart("Width", unit="mm").scalar(MM * now.width, "width"),
         "error/whole": WIDTH.whole(MM * WIDTHS, errors, "median error of 60 scenes", "source"),
         "error/mark": WIDTH.mark(MM * now.width, here, "this band", "source", steps="width"),
         "caption": say(
-            "Within {width} of the true line: {ringed} of its {n} points, and {others} others.",
-            width=_mm(now.width), ringed=ringed, n=n, others=others,
+            "Within {width} of the true line: {ringed} of its {points} points, and {others} others.",
+            width=_mm(now.width), ringed=ringed, points=n, others=others,
         ),
     }  # fmt: skip
 
@@ -321,7 +321,7 @@ def _of_fan(look: Look[Input, Subject, State], now: Fan) -> Scene:
         "points": _points(subject),
         "fan": Segments(ends, "highlight", 1.0, opacity=0.6, name="lines through noisy pairs"),
         "pair": Points(stand_up(now.p_pair, 0.01), "highlight", 1.6 * DOT, name="the two points"),
-        "count": Label(f"{brief(middle)} votes in the median", np.array([0.0, 0.0, 1.9]), "target"),
+        "count": Label(f"{brief(middle)} votes in the median", np.array([0.0, 0.0, 1.88]), "target"),
         "apart": Chart("Distance of the two", unit="m").scalar(now.apart, "apart"),
         "votes-median": Chart("Median votes").scalar(middle, "votes in the median", "target"),
         "apart/whole": APART.whole(APARTS, votes_by_distance(params), "median votes", "target"),
