@@ -103,9 +103,9 @@ def _models(look: SearchLook) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {}
     if subject.truth is not None and (over or look.params.who_is_right):
         scene |= _model(subject, "truth", subject.truth, "truth", 3.0, "truth")
-    if now.phase == "stop" and not subject.sizes:
+    if over and not subject.sizes:
         for name, estimate in (subject.rivals or {}).items():
-            scene |= _model(subject, f"rival {name}", estimate, COLORS[name], 2.0, name)
+            scene |= _model(subject, f"rival/{name}", estimate, COLORS[name], 2.0, name)
     tested = now.estimate if now.phase in ("model", "inliers") else None
     if now.best is not None:
         opacity = 0.0 if tested is not None else 0.35 if over or now.phase == "best" else 0.15

@@ -204,10 +204,8 @@ def _band(subject: Subject, line: np.ndarray, reach: float, color: Role) -> Scen
     scene: Scene = {"band": Segments(edges, color, 1.0, opacity=0.6)}
     if len(corners):
         scene["band/area"] = Mesh(corners, BAND, color, opacity=0.2, flat=True)
-        at = corners[np.argmax(corners[:, 0] + 0.1 * corners[:, 2])]
-        scene["band/name"] = Label(
-            f"± {brief(MM * reach)} mm", at + np.array([0.02, 0.0, 0.05]), color
-        )
+        at = corners[np.argmin(corners[:, 0] - 0.1 * corners[:, 2])] + np.array([0.16, 0.0, 0.1])
+        scene["band/name"] = Label(f"± {brief(MM * reach)} mm", at, color)
     return scene
 
 

@@ -30,9 +30,17 @@ VIEW = View(eye=(0.8, -3.4, 1.6), target=(0.0, 0.0, 0.33), grid=None, axes=False
 EDGE = View(eye=(0.2, -3.6, 0.55), target=(0.0, 0.0, 0.4), grid=None, axes=False)
 FLAT = View(eye=(0.0, -3.3, 0.76), target=(0.0, 0.0, 0.76), grid=None, axes=False)
 STRIP = View(eye=(0.35, -3.3, 0.75), target=(0.35, 0.0, 0.75), grid=None, axes=False)
+CORNER = View(eye=(-3.9, -0.9, 0.8), target=(0.0, 0.0, 0.5), grid=None, axes=False)
 WIDE = View(eye=(0.9, -4.0, 1.8), target=(0.0, 0.0, 0.45), grid=None, axes=False)
 IMAGES = View(eye=(0.0, -2.6, 0.25), target=(0.0, 0.0, 0.25), grid=None, axes=False)
-VIEWS = {"space": WIDE, "edge": EDGE, "flat": FLAT, "strip": STRIP, "images": IMAGES}
+VIEWS = {
+    "space": WIDE,
+    "corner": CORNER,
+    "edge": EDGE,
+    "flat": FLAT,
+    "strip": STRIP,
+    "images": IMAGES,
+}
 
 PRESETS: tuple[Preset[Input], ...] = (
     Preset(
@@ -163,9 +171,10 @@ PRESETS: tuple[Preset[Input], ...] = (
         name="rivals",
         title="Least squares and Huber beside it",
         line="Squares listen most to the farthest points. Huber's loss bounds each pull but does not"
-        " end it. Compare both planes with RANSAC's and the truth.",
+        " end it. Compare both planes with RANSAC's and the truth, then take the"
+        " last step for the numbers.",
         params=THIRTY,
-        step=-1,
+        step=-2,
     ),
     Preset(
         name="local",

@@ -314,7 +314,7 @@ def test_every_preset_opens_where_its_line_points():
         ("collinear", "degenerate"),
         ("near-sample", "model"),
         ("two-planes", "inliers"),
-        ("rivals", "stop"),
+        ("rivals", "refit"),
         ("loose", "stop"),
     ):
         preset = lesson.preset(name)
