@@ -73,7 +73,7 @@ def _model(look: SearchLook) -> Caption:
 def _votes(look: SearchLook) -> Caption:
     now, trial = look.now, sure(look.now.trial)
     words = f"Sample {{n}} gets {{votes}} votes of {{all}} {look.subject.noun}{_score(look)}"
-    values = {"n": now.iteration, "votes": trial.count, "all": len(trial.inliers)}
+    values: dict = {"n": now.iteration, "votes": trial.count, "all": len(trial.inliers)}
     if look.params.score != "count":
         values["score"] = Quantity(trial.score, brief(trial.score))
     if now.best is not None and trial.score <= now.best.score:
@@ -124,7 +124,8 @@ def _stop(look: SearchLook) -> Caption:
     subject, now, best = look.subject, look.now, look.now.best
     settled = now.stop is Stop.ENOUGH
     reason = "" if settled else f": {sure(now.stop).message}"
-    words, values = f"It stops after {{n}}{reason}", {"n": counted(now.iteration, "sample")}
+    words = f"It stops after {{n}}{reason}"
+    values: dict = {"n": counted(now.iteration, "sample")}
     if best is None:
         return say(f"{words}. {_why_none(look)}", tone="wrong", place="compare", **values)
     values |= {"votes": best.count, "all": len(best.inliers)}

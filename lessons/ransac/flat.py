@@ -13,6 +13,7 @@ from lessons.ransac.shapes import frames, outline, slab
 from workbench.algorithms.models import LINE
 from workbench.algorithms.samplers import draw_samples, uniform_samples
 from workbench.captions import Quantity
+from workbench.certain import sure
 from workbench.data.robust import scattered_line_scene
 from workbench.geometry.clipping import clip_lines
 from workbench.geometry.polylines import circle, segments
@@ -178,7 +179,7 @@ def rings(subject: Subject) -> np.ndarray:
 def draw(look: Look[Input, Subject, State]) -> Scene:
     """Return the points, who votes, and what this stage is about."""
     subject, now = look.subject, look.now
-    scene: Scene = {"frame": Segments(frames(subject), "neutral", 1.0, opacity=0.5)}
+    scene: dict[str, Primitive] = {"frame": Segments(frames(subject), "neutral", 1.0, opacity=0.5)}
     if look.params.who_is_right:
         scene["rings"] = Segments(rings(subject), "truth", 1.5, name="who is right")
     if isinstance(now, Draw):
@@ -193,15 +194,17 @@ def _points(subject: Subject, votes: np.ndarray | None = None) -> Points:
     return Points(subject.shown[0], color, DOT, name="points")
 
 
-def _line(path: str, subject: Subject, line: np.ndarray, color: Role, name: str) -> Scene:
+def _line(
+    path: str, subject: Subject, line: np.ndarray, color: Role, name: str
+) -> dict[str, Primitive]:
     return {path: Segments(outline(subject, line, np.zeros(0, np.intp)), color, 3.0, name=name)}
 
 
-def _band(subject: Subject, line: np.ndarray, reach: float, color: Role) -> Scene:
+def _band(subject: Subject, line: np.ndarray, reach: float, color: Role) -> dict[str, Primitive]:
     edges, corners = slab(subject, line, reach)
     if not len(edges):
         return {}
-    scene: Scene = {"band": Segments(edges, color, 1.0, opacity=0.6)}
+    scene: dict[str, Primitive] = {"band": Segments(edges, color, 1.0, opacity=0.6)}
     if len(corners):
         scene["band/area"] = Mesh(corners, BAND, color, opacity=0.2, flat=True)
         at = corners[np.argmin(corners[:, 0] - 0.1 * corners[:, 2])] + np.array([0.16, 0.0, 0.1])
@@ -209,13 +212,13 @@ def _band(subject: Subject, line: np.ndarray, reach: float, color: Role) -> Scen
     return scene
 
 
-def _of_draw(look: Look[Input, Subject, State], now: Draw) -> Scene:
+def _of_draw(look: Look[Input, Subject, State], now: Draw) -> dict[str, Primitive]:
     params, subject = look.params, look.subject
     draws = [one for one in (*look.past, now) if isinstance(one, Draw)]
     votes, clean = int(now.votes.sum()), clean_draws(subject, draws)
     best = max(int(one.votes.sum()) for one in draws)
     numbers = np.arange(1.0, min(params.most_samples, MOST_DRAWS) + 1.0)
-    scene: Scene = {
+    scene: dict[str, Primitive] = {
         "points": _points(subject, now.votes),
         **_line("line", subject, now.line, "highlight", "line through the two"),
         **_band(subject, now.line, params.inlier_distance, "highlight"),
@@ -238,7 +241,7 @@ def _of_draw(look: Look[Input, Subject, State], now: Draw) -> Scene:
         scene |= chances(1.0 - params.outliers, 2, now.n)
     else:
         scene |= _line(
-            "squares", subject, subject.rivals["least squares"], "other", "least squares"
+            "squares", subject, sure(subject.rivals)["least squares"], "other", "least squares"
         )
         slope = abs(np.degrees(np.arctan2(*line_direction(subject))))
         scene["squares/off"] = Chart("Least squares").scalar(slope, "least squares off", "other")
@@ -248,8 +251,7 @@ def _of_draw(look: Look[Input, Subject, State], now: Draw) -> Scene:
 def line_direction(subject: Subject) -> tuple[float, float]:
     """Return sine and cosine of the angle from the true line to that of least squares."""
     assert subject.truth is not None
-    assert subject.rivals is not None
-    (a, b), (c, d) = subject.truth[:2], subject.rivals["least squares"][:2]
+    (a, b), (c, d) = subject.truth[:2], sure(subject.rivals)["least squares"][:2]
     return float(a * d - b * c), float(abs(a * c + b * d))
 
 
@@ -284,7 +286,7 @@ def chances(share: float, size: int, drawn: int) -> dict[str, Primitive]:
     return scene
 
 
-def _of_width(look: Look[Input, Subject, State], now: Width) -> Scene:
+def _of_width(look: Look[Input, Subject, State], now: Width) -> dict[str, Primitive]:
     params, subject = look.params, look.subject
     assert subject.truth is not None
     votes = LINE.distances(subject.truth, subject.p) <= now.width
@@ -309,7 +311,7 @@ def _of_width(look: Look[Input, Subject, State], now: Width) -> Scene:
     }  # fmt: skip
 
 
-def _of_fan(look: Look[Input, Subject, State], now: Fan) -> Scene:
+def _of_fan(look: Look[Input, Subject, State], now: Fan) -> dict[str, Primitive]:
     params, subject = look.params, look.subject
     middle = float(np.median(now.votes))
     ends = subject.places[0](

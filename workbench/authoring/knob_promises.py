@@ -6,7 +6,7 @@ from typing import Any
 
 from workbench.authoring.promises import MOST_STEPS, Found, Subject, differs, promise
 from workbench.flags import RESERVED
-from workbench.knobs import Field, changed, fields_of, from_json, to_json
+from workbench.knobs import Field, Pick, changed, fields_of, from_json, to_json
 from workbench.lesson import Lesson
 from workbench.timeline import Timeline
 
@@ -34,7 +34,13 @@ def every_knob_goes_to_its_ends(subject: Subject) -> Found:
             )
             fine = run.failure is None or run.stopped == default.stopped  # which is told already
             yield None if fine else f"{run.stopped} (at {where})"
-        if runs and field.name in read and not any(_changes(subject, run) for run in runs.values()):
+        picked = isinstance(field.knob.by, Pick)  # one row at all of its places is no choice yet
+        if (
+            runs
+            and not picked
+            and field.name in read
+            and not any(_changes(subject, run) for run in runs.values())
+        ):
             values = " or ".join(map(str, runs))
             unchanged = f"the default run reads {field.name}, and nothing in it changes at {values}"
             yield f"{subject.who}: {unchanged}; read it where it has an effect"
@@ -140,7 +146,7 @@ def a_knob_that_a_run_does_not_read_changes_nothing(subject: Subject) -> Found:
         unread = (
             f"{subject.who}: no run reads {field.name}: not the default, no preset, at no choice"
         )
-        yield None if field.name in read else unread
+        yield None if field.name in read or field.knob.of_files else unread
 
 
 def _choices(lesson: Lesson) -> Iterator[Any]:
