@@ -10,6 +10,9 @@ GIVEAWAYS = {
         r"does not know t\b", r"where the camera stands does not matter", r"translation is not in",
         r"vanishing point[^.]*(stays|does not move|keeps its place)", r"rails[^.]*(stays? where|do(es)? not move)",
     ),
+    "through-the-middle": (
+        r"through the middle[^.]*(straight|not bent|not at all)", r"radial (edges|lines) stay",
+    ),
     "predict-crop": (r"\b49(\.\d+)?\b",),
 }  # fmt: skip
 
