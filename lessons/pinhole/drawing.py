@@ -171,7 +171,10 @@ def _triangles(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     shot = look.subject
     C = camera_center(shot.T_camera_world)
     parts: dict[str, Primitive] = {}
-    things = (("crate", CRATE_EDGE, "target"), ("tower", TOWER_EDGE, "source"))
+    things: tuple[tuple[str, np.ndarray, Role], ...] = (
+        ("crate", CRATE_EDGE, "target"),
+        ("tower", TOWER_EDGE, "source"),
+    )
     for name, edge, role in things:
         height = getattr(shot, name)
         if not np.isfinite(height):

@@ -48,7 +48,7 @@ VIEW = View(
 )
 FACING = through(PLAIN)
 SIDE = View(eye=(-21.5, 1.9, 2.6), target=(-0.9, 5.2, 2.2), grid=None, axes=False)
-OBLIQUE = View(eye=(7.2, -8.6, 4.4), target=(0.4, -0.8, 1.2), grid=None, axes=False)
+OBLIQUE = View(eye=(8.0, -10.2, 4.9), target=(1.1, -1.0, 1.4), grid=None, axes=False)
 BEHIND_VIEW = View(eye=(5.0, -8.8, 3.2), target=(0.2, 0.5, 1.4), grid=None, axes=False)
 RAILS_VIEW = View(eye=(0.9, -6.0, 2.3), target=(0.5, 2.0, 1.3), grid=None, axes=False)
 VIEWS = {
