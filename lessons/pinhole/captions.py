@@ -1,6 +1,7 @@
 """What happened at a stage: a sentence with its numbers, and what is wrong, if anything is."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -35,7 +36,7 @@ MISTAKES = {
     "ray length for depth": "The length of the ray was taken for the depth Z.",
 }
 PinholeLook = Look[Input, Shot, State]
-Told = tuple[str, dict[str, Quantity]]
+Told = tuple[str, dict[str, Any]]
 
 
 def caption(look: PinholeLook) -> Caption:
@@ -160,8 +161,13 @@ def _back(look: PinholeLook) -> Told:
 
 
 _STAGES = {
-    "world": _world, "camera": _camera, "divide": _divide, "distort": _distort, "pixels": _pixels, "back": _back,
-}  # fmt: skip
+    "world": _world,
+    "camera": _camera,
+    "divide": _divide,
+    "distort": _distort,
+    "pixels": _pixels,
+    "back": _back,
+}
 
 
 def _remark(look: PinholeLook) -> Told:
@@ -189,7 +195,9 @@ def _remark(look: PinholeLook) -> Told:
 
 
 def depth(value: float) -> str:
-    """Write a depth with as many decimals as the points beside it, unless that would say nothing."""
+    """Write a depth with as many decimals as the points beside it, unless that would say
+    nothing.
+    """
     return f"{fixed_or_power(value, 2)} m" if abs(value) >= 0.01 else length(value)
 
 

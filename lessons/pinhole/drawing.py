@@ -1,4 +1,6 @@
-"""What one stage looks like: the street, the camera with its pane, the followed point and its ray."""
+"""What one stage looks like: the street, the camera with its pane, the followed point and its
+ray.
+"""
 
 import functools
 
@@ -93,7 +95,9 @@ def _point_color(look: PinholeLook):
 
 
 def _followed_ray(look: PinholeLook) -> dict[str, Primitive]:
-    """Return the ray of the followed point, and where it pierces the pane while that is only seen."""
+    """Return the ray of the followed point, and where it pierces the pane while that is only
+    seen.
+    """
     shot, now, k = look.subject, look.now.now, look.subject.k
     p, C = now.p_world[k], camera_center(shot.T_camera_world)
     z = float(apply(shot.T_camera_world, p)[2])
@@ -167,7 +171,9 @@ def _rays(look: PinholeLook) -> dict[str, Primitive]:
 
 
 def _triangles(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
-    """Return the rays to the foot and top of the crate and of the tower, and their heights on the pane."""
+    """Return the rays to the foot and top of the crate and of the tower, and their heights on
+    the pane.
+    """
     shot = look.subject
     C = camera_center(shot.T_camera_world)
     parts: dict[str, Primitive] = {}

@@ -37,7 +37,8 @@ class State:
     Attributes:
         now: How far the calculation has come.
         picture: The photograph with what this stage has calculated laid over it, if anything.
-        error: Median distance to the true pixels, as far as the stage tells, px; NaN before it does.
+        error: Median distance to the true pixels, as far as the stage tells, px; NaN before it
+            does.
         found, missed, false: How many points have a calculated pixel; how many lack one that the
             camera does see; and how many have one that the camera does not see.
     """
@@ -145,8 +146,13 @@ def overlaid(shot: Shot, model: Model, stage: Stage) -> np.ndarray:
 
     drawn = render(
         [SegmentItem(lines, color_rows("source", len(lines)))],
-        shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=to_pixels,
-    )  # fmt: skip
+        shot.T_camera_world,
+        shot.K,
+        w,
+        h,
+        shot.lens,
+        to_pixels=to_pixels,
+    )
     shown, picture = np.isfinite(drawn.depth), shot.picture.copy()
     picture[shown] = drawn.colors[shown]
     return picture

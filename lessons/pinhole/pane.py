@@ -45,7 +45,9 @@ def standing(look: PinholeLook) -> Picture:
 
 
 def places(glass: Picture, uv: np.ndarray, layers: float = 1.0) -> np.ndarray:
-    """Return where pixels (..., 2) are on the pane, (..., 3), so near that it does not hide them."""
+    """Return where pixels (..., 2) are on the pane, (..., 3), so near that it does not hide
+    them.
+    """
     assert glass.width is not None
     return glass.places(uv, layers * LAYER * glass.width)
 

@@ -43,9 +43,7 @@ def through(params: Input, fov: float = 52.0) -> View:
     return View(eye=tuple(eye), target=tuple(ahead), grid=None, fov_degrees=fov, axes=False)
 
 
-VIEW = View(
-    eye=(2.2, -5.3, 2.3), target=(0.15, 0.6, 1.75), grid=None, grid_height=-0.02, axes=False
-)
+VIEW = View(eye=(2.2, -5.3, 2.3), target=(0.15, 0.6, 1.75), grid=None, grid_height=-0.02, axes=False)
 FACING = through(PLAIN)
 SIDE = View(eye=(-21.5, 1.9, 2.6), target=(-0.9, 5.2, 2.2), grid=None, axes=False)
 OBLIQUE = View(eye=(8.0, -10.2, 4.9), target=(1.1, -1.0, 1.4), grid=None, axes=False)
@@ -67,7 +65,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="lamp",
         title="A lamp on a ray",
-        line="Move the lamp along its ray, or push the pane away, and watch its dot in the picture.",
+        line=("Move the lamp along its ray, or push the pane away, and watch its dot in the picture."),
         params=LAMP,
         step=0,
     ),
@@ -96,8 +94,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="dolly",
         title="Dolly zoom",
-        line="Three times as far, three times the focal length: the crate keeps its size, since size"
-        " goes with f / Z. Step on to read what the tower behind it does.",
+        line=(
+            "Three times as far, three times the focal length: the crate keeps its size, since size"
+            " goes with f / Z. Step on to read what the tower behind it does."
+        ),
         params=DOLLY,
         step=DIVIDE,
         view=SIDE,
@@ -105,8 +105,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="zoom",
         title="Only f doubles",
-        line="Every pixel moves to twice its distance from the principal point and nothing else"
-        " changes: zooming is cropping and enlarging, not moving.",
+        line=(
+            "Every pixel moves to twice its distance from the principal point and nothing else"
+            " changes: zooming is cropping and enlarging, not moving."
+        ),
         params=ZOOM,
         step=PIXELS,
         view=VIEWS["crate"],
@@ -114,16 +116,20 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="orthographic",
         title="Orthographic: far away, long lens",
-        line="At fifty times the distance the rays are nearly parallel and depth hardly shows; the"
-        " gap shrinks as one over the distance.",
+        line=(
+            "At fifty times the distance the rays are nearly parallel and depth hardly shows; the"
+            " gap shrinks as one over the distance."
+        ),
         params=replace(PLAIN, dolly=50.0, pane=9.0),
         step=PIXELS,
     ),
     Preset(
         name="rails",
         title="The rails' vanishing point",
-        line="The pictures of all lines of one direction d run towards one point, K R d. Look at"
-        " what stands in that formula, and what does not.",
+        line=(
+            "The pictures of all lines of one direction d run towards one point, K R d. Look at"
+            " what stands in that formula, and what does not."
+        ),
         params=RAILS,
         step=PIXELS,
         view=RAILS_VIEW,
@@ -131,8 +137,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="ball",
         title="A ball is an ellipse",
-        line="Its rays form a cone, and the flat picture cuts that cone at a slant: away from the"
-        " middle a ball's outline is longer than wide.",
+        line=(
+            "Its rays form a cone, and the flat picture cuts that cone at a slant: away from the"
+            " middle a ball's outline is longer than wide."
+        ),
         params=BALL,
         step=PIXELS,
         view=VIEWS["ball"],
@@ -148,8 +156,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="barrel",
         title="Barrel: k₁ < 0",
-        line="Points move towards the middle, the further out the more; straight edges near the rim"
-        " bow outwards like a barrel's staves.",
+        line=(
+            "Points move towards the middle, the further out the more; straight edges near the rim"
+            " bow outwards like a barrel's staves."
+        ),
         params=Input(k1=-0.4, k2=0.1),
         step=DISTORT,
         view=FACING,
@@ -157,8 +167,9 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="pincushion",
         title="Pincushion: k₁ > 0",
-        line="Points move away from the middle, the further out the more, and straight edges near"
-        " the rim bow inwards.",
+        line=(
+            "Points move away from the middle, the further out the more, and straight edges near the rim bow inwards."
+        ),
         params=Input(k1=0.4, k2=0.0),
         step=DISTORT,
         view=FACING,
@@ -166,8 +177,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="tangential",
         title="A lens off centre: p₁, p₂",
-        line="Tangential terms push every point to within 30° of one direction, more so away from"
-        " the middle: the shift is not along the radius.",
+        line=(
+            "Tangential terms push every point to within 30° of one direction, more so away from"
+            " the middle: the shift is not along the radius."
+        ),
         params=Input(k1=0.0, k2=0.0, p1=0.06, p2=-0.05),
         step=DISTORT,
         view=FACING,
@@ -175,8 +188,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="fold",
         title="Where a lens model ends",
-        line="k₁ = −0.6 turns round at radius 0.745. Beyond it the polynomial would fold points back"
-        " into the picture, so they get no pixel.",
+        line=(
+            "k₁ = −0.6 turns round at radius 0.745. Beyond it the polynomial would fold points back"
+            " into the picture, so they get no pixel."
+        ),
         params=FOLD,
         step=DISTORT,
         view=VIEWS["fold"],
@@ -185,8 +200,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="on-ray",
         title="Along the ray, and behind the camera",
-        line="Somebody divides by Z whatever its sign. Move the lamp along its ray, through the"
-        " camera and on.",
+        line=("Somebody divides by Z whatever its sign. Move the lamp along its ray, through the camera and on."),
         params=ON_RAY,
         step=DIVIDE,
         view=BEHIND_VIEW,
@@ -195,8 +209,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="behind",
         title="A lamp behind the camera",
-        line="The followed lamp hangs behind the camera. Step on: it is divided by its negative"
-        " depth like all others. Mask before you divide.",
+        line=(
+            "The followed lamp hangs behind the camera. Step on: it is divided by its negative"
+            " depth like all others. Mask before you divide."
+        ),
         params=BEHIND,
         step=CAMERA,
         view=BEHIND_VIEW,
@@ -205,8 +221,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="inverted",
         title="Camera-to-world for world-to-camera",
-        line="Both are 4×4 and rigid, so nothing complains. Nearly every point is then behind the"
-        " camera and loses its pixel.",
+        line=(
+            "Both are 4×4 and rigid, so nothing complains. Nearly every point is then behind the"
+            " camera and loses its pixel."
+        ),
         params=Input(mistake="pose inverted"),
         step=CAMERA,
         view=OBLIQUE,
@@ -215,8 +233,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="opengl",
         title="OpenGL axes",
-        line="A pose for y up and z backwards gives all that is in front a negative depth; dividing"
-        " anyway gives a picture mirrored left to right.",
+        line=(
+            "A pose for y up and z backwards gives all that is in front a negative depth; dividing"
+            " anyway gives a picture mirrored left to right."
+        ),
         params=Input(mistake="OpenGL axes"),
         step=PIXELS,
         view=FACING,
@@ -225,8 +245,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="rows",
         title="Row before column",
-        line="(u, v) is (column, row), arrays are indexed [row, column]: mixed up, the picture is"
-        " flipped about its diagonal.",
+        line=(
+            "(u, v) is (column, row), arrays are indexed [row, column]: mixed up, the picture is"
+            " flipped about its diagonal."
+        ),
         params=Input(mistake="row before column"),
         step=PIXELS,
         view=FACING,
@@ -235,8 +257,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="lens-on-pixels",
         title="The lens after K",
-        line="Distortion acts on normalised coordinates. Fed with pixels, its r² is f² times too"
-        " large, and points fly 36 million pixels away (median).",
+        line=(
+            "Distortion acts on normalised coordinates. Fed with pixels, its r² is f² times too"
+            " large, and points fly 36 million pixels away (median)."
+        ),
         params=Input(mistake="lens on pixels"),
         step=DISTORT,
         view=FACING,
@@ -245,8 +269,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="cut",
         title="Columns cut off, K forgotten",
-        line="The pane loses columns at its left and rows at its top. K does not know, and the"
-        " orange outlines slide to the right and down by as many pixels.",
+        line=(
+            "The pane loses columns at its left and rows at its top. K does not know, and the"
+            " orange outlines slide to the right and down by as many pixels."
+        ),
         params=Input(edit="cropped", k_follows=False),
         step=PIXELS,
         view=FACING,
@@ -255,8 +281,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="crop-wrong",
         title="Cropped, halved, K forgotten",
-        line="The picture lost its left and top and half its size, K knows of neither: the"
-        " calculation is shifted and twice as large as it should be.",
+        line=(
+            "The picture lost its left and top and half its size, K knows of neither: the"
+            " calculation is shifted and twice as large as it should be."
+        ),
         params=Input(edit="cropped, then half size", k_follows=False),
         step=PIXELS,
         view=FACING,
@@ -265,8 +293,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="crop-right",
         title="Cropped, halved, K too",
-        line="A crop moves the principal point, away from the middle of the picture; halving halves"
-        " f as well. Now all fits again.",
+        line=(
+            "A crop moves the principal point, away from the middle of the picture; halving halves"
+            " f as well. Now all fits again."
+        ),
         params=CROP_RIGHT,
         step=PIXELS,
         view=FACING,
@@ -274,8 +304,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="centre",
         title="t is not the camera",
-        line="t is the world's origin seen from the camera. Rays that start there miss every point"
-        " by the distance from t to C = −Rᵀt.",
+        line=(
+            "t is the world's origin seen from the camera. Rays that start there miss every point"
+            " by the distance from t to C = −Rᵀt."
+        ),
         params=Input(mistake="t for the centre"),
         step=BACK,
         view=BEHIND_VIEW,
@@ -284,8 +316,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="ray-length",
         title="Depth is not ray length",
-        line="Points come back too far out, the more the further from the axis: flat walls come back"
-        " curved.",
+        line=("Points come back too far out, the more the further from the axis: flat walls come back curved."),
         params=Input(mistake="ray length for depth"),
         step=BACK,
         view=BEHIND_VIEW,

@@ -39,8 +39,8 @@ def _which_dolly(states: Run) -> float:
 def _why_dolly(states: Run) -> str:
     before, now = towers(states)
     return (
-        f"It grows from {before:.0f} to {now:.0f} px. Heights go with f / Z: f is three times as long,"
-        " and the tower's Z, which was larger to begin with, did not grow three times."
+        f"It grows from {before:.0f} to {now:.0f} px. Heights go with f / Z: f is three times as"
+        " long, and the tower's Z, which was larger to begin with, did not grow three times."
     )
 
 
@@ -55,8 +55,8 @@ def _why_behind(states: Run) -> str:
     k = states.subject.k
     (u, v), z = states[PIXELS].now.uv[k], states[CAMERA].now.p_camera[k, 2]
     return (
-        f"At ({u:.0f}, {v:.0f}), well inside the picture. Z = {fixed(z, 2)} m turns both signs, and a"
-        " lamp above the axis shows up below it. Only the sign of Z tells; the pixel does not."
+        f"At ({u:.0f}, {v:.0f}), well inside the picture. Z = {fixed(z, 2)} m turns both signs, and"
+        " a lamp above the axis shows up below it. Only the sign of Z tells; the pixel does not."
     )
 
 
@@ -78,7 +78,9 @@ def _why_centre(states: Run) -> str:
 
 
 def moved_aside(states: Run) -> tuple[float, float]:
-    """Return how far the step moves the vanishing point and a near point of the rail, px to the right."""
+    """Return how far the step moves the vanishing point and a near point of the rail, px to the
+    right.
+    """
     near, d = states[-1].now.p_world[3:4], np.array([[0.0, 1.0, 0.0]])
     first, now = pinhole_of(RAILS, 1.0).T_camera_world, states.subject.T_camera_world
     K = states.subject.K
@@ -95,8 +97,8 @@ def _why_rails(states: Run) -> str:
     far, near = moved_aside(states)
     return (
         f"It moves by {fixed(abs(far), 0)} px, while a near point of the rail moves by"
-        f" {fixed(abs(near), 0)} px to the {'left' if near < 0 else 'right'}. A direction has no place"
-        " (w = 0), so t drops out of K [R | t] (d, 0) = K R d."
+        f" {fixed(abs(near), 0)} px to the {'left' if near < 0 else 'right'}. A direction has no"
+        " place (w = 0), so t drops out of K [R | t] (d, 0) = K R d."
     )
 
 
@@ -111,24 +113,27 @@ def bow_through_the_middle(states: Run) -> float:
 def _why_middle(states: Run) -> str:
     bow = bow_through_the_middle(states)
     return (
-        f"It is bent by {fixed(bow, 0)} px. Each of its points moves along its radius, and for an edge"
-        " through the middle that is the edge itself."
+        f"It is bent by {fixed(bow, 0)} px. Each of its points moves along its radius, and for an"
+        " edge through the middle that is the edge itself."
     )
 
 
 def _why_crop(states: Run) -> str:
     middle = (states.subject.picture.shape[1] - 1) / 2
     return (
-        f"{states.subject.K[0, 2]:.2f} px: first 159.5 − 60 = 99.5, then (99.5 + 0.5) / 2 − 0.5, since"
-        f" pixel centres are at integers. The middle of the picture is {middle} px."
+        f"{states.subject.K[0, 2]:.2f} px: first 159.5 − 60 = 99.5, then (99.5 + 0.5) / 2 − 0.5,"
+        f" since pixel centres are at integers. The middle of the picture is {middle} px."
     )
 
 
 QUESTIONS: tuple[Question, ...] = (
     Question(
         name="predict-dolly",
-        text="The camera backs off to three times its distance from the crate, and f becomes three"
-        " times as long. The crate keeps its size. What does the tower behind it do in the picture?",
+        text=(
+            "The camera backs off to three times its distance from the crate, and f becomes three"
+            " times as long. The crate keeps its size. What does the tower behind it do in the"
+            " picture?"
+        ),
         answer=_which_dolly,
         why=_why_dolly,
         params=DOLLY,
@@ -136,8 +141,8 @@ QUESTIONS: tuple[Question, ...] = (
             Choice("It grows"),
             Choice(
                 "It keeps its size too",
-                "It would if it stood at the crate's distance. Size goes with f / Z, and Z is another"
-                " one for the tower.",
+                "It would if it stood at the crate's distance. Size goes with f / Z, and Z is"
+                " another one for the tower.",
             ),
             Choice(
                 "It shrinks",
@@ -148,8 +153,7 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-centre",
-        text="T_camera_world of another camera has t = (−1.32, 1.96, 4.55) m. Where in the world is"
-        " that camera?",
+        text=("T_camera_world of another camera has t = (−1.32, 1.96, 4.55) m. Where in the world is that camera?"),
         answer=_which_centre,
         why=_why_centre,
         params=FRAME,
@@ -161,8 +165,7 @@ QUESTIONS: tuple[Question, ...] = (
             ),
             Choice(
                 "At −t",
-                "It would be if the camera's axes were the world's. It is turned, so −t has to be"
-                " turned back.",
+                "It would be if the camera's axes were the world's. It is turned, so −t has to be turned back.",
             ),
             Choice("At neither of the two"),
         ),
@@ -170,8 +173,11 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-crop",
-        text="60 columns and 40 rows are cut off at the left and top, then the picture is halved. The"
-        " principal point was at u = 159.5 px, where pixel centres are at integers. What is cx now?",
+        text=(
+            "60 columns and 40 rows are cut off at the left and top, then the picture is halved."
+            " The principal point was at u = 159.5 px, where pixel centres are at integers. What is"
+            " cx now?"
+        ),
         answer=lambda states: float(states.subject.K[0, 2]),
         why=_why_crop,
         params=CROP_RIGHT,
@@ -186,14 +192,15 @@ QUESTIONS: tuple[Question, ...] = (
             (
                 49.7,
                 50.1,
-                "Nearly. The picture begins at −0.5 px, the left edge of pixel 0. Halving keeps this"
-                " edge in place, and not the middle of pixel 0.",
+                (
+                    "Nearly. The picture begins at −0.5 px, the left edge of pixel 0. Halving keeps"
+                    " this edge in place, and not the middle of pixel 0."
+                ),
             ),
             (
                 64.0,
                 65.5,
-                "That is the middle of the new picture. The crop has moved the principal point away"
-                " from the middle.",
+                ("That is the middle of the new picture. The crop has moved the principal point away from the middle."),
             ),
             (
                 79.0,
@@ -214,8 +221,10 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="through-the-middle",
-        text="This lens moves each point along its radius. A straight edge runs through the middle of"
-        " the picture, slanting. How is it bent?",
+        text=(
+            "This lens moves each point along its radius. A straight edge runs through the middle"
+            " of the picture, slanting. How is it bent?"
+        ),
         answer=lambda states: 2.0 if bow_through_the_middle(states) < 0.5 else 1.0,
         why=_why_middle,
         params=RADIAL,
@@ -236,30 +245,32 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-rails",
-        text="The camera steps 2 m to its right without turning. Where does the point go in which the"
-        " rails seem to meet?",
+        text=(
+            "The camera steps 2 m to its right without turning. Where does the point go in which"
+            " the rails seem to meet?"
+        ),
         answer=_which_rails,
         why=_why_rails,
         params=ASIDE,
         choices=(
             Choice(
                 "To the left in the picture",
-                "Things nearby move to the left, by less the farther they are. This point is"
-                " infinitely far away.",
+                "Things nearby move to the left, by less the farther they are. This point is infinitely far away.",
             ),
             Choice("Nowhere: it stays"),
             Choice(
                 "To the right in the picture",
-                "That would be so if the camera turned to the left. It steps aside and keeps its"
-                " direction.",
+                "That would be so if the camera turned to the left. It steps aside and keeps its direction.",
             ),
         ),
         step=PIXELS,
     ),
     Question(
         name="predict-behind",
-        text="A lamp hangs 2.25 m behind the camera, and somebody divides by Z without looking at its"
-        " sign. Where is its pixel?",
+        text=(
+            "A lamp hangs 2.25 m behind the camera, and somebody divides by Z without looking at"
+            " its sign. Where is its pixel?"
+        ),
         answer=_which_behind,
         why=_why_behind,
         params=BEHIND,

@@ -144,7 +144,8 @@ def heights(params: Input, by: float) -> tuple[float, float]:
 
 
 def gap(params: Input, by: float) -> float:
-    """Return how far a corner in front is from its orthographic pixel, at most, with the dolly at `by`.
+    """Return how far a corner in front is from its orthographic pixel, at most, with the dolly at
+    `by`.
 
     The orthographic picture is the one to which the dolly tends, with f / Z pixels per metre.
     """
@@ -159,7 +160,9 @@ def gap(params: Input, by: float) -> float:
 
 
 def followed(params: Input, eye: Pinhole) -> tuple[np.ndarray, int]:
-    """Return the points of the street and which one is followed: the lamp where it hangs on a ray."""
+    """Return the points of the street and which one is followed: the lamp where it hangs on a
+    ray.
+    """
     points, T = street().points, eye.T_camera_world
     uv = project(points[params.point : params.point + 1], T, eye.K)
     if params.z == 0.0 or not np.isfinite(uv).all():
@@ -186,7 +189,9 @@ def photograph(params: Input) -> np.ndarray:
 
 
 def wires(T_camera_world: np.ndarray) -> np.ndarray:
-    """Return the outlines (n, 2, 3) of boxes, house, rails and ball, the last as this camera sees it."""
+    """Return the outlines (n, 2, 3) of boxes, house, rails and ball, the last as this camera
+    sees it.
+    """
     scene = street()
     ball = np.zeros((0, 2, 3))
     if np.linalg.norm(camera_center(T_camera_world) - BALL_CENTER) > 1.01 * BALL_RADIUS:
@@ -201,7 +206,9 @@ def _height(ends: np.ndarray, eye: Pinhole) -> float:
 
 
 def _ball_ratio(T_camera_world: np.ndarray, K: np.ndarray) -> float:
-    """Measure the outline's longest and shortest radius; NaN where its middle is not in the picture."""
+    """Measure the outline's longest and shortest radius; NaN where its middle is not in the
+    picture.
+    """
     u, v = project(BALL_CENTER[None], T_camera_world, K)[0]
     ahead = depths(BALL_CENTER[None], T_camera_world)[0] > 1.01 * BALL_RADIUS
     if not (ahead and 0 < u < WIDTH and 0 < v < HEIGHT):
