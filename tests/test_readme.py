@@ -52,7 +52,7 @@ def test_the_example_in_python(tmp_path, monkeypatch):
     ]
     printed = [float(re.findall(r": (\S+)", line)[0]) for line in curves]
     assert printed == pytest.approx(seen, rel=5e-3)
-    assert len(curves) == 5
+    assert len(curves) == 6
 
 
 def test_the_lesson_is_recorded_and_opened_again(capsys, monkeypatch, lesson_file):

@@ -133,7 +133,10 @@ def _candidates(look: Look) -> dict[str, Primitive]:
 def _both(look: Look) -> dict[str, Primitive]:
     """Return both scans side by side, each with its axes as lines."""
     scans, state, scene = look.subject, look.now, dict[str, Primitive]()
-    both = (("target", scans.p_target, state.axes_target), ("source", scans.p_source, state.axes))
+    both: tuple[tuple[Role, np.ndarray, np.ndarray], ...] = (
+        ("target", scans.p_target, state.axes_target),
+        ("source", scans.p_source, state.axes),
+    )
     covariance = state.jacobi.V @ state.jacobi.A @ state.jacobi.V.T
     for (role, p, axes), x in zip(both, (-0.62, 0.62), strict=True):
         T = motion(np.eye(3), np.array([x, 0.0, 0.0]) - p.mean(axis=0))

@@ -84,11 +84,11 @@ BROKEN = [
         "run=lambda params, **slots: None,",
         "run returned None; it is a generator",
     ),
-    (LESSON, "(params: Params, *, fit", "(params: Params, points, *, fit", "line N: run(params: "),
+    (LESSON, "params: Params, *, fit", "params: Params, points, *, fit", "line N: run(params: "),
     (
         LESSON,
-        "(params: Params, *, fit",
-        "(params: Params, fit",
+        "params: Params, *, fit",
+        "params: Params, fit",
         "line N: run takes 'fit_circle'; beside params",
     ),
     (
@@ -230,8 +230,8 @@ BROKEN = [
     ),
     (
         RUNS,
-        "Params())",
-        "Params(), step=99)",
+        "        Params(),\n",
+        "        Params(),\n        step=99,\n",
         "preset 'whole' opens at step 99, but its run has 5 steps",
     ),
     (RUNS, '"exact"', '"no noise"', "preset 'no noise': a name is letters"),

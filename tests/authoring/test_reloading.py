@@ -71,13 +71,13 @@ def test_files_that_are_new_or_go_away_count_and_others_do_not(edited):
     ("file", "old", "new", "said"),
     [
         ("draw.py", "def draw", "def (draw", "circle/draw.py, line 10: SyntaxError"),
-        ("draw.py", "state.k else", "state.key else", "circle/draw.py, line 12: AttributeError"),
+        ("draw.py", "state.k else", "state.key else", "circle/draw.py, line 13: AttributeError"),
         ("lesson.py", 'name="circle"', 'name="icp"', "its name 'icp' is taken by lesson icp"),
         (
             "state.py",
             "5, 200)",
             "9, 5)",
-            "Params.points: a number needs Knob(hint, low, high) with low < high",
+            "Params.points: a number needs a knob with low < high",
         ),
         ("lesson.py", '"page.md"', '"no.md"', "no.md: No such file"),
     ],

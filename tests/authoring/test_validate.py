@@ -31,7 +31,7 @@ def test_a_lesson_that_holds(folder, capfd):
 
 
 def test_the_smallest_lesson_is_told_what_it_lacks(tmp_path, capfd):
-    (tmp_path / "my_lesson.py").write_text(example("Add a lesson in five lines"), encoding="utf-8")
+    (tmp_path / "my_lesson.py").write_text(example("Add a lesson in a few lines"), encoding="utf-8")
     assert main(["validate", str(tmp_path / "my_lesson.py")]) == 1
     out = capfd.readouterr().out.splitlines()
     assert all(line.startswith("lesson turn: it has ") for line in out)
@@ -52,7 +52,7 @@ def test_what_is_not_there_is_no_finding(word, capfd):
             YIELD,
             "        while k == 3: pass\n" + YIELD,
             (
-                "circle: circle/lesson.py, line 30: the code did not come back for 2 s, at: the"
+                "circle: circle/lesson.py, line 35: the code did not come back for 2 s, at: the"
                 " default run, after step 2"
             ),
         ),
@@ -78,13 +78,13 @@ def test_what_is_not_there_is_no_finding(word, capfd):
             "lesson.py",
             YIELD,
             "        raise SystemExit\n",
-            "lesson circle: circle/lesson.py, line 30: SystemExit",
+            "lesson circle: circle/lesson.py, line 35: SystemExit",
         ),
         (
             "lesson.py",
             YIELD,
             "        __import__('ctypes').string_at(0)\n",
-            "circle/lesson.py, line 30: the process ended",
+            "circle/lesson.py, line 35: the process ended",
         ),
         ("lesson.py", YIELD, "        p = np.ones((1 << 40, 2))\n" + YIELD, "MemoryError"),
         (

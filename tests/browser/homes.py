@@ -225,6 +225,8 @@ def asked(lesson: Lesson) -> Question:
 
 def linked(lesson: Lesson) -> str | None:
     """Return the preset that a lesson's article runs first."""
+    if has_story(lesson):  # its links move the stage of the story
+        return None
     names = {preset.name for preset in lesson.presets}
     return next((found[2] for found in LINKED.finditer(lesson.text()) if found[2] in names), None)
 

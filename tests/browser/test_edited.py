@@ -52,7 +52,7 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
         assert list(server.lessons) == [*catalog(), "circle"]
 
         save(folder / "draw.py", "def outline", "def (outline")
-        told = "circle/draw.py, line 28: SyntaxError"
+        told = "circle/draw.py, line 32: SyntaxError"
         me.page.locator("#notice").get_by_text(told).wait_for()
         me.act("back")  # the lesson before goes on
         me.says("Step of Gauss-Newton 1")

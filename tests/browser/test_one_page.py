@@ -12,28 +12,28 @@ pytestmark = pytest.mark.browser
 
 
 def test_a_reload_comes_back_to_the_place_and_what_was_answered_stays(visit):
-    lesson = catalog()["icp"]
-    far = Timeline(lesson, lesson.preset("far").params).complete()
-    me = visit("?lesson=icp&theirs=1")
-    question = lesson.questions[0]
+    lesson = catalog()["fitting"]
+    line = Timeline(lesson, lesson.preset("line").params).complete()
+    me = visit("?lesson=fitting&theirs=1")
+    question = next(one for one in lesson.questions if not one.choices)
     found = answer(lesson, question, None, Timelines())
     form = me.page.locator(f"form[data-question={question.name}]")
     form.locator("input").first.fill("50")
     form.get_by_role("button", name="Answer").click()
     form.get_by_text(found.truth).wait_for()
     me.says(Timeline(lesson, question.params).complete()[found.step].caption.text)
-    me.page.locator("button[data-run=far]").click()
-    me.says(far[lesson.first_step].caption.text)
+    me.page.locator("button[data-run=line]").click()
+    me.says(line[0].caption.text)
     me.act("next")
-    me.says(far[lesson.first_step + 1].caption.text)
+    me.says(line[1].caption.text)
     me.page.wait_for_function(
-        "location.search.includes('start_angle=120') && location.search.includes('step=1')"
+        "location.search.includes('stage=line') && location.search.includes('step=1')"
     )
     assert "theirs=1" in me.page.evaluate(
         "location.search"
     )  # keys that are not ours are left alone
     me.page.reload()
-    me.says(far[lesson.first_step + 1].caption.text)
+    me.says(line[1].caption.text)
     assert found.why in form.locator("output").inner_text()
 
 
@@ -79,11 +79,11 @@ def test_a_link_that_cannot_be_used_is_told_and_the_page_lives(visit):
     me = visit("?lesson=icp&start_angle=abc")
     me.page.locator("#caption.wrong", has_text=re.compile("start_angle")).wait_for()
     me.act("next")
-    assert me.page.locator("button[data-run=far]").is_enabled()
+    assert me.page.locator("button[data-run=line]").is_enabled()
 
 
 def test_what_one_points_at_in_the_text_stands_out(visit, server):
-    me = visit("?lesson=icp", scene=True)
+    me = visit("?lesson=fitting", scene=True)
     me.scene()
     me.page.locator("#legend [data-things]").first.wait_for()
     term = me.page.locator(".term").first

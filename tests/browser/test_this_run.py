@@ -110,7 +110,7 @@ NO_NUMBERS = ("", "  ", "four", "inf", "nan", "1,000.5", "1" * 400, "0x10")
 
 
 def test_a_number_is_read_as_people_type_it_and_an_empty_answer_is_none(visit):
-    me = visit("?lesson=icp")
+    me = visit("?lesson=fitting")
     me.page.wait_for_function("page.step()")
     read = {
         text: me.page.evaluate("text => numberIn(text) ?? null", text)

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from lessons.axes.inputs import Input
-from lessons.axes.lesson import lesson, run, setup
+from lessons.axes.lesson import lesson, run
+from lessons.axes.scans import scans_of
 from tests.readings import metres
 from tests.truths.axes import to_nearest
 from workbench.data.files import read_cloud, read_mesh, read_pose
@@ -22,7 +23,7 @@ R = exp_so3(np.array([0.4, -0.9, 0.6]))
 
 
 def steps(params: Input) -> list[Any]:
-    return list(run(params, setup(params)))
+    return list(run(params, scans_of(params)))
 
 
 def text_of(params: Input, k: int) -> str:
@@ -44,7 +45,7 @@ def shape() -> np.ndarray:
 def test_one_cloud_takes_the_place_of_the_rabbit_in_any_unit_and_place(tmp_path, shape, place):
     params = Input(**saved(tmp_path, source=1000.0 * shape + place))
     found = steps(params)
-    p = setup(params).p_target
+    p = scans_of(params).p_target
     assert np.ptp(p, axis=0).max() == pytest.approx(1.0, abs=0.15)
     assert np.abs(p.max(axis=0) + p.min(axis=0)).max() < 0.2
     assert found[-2].outcome.home
@@ -55,7 +56,7 @@ def test_one_cloud_takes_the_place_of_the_rabbit_in_any_unit_and_place(tmp_path,
 
 @pytest.mark.parametrize(("up", "axis"), [("z", 2), ("y", 1), ("x", 0)])
 def test_it_stands_upright(tmp_path, shape, up, axis):
-    p = setup(Input(**saved(tmp_path, source=shape), up=up)).p_target
+    p = scans_of(Input(**saved(tmp_path, source=shape), up=up)).p_target
     heights = shape[:, axis] - shape[:, axis].mean()
     np.testing.assert_allclose(np.corrcoef(p[:, 2], heights)[0, 1], 1.0)
 
@@ -76,7 +77,7 @@ def test_two_clouds_go_by_axes_and_nobody_knows_the_truth(tmp_path, shape):
     assert found[-1].moment == "pose"
     assert "Nobody knows the truth" in text
     said = metres(text.split("Frame on frame: ")[1].split(" (RMS)")[0])
-    assert said == pytest.approx(to_nearest(setup(params), found[-1]), rel=0.01)
+    assert said == pytest.approx(to_nearest(scans_of(params), found[-1]), rel=0.01)
     assert {"turn", "noise", "shape"} <= set(Timeline(lesson, params).complete().idle())
 
 
@@ -101,15 +102,15 @@ def test_what_cannot_be_used_is_refused_in_one_line(tmp_path, shape):
         (Input(source=files["few"]), "3 points; at least 4"),
     ):
         with pytest.raises(InputError, match=words):
-            setup(params)
+            scans_of(params)
 
 
 def test_a_file_that_changed_is_read_anew(tmp_path, shape):
     params = Input(**saved(tmp_path, source=shape))
-    first = setup(params).p_target
-    assert setup(params).p_target is first
+    first = scans_of(params).p_target
+    assert scans_of(params).p_target is first
     saved(tmp_path, source=shape[:500])
-    assert len(setup(params).p_target) == 500
+    assert len(scans_of(params).p_target) == 500
 
 
 def test_real_scans_by_axes_are_not_where_they_belong(shared_data):

@@ -119,7 +119,7 @@ def test_a_choice_that_leads_to_other_things_brings_the_camera_of_their_presets(
     ("grid", "height", "stays"), [(0.7, 0.0, False), (None, 1.0, False), (None, 0.0, True)]
 )
 def test_the_view_of_a_preset_stays_behind_a_knob_unless_its_grid_is_another(grid, height, stays):
-    lesson, aim = catalog()["icp"], Aim()
+    lesson, aim = catalog()["fitting"], Aim()
     usual = lesson.view
     own = replace(
         usual, eye=(9.0, 9.0, 9.0), grid=grid or usual.grid, grid_height=usual.grid_height + height

@@ -213,13 +213,19 @@ def _leading_on(lessons: Sequence[Lesson], there: Collection[str]) -> dict[str, 
     """
     titles = {lesson.name: lesson.title for lesson in lessons}
     gone = {name: to for name, to in lessons_led_on().items() if to in titles and name not in there}
+    known = {lesson.name: {run.name for run in runs_of(lesson)} for lesson in lessons}
+
+    def page_of(to: str, run: str) -> str:
+        there = run in known.get(to, {run})  # a lesson may be published without some of its runs
+        return f"runs/{run}.html" if there else COURSE_PAGE
+
     pages = {
         f"{name}/{COURSE_PAGE}": leading_on(titles[to], f"../{to}/{COURSE_PAGE}").encode()
         for name, to in gone.items()
     }
     return pages | {
         f"{name}/runs/{old}.html": (
-            leading_on(titles.get(to, to), f"../../{to}/runs/{run}.html").encode()
+            leading_on(titles.get(to, to), f"../../{to}/{page_of(to, run)}").encode()
         )
         for name in (*titles, *gone)
         for old, (to, run) in runs_led_on(name).items()

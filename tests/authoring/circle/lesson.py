@@ -22,8 +22,6 @@ RADIUS = Chart("Radius", unit="m")
 
 
 class Input(Params):
-    """Points on an arc, and who looks for the circle."""
-
     by_hand: bool = knob(False, "Each radius in turn, in place of the fit")
     points: int = knob(40, "How many points are measured", 5, 200)
     arc: float = knob(60.0, "How much of the circle they cover", 20, 360, unit="deg", step=5)
