@@ -15,7 +15,7 @@ from workbench.viewer.server import Server
 
 HERE = Path(__file__).parent / "pictures"
 MOMENTS = {
-    "page": "?lesson=icp&step=8",
+    "page": "?lesson=icp#match",
     "icp": "?lesson=icp&step=60",
     "ransac": "?lesson=ransac&step=46",
     "chamfer_emd": "?lesson=chamfer_emd&step=10",
@@ -42,9 +42,7 @@ def main(names: list[str]) -> None:
                 page.wait_for_function(
                     "page.step() && page.run.finished && Number($('#step').value) === page.k"
                 )
-                if name == "page":
-                    page.evaluate("page.run.seen = true, beside.show()")  # the curves to their ends
-                else:
+                if name != "page":
                     page.add_style_tag(content="#tools{visibility:hidden}")
                 image = at_rest(page if name == "page" else page.locator("#view"), page)
                 width = WIDTHS.get(name, USUAL_WIDTH)

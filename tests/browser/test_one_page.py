@@ -79,7 +79,7 @@ def test_a_link_that_cannot_be_used_is_told_and_the_page_lives(visit):
     me = visit("?lesson=icp&start_angle=abc")
     me.page.locator("#caption.wrong", has_text=re.compile("start_angle")).wait_for()
     me.act("next")
-    assert me.page.locator("button[data-run=line]").is_enabled()
+    assert me.page.locator("button[data-run=far]").is_enabled()
 
 
 def test_what_one_points_at_in_the_text_stands_out(visit, server):

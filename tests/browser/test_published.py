@@ -39,7 +39,8 @@ def out(tmp_path_factory):
     run.
     """
     out = tmp_path_factory.mktemp("site")
-    publish(out, [FAKE, replace(catalog()["icp"], presets=(), questions=(), sweeps=(), page=None)])
+    icp = replace(catalog()["icp"], presets=(), questions=(), sweeps=(), page=None)
+    publish(out, [FAKE, icp], recordings="all")
     return out
 
 
@@ -219,7 +220,7 @@ def test_the_scene_is_really_drawn_and_follows_the_theme(opened, out):
     page.keyboard.press("t")
     light = seen(page)
     assert (light.min(-1) > 245).mean() > 0.5
-    assert ((light[..., 2] - light[..., 0]) > 60).sum() > 20  # blue points
+    assert ((light[..., 2] - light[..., 0]) > 30).sum() > 20  # blue points, drawn paler
 
 
 def test_runs_load_when_they_are_opened_and_not_before(opened, out):
