@@ -1,6 +1,7 @@
 """Makes small files to try the flags for own data with: `python -m assets.make_data`.
 
-Two scans of one rabbit with the pose between them, a cloud with a plane in it, a bent mesh, and a stereo pair.
+Two scans of one rabbit with the pose between them, a cloud with a plane in it, a bent mesh, and a
+stereo pair.
 """
 
 from pathlib import Path
@@ -9,11 +10,11 @@ import numpy as np
 import trimesh
 from PIL import Image
 
-from workbench.data.clouds import pair
-from workbench.data.stereo import synthetic_pair
-from workbench.data.surfaces import torus
+from workbench.data.shapes.clouds import pair
+from workbench.data.shapes.surfaces import torus
+from workbench.data.views.stereo import synthetic_pair
+from workbench.geometry.cameras.stereo import StereoCamera
 from workbench.geometry.motions import exp_se3
-from workbench.geometry.stereo import StereoCamera
 
 DATA = Path(__file__).parent / "data"
 
@@ -28,10 +29,14 @@ def main() -> None:
     cloud("rabbit_source.ply", scans.p_source)
     np.savetxt(DATA / "rabbit_pose.txt", T_target_source)
     floor = rng.uniform(-1, 1, (700, 3)) * [1, 1, 0] + rng.normal(0, 0.01, (700, 3))
-    cloud("floor_and_clutter.ply", np.vstack([floor, rng.uniform([-1, -1, 0], [1, 1, 1], (500, 3))]))
+    cloud(
+        "floor_and_clutter.ply", np.vstack([floor, rng.uniform([-1, -1, 0], [1, 1, 1], (500, 3))])
+    )
     surface = torus(2000)
     trimesh.Trimesh(surface.p, surface.faces, process=False).export(DATA / "torus.ply")
-    views = synthetic_pair("spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), 2.0, rng)
+    views = synthetic_pair(
+        "spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), noise=2.0, rng=rng
+    )
     for name, picture in (("left", views.left), ("right", views.right)):
         Image.fromarray(picture).save(DATA / f"{name}.png", optimize=True)
 

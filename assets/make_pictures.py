@@ -1,4 +1,6 @@
-"""Makes the README's pictures from the running page: `python -m assets.make_pictures [lesson ...]`, with a Chromium."""
+"""Makes the README's pictures from the running page: `python -m assets.make_pictures [lesson ...]`,
+with a Chromium.
+"""
 
 import io
 import sys
@@ -13,7 +15,7 @@ from workbench.viewer.server import Server
 
 HERE = Path(__file__).parent / "pictures"
 MOMENTS = {
-    "page": "?lesson=icp&step=8",
+    "page": "?lesson=icp#match",
     "icp": "?lesson=icp&step=60",
     "ransac": "?lesson=ransac&step=46",
     "chamfer_emd": "?lesson=chamfer_emd&step=10",
@@ -32,17 +34,21 @@ def main(names: list[str]) -> None:
     try:
         with started() as browser:
             for name in names or ["page", *catalog()]:
-                page = browser.new_page(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
+                page = browser.new_page(
+                    viewport={"width": 1440, "height": 900}, reduced_motion="reduce"
+                )
                 page.goto(f"{server.address}/{MOMENTS.get(name, f'?lesson={name}')}")
                 page.frame_locator("#scene iframe").locator("canvas[data-engine]").wait_for()
-                page.wait_for_function("page.step() && page.run.finished && Number($('#step').value) === page.k")
-                if name == "page":
-                    page.evaluate("page.run.seen = true, beside.show()")  # the curves to their ends
-                else:
+                page.wait_for_function(
+                    "page.step() && page.run.finished && Number($('#step').value) === page.k"
+                )
+                if name != "page":
                     page.add_style_tag(content="#tools{visibility:hidden}")
                 image = at_rest(page if name == "page" else page.locator("#view"), page)
                 width = WIDTHS.get(name, USUAL_WIDTH)
-                image = image.resize((width, round(image.height * width / image.width)), Image.Resampling.LANCZOS)
+                image = image.resize(
+                    (width, round(image.height * width / image.width)), Image.Resampling.LANCZOS
+                )
                 file = HERE / f"{name}.webp"
                 image.save(file, "WEBP", quality=82, method=6)
                 page.context.close()

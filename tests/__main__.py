@@ -1,8 +1,9 @@
-"""Runs everything that must hold: lint, format, types, tests. `python -m tests` from the project's root.
+"""Runs everything that must hold: lint, format, types, tests. `python -m tests` from the project's
+root.
 
-The types are checked while the tests run. Words behind `python -m tests` are pytest's. A few tests that fail are run once
-more by themselves: on a machine that is busy with other work one may fail for it. Which did is told at the end, and a test
-that is named there often has a defect of its own.
+The types are checked while the tests run. Words behind `python -m tests` are pytest's. A few tests
+that fail are run once more by themselves: on a machine that is busy with other work one may fail
+for it. Which did is told at the end, and a test that is named there often has a defect of its own.
 """
 
 import json
@@ -30,14 +31,19 @@ BESIDE = ("types",)  # runs in what time the others leave; its output comes at t
 def main() -> int:
     """Run all checks, each to its end, and say which failed."""
     began = time.monotonic()
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell starts what runs in its background deaf to it
+    signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # a shell starts what runs in its background deaf to it
     failed: list[str] = []
     unsteady: list[str] = []
 
     def ended(name: str, code: int) -> None:
         if code != 0:
             failed.append(name)
-        print(f"== {name}: {'failed' if code else 'good'} after {time.monotonic() - began:.0f} s", flush=True)
+        print(
+            f"== {name}: {'failed' if code else 'good'} after {time.monotonic() - began:.0f} s",
+            flush=True,
+        )
 
     NOTED.unlink(missing_ok=True)  # what failed in an earlier run
     beside = {name: started_beside(name) for name in BESIDE}
@@ -45,7 +51,11 @@ def main() -> int:
         for name, command in CHECKS.items():
             if name not in beside:
                 code = ran(name, command)
-                if name == "tests" and code == SOME_FAILED and len(unsteady := last_failed()) <= FEW:
+                if (
+                    name == "tests"
+                    and code == SOME_FAILED
+                    and len(unsteady := last_failed()) <= FEW
+                ):
                     code = ran("tests that failed, by themselves", ONCE_MORE)
                 ended(name, code)
         for name, process in beside.items():

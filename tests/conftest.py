@@ -1,4 +1,6 @@
-"""Enforces array shapes in every test, finds the real data where it is present, and one browser for all."""
+"""Enforces array shapes in every test, finds the real data where it is present, and one browser for
+all.
+"""
 
 import functools
 import inspect
@@ -7,7 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from workbench.threads import ONE_EACH
+from workbench.machinery.threads import ONE_EACH
 
 os.environ |= ONE_EACH  # before numpy is imported; workers inherit it
 
@@ -28,12 +30,18 @@ def checked(function_or_class):
 
 
 ENOUGH = 20
-"""Calls of a function in one test whose shapes are checked; a run calls some thousands of times, all alike."""
+"""Calls of a function in one test whose shapes are checked; a run calls some thousands of times,
+all alike.
+"""
 tests_begun = 0
 
 
-def checked_at_first(decorate: Callable[..., Callable[[Any], Any]]) -> Callable[..., Callable[[Any], Any]]:
-    """Return jaxtyping's decorator, but so that only the first calls of a function in each test are checked."""
+def checked_at_first(
+    decorate: Callable[..., Callable[[Any], Any]],
+) -> Callable[..., Callable[[Any], Any]]:
+    """Return jaxtyping's decorator, but so that only the first calls of a function in each test are
+    checked.
+    """
 
     def decorator(**options: Any) -> Callable[[Any], Any]:
         def decorated(bare: Any) -> Any:

@@ -1,8 +1,10 @@
-"""A small lesson for tests that shows every primitive of `workbench.scene` and has a knob of every kind.
+"""A small lesson for tests that shows every primitive of `workbench.scene` and has a knob of every
+kind.
 
-What its run holds, so that a sink can be held to it: a cloud and a mesh that move by their pose alone, a mesh that is
-stretched by a 4x4 that is no rigid motion, things that appear late, vanish and come back, all four ways to colour, NaN
-in fields, scalars and curves, pictures in space and beside it, and one caption of each tone.
+What its run holds, so that a sink can be held to it: a cloud and a mesh that move by their pose
+alone, a mesh that is stretched by a 4x4 that is no rigid motion, things that appear late, vanish
+and come back, all four ways to colour, NaN in fields, scalars and curves, pictures in space and
+beside it, and one caption of each tone.
 """
 
 from collections.abc import Callable, Iterator
@@ -41,11 +43,13 @@ Turn = Callable[[float], np.ndarray]
 
 CORNERS = np.array([[x, y, z] for x in (-0.2, 0.2) for y in (-0.2, 0.2) for z in (-0.2, 0.2)])
 FACES = np.array(
-    [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],
+    [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],  # noqa: E501
      [1, 5, 7], [1, 7, 3]]
 )  # fmt: skip
 K = np.array([[40.0, 0.0, 31.5], [0.0, 40.0, 23.5], [0.0, 0.0, 1.0]])
-PHOTO = np.stack(np.broadcast_arrays(np.arange(0, 256, 4)[None, :], np.arange(0, 240, 5)[:, None], 90), -1).astype("u1")
+PHOTO = np.stack(
+    np.broadcast_arrays(np.arange(0, 256, 4)[None, :], np.arange(0, 240, 5)[:, None], 90), -1
+).astype("u1")
 LOOKING_DOWN = np.array([[1.0, 0, 0, 0], [0, -1, 0, -1.2], [0, 0, -1, 1.2], [0, 0, 0, 1]])
 
 
@@ -57,11 +61,21 @@ class Params:
     steps: Annotated[int, Knob("How many steps the run has", 1, 5000)] = 6
     points: Annotated[int, Knob("How many points the cloud has", 1, 100_000)] = 200
     wobble: Annotated[bool, Knob("Move the points themselves too, so that no pose will do")] = False
-    colors: Annotated[Literal["role", "field", "classes", "measured"], Knob("How the cloud is coloured")] = "field"
-    place: Annotated[tuple[float, float, float], Knob("Where the target is", -2, 2, unit="m", by=Gizmo())] = (0.5, 0, 0)
-    pixel: Annotated[tuple[int, int], Knob("The chosen pixel", 0, 63, unit="px", by=Pick("plane"))] = (10, 20)
-    scan: Annotated[Path | None, Knob("A .npy file of points (n, 3) instead of the made ones")] = None
-    trouble: Annotated[Literal["none", "input", "crash"], Knob("How the run fails at its third step")] = "none"
+    colors: Annotated[
+        Literal["role", "field", "classes", "measured"], Knob("How the cloud is coloured")
+    ] = "field"
+    place: Annotated[
+        tuple[float, float, float], Knob("Where the target is", -2, 2, unit="m", by=Gizmo())
+    ] = (0.5, 0, 0)
+    pixel: Annotated[
+        tuple[int, int], Knob("The chosen pixel", 0, 63, unit="px", by=Pick("plane"))
+    ] = (10, 20)
+    scan: Annotated[Path | None, Knob("A .npy file of points (n, 3) instead of the made ones")] = (
+        None
+    )
+    trouble: Annotated[
+        Literal["none", "input", "crash"], Knob("How the run fails at its third step")
+    ] = "none"
     seed: Annotated[int, Knob("Which points are made", 0, 99)] = 0
 
 
@@ -85,7 +99,9 @@ def turn_about_z(angle: float) -> np.ndarray:
 
 
 @traced
-def approach(p_source: np.ndarray, p_target: np.ndarray, params: Params, turn: Turn) -> Iterator[State]:
+def approach(
+    p_source: np.ndarray, p_target: np.ndarray, params: Params, turn: Turn
+) -> Iterator[State]:
     """Turn the source step by step until it lies on the target."""
     for k in range(params.steps):
         share = k / max(params.steps - 1, 1)
@@ -131,10 +147,16 @@ def draw(state: State) -> Scene:
     depth[:4, :4] = np.nan
     x = np.linspace(0.0, 10.0, 21)
     scene = {
-        "source": Points(state.p_source, colors_of(state), 0.02, state.T_world_source, name="source"),
+        "source": Points(
+            state.p_source, colors_of(state), 0.02, state.T_world_source, name="source"
+        ),
         "target": Points(state.p_target, "target", 0.01, opacity=0.6, name="target"),
-        "box": Mesh(CORNERS, FACES, "source", state.T_world_source, opacity=0.4, flat=True, name="box"),
-        "pulled": Mesh(CORNERS, FACES, Field(CORNERS[:, 2], 0.0, 0.2, "Height", "m"), pull, name="pulled box"),
+        "box": Mesh(
+            CORNERS, FACES, "source", state.T_world_source, opacity=0.4, flat=True, name="box"
+        ),
+        "pulled": Mesh(
+            CORNERS, FACES, Field(CORNERS[:, 2], 0.0, 0.2, "Height", "m"), pull, name="pulled box"
+        ),
         "wire": Mesh(CORNERS * 1.2, FACES, "neutral", wireframe=True, name="wire box"),
         "frame": Axes(state.T_world_source, 0.3, name="source frame"),
         "camera": Camera(K, 64, 48, LOOKING_DOWN, 0.4, PHOTO, "truth", name="camera"),
@@ -146,12 +168,33 @@ def draw(state: State) -> Scene:
         "error": Scalar(error, "Distance", "error", "m", "source"),
         "truth": Scalar(error / 2 if k else np.nan, "Error to truth", "error", "m", "truth"),
         "cost": Scalar(10.0 ** (-k), "Cost", "cost", "", "highlight", log=True),
-        "basin": Curve(x, (x - k) ** 2, "cost", "Basin", "shift in px", "cost", "source", marks=(float(k),)),
-        "known": Curve(x, np.where(x > 5, np.nan, x), "known part", "Basin", "shift in px", "cost", "truth", "dots"),
-        "bars": Curve(x, np.abs(np.sin(x + k)), "count", "Histogram", "distance in m", "points", "target", "bars"),
+        "basin": Curve(
+            x, (x - k) ** 2, "cost", "Basin", "shift in px", "cost", "source", marks=(float(k),)
+        ),
+        "known": Curve(
+            x,
+            np.where(x > 5, np.nan, x),
+            "known part",
+            "Basin",
+            "shift in px",
+            "cost",
+            "truth",
+            "dots",
+        ),
+        "bars": Curve(
+            x,
+            np.abs(np.sin(x + k)),
+            "count",
+            "Histogram",
+            "distance in m",
+            "points",
+            "target",
+            "bars",
+        ),
         "matrix": Table("T_world_source", ("a", "b"), ((f"{k}", "½ | x"), ("-1", f"{error:.2f}"))),
         "caption": Caption(
-            f"Step {k}: {n:,} points turned, distance {error:.3f} m.", ("info", "wrong", "good")[min(k, 2)]
+            f"Step {k}: {n:,} points turned, distance {error:.3f} m.",
+            ("info", "wrong", "good")[min(k, 2)],
         ),
     }
     if k % 2 == 0:
@@ -176,21 +219,44 @@ lesson = Lesson(
     order=1,
     view=View(eye=(2.5, -2.5, 2.0)),
     presets=(
-        Preset("half", "Half a turn", "The cloud turns by 180 degrees and ends upside down.", Params(angle=180.0)),
-        Preset("short", "Two steps", "Nothing appears late, since the run ends before.", Params(steps=2), step=1),
-        Preset("classes", "Inliers", "The cloud has two classes with names.", Params(colors="classes")),
+        Preset(
+            "half",
+            "Half a turn",
+            "The cloud turns by 180 degrees and ends upside down.",
+            Params(angle=180.0),
+        ),
+        Preset(
+            "short",
+            "Two steps",
+            "Nothing appears late, since the run ends before.",
+            Params(steps=2),
+            step=1,
+        ),
+        Preset(
+            "classes", "Inliers", "The cloud has two classes with names.", Params(colors="classes")
+        ),
     ),
     questions=(
         Question(
-            "end", "How far is the cloud at the end?", lambda states: states[-1].error, lambda states: "It arrives.",
-            Params(), unit="m", tolerance=0.01, wrong=((0.9, 1.1, "That is where it starts."),),
+            "end",
+            "How far is the cloud at the end?",
+            lambda states: states[-1].error,
+            lambda states: "It arrives.",
+            Params(),
+            unit="m",
+            tolerance=0.01,
+            wrong=((0.9, 1.1, "That is where it starts."),),
         ),
         Question(
-            "which", "Which is larger?", lambda states: 1, lambda states: "The second is.", Params(),
+            "which",
+            "Which is larger?",
+            lambda states: 1,
+            lambda states: "The second is.",
+            Params(),
             choices=(Choice("the first", why="It only looks larger."), "the second"),
         ),
     ),
-)  # fmt: skip
+)
 
 
 def test_nothing_is_left_out() -> None:

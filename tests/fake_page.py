@@ -1,4 +1,6 @@
-"""A page without a browser: what one would say to the live server, and what comes back, with its time."""
+"""A page without a browser: what one would say to the live server, and what comes back, with its
+time.
+"""
 
 import asyncio
 import contextlib
@@ -13,12 +15,14 @@ import websockets
 
 
 class FakePage:
-    """One visit: the page is asked for, and its websocket opened. Scenes come as bytes and are counted.
+    """One visit: the page is asked for, and its websocket opened. Scenes come as bytes and are
+    counted.
 
     Args:
         address: Where the server is, up to the last slash, without a query.
         query: What stands behind it, with its `?`.
-        headers: Of all requests, such as Host, Origin or Cookie; Origin is the server's own unless given.
+        headers: Of all requests, such as Host, Origin or Cookie; Origin is the server's own unless
+            given.
     """
 
     def __init__(self, address: str, query: str = "", headers: dict[str, str] | None = None):
@@ -46,12 +50,21 @@ class FakePage:
         return self
 
     async def _page(self) -> str:
-        """Return the page; by hand, since a client that could do more would cost more than a page."""
+        """Return the page; by hand, since a client that could do more would cost more than a
+        page.
+        """
         where = urlsplit(self.address)
         headers = {"Host": where.netloc, "Connection": "close"}
-        headers |= {name: value for name, value in self.headers.items() if name in ("Host", "Cookie")}
+        headers |= {
+            name: value for name, value in self.headers.items() if name in ("Host", "Cookie")
+        }
         reader, writer = await asyncio.open_connection(where.hostname, where.port)
-        lines = [f"GET {where.path}{self.query} HTTP/1.1", *(f"{k}: {v}" for k, v in headers.items()), "", ""]
+        lines = [
+            f"GET {where.path}{self.query} HTTP/1.1",
+            *(f"{k}: {v}" for k, v in headers.items()),
+            "",
+            "",
+        ]
         writer.write("\r\n".join(lines).encode())
         head, _, body = (await reader.read()).partition(b"\r\n\r\n")
         writer.close()
@@ -63,7 +76,9 @@ class FakePage:
 
     async def socket(self, path: str, **options: Any) -> Any:
         """Open a websocket of this page."""
-        headers = {name: value for name, value in self.headers.items() if name not in ("Origin", "Host")}
+        headers = {
+            name: value for name, value in self.headers.items() if name not in ("Origin", "Host")
+        }
         server = urlsplit(self.address)
         address = f"ws{self.address.removeprefix('http')}{path}"
         if "Host" in self.headers:
@@ -107,7 +122,10 @@ class FakePage:
         """Move a knob, and wait for the first picture of the run that it asks for."""
         before = self.run["run"]
         await self.say(verb="change", values={name: value})
-        await self.until(lambda page: page.run["run"] != before and page.step.get("run") == page.run["run"], seconds)
+        await self.until(
+            lambda page: page.run["run"] != before and page.step.get("run") == page.run["run"],
+            seconds,
+        )
 
     async def close(self) -> None:
         """Leave."""
@@ -121,7 +139,10 @@ class FakePage:
         with contextlib.suppress(websockets.ConnectionClosed):
             async for part in self.live:
                 if isinstance(part, bytes):
-                    self.scene_bytes, self.scene_came = self.scene_bytes + len(part), time.perf_counter()
+                    self.scene_bytes, self.scene_came = (
+                        self.scene_bytes + len(part),
+                        time.perf_counter(),
+                    )
                 else:
                     self.bytes += len(part)
                     self._hear(json.loads(part))

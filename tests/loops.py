@@ -1,4 +1,6 @@
-"""Runs coroutines in a loop of their own, in a thread of its own: a browser test before may have left its loop running."""
+"""Runs coroutines in a loop of their own, in a thread of its own: a browser test before may have
+left its loop running.
+"""
 
 import asyncio
 from collections.abc import Coroutine

@@ -9,5 +9,7 @@ Holds = Callable[[Run, int, re.Match[str]], bool]
 
 
 def of_preset(holds: Holds, seed: int = 0) -> Holds:
-    """Return a claim on the preset's own seed: of other seeds, which audits try too, the line says nothing."""
+    """Return a claim on the preset's own seed: of other seeds, which audits try too, the line says
+    nothing.
+    """
     return lambda run, k, m: run.params.seed != seed or holds(run, k, m)

@@ -17,7 +17,9 @@ def number(text: str) -> float:
 
 
 def says(text: str, value: float, digits: int | None = None) -> bool:
-    """Whether a numeral says a value, as exactly as it is written: to its last decimal, or to so many digits."""
+    """Whether a numeral says a value, as exactly as it is written: to its last decimal, or to so
+    many digits.
+    """
     said = _decimal(text)
     place = 10.0 ** int(said.as_tuple().exponent)
     if digits is not None and said:
@@ -26,7 +28,9 @@ def says(text: str, value: float, digits: int | None = None) -> bool:
 
 
 def near(text: str, value: float, digits: int = 3) -> bool:
-    """Whether a numeral says a value to so many digits that count, where zeros behind them are left out."""
+    """Whether a numeral says a value to so many digits that count, where zeros behind them are left
+    out.
+    """
     place = 10.0 ** (np.floor(np.log10(abs(value))) + 1 - digits) if value else 0.0
     return abs(number(text) - value) <= 0.51 * place + 1e-9 * max(abs(value), 1.0)
 
@@ -44,7 +48,9 @@ def says_length(text: str, metres: float, digits: int | None = None) -> bool:
 
 
 def says_percent(text: str, share: float) -> bool:
-    """Whether "7.3 %", "less than 0.01 %" or "0 %" says a share as exactly as it is written; 0 % is none at all."""
+    """Whether "7.3 %", "less than 0.01 %" or "0 %" says a share as exactly as it is written; 0 % is
+    none at all.
+    """
     numeral = text.removesuffix(" %").removeprefix("less than ")
     if text.startswith("less"):
         return abs(100 * share) <= number(numeral)

@@ -1,17 +1,21 @@
-"""Whole runs of the catalogue's lessons, made once in a worker: many tests look at the same preset."""
+"""Whole runs of the catalogue's lessons, made once in a worker: many tests look at the same
+preset.
+"""
 
 import functools
 from typing import Any
 
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 MOST = 48  # runs; all of a lesson's at once, with room for a second lesson's
 
 
 @functools.lru_cache(MOST)
 def whole_run(name: str, params: Any) -> Timeline:
-    """Return the finished run of a lesson at these params. It is shared: nothing may be added to it."""
+    """Return the finished run of a lesson at these params. It is shared: nothing may be added to
+    it.
+    """
     return Timeline(catalog()[name], params).complete()
 
 

@@ -1,29 +1,36 @@
 r"""Finds what tells the answer of a question before it is asked.
 
-A page may teach the principle from which an answer follows; it may not state the case that a question asks about.
+A page may teach the principle from which an answer follows; it may not state the case that a
+question asks about.
 
-What is looked at (`passages`): every paragraph, list item and table row of page.md, the title and summary, each preset's
-title and line, each question's text, each knob's label, hint, choices and default, and the captions that are seen before
-anybody moves: of the default run where it opens, and of each preset where it opens.
+What is looked at (`passages`): every paragraph, list item and table row of page.md (of a story
+those above the question's card: what follows comes after the answer), the title and summary, each
+preset's title and line, each question's text, each knob's label, hint, choices and default, and the
+captions that are seen before anybody moves: of the default run where it opens, and of each preset
+where it opens.
 
-Which passages are about a question: those of its own run (the preset with its params, a list item that names that preset,
-the caption of a run with its params), and those that share content words with the question's text (stemmed, without
-numbers and units).
+Which passages are about a question: those of its own run (the preset with its params, a list item
+that names that preset, the caption of a run with its params), and those that share content words
+with the question's text (stemmed, without numbers and units).
 
 Three rules; the answer is computed from the run:
 
-1. A number gives the answer away when it would be accepted as right, has the unit that is asked for (m, cm and mm are one
-   unit; a list "35, 169 or 574 samples" has its last entry's unit), and its passage is of the question's run or shares two
-   content words with it. A count without a unit ("2-D", "step 2") is never compared: where a question asks for a count,
-   its unit is what follows "how many" or a number in it, and one shared word is enough. A bare number (behind an equals
-   sign, in a table; a share where percent are asked for) and zero, which needs no unit, count where the passage is of the
-   question's run or shares three words. In texts on another preset's run more than half of the question's content words
-   are to be shared. Words are numbers too: "a dozen", "two thirds", "one in five"; a share or a multiple ("a sixth",
-   "twice") also stands for that part of each number of the same unit in the question.
-2. A sentence states a choice when its passage is of the question's run, or shares half of the question's content words
-   and at least three, and it holds a larger part of the words that only the right choice has than of any wrong choice's
-   own words. So "120° away: settled and wrong" gives away "Lower the RMSE to the end and be wrong".
-3. What neither rule can read is listed by hand, as patterns: for each question the sentences that would tell its answer.
+1. A number gives the answer away when it would be accepted as right, has the unit that is asked for
+   (m, cm and mm are one unit; a list "35, 169 or 574 samples" has its last entry's unit), and its
+   passage is of the question's run or shares two content words with it. A count without a unit
+   ("2-D", "step 2") is never compared: where a question asks for a count, its unit is what follows
+   "how many" or a number in it, and one shared word is enough. A bare number (behind an equals
+   sign, in a table; a share where percent are asked for) and zero, which needs no unit, count where
+   the passage is of the question's run or shares three words. In texts on another preset's run more
+   than half of the question's content words are to be shared. Words are numbers too: "a dozen",
+   "two thirds", "one in five"; a share or a multiple ("a sixth", "twice") also stands for that part
+   of each number of the same unit in the question.
+2. A sentence states a choice when its passage is of the question's run, or shares half of the
+   question's content words and at least three, and it holds a larger part of the words that only
+   the right choice has than of any wrong choice's own words. So "120° away: settled and wrong"
+   gives away "Lower the RMSE to the end and be wrong".
+3. What neither rule can read is listed by hand, as patterns: for each question the sentences that
+   would tell its answer.
 
 What the rules misread is listed too, and left out of what they read.
 """
@@ -39,12 +46,18 @@ from typing import Any
 from tests.runs import finished
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, Preset, Question, catalog
-from workbench.typeset import inline_html, page_html
+from workbench.story import has_story
+from workbench.words.typeset import inline_html, page_html
+
+ATTRIBUTES = re.compile(r"\{[#.:\w][^{}]*\}|^:::.*$", re.MULTILINE)
+"""What page.md says to the page alone."""
 
 
 @dataclass(frozen=True)
 class Passage:
-    """One piece of text that is seen before answering: where it stands, its words, and whose run it speaks of."""
+    """One piece of text that is seen before answering: where it stands, its words, and whose run it
+    speaks of.
+    """
 
     where: str
     text: str
@@ -55,13 +68,25 @@ class Passage:
 @functools.cache
 def passages(name: str) -> tuple[Passage, ...]:
     """Return every text of a lesson that is seen before a question is answered."""
-    return tuple(_passages(catalog()[name]))
+    lesson = catalog()[name]
+    return tuple(_passages(lesson, lesson.text()))
 
 
-def _passages(lesson: Lesson) -> Iterator[Passage]:
+@functools.cache
+def before(name: str, question: str) -> tuple[Passage, ...]:
+    """Return every text that is seen before a question: of a story what stands above its card."""
+    lesson = catalog()[name]
+    above, card, _ = lesson.text().partition(f"{{.ask #{question}")
+    if not has_story(lesson):
+        return passages(name)
+    assert card, f"{name}: page.md does not ask {question}"
+    return tuple(_passages(lesson, ATTRIBUTES.sub("", above)))
+
+
+def _passages(lesson: Lesson, page: str) -> Iterator[Passage]:
     captions, default = facts(lesson.name)[0], lesson.params()
     yield Passage("title and summary", f"{lesson.title}. {lesson.summary}")
-    for block in blocks(page_html(lesson.text())):
+    for block in blocks(page_html(page)):
         yield from (Passage("page.md", text, params) for text, params in _by_preset(lesson, block))
     for preset in lesson.presets:
         yield Passage(f"preset {preset.name}", f"{preset.title}. {preset.line}", preset.params)
@@ -69,18 +94,27 @@ def _passages(lesson: Lesson) -> Iterator[Passage]:
         yield Passage(f"caption where {preset.name} opens", shown, preset.params)
     yield Passage("caption where the page opens", captions[default, lesson.first_step], default)
     for question in lesson.questions:
-        yield Passage(f"question {question.name}", plain(inline_html(question.text)), None, question.name)
+        yield Passage(
+            f"question {question.name}", plain(inline_html(question.text)), None, question.name
+        )
     for field in fields_of(lesson.params):
-        value = ", ".join(map(str, field.default)) if isinstance(field.default, tuple) else str(field.default)
+        value = (
+            ", ".join(map(str, field.default))
+            if isinstance(field.default, tuple)
+            else str(field.default)
+        )
         shown = (
-            f"{field.label}: {field.knob.hint}. {', '.join(field.choices)}. {field.label}: {value} {field.knob.unit}"
+            f"{field.label}: {field.knob.hint}. {', '.join(field.choices)}. {field.label}: {value}"
+            f" {field.knob.unit}"
         )
         yield Passage(f"knob {field.name}", shown)
 
 
 def blocks(page: str) -> list[str]:
     """Return the paragraphs, list items, headings and table rows of a page, as they read."""
-    parts = re.split(r"</?(?:p|li|tr|h\d|ul|ol|table|thead|tbody|section|pre|blockquote)\b[^>]*>", page)
+    parts = re.split(
+        r"</?(?:p|li|tr|h\d|ul|ol|table|thead|tbody|section|pre|blockquote)\b[^>]*>", page
+    )
     return [text for text in map(plain, parts) if text]
 
 
@@ -91,7 +125,9 @@ def plain(markup: str) -> str:
 
 
 def _by_preset(lesson: Lesson, text: str) -> Iterator[tuple[str, Any]]:
-    """Cut a text where it names a preset, by the title or its words up to a colon; each piece with that preset's params."""
+    """Cut a text where it names a preset, by the title or its words up to a colon; each piece with
+    that preset's params.
+    """
     starts: dict[int, Any] = {0: None}
     for preset in lesson.presets:
         at = text.lower().find(preset.title.split(":")[0].lower())
@@ -102,25 +138,33 @@ def _by_preset(lesson: Lesson, text: str) -> Iterator[tuple[str, Any]]:
         yield text[here:there], starts[here]
 
 
-def read(name: str, innocent: str) -> Iterator[Passage]:
+def read(name: str, question: str, innocent: str) -> Iterator[Passage]:
     """Yield the passages that stand before a question, without what the rules would misread."""
-    for passage in passages(name):
-        yield replace(passage, text=re.sub(innocent or "(?!)", "…", passage.text, flags=re.IGNORECASE))
+    for passage in before(name, question):
+        yield replace(
+            passage, text=re.sub(innocent or "(?!)", "…", passage.text, flags=re.IGNORECASE)
+        )
 
 
 @functools.cache
 def facts(name: str) -> tuple[dict[tuple[Any, int], str], dict[str, float]]:
-    """Return a lesson's captions where a run opens, by params and step, and the right answers; each run is made once."""
+    """Return a lesson's captions where a run opens, by params and step, and the right answers; each
+    run is made once.
+    """
     lesson = catalog()[name]
     opened = {(preset.params, opens(lesson, preset)) for preset in lesson.presets} | {
         (lesson.params(), lesson.first_step)
     }
     captions: dict[tuple[Any, int], str] = {}
     answers: dict[str, float] = {}
-    for params in dict.fromkeys([question.params for question in lesson.questions] + [params for params, _ in opened]):
+    for params in dict.fromkeys(
+        [question.params for question in lesson.questions] + [params for params, _ in opened]
+    ):
         asked = [question for question in lesson.questions if question.params == params]
         timeline = finished(name, params)
-        captions |= {(params, step): timeline[step].caption.text for of, step in opened if of == params}
+        captions |= {
+            (params, step): timeline[step].caption.text for of, step in opened if of == params
+        }
         answers |= {question.name: question.answer(timeline.states()) for question in asked}
     return captions, answers
 
@@ -129,24 +173,75 @@ def opens(lesson: Lesson, preset: Preset) -> int:
     return lesson.first_step if preset.step is None else preset.step
 
 
-# numbers ----------------------------------------------------------------------------------------------------------------
+# numbers ------------------------------------------------------------------------------------------
 
-ONES = {"zero": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
-        "ten": 10, "eleven": 11, "twelve": 12}  # fmt: skip
-WORDS = ONES | {"none": 0, "dozen": 12, "twenty": 20, "thirty": 30, "forty": 40, "fifty": 50, "hundred": 100}
-PARTS = {"half": 2, "halves": 2, "third": 3, "quarter": 4, "fifth": 5, "sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9,
-         "tenth": 10, "twentieth": 20, "hundredth": 100}  # fmt: skip
+ONES = {
+    "zero": 0,
+    "one": 1,
+    "two": 2,
+    "three": 3,
+    "four": 4,
+    "five": 5,
+    "six": 6,
+    "seven": 7,
+    "eight": 8,
+    "nine": 9,
+    "ten": 10,
+    "eleven": 11,
+    "twelve": 12,
+}
+WORDS = ONES | {
+    "none": 0,
+    "dozen": 12,
+    "twenty": 20,
+    "thirty": 30,
+    "forty": 40,
+    "fifty": 50,
+    "hundred": 100,
+}
+PARTS = {
+    "half": 2,
+    "halves": 2,
+    "third": 3,
+    "quarter": 4,
+    "fifth": 5,
+    "sixth": 6,
+    "seventh": 7,
+    "eighth": 8,
+    "ninth": 9,
+    "tenth": 10,
+    "twentieth": 20,
+    "hundredth": 100,
+}
 UNITS = {
-    "m": ("m", 1.0), "metres": ("m", 1.0), "cm": ("m", 0.01), "mm": ("m", 0.001), "km": ("m", 1000.0), "m²": ("m²", 1.0),
-    "m⁻²": ("m⁻²", 1.0), "m⁻¹": ("m⁻¹", 1.0), "°": ("deg", 1.0), "deg": ("deg", 1.0), "degrees": ("deg", 1.0),
-    "rad": ("deg", 57.3), "px": ("px", 1.0), "pixels": ("px", 1.0), "pixel": ("px", 1.0), "π": ("π", 1.0),
-    "%": ("%", 1.0), "percent": ("%", 1.0), "times": ("times", 1.0),
-}  # fmt: skip
+    "m": ("m", 1.0),
+    "metres": ("m", 1.0),
+    "cm": ("m", 0.01),
+    "mm": ("m", 0.001),
+    "km": ("m", 1000.0),
+    "m²": ("m²", 1.0),
+    "m⁻²": ("m⁻²", 1.0),
+    "m⁻¹": ("m⁻¹", 1.0),
+    "°": ("deg", 1.0),
+    "deg": ("deg", 1.0),
+    "degrees": ("deg", 1.0),
+    "rad": ("deg", 57.3),
+    "px": ("px", 1.0),
+    "pixels": ("px", 1.0),
+    "pixel": ("px", 1.0),
+    "π": ("π", 1.0),
+    "%": ("%", 1.0),
+    "percent": ("%", 1.0),
+    "times": ("times", 1.0),
+}
 BASE = {base for base, _ in UNITS.values()}
 COUNT = rf"[−-]?\d[\d,]*(?:\.\d+)?|½|\b(?:{'|'.join(WORDS)})\b"
-NUMBERS = re.compile(rf"(?<![\w.])(?:{COUNT})(?:(?:,| or| and| to|, or|, and|–| →) (?:{COUNT}))*", re.IGNORECASE)
+NUMBERS = re.compile(
+    rf"(?<![\w.])(?:{COUNT})(?:(?:,| or| and| to|, or|, and|–| →) (?:{COUNT}))*", re.IGNORECASE
+)
 PART = re.compile(
-    rf"\b(?:(a|{'|'.join(ONES)}) )?({'|'.join(PARTS)})s?\b|\b({'|'.join(WORDS)}|\d+) (?:in|out of) ({'|'.join(WORDS)}|\d+)\b"
+    rf"\b(?:(a|{'|'.join(ONES)}) )?({'|'.join(PARTS)})s?\b|\b({'|'.join(WORDS)}|\d+) (?:in|out of)"
+    rf" ({'|'.join(WORDS)}|\d+)\b"
     rf"|\b(twice|doubles?|doubled)\b|\b({'|'.join(WORDS)}|\d+)(?:fold| times)\b",
     re.IGNORECASE,
 )
@@ -158,7 +253,8 @@ def number(text: str) -> float:
 
 
 def numbers(text: str) -> Iterator[tuple[float, str]]:
-    """Yield each number of a text in its base unit, with that unit: a known one, or the stem of the word that follows.
+    """Yield each number of a text in its base unit, with that unit: a known one, or the stem of the
+    word that follows.
 
     A bare number, behind an equals sign or in a table, has the unit "".
     """
@@ -184,14 +280,22 @@ def parts(text: str) -> Iterator[float]:
 
 
 def units_of(question: Question) -> set[str]:
-    """Return the units that an answer may have: the question's, or what "how many" and its numbers count."""
+    """Return the units that an answer may have: the question's, or what "how many" and its numbers
+    count.
+    """
     if question.unit in UNITS:
         return {UNITS[question.unit][0]}
     counted = re.findall(r"[Hh]ow many ([a-z]+)|\d ([a-z]+)", question.text)
-    return {stem(word) for word in (*itertools.chain(*counted), question.unit) if word and word not in SMALL}
+    return {
+        stem(word)
+        for word in (*itertools.chain(*counted), question.unit)
+        if word and word not in SMALL
+    }
 
 
-def by_number(question: Question, right: float, texts: Iterable[Passage]) -> Iterator[tuple[Passage, str]]:
+def by_number(
+    question: Question, right: float, texts: Iterable[Passage]
+) -> Iterator[tuple[Passage, str]]:
     """Yield the passages that hold a number which would be accepted as right."""
     units, about = units_of(question), words(question.text)
     enough = 2 if question.unit in UNITS else 1
@@ -217,14 +321,15 @@ def by_number(question: Question, right: float, texts: Iterable[Passage]) -> Ite
                 yield passage, f"a part or multiple of {part:.3g}"
 
 
-# choices ----------------------------------------------------------------------------------------------------------------
+# choices ------------------------------------------------------------------------------------------
 
 SMALL = frozenset(
     re.findall(
         r"\w+",
-        "a an and any are as at be because been but by can did do does end ends for from had has have how if in into is it"
-        " its like many more much no not of off on one only or other so some than that the their them then there these"
-        " they this those to too up was what when where which who will with without would you your",
+        "a an and any are as at be because been but by can did do does end ends for from had has"
+        " have how if in into is it its like many more much no not of off on one only or other so"
+        " some than that the their them then there these they this those to too up was what when"
+        " where which who will with without would you your",
     )
 )
 
@@ -242,16 +347,24 @@ def stem(word: str) -> str:
 @functools.cache
 def words(text: str) -> set[str]:
     """Return the stems of the content words of a text: without small words, numbers and units."""
-    found = {stem(word) for word in re.findall(r"[^\W\d_]+", text) if word.lower() not in SMALL and word not in UNITS}
+    found = {
+        stem(word)
+        for word in re.findall(r"[^\W\d_]+", text)
+        if word.lower() not in SMALL and word not in UNITS
+    }
     return found - {stem(word) for word in (*WORDS, *PARTS)}
 
 
 def choice_words(text: str) -> set[str]:
-    """Return what a choice says: its content words; its numbers and small words where it has no others."""
+    """Return what a choice says: its content words; its numbers and small words where it has no
+    others.
+    """
     return words(text) or {stem(word) for word in re.findall(r"\w+", text)}
 
 
-def by_choice(question: Question, right: float, texts: Iterable[Passage]) -> Iterator[tuple[Passage, str]]:
+def by_choice(
+    question: Question, right: float, texts: Iterable[Passage]
+) -> Iterator[tuple[Passage, str]]:
     """Yield the passages with a sentence that states the right choice more than any wrong one."""
     says = [choice_words(choice) for choice in question.choices]
     own = [mine - set().union(*(other for other in says if other is not mine)) for mine in says]
@@ -266,10 +379,18 @@ def by_choice(question: Question, right: float, texts: Iterable[Passage]) -> Ite
             stated = {stem(word) for word in re.findall(r"\w+", sentence)}
             held = [len(mine & stated) / len(mine) if mine else 0.0 for mine in own]
             if held[which] > max(part for i, part in enumerate(held) if i != which):
-                yield passage, f"says {', '.join(sorted(own[which] & stated))!r} of {question.choices[which]!r}"
+                yield (
+                    passage,
+                    (
+                        f"says {', '.join(sorted(own[which] & stated))!r} of"
+                        f" {question.choices[which]!r}"
+                    ),
+                )
 
 
-def by_hand(question: Question, patterns: Iterable[str], texts: Iterable[Passage]) -> Iterator[tuple[Passage, str]]:
+def by_hand(
+    question: Question, patterns: Iterable[str], texts: Iterable[Passage]
+) -> Iterator[tuple[Passage, str]]:
     """Yield the passages with a sentence that was listed as one that tells the answer."""
     for passage, pattern in itertools.product(texts, patterns):
         found = re.search(pattern, passage.text, re.IGNORECASE)
@@ -277,9 +398,11 @@ def by_hand(question: Question, patterns: Iterable[str], texts: Iterable[Passage
             yield passage, f"says {found.group()!r}"
 
 
-def spoilers(name: str, question: Question, giveaways: Iterable[str], innocent: str = "") -> list[str]:
+def spoilers(
+    name: str, question: Question, giveaways: Iterable[str], innocent: str = ""
+) -> list[str]:
     """Return one line for every passage that gives the answer away, with what does."""
-    texts, right = list(read(name, innocent)), facts(name)[1][question.name]
+    texts, right = list(read(name, question.name, innocent)), facts(name)[1][question.name]
     found = [*(by_choice if question.choices else by_number)(question, right, texts)]
     reasons: dict[str, list[str]] = {}
     for passage, why in [*found, *by_hand(question, giveaways, texts)]:

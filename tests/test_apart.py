@@ -1,4 +1,6 @@
-"""A file that somebody made costs a page little: it is read elsewhere, within limits, or refused in one line."""
+"""A file that somebody made costs a page little: it is read elsewhere, within limits, or refused in
+one line.
+"""
 
 import contextlib
 import gzip
@@ -21,11 +23,13 @@ import pytest
 from workbench import apart
 from workbench.apart import COMMAND, PAGE, allowing, forgotten, handed_to_a_page
 from workbench.data.files import read_cloud, read_image, read_mesh, read_voxels
-from workbench.data.matches import read_matches
+from workbench.data.files.matches import read_matches
 from workbench.errors import InputError
 
 QUICK = 6.0
-"""Seconds of processor, a reader's start included; how long a person waits: tests/benchmarks/bench_uploads.py."""
+"""Seconds of processor, a reader's start included; how long a person waits:
+tests/benchmarks/bench_uploads.py.
+"""
 MOST_MEMORY = 500 * 10**6
 
 
@@ -82,7 +86,10 @@ def test_a_copy_of_this_process_has_readers_of_its_own(tmp_path):
 
 
 def test_readers_end_with_whoever_asked(tmp_path):
-    code = "import os, sys; from tests.test_apart import stands; print(stands(sys.argv[1], 'well'), flush=True); {end}"
+    code = (
+        "import os, sys; from tests.test_apart import stands; print(stands(sys.argv[1], 'well'),"
+        " flush=True); {end}"
+    )
     for end in ("", "os.kill(os.getpid(), 9)"):
         words = [sys.executable, "-W", "error", "-c", code.format(end=end), str(tmp_path)]
         done = subprocess.run(words, capture_output=True, text=True, cwd=Path(__file__).parents[1])
@@ -97,10 +104,20 @@ def zeros_png(side: int) -> bytes:
     """Return a picture of side x side black pixels, packed to a thousandth."""
 
     def chunk(kind: bytes, content: bytes) -> bytes:
-        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+        return (
+            struct.pack(">I", len(content))
+            + kind
+            + content
+            + struct.pack(">I", zlib.crc32(kind + content))
+        )
 
     head = chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 0, 0, 0, 0))
-    return b"\x89PNG\r\n\x1a\n" + head + chunk(b"IDAT", zlib.compress(bytes((side + 1) * side))) + chunk(b"IEND", b"")
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + head
+        + chunk(b"IDAT", zlib.compress(bytes((side + 1) * side)))
+        + chunk(b"IEND", b"")
+    )
 
 
 def packed_rows(row: bytes, times: int) -> bytes:
@@ -133,12 +150,15 @@ LARGE = {
     "wide.xyz": (lambda: b"1 " * (33 * 10**6 // 2), read_cloud),
     "rows.txt": (lambda: b"1 2 3 4\n" * (33 * 10**6 // 8), read_matches),
     "rows.obj": (lambda: b"v 0 0 0\n" * (33 * 10**6 // 8), read_cloud),
-    "faces.obj": (lambda: b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + b"f 1 2 3\n" * (33 * 10**6 // 8), read_mesh),
+    "faces.obj": (
+        lambda: b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + b"f 1 2 3\n" * (33 * 10**6 // 8),
+        read_mesh,
+    ),
     "rows.off": (lambda: b"OFF\n5500000 0 0\n" + b"0 0 0\n" * 5_500_000, read_mesh),
     "rows.ply": (
         lambda: (
-            b"ply\nformat ascii 1.0\nelement vertex 5000000\nproperty float x\nproperty float y\nproperty float z\n"
-            b"end_header\n" + b"0 0 0\n" * 5_000_000
+            b"ply\nformat ascii 1.0\nelement vertex 5000000\nproperty float x\nproperty float"
+            b" y\nproperty float z\nend_header\n" + b"0 0 0\n" * 5_000_000
         ),
         read_cloud,
     ),
@@ -175,7 +195,9 @@ def test_a_file_that_is_made_to_cost_much_costs_little(uploads, name):
 def test_a_command_may_read_more_than_a_page(uploads):
     path = uploads / "many.xyz"
     path.write_bytes(b"1 2 3\n" * (PAGE.points + 1))
-    with pytest.raises(InputError, match=r"at most 500,000 are read on a page; more is read where `workbench show`"):
+    with pytest.raises(
+        InputError, match=r"at most 500,000 are read on a page; more is read where `workbench show`"
+    ):
         read_cloud(path)
     forgotten(uploads)
     assert len(read_cloud(path)) == PAGE.points + 1

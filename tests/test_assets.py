@@ -6,14 +6,17 @@ import numpy as np
 import pytest
 
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 DATA = Path(__file__).resolve().parents[1] / "assets" / "data"
 
 
 def run(name: str, **values) -> Timeline:
     lesson = catalog()[name]
-    files = {key: DATA / value if isinstance(value, str) and "." in value else value for key, value in values.items()}
+    files = {
+        key: DATA / value if isinstance(value, str) and "." in value else value
+        for key, value in values.items()
+    }
     timeline = Timeline(lesson, lesson.params(**files)).complete()
     assert timeline.stopped is None
     return timeline
@@ -25,7 +28,13 @@ def last(timeline: Timeline, path: str) -> float:
 
 
 def test_the_two_scans_come_together():
-    scans = run("icp", target="rabbit_target.ply", source="rabbit_source.ply", truth="rabbit_pose.txt", keep=0.7)
+    scans = run(
+        "icp",
+        target="rabbit_target.ply",
+        source="rabbit_source.ply",
+        truth="rabbit_pose.txt",
+        keep=0.7,
+    )
     assert last(scans, "rotation error") < 1.0
 
 
@@ -41,6 +50,13 @@ def test_the_mesh_is_a_torus():
 
 
 def test_the_pair_of_pictures_has_depth():
-    timeline = run("disparity", left="left.png", right="right.png", own_baseline=0.1, own_focal_length=150.0, shrink=1)
+    timeline = run(
+        "disparity",
+        left="left.png",
+        right="right.png",
+        own_baseline=0.1,
+        own_focal_length=150.0,
+        shrink=1,
+    )
     known = timeline[-1].state.depth[np.isfinite(timeline[-1].state.depth)]
     assert 0.5 < np.median(known) < 5

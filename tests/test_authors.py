@@ -1,4 +1,6 @@
-"""What an author may get wrong: each mistake is one line that names the lesson, the place, and what is wanted."""
+"""What an author may get wrong: each mistake is one line that names the lesson, the place, and what
+is wanted.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -11,10 +13,10 @@ import pytest
 from workbench.errors import InputError
 from workbench.knobs import Gizmo, Knob, Pick
 from workbench.lesson import Lesson, Preset, Question
-from workbench.loading import load
+from workbench.run.loading import load
+from workbench.run.session import Session
+from workbench.run.timeline import Timeline, Timelines
 from workbench.scene import Caption, Curve, Points, Scalar, Scene, Table
-from workbench.session import Session
-from workbench.timeline import Timeline, Timelines
 
 HERE = Path(__file__)
 P = np.zeros((3, 3))
@@ -45,7 +47,9 @@ def lesson(**values: Any) -> Lesson:
     return Lesson(**(fields | {"run": run, "draw": draw} | values))
 
 
-def question(answer: Any = lambda states: 1.0, why: Any = lambda states: "So.", **values: Any) -> Question:
+def question(
+    answer: Any = lambda states: 1.0, why: Any = lambda states: "So.", **values: Any
+) -> Question:
     return Question("how-many", "How many?", answer, why, values.pop("params", Params()), **values)
 
 
@@ -56,7 +60,7 @@ def showing(**primitives: Callable[[], Any]) -> Callable:
     return draw
 
 
-# told where the lesson is made ------------------------------------------------------------------------------------------
+# told where the lesson is made --------------------------------------------------------------------
 
 
 def run_without_params():
@@ -79,15 +83,27 @@ def draw_two(state, params):
         ({"run": run_with_more}, ["run(params, points, seed) takes the params and, by keyword,"]),
         ({"run": None}, ["run is a function, not None"]),
         ({"draw": draw_two}, ["test_authors.py, line ", "draw(state, params) takes one state"]),
-        ({"presets": (Preset("far", "Far", "", Params(steps=101)),)}, ["preset 'far'", "steps = 101", "from 0 to 100"]),
+        (
+            {"presets": (Preset("far", "Far", "", Params(steps=101)),)},
+            ["preset 'far'", "steps = 101", "from 0 to 100"],
+        ),
         ({"presets": (Preset("far", "Far", "", 3),)}, ["preset 'far'", "takes Params, not int"]),
-        ({"presets": (Preset("a", "A", "", Params()),) * 2}, ["preset 1 and preset 2 share the name 'a'"]),
-        ({"questions": (question(), question())}, ["question 1 and question 2 share the name 'how-many'"]),
+        (
+            {"presets": (Preset("a", "A", "", Params()),) * 2},
+            ["preset 1 and preset 2 share the name 'a'"],
+        ),
+        (
+            {"questions": (question(), question())},
+            ["question 1 and question 2 share the name 'how-many'"],
+        ),
         (
             {"presets": (Preset("how-many", "A", "", Params()),), "questions": (question(),)},
             ["preset 1 and question 1 share the name 'how-many'"],
         ),
-        ({"questions": (question(params=Params(steps=-1)),)}, ["question 'how-many'", "steps = -1", "from 0 to 100"]),
+        (
+            {"questions": (question(params=Params(steps=-1)),)},
+            ["question 'how-many'", "steps = -1", "from 0 to 100"],
+        ),
     ],
 )
 def test_what_a_lesson_cannot_be_made_of_is_said_when_it_is_made(values, words):
@@ -98,7 +114,12 @@ def test_what_a_lesson_cannot_be_made_of_is_said_when_it_is_made(values, words):
 
 @dataclass(frozen=True)
 class FourGizmo:
-    place: Annotated[tuple[float, float, float, float], Knob("Where", -1, 1, by=Gizmo())] = (0.0, 0.0, 0.0, 0.0)
+    place: Annotated[tuple[float, float, float, float], Knob("Where", -1, 1, by=Gizmo())] = (
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    )
 
 
 @dataclass(frozen=True)
@@ -124,7 +145,10 @@ def test_a_field_that_no_handle_or_click_can_set_is_said_when_the_lesson_is_made
     [
         (lambda: Points([[0, 0, 0]]), ["Points.p is an array", "type list", "np.asarray"]),  # type: ignore[arg-type]
         (lambda: Points(P, color=3), ["a colour is a role", "type int"]),  # type: ignore[arg-type]
-        (lambda: Curve(np.arange(3.0), np.arange(4.0), "a", "b", "c"), ["Curve.x and y", "(3,) and (4,)"]),
+        (
+            lambda: Curve(np.arange(3.0), np.arange(4.0), "a", "b", "c"),
+            ["Curve.x and y", "(3,) and (4,)"],
+        ),
         (lambda: Curve([1.0], [2.0], "a", "b", "c"), ["Curve.x is an array"]),  # type: ignore[arg-type]
         (lambda: Scalar("0.5", "a", "b"), ["Scalar.value", "'0.5'", "float(...)"]),  # type: ignore[arg-type]
         (lambda: Scalar(P, "a", "b"), ["Scalar.value", "type ndarray"]),  # type: ignore[arg-type]
@@ -132,11 +156,17 @@ def test_a_field_that_no_handle_or_click_can_set_is_said_when_the_lesson_is_made
         (lambda: Caption(3), ["Caption.text is a text"]),  # type: ignore[arg-type]
     ],
 )
-def test_what_a_primitive_cannot_hold_is_said_where_it_is_made_and_with_the_line_of_the_scene(make, words):
+def test_what_a_primitive_cannot_hold_is_said_where_it_is_made_and_with_the_line_of_the_scene(
+    make, words
+):
     with pytest.raises(ValueError, match=r"\w") as told:
         make()
     one_line(str(told.value), *words)
-    one_line(stopped(lesson(draw=showing(thing=make))), "lesson mine: tests/test_authors.py, line ", *words)
+    one_line(
+        stopped(lesson(draw=showing(thing=make))),
+        "lesson mine: tests/test_authors.py, line ",
+        *words,
+    )
 
 
 def test_the_path_of_a_primitive_that_cannot_be_made_is_in_the_line_that_is_shown():
@@ -149,7 +179,7 @@ def test_the_path_of_a_primitive_that_cannot_be_made_is_in_the_line_that_is_show
     one_line(stopped(lesson(draw=draw)), '`"wall/points": Points([[0, 0, 0]])')
 
 
-# told when the run is made ----------------------------------------------------------------------------------------------
+# told when the run is made ------------------------------------------------------------------------
 
 
 def one_line(text: str, *words: str) -> None:
@@ -182,10 +212,22 @@ def failing(params):
         ({"run": lambda params: None}, ["run returned None", "`yield` each state"]),
         ({"run": failing}, ["ZeroDivisionError", "`yield 1 / 0`"]),
         ({"draw": lambda state: None}, ["draw returned None", "a dict from path to primitive"]),
-        ({"draw": lambda state: [Points(P)]}, ["draw returned a list", "a dict from path to primitive"]),
-        ({"draw": lambda state: {"caption": Caption("A"), "a/b": "text"}}, ["a str at 'a/b'", "Points"]),
-        ({"draw": lambda state: {"caption": Caption("A"), "a/b": P}}, ["a ndarray at 'a/b'", "Points"]),
-        ({"draw": lambda state: {"caption": Caption("A"), 3: Points(P)}}, ["the path 3", "a path is a text"]),
+        (
+            {"draw": lambda state: [Points(P)]},
+            ["draw returned a list", "a dict from path to primitive"],
+        ),
+        (
+            {"draw": lambda state: {"caption": Caption("A"), "a/b": "text"}},
+            ["a str at 'a/b'", "Points"],
+        ),
+        (
+            {"draw": lambda state: {"caption": Caption("A"), "a/b": P}},
+            ["a ndarray at 'a/b'", "Points"],
+        ),
+        (
+            {"draw": lambda state: {"caption": Caption("A"), 3: Points(P)}},
+            ["the path 3", "a path is a text"],
+        ),
         ({"draw": lambda state: {"cloud": Points(P)}}, ["needs a Caption"]),
     ],
 )
@@ -201,13 +243,25 @@ class Picked:
 def test_a_pick_of_what_no_step_shows_or_nobody_can_hit_is_said_at_the_end_of_the_default_run():
     one_line(
         stopped(lesson(params=Picked, run=lambda params: iter([0]))),
-        "lesson mine: Picked.one is picked at 'clouds'", "shows nothing at 'clouds'", "can be picked: cloud",
-    )  # fmt: skip
+        "lesson mine: Picked.one is picked at 'clouds'",
+        "shows nothing at 'clouds'",
+        "can be picked: cloud",
+    )
     one_line(
-        stopped(lesson(params=Picked, run=lambda params: iter([0]), draw=showing(clouds=lambda: Scalar(1.0, "a", "b")))),
-        "lesson mine: Picked.one", "shows a Scalar at 'clouds'", "can be picked: nothing",
-    )  # fmt: skip
-    other = lesson(params=Picked, run=lambda params: iter([0]), draw=showing(clouds=lambda: Points(P)))
+        stopped(
+            lesson(
+                params=Picked,
+                run=lambda params: iter([0]),
+                draw=showing(clouds=lambda: Scalar(1.0, "a", "b")),
+            )
+        ),
+        "lesson mine: Picked.one",
+        "shows a Scalar at 'clouds'",
+        "can be picked: nothing",
+    )
+    other = lesson(
+        params=Picked, run=lambda params: iter([0]), draw=showing(clouds=lambda: Points(P))
+    )
     assert Timeline(other, Picked()).complete().stopped is None
 
 
@@ -219,7 +273,12 @@ def test_a_preset_that_opens_beyond_its_run_says_so(step):
         session.compute(0.01)
     look = session.look()
     assert look is not None
-    one_line(look.caption.text, "lesson mine, preset 'short'", f"step {step}", "its run has 2 steps: 0 to 1")
+    one_line(
+        look.caption.text,
+        "lesson mine, preset 'short'",
+        f"step {step}",
+        "its run has 2 steps: 0 to 1",
+    )
     assert look.caption.tone == "wrong"
     session.first()
     look = session.look()
@@ -240,14 +299,14 @@ def test_a_preset_that_opens_beyond_its_run_says_so(step):
     ],
 )
 def test_a_question_that_its_run_does_not_answer_says_so(asked, words):
-    from workbench.questions import answer
+    from workbench.run.questions import answer
 
     with pytest.raises(InputError) as told:
         answer(lesson(questions=(asked,)), asked, None, Timelines())
     one_line(str(told.value), "lesson mine, question 'how-many'", *words)
 
 
-# commands ---------------------------------------------------------------------------------------------------------------
+# commands -----------------------------------------------------------------------------------------
 
 FILE = """
 from pathlib import Path
@@ -290,7 +349,12 @@ def test_an_error_deep_in_our_code_is_told_by_the_line_of_the_lesson_that_led_th
     def draw(state):
         return {"caption": Caption("A"), "cloud": replace(Points(P), radius=-1.0)}
 
-    one_line(stopped(lesson(draw=draw)), "Points.radius is positive", "`return {", "tests/test_authors.py, line ")
+    one_line(
+        stopped(lesson(draw=draw)),
+        "Points.radius is positive",
+        "`return {",
+        "tests/test_authors.py, line ",
+    )
 
 
 def test_the_traceback_is_kept_for_the_terminal():

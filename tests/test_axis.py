@@ -5,7 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.axis import LONGEST_LABEL, apart, axis, labelled, number, settled, ticks, value_axis
+from workbench.words.axis import (
+    LONGEST_LABEL,
+    apart,
+    axis,
+    labelled,
+    number,
+    settled,
+    ticks,
+    value_axis,
+)
 
 finite = st.floats(-1e6, 1e6)
 
@@ -57,9 +66,18 @@ def test_ticks_have_the_digits_they_need(values, words):
 
 @pytest.mark.parametrize(
     ("value", "word"),
-    [(1.09e-15, "0"), (-3e-10, "0"), (0.0413, "0.0413"), (3240.4, "3,240"), (-1.5, "−1.5"), (2.5e-6, "2.5e−6"),
-     (100.0, "100"), (0.99999, "1"), (12_345_678.0, "1.23e7")],
-)  # fmt: skip
+    [
+        (1.09e-15, "0"),
+        (-3e-10, "0"),
+        (0.0413, "0.0413"),
+        (3240.4, "3,240"),
+        (-1.5, "−1.5"),
+        (2.5e-6, "2.5e−6"),
+        (100.0, "100"),
+        (0.99999, "1"),
+        (12_345_678.0, "1.23e7"),
+    ],
+)
 def test_a_number_is_said_in_three_digits_and_round_off_is_zero(value, word):
     assert number(value) == word
 

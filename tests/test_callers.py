@@ -1,4 +1,6 @@
-"""Nothing public is left over: what nobody calls in the workbench or a lesson has an example of its own, which is run."""
+"""Nothing public is left over: what nobody calls in the workbench or a lesson has an example of its
+own, which is run.
+"""
 
 import ast
 from collections import Counter
@@ -27,15 +29,30 @@ USES = sum((uses(tree) for tree in TREES.values()), Counter())
 
 
 def left_over(tree: ast.Module) -> list[str]:
-    """The functions, classes and constants of a module that nobody uses and that no example shows."""
-    names = [node.name for node in tree.body if isinstance(node, DEFINITION) and not node.decorator_list
-             and ">>>" not in (ast.get_docstring(node) or "")]  # fmt: skip
+    """The functions, classes and constants of a module that nobody uses and that no example
+    shows.
+    """
+    names = [
+        node.name
+        for node in tree.body
+        if isinstance(node, DEFINITION)
+        and not node.decorator_list
+        and ">>>" not in (ast.get_docstring(node) or "")
+    ]
     for node in tree.body:
         targets = node.targets if isinstance(node, ast.Assign) else ()
         names += [target.id for target in targets if isinstance(target, ast.Name)]
     exported = {"lesson", "__all__", "SCHEMA"}  # the last is for programs that read reports
-    return [name for name in names if not USES[name] and name not in exported and not name.startswith("__")]
+    return [
+        name
+        for name in names
+        if not USES[name] and name not in exported and not name.startswith("__")
+    ]
 
 
 def test_what_is_defined_is_used_or_shown():
-    assert {str(path.relative_to(ROOT)): found for path, tree in TREES.items() if (found := left_over(tree))} == {}
+    assert {
+        str(path.relative_to(ROOT)): found
+        for path, tree in TREES.items()
+        if (found := left_over(tree))
+    } == {}

@@ -7,12 +7,12 @@ from types import ModuleType
 import pytest
 
 from tests import fake
-from workbench import listing
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
-from workbench.lesson import catalog, find
-from workbench.listing import listed
-from workbench.loading import load
+from workbench.lesson import catalog, find, place_of
+from workbench.run import listing
+from workbench.run.listing import listed
+from workbench.run.loading import load
 
 
 @pytest.fixture
@@ -20,7 +20,9 @@ def registered(monkeypatch):
     """Registers entry points of third parties; the catalogue is read anew."""
 
     def register(*values: str) -> None:
-        entries = [importlib.metadata.EntryPoint("theirs", value, "workbench.lessons") for value in values]
+        entries = [
+            importlib.metadata.EntryPoint("theirs", value, "workbench.lessons") for value in values
+        ]
         monkeypatch.setattr(importlib.metadata, "entry_points", lambda group: entries)
 
     catalog.cache_clear()
@@ -29,8 +31,8 @@ def registered(monkeypatch):
 
 
 def test_the_course_is_in_its_order():
-    assert list(catalog())[:3] == ["transforms", "pinhole", "icp"]
-    assert [lesson.order for lesson in catalog().values()] == sorted(lesson.order for lesson in catalog().values())
+    assert list(catalog())[:3] == ["transforms", "coordinates", "pairs"]
+    assert list(catalog().values()) == sorted(catalog().values(), key=place_of)
 
 
 def test_a_third_party_s_lesson_joins(registered):
@@ -39,7 +41,8 @@ def test_a_third_party_s_lesson_joins(registered):
 
 
 @pytest.mark.parametrize(
-    ("value", "said"), [("no_such_module:lesson", "no_such_module"), ("tests.fake:run", "of type Lesson")]
+    ("value", "said"),
+    [("no_such_module:lesson", "no_such_module"), ("tests.fake:run", "of type Lesson")],
 )
 def test_a_third_party_s_broken_lesson_is_left_out_and_named(registered, value, said):
     registered(value)
@@ -61,7 +64,9 @@ def test_a_lesson_from_a_file_or_a_line_that_says_why_not(tmp_path):
         file.write_text(text)
         with pytest.raises(InputError, match=f"mine.py: .*{said}"):
             load(file)
-    with pytest.raises(InputError, match="no lesson is named 'nothing'; there are: transforms, pinhole"):
+    with pytest.raises(
+        InputError, match="no lesson is named 'nothing'; there are: transforms, coordinates"
+    ):
         find("nothing")
 
 
@@ -92,6 +97,9 @@ def test_the_list_asks_the_catalogue_where_the_source_does_not_tell(registered, 
 
 
 def loaded_by(command: str) -> set[str]:
-    code = f"import sys; sys.argv[1:] = [{command!r}]; from workbench.__main__ import main; main(); print('|', *sys.modules)"
+    code = (
+        f"import sys; sys.argv[1:] = [{command!r}]; from workbench.__main__ import main; main();"
+        " print('|', *sys.modules)"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     return set(done.stdout.split("|")[-1].split())

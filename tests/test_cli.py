@@ -1,4 +1,6 @@
-"""The commands about recordings, as a shell sees them: exit codes, one line for whatever goes wrong, nothing lost."""
+"""The commands about recordings, as a shell sees them: exit codes, one line for whatever goes
+wrong, nothing lost.
+"""
 
 import json
 import os
@@ -31,7 +33,9 @@ def good(tmp_path_factory) -> Path:
 
 @pytest.fixture(autouse=True)
 def nothing_is_served(monkeypatch) -> None:
-    """Let a command that should not serve fail instead of waiting for ever; those in a process of their own do serve."""
+    """Let a command that should not serve fail instead of waiting for ever; those in a process of
+    their own do serve.
+    """
 
     def enter(server):
         raise AssertionError(f"served at {server.address}")
@@ -99,7 +103,9 @@ def refused(capsys, *words: object) -> str:
 
 
 @pytest.mark.parametrize("make", BAD, ids=lambda make: make.__name__)
-@pytest.mark.parametrize("words", [["replay"], ["reopen"], ["compare", "good"]], ids=lambda words: words[0])
+@pytest.mark.parametrize(
+    "words", [["replay"], ["reopen"], ["compare", "good"]], ids=lambda words: words[0]
+)
 def test_a_bad_file_is_refused_in_one_line_and_left_as_it_is(capsys, good, tmp_path, words, make):
     bad = tmp_path / "bad.rrd"
     make(bad, good.read_bytes())
@@ -113,7 +119,12 @@ def test_a_bad_file_is_refused_in_one_line_and_left_as_it_is(capsys, good, tmp_p
 class TestRecord:
     def test_a_run_is_recorded_at_its_preset_and_knobs(self, capsys, tmp_path):
         out = tmp_path / "a.rrd"
-        assert main(["record", FAKE, "--preset", "half", "--steps", "3", "--seed", "7", "-o", str(out)]) == 0
+        assert (
+            main(
+                ["record", FAKE, "--preset", "half", "--steps", "3", "--seed", "7", "-o", str(out)]
+            )
+            == 0
+        )
         said, complaints = capsys.readouterr()
         assert said == f"{out}: 3 steps, {out.stat().st_size / 1e6:.1f} MB\n"
         assert complaints == ""  # a bar is for terminals only
@@ -122,9 +133,17 @@ class TestRecord:
         assert recording.params["angle"] == fake.lesson.preset("half").params.angle
 
     @pytest.mark.parametrize(
-        ("words", "kept"), [([], "short"), (["--steps", "2"], "short"), (["--steps", "3"], None), (["--wobble"], None)]
+        ("words", "kept"),
+        [
+            ([], "short"),
+            (["--steps", "2"], "short"),
+            (["--steps", "3"], None),
+            (["--wobble"], None),
+        ],
     )
-    def test_a_preset_s_name_is_kept_only_where_the_params_are_the_preset_s(self, tmp_path, words, kept):
+    def test_a_preset_s_name_is_kept_only_where_the_params_are_the_preset_s(
+        self, tmp_path, words, kept
+    ):
         out = tmp_path / "a.rrd"
         assert main(["record", FAKE, "--preset", "short", *words, "-o", str(out)]) == 0
         assert open_recording(out).preset == kept
@@ -160,7 +179,10 @@ class TestRecord:
             ([FAKE, "--preset", "nope"], "no preset 'nope'; there are: "),
             ([FAKE, "--steps", "0"], "a whole number from 1 to 5000"),
             ([FAKE, "--stepps", "2"], "did you mean --steps?"),
-            ([FAKE, "--trouble", "crash"], r'a bug in `raise RuntimeError("a\nbug")` (at step 2); nothing was written'),
+            (
+                [FAKE, "--trouble", "crash"],
+                r'a bug in `raise RuntimeError("a\nbug")` (at step 2); nothing was written',
+            ),
             ([FAKE, "--scan", "/nowhere.npy"], "/nowhere.npy"),
         ],
     )
@@ -183,21 +205,31 @@ class TestRecord:
 
     @pytest.mark.parametrize(
         ("place", "why"),
-        [("none/a.rrd", "none: no such folder"), ("file/a.rrd", "file: no such folder"), (".", "is not a file")],
+        [
+            ("none/a.rrd", "none: no such folder"),
+            ("file/a.rrd", "file: no such folder"),
+            (".", "is not a file"),
+        ],
     )
     def test_a_place_that_takes_no_file_is_said(self, capsys, tmp_path, place, why):
         (tmp_path / "file").touch()
         assert why in refused(capsys, "record", FAKE, "-o", tmp_path / place)
 
     def test_a_folder_of_somebody_else_is_said(self, capsys, tmp_path, monkeypatch):
-        monkeypatch.setattr("workbench.recording.write.os.access", lambda path, mode: False)  # root may write anywhere
+        monkeypatch.setattr(
+            "workbench.recording.write.os.access", lambda path, mode: False
+        )  # root may write anywhere
         assert "cannot be written to" in refused(capsys, "record", FAKE, "-o", tmp_path / "a.rrd")
 
     @pytest.mark.parametrize("target", ["file", "pipe", "unbuffered pipe"])
     def test_a_full_disk_costs_nothing_that_was_there(self, tmp_path, target):
-        resource = pytest.importorskip("resource", reason="limits of processes are not set like this here")
+        resource = pytest.importorskip(
+            "resource", reason="limits of processes are not set like this here"
+        )
         out = tmp_path / "a.rrd"
-        limit = record(fake.lesson, out).stat().st_size - 4000  # it fits but for what a buffer keeps to the end
+        limit = (
+            record(fake.lesson, out).stat().st_size - 4000
+        )  # it fits but for what a buffer keeps to the end
         out.write_text("precious")
         words = [FAKE, "-o", str(out) if target == "file" else "-", "--force"]
         with (tmp_path / "pipe").open("wb") as pipe:
@@ -212,7 +244,10 @@ class TestRecord:
                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
             )
         where = str(out) if target == "file" else "standard output"
-        assert (done.returncode, done.stderr) == (2, f"workbench: {where}: cannot be written: File too large\n")
+        assert (done.returncode, done.stderr) == (
+            2,
+            f"workbench: {where}: cannot be written: File too large\n",
+        )
         assert out.read_text() == "precious"
         assert sorted(os.listdir(tmp_path)) == ["a.rrd", "pipe"]
 
@@ -223,7 +258,9 @@ class TestRecord:
         lesson.write_text(WAITING)
         for name in ("old.rrd", "new.rrd"):
             words = command("record", str(lesson), "-o", str(out / name), "--force")
-            with subprocess.Popen(words, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+            with subprocess.Popen(
+                words, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+            ) as process:
                 assert process.stdout is not None
                 assert process.stdout.readline() == b"in the middle\n"
                 process.kill()
@@ -273,11 +310,15 @@ class TestReplay:
             taken.bind(("127.0.0.1", 0))
             taken.listen()
             port = taken.getsockname()[1]
-            assert f"port {port} is in use" in refused(capsys, "replay", good, "--port", port, "--no-browser")
+            assert f"port {port} is in use" in refused(
+                capsys, "replay", good, "--port", port, "--no-browser"
+            )
 
     @pytest.mark.skipif(sys.platform == "win32", reason="the stand-in is a script")
     @pytest.mark.parametrize("code", [0, 1])
-    def test_native_opens_reruns_own_window_without_statistics(self, capsys, good, tmp_path, monkeypatch, code):
+    def test_native_opens_reruns_own_window_without_statistics(
+        self, capsys, good, tmp_path, monkeypatch, code
+    ):
         window = tmp_path / "window"
         window.write_text(
             f"#!{sys.executable}\nimport json, os, sys\n"
@@ -301,7 +342,9 @@ class TestReplay:
 def opened(monkeypatch) -> list[tuple]:
     """What the live page is opened at, instead of opening it."""
     calls: list[tuple] = []
-    monkeypatch.setattr("workbench.viewer.serving.serve", lambda *place, **server: calls.append((*place, server)))
+    monkeypatch.setattr(
+        "workbench.viewer.serving.serve", lambda *place, **server: calls.append((*place, server))
+    )
     return calls
 
 
@@ -322,7 +365,9 @@ class TestReopen:
         )
         assert capsys.readouterr().err == ""
 
-    def test_another_version_is_a_warning_and_an_attempt(self, capsys, tmp_path, opened, monkeypatch):
+    def test_another_version_is_a_warning_and_an_attempt(
+        self, capsys, tmp_path, opened, monkeypatch
+    ):
         monkeypatch.setattr("workbench.recording.write.__version__", "9.9")
         assert main(["reopen", str(record(QUICK, tmp_path / "a.rrd")), *HIDDEN]) == 0
         assert "recorded by version 9.9" in capsys.readouterr().err
@@ -361,22 +406,35 @@ class TestCompare:
 
 class TestPublish:
     @pytest.mark.parametrize(
-        "words", [["--lesson", "icp", "ransac"], ["--lesson", "icp", "--lesson=ransac"], ["--lesson", "icp,ransac,icp"]]
+        "words",
+        [
+            ["--lesson", "icp", "ransac"],
+            ["--lesson", "icp", "--lesson=ransac"],
+            ["--lesson", "icp,ransac,icp"],
+        ],
     )
     def test_lessons_are_named_as_anybody_would(self, tmp_path, monkeypatch, words):
         asked = []
-        monkeypatch.setattr("workbench.publish.site.publish", lambda out, lessons, **_: asked.extend(lessons) or [])
+        monkeypatch.setattr(
+            "workbench.publish.site.publish", lambda out, lessons, **_: asked.extend(lessons) or []
+        )
         main(["publish", str(tmp_path), *words, "--base-url", "https://example.org/"])
         assert [lesson.name for lesson in asked] == ["icp", "ransac"]
 
-    @pytest.mark.parametrize("words", [["--lesson"], ["--lesson", "--base-url", "https://example.org/"]])
+    @pytest.mark.parametrize(
+        "words", [["--lesson"], ["--lesson", "--base-url", "https://example.org/"]]
+    )
     def test_a_flag_without_its_names_is_said(self, capsys, tmp_path, words):
-        assert "--lesson: expected at least one argument" in refused(capsys, "publish", tmp_path, *words)
+        assert "--lesson: expected at least one argument" in refused(
+            capsys, "publish", tmp_path, *words
+        )
 
 
 def test_unknown_commands_and_flags_are_said(capsys):
     assert "no command is named 'recrod'; did you mean record?" in refused(capsys, "recrod")
-    assert "unrecognized: --natve; did you mean --native?" in refused(capsys, "replay", "a.rrd", "--natve")
+    assert "unrecognized: --natve; did you mean --native?" in refused(
+        capsys, "replay", "a.rrd", "--natve"
+    )
 
 
 @pytest.mark.parametrize("name", ["record", "replay", "reopen", "compare"])

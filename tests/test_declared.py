@@ -1,4 +1,6 @@
-"""What pyproject.toml asks for is what is imported, no more and no less, and the bounds are what was tried."""
+"""What pyproject.toml asks for is what is imported, no more and no less, and the bounds are what
+was tried.
+"""
 
 import ast
 import importlib.metadata
@@ -18,7 +20,9 @@ BESIDE = "workbench/exercise/child"
 
 
 def imported() -> dict[str, Path]:
-    """Return every top-level module that our packages import and do not hold themselves, with a file that does."""
+    """Return every top-level module that our packages import and do not hold themselves, with a
+    file that does.
+    """
     found = {}
     for file in sorted([*ROOT.glob("workbench/**/*.py"), *ROOT.glob("lessons/**/*.py")]):
         for node in ast.walk(ast.parse(file.read_bytes())):
@@ -27,7 +31,11 @@ def imported() -> dict[str, Path]:
                 names = [node.module]
             found |= {name.partition(".")[0]: file for name in names}
     ours = {"workbench", "lessons", *(path.stem for path in (ROOT / BESIDE).glob("*.py"))}
-    return {name: file for name, file in found.items() if name not in sys.stdlib_module_names and name not in ours}
+    return {
+        name: file
+        for name, file in found.items()
+        if name not in sys.stdlib_module_names and name not in ours
+    }
 
 
 def plain(name: str) -> str:
@@ -40,7 +48,9 @@ def test_what_is_imported_is_declared_and_what_is_declared_is_used():
     asked = {plain(one.name) for one in ASKED}
     needed = {name: {plain(home) for home in homes.get(name, ())} for name in imported()}
     needed.pop("distributed")  # for `--dask` alone, which says how to install it
-    undeclared = {name: str(imported()[name]) for name, places in needed.items() if not places & asked}
+    undeclared = {
+        name: str(imported()[name]) for name, places in needed.items() if not places & asked
+    }
     assert undeclared == {}
     by_name = {"ziamath", "websockets"}  # its font is read; uvicorn imports it, as it is told to
     assert asked - set().union(*needed.values()) - by_name == set()
@@ -52,15 +62,23 @@ def test_our_lower_bounds_are_none_that_what_we_ask_for_forbids():
     for asked in ASKED:
         for line in importlib.metadata.requires(asked.name) or ():
             theirs = Requirement(line)
-            if plain(theirs.name) not in ours or (theirs.marker and not theirs.marker.evaluate({"extra": ""})):
+            if plain(theirs.name) not in ours or (
+                theirs.marker and not theirs.marker.evaluate({"extra": ""})
+            ):
                 continue
             lowest = next(one.version for one in ours[plain(theirs.name)] if one.operator == ">=")
             padded = [lowest, f"{lowest}.0", f"{lowest}.0.0"]
-            assert any(theirs.specifier.contains(version) for version in padded), f"{asked.name} needs {line}"
+            assert any(theirs.specifier.contains(version) for version in padded), (
+                f"{asked.name} needs {line}"
+            )
 
 
 def test_every_python_that_is_named_is_tried_with_newest_and_the_oldest_with_oldest():
-    named = [line.rpartition(" ")[2] for line in PROJECT["classifiers"] if re.search(r"Python :: 3\.\d", line)]
+    named = [
+        line.rpartition(" ")[2]
+        for line in PROJECT["classifiers"]
+        if re.search(r"Python :: 3\.\d", line)
+    ]
     oldest = PROJECT["requires-python"].removeprefix(">=")
     assert named[0] == oldest
     for python in named:

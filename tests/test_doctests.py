@@ -1,8 +1,8 @@
 """The examples in the docstrings of geometry and algorithms are run.
 
-pytest's own `--doctest-modules` would find none of them: the checks of array shapes (`tests/conftest.py`) wrap every
-function, and doctest passes over functions that come from another module. Here the docstrings are read from the source and
-run in their module, shapes checked.
+pytest's own `--doctest-modules` would find none of them: the checks of array shapes
+(`tests/conftest.py`) wrap every function, and doctest passes over functions that come from another
+module. Here the docstrings are read from the source and run in their module, shapes checked.
 """
 
 import ast
@@ -20,11 +20,14 @@ def examples() -> list[tuple[str, str, str]]:
     """Every docstring with an example: module, name, text."""
     found = []
     for part in ("geometry", "algorithms"):
-        for path in sorted((ROOT / "workbench" / part).glob("*.py")):
+        for path in sorted((ROOT / "workbench" / part).rglob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 text = ast.get_docstring(node) if isinstance(node, WITH_DOCSTRING) else None
                 if text and ">>>" in text:
-                    found.append((f"workbench.{part}.{path.stem}", getattr(node, "name", path.stem), text))
+                    module = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(
+                        ".__init__"
+                    )
+                    found.append((module, getattr(node, "name", path.stem), text))
     return found
 
 
@@ -44,11 +47,15 @@ def test_the_most_used_functions_have_examples():
     assert len(EXAMPLES) >= 20
 
 
-@pytest.mark.parametrize(("module", "name", "text"), EXAMPLES, ids=[f"{module}.{name}" for module, name, _ in EXAMPLES])
+@pytest.mark.parametrize(
+    ("module", "name", "text"), EXAMPLES, ids=[f"{module}.{name}" for module, name, _ in EXAMPLES]
+)
 def test_an_example_gives_what_it_shows(module, name, text):
     said = failures(module, name, text)
     assert not said, said
 
 
 def test_an_example_that_does_not_hold_is_found():
-    assert "Expected:" in failures("workbench.geometry.motions", "wrong", ">>> rotation_angle(np.eye(3))\n1.0\n")
+    assert "Expected:" in failures(
+        "workbench.geometry.motions.rigid", "wrong", ">>> rotation_angle(np.eye(3))\n1.0\n"
+    )

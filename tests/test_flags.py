@@ -1,4 +1,6 @@
-"""Commands that are printed for a run open that run: each goes through a shell's words and the real parser."""
+"""Commands that are printed for a run open that run: each goes through a shell's words and the real
+parser.
+"""
 
 import functools
 import shlex
@@ -12,10 +14,10 @@ from hypothesis import strategies as st
 from tests import fake
 from workbench.cli import show
 from workbench.errors import InputError
-from workbench.flags import Chosen, parse
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, catalog
-from workbench.links import command_line, show_command
+from workbench.run.flags import Chosen, parse
+from workbench.run.links import command_line, show_command
 
 LESSONS = list(catalog().values())
 
@@ -30,13 +32,16 @@ def opened(command: str) -> Chosen:
     def seeing(run, serving, step=None, with_=None):
         seen.append(run)
 
-    parse(seeing, words, "workbench show", "")()
+    parse(seeing, words, "workbench show", description="")()
     return seen[0]
 
 
 @pytest.mark.parametrize("lesson", LESSONS, ids=lambda lesson: lesson.name)
 def test_the_command_of_every_preset_and_question_opens_its_run(lesson: Lesson):
-    for params in (lesson.params(), *(named.params for named in (*lesson.presets, *lesson.questions))):
+    for params in (
+        lesson.params(),
+        *(named.params for named in (*lesson.presets, *lesson.questions)),
+    ):
         command = show_command(lesson, params)
         run = opened(command)
         assert (run.lesson, run.params) == (lesson, params), command
@@ -59,7 +64,9 @@ def values_of(field) -> st.SearchStrategy:
 @given(chosen=st.data())
 def test_the_command_of_any_params_opens_them(chosen):
     lesson = chosen.draw(st.sampled_from(LESSONS))
-    values = {field.name: chosen.draw(values_of(field), field.name) for field in fields_of(lesson.params)}
+    values = {
+        field.name: chosen.draw(values_of(field), field.name) for field in fields_of(lesson.params)
+    }
     try:
         params = lesson.validated(lesson.params(**values))
     except ValueError:
@@ -70,7 +77,10 @@ def test_the_command_of_any_params_opens_them(chosen):
 def test_a_command_can_be_read_by_a_shell_and_by_a_person(monkeypatch):
     monkeypatch.setitem(catalog(), "fake", fake.lesson)
     params = fake.Params(angle=30.0, wobble=True, place=(-1.0, 0.25, 0.0), pixel=(1, 2))
-    assert show_command(fake.lesson, params) == "workbench show fake --angle=30 --wobble --place=-1,0.25,0 --pixel=1,2"
+    assert (
+        show_command(fake.lesson, params)
+        == "workbench show fake --angle=30 --wobble --place=-1,0.25,0 --pixel=1,2"
+    )
     assert command_line("replay", Path("my runs/a$b.rrd")) == "workbench replay 'my runs/a$b.rrd'"
 
 
@@ -112,7 +122,10 @@ def test_flags_stand_where_people_put_them(monkeypatch):
         "--place=-1,0.25,0 fake --step=-1 --no-wobble",
         "--no-browser --no-wobble fake --place -1,.25,-0 --port 0",
     ):
-        assert opened(f"workbench show {words}").params == fake.Params(place=(-1.0, 0.25, 0.0), wobble=False)
+        assert opened(f"workbench show {words}").params == fake.Params(
+            place=(-1.0, 0.25, 0.0), wobble=False
+        )
     assert (
-        opened("workbench show icp --start_angle 120").params == opened("workbench show --start-angle=120 icp").params
+        opened("workbench show icp --start_angle 120").params
+        == opened("workbench show --start-angle=120 icp").params
     )

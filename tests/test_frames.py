@@ -1,7 +1,9 @@
-"""Reads the names of motions: in a product frames must meet, and a name must say what is assigned to it.
+"""Reads the names of motions: in a product frames must meet, and a name must say what is assigned
+to it.
 
-`T_a_b @ T_b_c` is a motion from c to a; `T_a_b @ p_b` is a point in a; `R_a_b.T` and `inverse(T_a_b)` turn the frames
-round. Only names made of known frame words are read, so that other matrices are left alone.
+`T_a_b @ T_b_c` is a motion from c to a; `T_a_b @ p_b` is a point in a; `R_a_b.T` and
+`inverse(T_a_b)` turn the frames round. Only names made of known frame words are read, so that other
+matrices are left alone.
 """
 
 import ast
@@ -29,20 +31,38 @@ FILES = sorted([*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("
 
 
 def frames_of(node: ast.expr) -> tuple[str, ...] | None:
-    """Return (to, from) of a motion, (frame,) of a point or vector, None where the expression says nothing."""
+    """Return (to, from) of a motion, (frame,) of a point or vector, None where the expression says
+    nothing.
+    """
     if isinstance(node, ast.Name):
-        kind, *words = node.id.rstrip("s").split("_") if node.id.startswith(("Ts_", "Rs_")) else node.id.split("_")
+        kind, *words = (
+            node.id.rstrip("s").split("_")
+            if node.id.startswith(("Ts_", "Rs_"))
+            else node.id.split("_")
+        )
         words = words[:2] if kind in ("T", "R", "Ts", "Rs") else words[:1]
-        if kind in ("T", "R", "Ts", "Rs", "p", "v", "n") and words and all(word in FRAMES for word in words):
-            return tuple(words) if len(words) == (2 if kind in ("T", "R", "Ts", "Rs") else 1) else None
+        if (
+            kind in ("T", "R", "Ts", "Rs", "p", "v", "n")
+            and words
+            and all(word in FRAMES for word in words)
+        ):
+            return (
+                tuple(words) if len(words) == (2 if kind in ("T", "R", "Ts", "Rs") else 1) else None
+            )
         return None
     if isinstance(node, ast.Attribute) and node.attr == "T":
         inner = frames_of(node.value)
         return inner[::-1] if inner is not None and len(inner) == 2 else None
     if isinstance(node, ast.Subscript):  # T[:3, :3] turns as T does
         inner = frames_of(node.value)
-        return inner if inner is not None and len(inner) == 2 and isinstance(node.slice, ast.Tuple) and all(
-            isinstance(part, ast.Slice) for part in node.slice.elts) else None  # fmt: skip
+        return (
+            inner
+            if inner is not None
+            and len(inner) == 2
+            and isinstance(node.slice, ast.Tuple)
+            and all(isinstance(part, ast.Slice) for part in node.slice.elts)
+            else None
+        )
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         if node.func.id == "inverse" and node.args:
             inner = frames_of(node.args[0])
@@ -58,20 +78,22 @@ class FrameError(Exception):
     pass
 
 
-def product(node: ast.AST, left, right):
+def product(node: ast.expr, left, right):
     if left is None or right is None:
         return None
     if len(left) == 2 and len(right) == 2:
         if left[1] != right[0]:
-            raise FrameError(f"line {node.lineno}: {left} @ {right}")  # type: ignore[attr-defined]
+            raise FrameError(f"line {node.lineno}: {left} @ {right}")
         return (left[0], right[1])
     if len(left) == 2 and len(right) == 1:
         if left[1] != right[0]:
-            raise FrameError(f"line {node.lineno}: a motion from {left[1]} meets a point in {right[0]}")  # type: ignore[attr-defined]
+            raise FrameError(
+                f"line {node.lineno}: a motion from {left[1]} meets a point in {right[0]}"
+            )
         return (left[0],)
     if len(left) == 1 and len(right) == 2:  # rows: p_b @ R_a_b.T is a point in a
         if left[0] != right[0]:
-            raise FrameError(f"line {node.lineno}: rows in {left[0]} meet {right}")  # type: ignore[attr-defined]
+            raise FrameError(f"line {node.lineno}: rows in {left[0]} meet {right}")
         return (right[1],)
     return None
 

@@ -22,7 +22,9 @@ ANYTHING = st.one_of(
 
 
 @given(
-    value=ANYTHING, name=st.sampled_from([f.name for f in fields_of(Params) if f.kind != "path"]), clamp=st.booleans()
+    value=ANYTHING,
+    name=st.sampled_from([f.name for f in fields_of(Params) if f.kind != "path"]),
+    clamp=st.booleans(),
 )
 def test_whatever_comes_in_is_in_range_or_refused_in_one_line(value, name, clamp):
     field = next(f for f in fields_of(Params) if f.name == name)
@@ -70,7 +72,12 @@ def test_each_refusal_says_what_is_allowed(name, value, line):
 def test_params_survive_json_and_name_only_what_differs():
     params = Params(angle=12.5, place=(0.1, 0.2, -2.0), scan=Path("a.npy"), wobble=True)
     assert from_json(Params, to_json(params)) == params
-    assert changed(params) == {"angle": "12.5", "wobble": "True", "place": "0.1,0.2,-2", "scan": "a.npy"}
+    assert changed(params) == {
+        "angle": "12.5",
+        "wobble": "True",
+        "place": "0.1,0.2,-2",
+        "scan": "a.npy",
+    }
     assert make(Params, changed(params)) == params
     with pytest.raises(InputError, match="not a JSON object"):
         from_json(Params, "[1, 2")
@@ -115,7 +122,10 @@ def test_a_name_that_is_a_symbol_is_written_as_in_formulas():
 
 def test_only_these_fields_differ_from_the_defaults():
     names = [field.name for field in fields_of(Params) if field.kind in ("float", "int")]
-    mine = make(Params, {name: next(f for f in fields_of(Params) if f.name == name).knob.low for name in names})
+    mine = make(
+        Params,
+        {name: next(f for f in fields_of(Params) if f.name == name).knob.low for name in names},
+    )
     assert set(changed(only(mine, names[0]))) == set(changed(mine)) & {names[0]}
     assert only(mine) == Params()
     assert only(mine, *[field.name for field in fields_of(Params)]) == mine

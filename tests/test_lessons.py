@@ -1,4 +1,6 @@
-"""Holds every lesson of the catalogue to the same promises; a new lesson is covered without an edit here."""
+"""Holds every lesson of the catalogue to the same promises; a new lesson is covered without an edit
+here.
+"""
 
 from pathlib import Path
 

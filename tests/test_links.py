@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests import fake
-from workbench import links
 from workbench.errors import InputError
+from workbench.run import links
 
 
 def read(query: str):
@@ -21,7 +21,9 @@ def read(query: str):
     step=st.one_of(st.none(), st.integers(0, 5000)),
 )
 def test_a_link_leads_back_to_its_place(angle, steps, wobble, place, step):
-    here = links.Place(fake.lesson, fake.Params(angle=angle, steps=steps, wobble=wobble, place=place), step)
+    here = links.Place(
+        fake.lesson, fake.Params(angle=angle, steps=steps, wobble=wobble, place=place), step
+    )
     assert read(links.write(here)) == here
 
 
@@ -57,7 +59,9 @@ def test_any_text_is_a_place_or_one_line(text):
 
 
 def test_keys_of_others_are_left_alone():
-    assert read("?lesson=fake&angle=120&websocket=ws://x&utm_source=mail") == read("?lesson=fake&angle=120")
+    assert read("?lesson=fake&angle=120&websocket=ws://x&utm_source=mail") == read(
+        "?lesson=fake&angle=120"
+    )
 
 
 def test_no_lesson_is_no_place_and_a_preset_can_be_named():

@@ -135,7 +135,9 @@ UNITS = {"km": 1e3, "m": 1.0, "mm": 1e-3, "µm": 1e-6}
 @given(st.floats(1e-8, 9e8) | st.floats(-9e8, -1e-8))
 def test_a_length_is_the_length_to_its_digits(metres):
     number, unit = length(metres).split(" ")
-    assert read(number) * UNITS[unit] == pytest.approx(metres, rel=0.051 if unit == "µm" else 0.0051)
+    assert read(number) * UNITS[unit] == pytest.approx(
+        metres, rel=0.051 if unit == "µm" else 0.0051
+    )
     assert 0.001 <= abs(read(number)) <= 1e6
 
 

@@ -1,8 +1,9 @@
-"""Whatever was shown before leaves no trace: for all ordered pairs of a lesson's presets, A then B shows what B shows.
+"""Whatever was shown before leaves no trace: for all ordered pairs of a lesson's presets, A then B
+shows what B shows.
 
-A sink sends what differs, so what it holds can be stale. Every pair goes through a page's feed and through a recording: all
-presets at the step at which they open; steps some way on are seen between them. Runs that only a question opens are seen
-between two presets.
+A sink sends what differs, so what it holds can be stale. Every pair goes through a page's feed and
+through a recording: all presets at the step at which they open; steps some way on are seen between
+them. Runs that only a question opens are seen between two presets.
 """
 
 import itertools
@@ -17,8 +18,8 @@ from tests.browser.feeding import Fed
 from tests.runs import finished
 from workbench.lesson import catalog
 from workbench.recording.sink import RerunSink
+from workbench.run.timeline import Timeline
 from workbench.scene import Camera, Classes, Field, Mesh, Picture, Points, Scene, Segments, in_space
-from workbench.timeline import Timeline
 
 LESSONS = list(catalog())
 MORE = 8  # steps
@@ -44,12 +45,18 @@ def asked_alone(name: str) -> list[Scene]:
     for question in lesson.questions:
         if question.params != lesson.params() and lesson.preset_of(question.params) is None:
             timeline = finished(name, question.params)
-            found.append(thinned(timeline[(-1 if question.step is None else question.step) % len(timeline)].scene))
+            found.append(
+                thinned(
+                    timeline[(-1 if question.step is None else question.step) % len(timeline)].scene
+                )
+            )
     return found
 
 
 def thinned(scene: Scene) -> Scene:
-    """Return a scene with few points and small images, the same in everything that a sink decides by."""
+    """Return a scene with few points and small images, the same in everything that a sink decides
+    by.
+    """
     return {path: _thinned(primitive) for path, primitive in scene.items()}
 
 
@@ -74,7 +81,11 @@ def _every(color: Any) -> Any:
 
 
 def _coarse(image: Any) -> Any:
-    return replace(image, values=image.values[::16, ::16]) if isinstance(image, Field) else image[::16, ::16]
+    return (
+        replace(image, values=image.values[::16, ::16])
+        if isinstance(image, Field)
+        else image[::16, ::16]
+    )
 
 
 def all_pairs(n: int) -> Iterator[int]:
@@ -98,7 +109,9 @@ def fed(chromium) -> Iterator[Fed]:
 
 
 def walk_live(fed: Fed, scenes: Sequence[Scene], order: Sequence[int], by: int = 0) -> None:
-    """Show scenes in this order on a page; hold what its client draws to what it draws of each alone."""
+    """Show scenes in this order on a page; hold what its client draws to what it draws of each
+    alone.
+    """
     numbers = fed.add(scenes)
     for together in (1, 3):  # messages of so many are handled at once: a browser that draws slowly
         walk = "([order, by, together]) => walked(order, by, together)"
@@ -112,7 +125,9 @@ def test_a_preset_after_another_shows_what_it_shows_alone(fed, name):
     walk_live(fed, opening, list(all_pairs(n)))
     asked = asked_alone(name)
     onwards = [i for k in range(n) for i in (n + k, k, n + (k + 1) % n)]
-    there_and_back = [i for k in range(len(asked)) for i in (2 * k % n, 2 * n + k, (2 * k + 1) % n, 2 * n + k)]
+    there_and_back = [
+        i for k in range(len(asked)) for i in (2 * k % n, 2 * n + k, (2 * k + 1) % n, 2 * n + k)
+    ]
     walk_live(fed, opening + later + asked, onwards + there_and_back)
     walk_live(fed, opening + later, onwards, by=1)
 
@@ -121,9 +136,13 @@ def test_a_preset_after_another_shows_what_it_shows_alone(fed, name):
 def test_a_preset_after_another_is_recorded_as_it_is_alone(name):
     opening, _ = scenes_of(name)
     n = len(opening)
-    in_space_only = [{path: thing for path, thing in scene.items() if in_space(thing)} for scene in opening]
+    in_space_only = [
+        {path: thing for path, thing in scene.items() if in_space(thing)} for scene in opening
+    ]
     walk_recorded(in_space_only, list(all_pairs(n)))
-    walk_recorded(opening, [*range(n), *reversed(range(n)), *range(0, n, 2), *range(1, n, 2)])  # charts take their time
+    walk_recorded(
+        opening, [*range(n), *reversed(range(n)), *range(0, n, 2), *range(1, n, 2)]
+    )  # charts take their time
 
 
 def test_a_walk_through_all_lessons_shows_each_as_alone(fed):
@@ -136,7 +155,9 @@ def test_a_walk_through_all_lessons_shows_each_as_alone(fed):
 
 
 class Stream:
-    """A recording stream that keeps the latest value of every component, as a viewer looks it up."""
+    """A recording stream that keeps the latest value of every component, as a viewer looks it
+    up.
+    """
 
     def __init__(self) -> None:
         self._latest: dict[str, dict[str, Any]] = {}
@@ -159,10 +180,16 @@ class Stream:
                     self._latest.setdefault(entity, {})[str(batch.component_descriptor())] = values
 
     def seen(self) -> dict[str, dict[str, Any]]:
-        """Return what is shown by entity and component, classes by name and colour; nothing of what was emptied."""
+        """Return what is shown by entity and component, classes by name and colour; nothing of what
+        was emptied.
+        """
         return {
             entity: {
-                name: [self._classes[i] for i in values.to_pylist()] if name.endswith("class_ids") else values
+                name: (
+                    [self._classes[i] for i in values.to_pylist()]
+                    if name.endswith("class_ids")
+                    else values
+                )
                 for name, values in components.items()
                 if len(values) or not name.startswith("EncodedImage")
             }

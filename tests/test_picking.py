@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.fake import Params
-from workbench.picking import picked, picked_params
+from workbench.run.picking import picked, picked_params
 from workbench.scene import Mesh, Picture, Points, Scalar
 
 rng = np.random.default_rng(3)
@@ -24,7 +24,9 @@ def test_a_ray_through_a_point_picks_a_point_on_that_ray(k):
 
 def test_the_vertex_in_front_wins():
     p = np.array([[0, 0, 0.0], [0, 4.0, 0], [1, 0, 0]])
-    assert picked(Mesh(p, np.array([[0, 1, 2]])), np.array([0, -5.0, 0]), np.array([0, 1.0, 0])) == 0
+    assert (
+        picked(Mesh(p, np.array([[0, 1, 2]])), np.array([0, -5.0, 0]), np.array([0, 1.0, 0])) == 0
+    )
 
 
 def test_a_moved_cloud_is_picked_where_it_is():

@@ -1,4 +1,6 @@
-"""Processes that share out work end with it, with an error, and with the process that started them."""
+"""Processes that share out work end with it, with an error, and with the process that started
+them.
+"""
 
 import os
 import signal
@@ -12,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from workbench.workers import WorkerLostError, parallel_map
+from workbench.machinery.workers import WorkerLostError, parallel_map
 
 ROOT = Path(__file__).resolve().parents[1]
 PATIENCE = 120.0
@@ -20,7 +22,7 @@ PATIENCE = 120.0
 RUNS_LONG = """
 import sys
 from tests.test_processes import begin_and_wait
-from workbench.workers import parallel_map
+from workbench.machinery.workers import parallel_map
 if __name__ == "__main__":
     for task in parallel_map(begin_and_wait, [sys.argv[1] + "/a", sys.argv[1] + "/b"], 2):
         pass
@@ -73,7 +75,9 @@ def vanish_or_hang(number: int) -> int:
 
 @pytest.mark.parametrize("start", ["spawn", "fork"])
 def test_what_is_lost_or_takes_too_long_costs_no_other(start):
-    found = parallel_map(vanish_or_hang, range(6), 2, seconds=3.0, lost=lambda number: -number, start=start)
+    found = parallel_map(
+        vanish_or_hang, range(6), 2, seconds=3.0, lost=lambda number: -number, start=start
+    )
     assert sorted(found) == [(0, 0), (1, -1), (2, -2), (3, 3), (4, 4), (5, 5)]
 
 
@@ -86,7 +90,10 @@ def test_workers_end_with_the_process_that_started_them(tmp_path, how):
     command = [sys.executable, str(script), str(tmp_path)]
     pipe: Any = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "start_new_session": True}
     process: Any
-    with subprocess.Popen(command, env=environment, preexec_fn=heed_ctrl_c, **pipe) as process, ended(process):
+    with (
+        subprocess.Popen(command, env=environment, preexec_fn=heed_ctrl_c, **pipe) as process,
+        ended(process),
+    ):
         places = [tmp_path / "a", tmp_path / "b"]
         until(lambda: process.poll() is not None or all(place.exists() for place in places))
         workers = [int(place.read_text()) for place in places]

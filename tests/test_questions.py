@@ -3,8 +3,8 @@ import pytest
 from tests.fake import lesson
 from workbench.errors import InputError
 from workbench.lesson import course
-from workbench.questions import answer
-from workbench.timeline import Timelines
+from workbench.run.questions import answer
+from workbench.run.timeline import Timelines
 
 NUMBER, CHOICE = lesson.questions
 KEPT = Timelines()
@@ -65,6 +65,9 @@ def test_every_question_of_the_course_knows_its_wrong_answers(of_course):
     for question in of_course.questions:
         if question.choices:
             silent = [text for i, text in enumerate(question.choices) if not question.reply(i)]
-            assert len(silent) == 1, (question.name, silent)  # the right one; `validate` holds which it is
+            assert len(silent) == 1, (
+                question.name,
+                silent,
+            )  # the right one; `validate` holds which it is
         else:
             assert question.wrong, question.name

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.fake import lesson, test_nothing_is_left_out  # noqa: F401 (collected here)
+from workbench.run.timeline import Timeline
 from workbench.scene import (
     Axes,
     Camera,
@@ -28,7 +29,6 @@ from workbench.scene import (
     is_rigid,
     same,
 )
-from workbench.timeline import Timeline
 
 P = np.zeros((4, 3))
 BAD = np.array([[0, 0, np.nan]])
@@ -74,7 +74,9 @@ def test_same_tells_every_field_apart():
             value = getattr(primitive, field.name)
             if isinstance(value, np.ndarray) and value.dtype.kind == "f":
                 assert same(primitive, replace(primitive, **{field.name: value.copy()}))
-                assert not same(primitive, replace(primitive, **{field.name: value * 1.001 + 0.001}))
+                assert not same(
+                    primitive, replace(primitive, **{field.name: value * 1.001 + 0.001})
+                )
             elif isinstance(value, str) and field.name in ("text", "title", "name"):
                 assert not same(primitive, replace(primitive, **{field.name: value + "x"}))
 
@@ -92,14 +94,18 @@ def test_a_ghost_is_what_stands_in_space_and_fainter():
     faint = ghost(scene, {})
     assert faint
     assert all(path.startswith("ghost/") for path in faint)
-    assert all(in_space(primitive) or isinstance(primitive, Picture) for primitive in faint.values())
+    assert all(
+        in_space(primitive) or isinstance(primitive, Picture) for primitive in faint.values()
+    )
     assert faint["ghost/source"].opacity < 0.5  # type: ignore[union-attr]
     assert faint["ghost/source"].p is scene["source"].p  # type: ignore[union-attr]
 
 
 def test_a_ghost_leaves_out_what_did_not_move():
     first, last = (Timeline(lesson, lesson.params()).complete()[k].scene for k in (0, -1))
-    paler = {path: replace(p, opacity=0.5) if isinstance(p, Points) else p for path, p in last.items()}
+    paler = {
+        path: replace(p, opacity=0.5) if isinstance(p, Points) else p for path, p in last.items()
+    }
     assert ghost(last, paler) == {}
     assert "ghost/source" in ghost(first, last)
     assert "ghost/target" not in ghost(first, last)
@@ -107,8 +113,12 @@ def test_a_ghost_leaves_out_what_did_not_move():
 
 def test_round_off_is_no_other_place():
     scene = Timeline(lesson, lesson.params()).complete()[3].scene
-    placed: dict[str, Any] = {path: p for path, p in scene.items() if getattr(p, "T_world_object", None) is not None}
-    stirred = {path: replace(p, T_world_object=p.T_world_object + 1e-16) for path, p in placed.items()}
+    placed: dict[str, Any] = {
+        path: p for path, p in scene.items() if getattr(p, "T_world_object", None) is not None
+    }
+    stirred = {
+        path: replace(p, T_world_object=p.T_world_object + 1e-16) for path, p in placed.items()
+    }
     assert stirred
     assert ghost(stirred, scene) == {}
     frame = cast(Any, scene["frame"])
@@ -149,7 +159,9 @@ def test_rigid_means_a_rotation_and_a_translation(T, rigid):
 
 
 def test_what_is_marked_has_its_role_and_the_others_theirs():
-    classes = Classes.marking(np.array([False, True, True]), "wrong", "outlier", others=("target", "inlier"))
+    classes = Classes.marking(
+        np.array([False, True, True]), "wrong", "outlier", others=("target", "inlier")
+    )
     assert [(classes.roles[i], classes.names[i]) for i in classes.ids] == [
         ("target", "inlier"),
         ("wrong", "outlier"),
@@ -172,7 +184,9 @@ def test_what_a_chart_makes_shares_its_plot():
         chart.dots(x, x, "b"),
         chart.histogram(np.array([0.5, 1.5, 1.6]), 2, "c"),
     ]
-    assert {(one.chart, one.x_label, one.y_label) for one in made} == {("error", "distance (m)", "px")}
+    assert {(one.chart, one.x_label, one.y_label) for one in made} == {
+        ("error", "distance (m)", "px")
+    }
     assert [one.kind for one in made] == ["line", "dots", "bars"]
     assert made[2].y.sum() == 3
     assert (made[2].y == [1, 2]).all()
@@ -202,7 +216,9 @@ def test_a_verdict_says_what_only_the_truth_shows(right, settled, text, tone):
 
 
 def test_a_picture_in_space_knows_where_its_pixels_and_boxes_are():
-    T = np.array([[1.0, 0, 0, 5], [0, 0, 1, 6], [0, -1, 0, 7], [0, 0, 0, 1]])  # columns right, rows down, seen along +y
+    T = np.array(
+        [[1.0, 0, 0, 5], [0, 0, 1, 6], [0, -1, 0, 7], [0, 0, 0, 1]]
+    )  # columns right, rows down, seen along +y
     picture = Picture(np.zeros((2, 4), np.uint8), width=8.0, T_world_object=T)
     assert picture.size == (4, 2)
     np.testing.assert_allclose(picture.places(np.array([0.0, 0.0])), [5 - 3, 6, 7 + 1])
@@ -240,4 +256,6 @@ def test_arrays_in_values_that_are_made_when_asked_for_are_all_found():
         def values(self) -> Any:
             return (self[k] for k in self)
 
-    assert sorted(array[0] for array in arrays([({"one": Made()},), Made()])) == sorted([*range(50)] * 2)
+    assert sorted(array[0] for array in arrays([({"one": Made()},), Made()])) == sorted(
+        [*range(50)] * 2
+    )

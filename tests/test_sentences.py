@@ -1,4 +1,6 @@
-"""No text that a student reads holds a number that is none, rounding in place of a result, or a typist's signs."""
+"""No text that a student reads holds a number that is none, rounding in place of a result, or a
+typist's signs.
+"""
 
 import dataclasses
 import re
@@ -14,8 +16,8 @@ from workbench.exercise.finding import exercises_of
 from workbench.knobs import Field as KnobField
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, catalog
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Scene, Table
-from workbench.timeline import Timeline
 
 BAD = {
     "a number that is none": re.compile(r"\b(nan|inf|infinity)\b", re.IGNORECASE),
@@ -26,7 +28,12 @@ BAD = {
 }
 MOST_WORDS = 400  # letters of a caption
 STEPS = 8  # of one run
-RUNS = {"transforms": 30, "pinhole": 25, "chamfer_emd": 2, "disparity": 3}  # where a run costs little, or much
+RUNS = {
+    "transforms": 30,
+    "pinhole": 25,
+    "chamfer_emd": 2,
+    "disparity": 3,
+}  # where a run costs little, or much
 FEW = 5  # runs of every other lesson
 SMALL = 400  # the largest number of points or samples drawn, so that a run stays short
 
@@ -41,7 +48,11 @@ def texts(scene: Scene) -> Iterator[str]:
         if isinstance(primitive, Table):
             values += [cell for row in primitive.rows for cell in row]
         for value in values:
-            yield from (text for text in (value if isinstance(value, tuple) else (value,)) if isinstance(text, str))
+            yield from (
+                text
+                for text in (value if isinstance(value, tuple) else (value,))
+                if isinstance(text, str)
+            )
 
 
 def faults(text: str) -> list[str]:
@@ -61,7 +72,9 @@ def said_of(scene: Scene) -> list[str]:
 
 
 def values_of(field: KnobField) -> st.SearchStrategy:
-    """Values that a person can give a knob: anywhere in its range, its ends, zero and what is next to zero."""
+    """Values that a person can give a knob: anywhere in its range, its ends, zero and what is next
+    to zero.
+    """
     knob = field.knob
     if field.kind in ("bool", "choice"):
         return st.sampled_from((False, True) if field.kind == "bool" else field.choices)
@@ -69,8 +82,14 @@ def values_of(field: KnobField) -> st.SearchStrategy:
     if field.kind in ("int", "ints"):
         one = st.integers(int(low), int(max(low, min(high, SMALL))))
     else:
-        odd = [value for value in (low, high, 0.0, 1e-7, -1e-7, 0.5 * (low + high)) if low <= value <= high]
-        one = st.sampled_from(odd) | st.floats(low, high, allow_nan=False).map(lambda value: round(value, 4))
+        odd = [
+            value
+            for value in (low, high, 0.0, 1e-7, -1e-7, 0.5 * (low + high))
+            if low <= value <= high
+        ]
+        one = st.sampled_from(odd) | st.floats(low, high, allow_nan=False).map(
+            lambda value: round(value, 4)
+        )
     return one if field.length == 0 else st.tuples(*[one] * field.length)
 
 
@@ -116,7 +135,12 @@ def test_no_run_says_what_is_no_number(lesson: Lesson):
 
 FOUND: dict[str, dict[str, Any]] = {  # knobs at which lessons once said what is no number
     "curvature": {"surface": "sphere", "jitter": 1e-7},
-    "ransac": {"model": "homography", "noise_pixels": 0.0, "sample": (236, 125, 125, 238), "seed": 22},
+    "ransac": {
+        "model": "homography",
+        "noise_pixels": 0.0,
+        "sample": (236, 125, 125, 238),
+        "seed": 22,
+    },
     "icp": {"gate": "max-distance", "max_distance": 1.0, "guess": (0.0, 3.0, 0.0, 0.0, 0.0, 0.0)},
 }
 
@@ -137,19 +161,39 @@ def written_of(lesson: Lesson) -> Iterator[str]:
     for question in lesson.questions:
         yield from (question.text, question.unit, *question.choices)
     for field in fields_of(lesson.params):
-        yield from (field.label, field.knob.hint, field.knob.unit, *field.knob.parts, *field.choices)
+        yield from (
+            field.label,
+            field.knob.hint,
+            field.knob.unit,
+            *field.knob.parts,
+            *field.choices,
+        )
     for exercise in exercises_of(lesson):
         yield from (mistake.sentence for mistake in exercise.mistakes)
 
 
 @pytest.mark.parametrize("lesson", catalog().values(), ids=catalog())
 def test_no_text_has_a_typists_signs(lesson: Lesson):
-    found = [fault for text in written_of(lesson) for fault in faults(text) if "number that is none" not in fault]
+    found = [
+        fault
+        for text in written_of(lesson)
+        for fault in faults(text)
+        if "number that is none" not in fault
+    ]
     assert not found, "\n".join(found)
 
 
 def test_a_bad_text_is_found():
-    for text in ("nan px", "3.24e+03 m", "off by 1e-10", "(-0.00, 1)", "−0.0°", 'the "right" one', "a 4x4", "inf"):
+    for text in (
+        "nan px",
+        "3.24e+03 m",
+        "off by 1e-10",
+        "(-0.00, 1)",
+        "−0.0°",
+        'the "right" one',
+        "a 4x4",
+        "inf",
+    ):
         assert faults(text), text
     for text in ("−0.5 m", "-0.05", "2 × 2", "finance", "x10", "10-0.5", "informed", "0.0 mm"):
         assert not faults(text), text

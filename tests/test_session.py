@@ -9,9 +9,9 @@ from tests.fake import Params, lesson
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import catalog
+from workbench.run.session import Look, Session
+from workbench.run.timeline import Timelines
 from workbench.scene import same
-from workbench.session import Look, Session
-from workbench.timeline import Timelines
 
 
 def settled(params=None) -> Session:
@@ -54,7 +54,12 @@ def test_forward_back_and_scrub_show_the_very_same_scene_without_recomputing():
 
 
 @settings(max_examples=40)
-@given(verbs=st.lists(st.sampled_from(["forward", "back", "first", "last", "seek", "compute", "change"]), max_size=30))
+@given(
+    verbs=st.lists(
+        st.sampled_from(["forward", "back", "first", "last", "seek", "compute", "change"]),
+        max_size=30,
+    )
+)
 def test_the_step_shown_is_always_one_that_is_known(verbs):
     session = Session(lesson)
     for i, verb in enumerate(verbs):
@@ -156,7 +161,9 @@ def test_another_version_of_the_lesson_goes_on_where_one_is_():
     session.seek(3)
     session.go_on(dataclasses.replace(lesson), session.params)
     assert session.timeline.lesson is not lesson
-    session.go_on(dataclasses.replace(lesson), session.params)  # saved again before a step was known
+    session.go_on(
+        dataclasses.replace(lesson), session.params
+    )  # saved again before a step was known
     finish(session)
     look = seen(session)
     assert (look.k, look.params) == (3, Params(angle=30.0))
@@ -208,7 +215,16 @@ def test_a_session_with_a_students_function_does_not_share_its_run():
 
 
 OWN_FILES = [
-    ("icp", {"target": Path("a.ply"), "source": Path("b.ply"), "truth": Path("T.txt"), "unit": "mm", "up": "y"}),
+    (
+        "icp",
+        {
+            "target": Path("a.ply"),
+            "source": Path("b.ply"),
+            "truth": Path("T.txt"),
+            "unit": "mm",
+            "up": "y",
+        },
+    ),
     ("curvature", {"mesh": Path("cow.obj")}),
     ("disparity", {"left": Path("l.png"), "right": Path("r.png")}),
     ("ransac", {"cloud": Path("room.xyz")}),
@@ -227,14 +243,24 @@ def test_reset_and_presets_keep_own_files_and_how_to_read_them(name, files):
     session.change(seed=7)
     session.reset()
     assert session.params == mine
-    session.change(**dict.fromkeys(files, None) if name != "icp" else {"target": None, "source": None, "truth": None})
+    session.change(
+        **(
+            dict.fromkeys(files, None)
+            if name != "icp"
+            else {"target": None, "source": None, "truth": None}
+        )
+    )
     session.reset()
-    assert session.params == lesson.params()  # without files nothing is kept, also not how to read them
+    assert (
+        session.params == lesson.params()
+    )  # without files nothing is kept, also not how to read them
 
 
 @pytest.mark.parametrize(("name", "files"), OWN_FILES, ids=[name for name, _ in OWN_FILES])
 @pytest.mark.parametrize("back", ["reset", "preset"])
-def test_a_run_of_the_lesson_s_own_data_puts_own_files_aside_and_reset_and_presets_bring_them_back(name, files, back):
+def test_a_run_of_the_lesson_s_own_data_puts_own_files_aside_and_reset_and_presets_bring_them_back(
+    name, files, back
+):
     lesson = catalog()[name]
     session, mine = Session(lesson), dataclasses.replace(lesson.params(), **files)
     session.open(lesson, mine)
@@ -246,7 +272,9 @@ def test_a_run_of_the_lesson_s_own_data_puts_own_files_aside_and_reset_and_prese
         assert session.own == mine
     preset = lesson.presets[-1]
     session.reset() if back == "reset" else session.use_preset(preset.name)
-    assert session.params == dataclasses.replace(lesson.params() if back == "reset" else preset.params, **files)
+    assert session.params == dataclasses.replace(
+        lesson.params() if back == "reset" else preset.params, **files
+    )
     assert session.own is session.params
 
 
@@ -258,7 +286,11 @@ def test_files_that_are_put_aside_are_forgotten_one_by_one_or_come_back_with_ano
     session.open(lesson, mine)
     session.open(lesson, made)
     session.change(target=Path("c.ply"), start_angle=40)
-    assert session.params == session.own == dataclasses.replace(mine, target=Path("c.ply"), start_angle=40)
+    assert (
+        session.params
+        == session.own
+        == dataclasses.replace(mine, target=Path("c.ply"), start_angle=40)
+    )
     session.open(lesson, made)
     session.change(target=7)
     assert session.message

@@ -1,6 +1,8 @@
-"""No text that stands before a prediction tells its answer; `tests.spoilers` says what is looked at and by which rules.
+"""No text that stands before a prediction tells its answer; `tests.spoilers` says what is looked at
+and by which rules.
 
-A page may teach the principle from which an answer follows; it may not state the case that a question asks about.
+A page may teach the principle from which an answer follows; it may not state the case that a
+question asks about.
 """
 
 import importlib
@@ -19,11 +21,15 @@ def listed(name: str) -> Any:
     return importlib.import_module(f"tests.giveaways.{name}")
 
 
-@pytest.mark.parametrize(("name", "question"), [pytest.param(n, q, id=f"{n}-{q.name}") for n, q in ASKED])
+@pytest.mark.parametrize(
+    ("name", "question"), [pytest.param(n, q, id=f"{n}-{q.name}") for n, q in ASKED]
+)
 def test_nothing_before_a_prediction_tells_its_answer(name, question):
     of_lesson = listed(name)
     giveaways = of_lesson.GIVEAWAYS.get(question.name, ())
-    found = spoilers(name, question, giveaways, getattr(of_lesson, "INNOCENT", {}).get(question.name, ""))
+    found = spoilers(
+        name, question, giveaways, getattr(of_lesson, "INNOCENT", {}).get(question.name, "")
+    )
     assert not found, "\n".join(["the answer is given away:", *found])
 
 
@@ -34,14 +40,24 @@ def test_for_every_question_somebody_thought_of_what_would_tell_its_answer(name)
     assert set(getattr(listed(name), "INNOCENT", {})) <= names
 
 
-def question(text: str, unit: str = "", tolerance: float = 0.0, choices: tuple[str, ...] = ()) -> Question:
-    return Question("q", text, lambda states: 0.0, lambda states: "", "a run", choices, unit, tolerance)
+def question(
+    text: str, unit: str = "", tolerance: float = 0.0, choices: tuple[str, ...] = ()
+) -> Question:
+    return Question(
+        "q", text, lambda states: 0.0, lambda states: "", "a run", choices, unit, tolerance
+    )
 
 
 MATCHES = "How many percent of the first matches are right (within two point spacings)?"
 FAR = "The source starts 120° away. What will ICP do?"
-FAR_CHOICES = ("Come home, only more slowly", "Stop because the RMSE rises", "Lower the RMSE to the end and be wrong")
-PLANE = "From 35°, point-to-point takes 61 iterations to its stop. How many does point-to-plane take?"
+FAR_CHOICES = (
+    "Come home, only more slowly",
+    "Stop because the RMSE rises",
+    "Lower the RMSE to the end and be wrong",
+)
+PLANE = (
+    "From 35°, point-to-point takes 61 iterations to its stop. How many does point-to-plane take?"
+)
 
 
 HOW_MANY = question(MATCHES, unit="%", tolerance=8.0)

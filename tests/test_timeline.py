@@ -10,8 +10,8 @@ from tests.fake import Params, lesson
 from workbench.errors import InputError
 from workbench.knobs import Knob
 from workbench.lesson import Lesson
+from workbench.run.timeline import Timeline, Timelines
 from workbench.scene import Caption, Points, Scalar, same
-from workbench.timeline import Timeline, Timelines
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,9 @@ class Bare:
 
 def bare(run, draw=None) -> Lesson:
     shown = draw or (lambda state: {"p": Points(state), "caption": Caption("A step happened")})
-    return Lesson(name="bare", title="Bare", summary="One line", params=Bare, run=run, draw=shown, order=1)
+    return Lesson(
+        name="bare", title="Bare", summary="One line", params=Bare, run=run, draw=shown, order=1
+    )
 
 
 def test_steps_are_computed_once_and_kept():
@@ -79,7 +81,9 @@ def test_shared_arrays_are_counted_once():
     assert timeline.bytes == p.nbytes
 
 
-@pytest.mark.parametrize(("trouble", "line"), [("input", "step 2 met a bad file"), ("crash", "RuntimeError: a bug")])
+@pytest.mark.parametrize(
+    ("trouble", "line"), [("input", "step 2 met a bad file"), ("crash", "RuntimeError: a bug")]
+)
 def test_a_run_that_fails_keeps_its_steps_and_says_why(trouble, line):
     timeline = Timeline(lesson, Params(trouble=trouble)).complete()
     assert len(timeline) == 2
@@ -137,9 +141,17 @@ def test_series_are_read_without_a_look_at_the_steps():
 
 
 def test_series_are_read_while_another_thread_computes():
-    timeline = Timeline(bare(lambda params: iter(range(4000)), lambda k: {
-        "caption": Caption("A step happened"), "k": Scalar(k, "k", "c"), f"at/{k // 40}": Scalar(k, "k", "c")
-    }), Bare())  # fmt: skip
+    timeline = Timeline(
+        bare(
+            lambda params: iter(range(4000)),
+            lambda k: {
+                "caption": Caption("A step happened"),
+                "k": Scalar(k, "k", "c"),
+                f"at/{k // 40}": Scalar(k, "k", "c"),
+            },
+        ),
+        Bare(),
+    )
     computing = threading.Thread(target=timeline.complete)
     computing.start()
     while computing.is_alive():
@@ -179,7 +191,12 @@ def test_a_run_that_is_given_up_says_why_and_keeps_its_steps():
     timeline.extend()
     timeline.give_up("no time")
     timeline.give_up("later")
-    assert (len(timeline), timeline.finished, timeline.stopped, timeline.extend()) == (1, True, "no time", False)
+    assert (len(timeline), timeline.finished, timeline.stopped, timeline.extend()) == (
+        1,
+        True,
+        "no time",
+        False,
+    )
 
 
 def test_runs_are_dropped_by_size():
@@ -191,9 +208,12 @@ def test_runs_are_dropped_by_size():
 
 
 def test_the_slot_replaces_the_function():
-    flipped = Timeline(lesson, Params(steps=2), {"turn": lambda angle: np.diag([1, 1, -1, 1.0])}).complete()
+    flipped = Timeline(
+        lesson, Params(steps=2), {"turn": lambda angle: np.diag([1, 1, -1, 1.0])}
+    ).complete()
     plain = Timeline(lesson, Params(steps=2)).complete()
     assert not same(flipped[0].scene["source"], plain[0].scene["source"])
     assert same(
-        replace(flipped[0].scene["source"], T_world_object=None), replace(plain[0].scene["source"], T_world_object=None)
+        replace(flipped[0].scene["source"], T_world_object=None),
+        replace(plain[0].scene["source"], T_world_object=None),
     )  # type: ignore[type-var]

@@ -11,11 +11,21 @@ from fontTools.ttLib import TTFont
 
 from workbench.errors import InputError
 from workbench.lesson import catalog
-from workbench.typeset import LARGEST_PICTURE, inline_html, math_font_css, math_html, page_html, page_of
+from workbench.words.typeset import (
+    LARGEST_PICTURE,
+    inline_html,
+    math_font_css,
+    math_html,
+    page_html,
+    page_of,
+)
 
 
 def test_maths_becomes_mathml_and_sections_are_named():
-    page = page_html("# T\n\nText $x^2$.\n\n## Break it!\n\n$$\\sum_i \\lVert p_i \\rVert$$\n\n| a |\n|---|\n| 1 |\n")
+    page = page_html(
+        "# T\n\nText $x^2$.\n\n## Break it!\n\n$$\\sum_i \\lVert p_i \\rVert$$\n\n| a |\n|---|\n|"
+        " 1 |\n"
+    )
     assert page.count("<math") == 2
     assert '<section class="s-break-it">' in page
     assert "<table>" in page
@@ -23,7 +33,10 @@ def test_maths_becomes_mathml_and_sections_are_named():
 
 
 def test_html_in_a_text_is_shown_as_text():
-    for shown in (page_html("a <script>alert(1)</script>"), inline_html("<img src=x onerror=alert(1)>")):
+    for shown in (
+        page_html("a <script>alert(1)</script>"),
+        inline_html("<img src=x onerror=alert(1)>"),
+    ):
         assert "<script" not in shown
         assert "<img" not in shown
         assert "&lt;" in shown
@@ -69,7 +82,9 @@ def test_the_font_has_every_letter_of_every_formula():
     for lesson in catalog().values():
         for formula in re.findall(r"<math.*?</math>", page_html(lesson.text()), re.DOTALL):
             letters = set(html.unescape(re.sub(r"<[^>]*>", "", formula)))
-            assert {c for c in letters if not c.isspace() and ord(c) not in known} == set(), lesson.name
+            assert {c for c in letters if not c.isspace() and ord(c) not in known} == set(), (
+                lesson.name
+            )
 
 
 DOT = base64.b64decode(
@@ -125,7 +140,7 @@ def test_a_picture_that_is_not_the_page_s_own_is_one_line(page, name, line):
 
 FIRST = """
 import sys, threading
-from workbench import typeset
+from workbench.words import typeset
 
 sys.setswitchinterval(1e-6)
 typeset._parser()

@@ -1,8 +1,9 @@
 """No caption, preset line or explanation judges a run other than the truth does.
 
-The audit is `python -m tests.verdicts`, in a process of its own, where the lessons run at their own speed: here every
-array's shape is checked at every call. WORKBENCH_AUDIT=whole takes all steps at 20 seeds, which takes half an hour of
-processor time: before a release, and for a lesson whose words or runs change (`python -m tests.verdicts --whole NAME`).
+The audit is `python -m tests.verdicts`, in a process of its own, where the lessons run at their own
+speed: here every array's shape is checked at every call. WORKBENCH_AUDIT=whole takes all steps at
+20 seeds, which takes half an hour of processor time: before a release, and for a lesson whose words
+or runs change (`python -m tests.verdicts --whole NAME`).
 """
 
 import os

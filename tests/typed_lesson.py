@@ -1,6 +1,8 @@
-"""A lesson's Params, run and draw belong together: the type checker refuses one of another lesson (it reads this file).
+"""A lesson's Params, run and draw belong together: the type checker refuses one of another lesson
+(it reads this file).
 
-An ignored line that is no error is an error, so this fails as soon as the checker lets the wrong ones pass.
+An ignored line that is no error is an error, so this fails as soon as the checker lets the wrong
+ones pass.
 """
 
 # pyright: reportUnnecessaryTypeIgnoreComment=error
@@ -35,9 +37,19 @@ def draw_words(state: str) -> Scene:
 
 
 def lessons() -> None:
-    """Make one that fits, and those that do not."""
-    Lesson(name="a", title="A", summary="Fits.", params=Params, run=run, draw=draw, order=1)
+    """Make one that fits and run it, and make those that do not."""
+    fits = Lesson(name="a", title="A", summary="Fits.", params=Params, run=run, draw=draw, order=1)
+    fits.run(Params(), twice=True)
     Lesson(name="b", title="B", summary="", params=Others, run=run, draw=draw, order=1)  # pyright: ignore
     Lesson(name="c", title="C", summary="", params=Params, run=run, draw=draw_words, order=1)  # pyright: ignore
     preset = Preset("x", "X", "", Others())
-    Lesson(name="d", title="D", summary="", params=Params, run=run, draw=draw, order=1, presets=(preset,))  # pyright: ignore
+    Lesson(
+        name="d",
+        title="D",
+        summary="",
+        params=Params,
+        run=run,
+        draw=draw,
+        order=1,
+        presets=(preset,),  # pyright: ignore
+    )

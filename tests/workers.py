@@ -1,6 +1,8 @@
-"""Spreads tests over workers: what shares a server, a site or a lesson's whole runs goes to one of them, the longest first.
+"""Spreads tests over workers: what shares a server, a site or a lesson's whole runs goes to one of
+them, the longest first.
 
-xdist's own groups (`--dist loadgroup`) are written into the names of tests, which pytest 9 no longer lets it do.
+xdist's own groups (`--dist loadgroup`) are written into the names of tests, which pytest 9 no
+longer lets it do.
 """
 
 import re
@@ -18,7 +20,9 @@ IN_A_BROWSER = re.compile(r"(tests/(?:browser/\w+|recording/test_browser)\.py)::
 
 
 class Scheduling(LoadScopeScheduling):
-    """Gives a worker all whole runs of a lesson, all its homes, or all of a file that opens a browser; others one by one."""
+    """Gives a worker all whole runs of a lesson, all its homes, or all of a file that opens a
+    browser; others one by one.
+    """
 
     def _split_scope(self, nodeid: str) -> str:
         return next((found[1] for pattern in GROUPS if (found := pattern.match(nodeid))), nodeid)

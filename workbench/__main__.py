@@ -5,7 +5,7 @@ import sys
 import warnings
 from typing import Any
 
-from workbench.threads import one_each
+from workbench.machinery.threads import one_each
 
 
 def main() -> int:
@@ -18,7 +18,7 @@ def main() -> int:
 
 def _carry_out() -> int:
     if sys.argv[1:] == ["list"]:  # needs nothing of what the other commands import
-        from workbench.listing import listed
+        from workbench.run.listing import listed
 
         with contextlib.suppress(OSError):  # what cannot be written is told below
             sys.stdout.write(listed())
@@ -30,7 +30,9 @@ def _carry_out() -> int:
 
 
 def _tell_in_one_line() -> None:
-    """Let what is left out be told like everything else the commands tell, without Python's file and line."""
+    """Let what is left out be told like everything else the commands tell, without Python's file
+    and line.
+    """
     from workbench.errors import LeftOutWarning
 
     otherwise = warnings.showwarning

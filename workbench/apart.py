@@ -1,7 +1,9 @@
-"""Reads files that somebody else made in a process of its own, which is ended where it takes too long or too much.
+"""Reads files that somebody else made in a process of its own, which is ended where it takes too
+long or too much.
 
-`@apart` before a reader is all that its callers see of it: the reader gets its arguments in another process, and what it
-returns or raises comes back. A file that a page was handed has less room than one that a command names.
+`@apart` before a reader is all that its callers see of it: the reader gets its arguments in another
+process, and what it returns or raises comes back. A file that a page was handed has less room than
+one that a command names.
 """
 
 import atexit
@@ -22,7 +24,7 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, cast
 
 from workbench.errors import InputError
-from workbench.threads import as_here
+from workbench.machinery.threads import as_here
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -61,7 +63,12 @@ class Allowance:
 
 
 COMMAND = Allowance(
-    unpacked=500 * 10**6, points=5_000_000, pixels=50_000_000, lines=1_000_000, seconds=60, memory=4 * 2**30
+    unpacked=500 * 10**6,
+    points=5_000_000,
+    pixels=50_000_000,
+    lines=1_000_000,
+    seconds=60,
+    memory=4 * 2**30,
 )
 PAGE = Allowance(
     unpacked=64 * 10**6,
@@ -106,7 +113,9 @@ def allowing(allowed: Allowance) -> Iterator[None]:
 
 
 def note(words: str) -> None:
-    """Say something of the file that is being read, one sentence, to whoever sees what comes of it."""
+    """Say something of the file that is being read, one sentence, to whoever sees what comes of
+    it.
+    """
     _noted.append(words)
 
 
@@ -123,8 +132,9 @@ def tell_when_waiting(somebody: Any) -> None:
 def apart(read: Callable[P, R]) -> Callable[P, R]:
     """Return a reader that works in a process of its own.
 
-    The reader is a function of a module; what it takes and returns pickles. Its first argument is the path of the file, for
-    messages. Whatever it raises comes out as an `InputError` of one line; one that it raised itself comes out as it is.
+    The reader is a function of a module; what it takes and returns pickles. Its first argument is
+    the path of the file, for messages. Whatever it raises comes out as an `InputError` of one line;
+    one that it raised itself comes out as it is.
     """
 
     @functools.wraps(read)
@@ -133,15 +143,17 @@ def apart(read: Callable[P, R]) -> Callable[P, R]:
         if _inside:
             return read(*args, **kwargs)
         with allowing(_given.get() or (PAGE if _uploads & set(path.parents) else COMMAND)):
-            return _read_elsewhere(read, path, args, kwargs)
+            return _read_elsewhere(read, path, args, kwargs=kwargs)
 
     return elsewhere
 
 
-def _read_elsewhere(read: Callable[..., R], path: Path, args: Any, kwargs: Any) -> R:
+def _read_elsewhere(read: Callable[..., R], path: Path, args: Any, *, kwargs: Any) -> R:
     for somebody in tuple(_waiting):
         somebody.stands_still()
-    asked = pickle.dumps((read.__module__, read.__qualname__, os.getcwd(), path.name, allowance(), args, kwargs))
+    asked = pickle.dumps(
+        (read.__module__, read.__qualname__, os.getcwd(), path.name, allowance(), args, kwargs)
+    )
     reader = _free.get()
     try:
         value, error, notes = reader.ask(asked, path.name)
@@ -174,7 +186,9 @@ class _Reader:
     def _told(self, asked: bytes) -> tuple[Any, str | None, tuple[str, ...]] | int:
         """Return the answer of the process, or how it ended without one."""
         process = self._running()
-        late = threading.Timer(4 * allowance().seconds + 10, process.kill)  # on a machine that is busy
+        late = threading.Timer(
+            4 * allowance().seconds + 10, process.kill
+        )  # on a machine that is busy
         late.daemon = True
         late.start()
         asking, answers = process.stdin, process.stdout
@@ -246,7 +260,9 @@ if hasattr(os, "register_at_fork"):
 
 
 def read_for_others() -> None:
-    """Answer what comes in, until nobody asks any more or much memory was taken. The life of a process that reads."""
+    """Answer what comes in, until nobody asks any more or much memory was taken. The life of a
+    process that reads.
+    """
     global _inside
     _inside = True
     ours = os.fdopen(os.dup(1), "wb")
@@ -286,7 +302,9 @@ def _answer(question: bytes) -> bytes:
 
 @contextlib.contextmanager
 def _limited(allowed: Allowance) -> Iterator[None]:
-    """Let the kernel refuse memory and end this process where it takes too much; nothing where there are no such limits."""
+    """Let the kernel refuse memory and end this process where it takes too much; nothing where
+    there are no such limits.
+    """
     try:
         import resource
     except ImportError:
@@ -307,9 +325,11 @@ def _limited(allowed: Allowance) -> Iterator[None]:
 
 
 def _memory() -> tuple[int, int]:
-    """Return the bytes of memory that this process has asked for, and those that it takes; zeros where nobody says.
+    """Return the bytes of memory that this process has asked for, and those that it takes; zeros
+    where nobody says.
 
-    The most that it ever took is no help: a process begins with the number of the one that started it.
+    The most that it ever took is no help: a process begins with the number of the one that started
+    it.
     """
     try:
         asked, taken = Path("/proc/self/statm").read_text().split()[:2]

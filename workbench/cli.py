@@ -1,33 +1,42 @@
-"""The commands. Adding one is a matter of one function: `@command`, a signature of options, a docstring.
+"""The commands. Adding one is a matter of one function: `@command`, a signature of options, a
+docstring.
 
-Heavy modules (the viewer, the recorder) are imported inside the functions that need them: `workbench list` answers
-at once. Every InputError becomes one line on stderr and exit code 2.
+Heavy modules (the viewer, the recorder) are imported inside the functions that need them:
+`workbench list` answers at once. Every InputError becomes one line on stderr and exit code 2.
 """
 
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
-from workbench import __version__
 from workbench.errors import InputError, not_among, one_line
-from workbench.flags import Chosen, Option, Serving, ServingLive, parse
 from workbench.knobs import called_by_flags
 from workbench.lesson import catalog
-from workbench.links import command_line
-from workbench.loading import is_path, lesson_given
+from workbench.machinery.docstrings import summary_of
+from workbench.machinery.version import __version__
+from workbench.run.flags import Chosen, Option, Serving, ServingLive, parse
+from workbench.run.links import command_line
+from workbench.run.loading import is_path, lesson_given
 
 Command = Callable[..., int | None]
 """Does its work; returns the exit code where it is neither 0 nor, for an InputError, 2."""
 COMMANDS: dict[str, Command] = {}
 
-Recording = Annotated[Path, Option("A recording made by `workbench record` or on the live page.", "FILE.rrd")]
+Recording = Annotated[
+    Path, Option("A recording made by `workbench record` or on the live page.", "FILE.rrd")
+]
 OwnLesson = Annotated[
-    str | None, Option("The lesson's own file or folder, where the catalogue does not have it.", "PATH")
+    str | None,
+    Option("The lesson's own file or folder, where the catalogue does not have it.", "PATH"),
 ]
 Sandbox = Annotated[
-    str, Option("What shuts submissions in: auto, bubblewrap, landlock, or none (marks are not safe then).", "NAME")
+    str,
+    Option(
+        "What shuts submissions in: auto, bubblewrap, landlock, or none (marks are not safe then).",
+        "NAME",
+    ),
 ]
 Native = Annotated[bool, Option("Open Rerun's own window instead of the browser.")]
 
@@ -48,7 +57,7 @@ def serve(serving: ServingLive) -> None:
 @command
 def list_() -> None:
     """List the lessons in course order."""
-    from workbench.listing import listed
+    from workbench.run.listing import listed
 
     sys.stdout.write(listed())
 
@@ -57,12 +66,17 @@ def list_() -> None:
 def show(
     run: Chosen,
     serving: ServingLive,
-    step: Annotated[int | None, Option("Step to open at; negative counts from the end.", "K")] = None,
+    step: Annotated[
+        int | None, Option("Step to open at; negative counts from the end.", "K")
+    ] = None,
     with_: Annotated[
-        Path | None, Option("Your own function, loaded again whenever the file is saved.", "FILE.py")
+        Path | None,
+        Option("Your own function, loaded again whenever the file is saved.", "FILE.py"),
     ] = None,
 ) -> None:
-    """Open one lesson in the browser, at these params; one given by its path is loaded again when its files are saved."""
+    """Open one lesson in the browser, at these params; one given by its path is loaded again when
+    its files are saved.
+    """
     from workbench.viewer.serving import serve as serve_page
 
     watched = edited = None
@@ -89,7 +103,9 @@ def show(
 @command
 def record(
     run: Chosen,
-    out: Annotated[Path, Option("File to write; - writes to standard output.", "FILE.rrd", short="-o")],
+    out: Annotated[
+        Path, Option("File to write; - writes to standard output.", "FILE.rrd", short="-o")
+    ],
     force: Annotated[bool, Option("Replace the file where it exists.")] = False,
 ) -> None:
     """Run a lesson without a window and write the run to a recording."""
@@ -100,7 +116,9 @@ def record(
             record_to_stdout(run.lesson, run.params, preset=run.preset)
         return
     with called_by_flags():
-        written = record_file(run.lesson, run.params, out, preset=run.preset, force=force, progress=sys.stderr)
+        written = record_file(
+            run.lesson, run.params, out, preset=run.preset, force=force, progress=sys.stderr
+        )
     if written.stopped is not None:
         _complain(f"{written.stopped} What there is, is recorded.")
     sys.stdout.write(f"{out}: {written.steps:,} steps, {written.bytes / 1e6:.1f} MB\n")
@@ -139,18 +157,25 @@ def compare(a: Recording, b: Recording, /, serving: Serving, native: Native = Fa
     """Play two recordings of one lesson side by side, their curves in one plot."""
     from workbench.recording.compare import compare_files
 
-    compare_files(a, b, native=native, host=serving.host, port=serving.port, browser=serving.browser)
+    compare_files(
+        a, b, native=native, host=serving.host, port=serving.port, browser=serving.browser
+    )
 
 
 @command
 def exercise(
     name: Annotated[
-        str | None, Option("An exercise, or a lesson for all of its exercises; without it they are listed.", "NAME")
+        str | None,
+        Option(
+            "An exercise, or a lesson for all of its exercises; without it they are listed.", "NAME"
+        ),
     ] = None,
     /,
     out: Annotated[Path, Option("Folder to write into.", "DIR", short="-o")] = Path(),
     lesson: OwnLesson = None,
-    force: Annotated[bool, Option("Replace a file that is there: your work in it is lost.")] = False,
+    force: Annotated[
+        bool, Option("Replace a file that is there: your work in it is lost.")
+    ] = False,
 ) -> None:
     """Write the starter file of an exercise, or list all exercises."""
     from workbench.exercise.finding import exercises, exercises_of, find_exercise
@@ -159,7 +184,9 @@ def exercise(
     own = None if lesson is None else lesson_given(lesson)
     if name is None:
         for item in exercises().values() if own is None else exercises_of(own):
-            sys.stdout.write(f"{item.lesson:<12} {item.name:<25} {item.task.split('. ')[0].rstrip('.')}.\n")
+            sys.stdout.write(
+                f"{item.lesson:<12} {item.name:<25} {item.task.split('. ')[0].rstrip('.')}.\n"
+            )
         return
     whole = catalog().get(name)
     for item in (whole and exercises_of(whole)) or (find_exercise(name, own),):
@@ -171,7 +198,8 @@ def check(
     file: Annotated[Path, Option("Your file, with the function of an exercise.", "FILE.py")],
     /,
     out: Annotated[
-        Path | None, Option("Folder for result.json, results.json, junit.xml, summary.md.", "DIR", short="-o")
+        Path | None,
+        Option("Folder for result.json, results.json, junit.xml, summary.md.", "DIR", short="-o"),
     ] = None,
     lesson: OwnLesson = None,
     hidden: Annotated[bool, Option("Run the hidden checks too, where they are installed.")] = False,
@@ -193,7 +221,11 @@ def check(
     for report in reports:
         sys.stdout.write(terminal(report) + "\n")
         sys.stdout.flush()  # what follows takes a while
-        recorded = None if report.is_full or report.is_refused else record_failing(report.exercise, file, lesson=own)
+        recorded = (
+            None
+            if report.is_full or report.is_refused
+            else record_failing(report.exercise, file, lesson=own)
+        )
         if recorded is not None:
             sys.stdout.write(f"  Watch where it goes wrong: {command_line('replay', recorded)}\n")
     for item in failed:
@@ -205,19 +237,28 @@ def check(
 def grade(
     folder: Annotated[Path, Option("Submissions: NAME.py files, or a folder per student.", "DIR")],
     /,
-    out: Annotated[Path | None, Option("Folder for the results; DIR/graded by default.", "DIR", short="-o")] = None,
+    out: Annotated[
+        Path | None, Option("Folder for the results; DIR/graded by default.", "DIR", short="-o")
+    ] = None,
     only: Annotated[str | None, Option("Grade this exercise only.", "EXERCISE")] = None,
     lesson: OwnLesson = None,
-    jobs: Annotated[int | None, Option("How many submissions at a time; the number of cores by default.", "N")] = None,
-    dask: Annotated[str | None, Option("Address of a Dask scheduler that does the work.", "ADDRESS")] = None,
+    jobs: Annotated[
+        int | None, Option("How many submissions at a time; the number of cores by default.", "N")
+    ] = None,
+    dask: Annotated[
+        str | None, Option("Address of a Dask scheduler that does the work.", "ADDRESS")
+    ] = None,
     roster: Annotated[
-        Path | None, Option("A table of all students: who handed in nothing gets a row.", "FILE.csv")
+        Path | None,
+        Option("A table of all students: who handed in nothing gets a row.", "FILE.csv"),
     ] = None,
     assignment: Annotated[
-        Path | None, Option("What a handout's assignment.json says its exercises are worth.", "FILE.json")
+        Path | None,
+        Option("What a handout's assignment.json says its exercises are worth.", "FILE.json"),
     ] = None,
     seed: Annotated[
-        int | None, Option("A number of yours, 0 or more, that the hidden checks are drawn from.", "N")
+        int | None,
+        Option("A number of yours, 0 or more, that the hidden checks are drawn from.", "N"),
     ] = None,
     sandbox: Sandbox = "auto",
 ) -> int:
@@ -249,28 +290,43 @@ def grade(
 def handout(
     words: Annotated[
         tuple[str, ...],
-        Option("Exercises, or a lesson for all of its exercises; then the folder to write into.", "EXERCISE ... OUT"),
+        Option(
+            "Exercises, or a lesson for all of its exercises; then the folder to write into.",
+            "EXERCISE ... OUT",
+        ),
     ],
     /,
-    for_: Annotated[str, Option("Where it is graded: gradescope, prairielearn, or folder.", "SERVICE")],
+    for_: Annotated[
+        str, Option("Where it is graded: gradescope, prairielearn, or folder.", "SERVICE")
+    ],
     weight: Annotated[
-        tuple[str, ...], Option("Points of an exercise; those of its checks by default.", "EXERCISE=POINTS ...")
+        tuple[str, ...],
+        Option("Points of an exercise; those of its checks by default.", "EXERCISE=POINTS ..."),
     ] = (),
-    release: Annotated[str | None, Option("When it opens, such as 2027-03-01 or 2027-03-01T09:00.", "DATE")] = None,
-    due: Annotated[str | None, Option("When it is due; a day ends at its last second.", "DATE")] = None,
+    release: Annotated[
+        str | None, Option("When it opens, such as 2027-03-01 or 2027-03-01T09:00.", "DATE")
+    ] = None,
+    due: Annotated[
+        str | None, Option("When it is due; a day ends at its last second.", "DATE")
+    ] = None,
     sandbox: Sandbox = "auto",
     force: Annotated[bool, Option("Replace files that are there.")] = False,
 ) -> None:
-    """Write an assignment that a course system takes as it is, with starters, samples and a README."""
+    """Write an assignment that a course system takes as it is, with starters, samples and a
+    README.
+    """
     from workbench.handout.assignment import assigned
     from workbench.handout.writing import tried, write
 
     *names, out = words
     if not names:
         raise InputError(
-            f"which exercises? `workbench exercise` lists them; {out} is taken for the folder to write into"
+            f"which exercises? `workbench exercise` lists them; {out} is taken for the folder to"
+            " write into"
         )
-    assignment = assigned(names, service=for_, weights=weight, release=release, due=due, sandbox=sandbox)
+    assignment = assigned(
+        names, service=for_, weights=weight, release=release, due=due, sandbox=sandbox
+    )
     write(assignment, Path(out), force=force)
     sys.stdout.write(f"{Path(out) / 'README.md'}\n{tried(assignment, Path(out))}\n")
 
@@ -279,7 +335,9 @@ def handout(
 def new(
     name: Annotated[str, Option("What the lesson is called: small letters, digits and _.", "NAME")],
     /,
-    out: Annotated[Path, Option("Folder to make the lesson's folder in.", "DIR", short="-o")] = Path(),
+    out: Annotated[
+        Path, Option("Folder to make the lesson's folder in.", "DIR", short="-o")
+    ] = Path(),
 ) -> None:
     """Write a folder with a lesson that runs, to be made your own."""
     from workbench.authoring.new import new_lesson
@@ -291,13 +349,19 @@ def new(
 
 @command
 def validate(
-    lesson: Annotated[str, Option("The lesson: its name, or the path of its file or folder.", "LESSON")],
+    lesson: Annotated[
+        str, Option("The lesson: its name, or the path of its file or folder.", "LESSON")
+    ],
     /,
 ) -> int:
-    """Hold a lesson and its exercises to what is promised of all of them; exit code 1 where something is wrong."""
+    """Hold a lesson and its exercises to what is promised of all of them; exit code 1 where
+    something is wrong.
+    """
     from workbench.authoring.validate import validate as held_to_its_promises
 
-    found = held_to_its_promises(lesson, lambda line: sys.stdout.write(f"{line}\n") and sys.stdout.flush())
+    found = held_to_its_promises(
+        lesson, lambda line: sys.stdout.write(f"{line}\n") and sys.stdout.flush()
+    )
     if found.wrong:
         return 1
     sys.stdout.write(f"{found.name}: holds ({found.looked_at} checks)\n")
@@ -309,13 +373,22 @@ def publish(
     out: Annotated[Path, Option("Folder to write the site into.", "OUT")],
     /,
     lesson: Annotated[
-        tuple[str, ...], Option("Only these lessons; what the site has of others stays. All by default.", "NAME ...")
+        tuple[str, ...],
+        Option(
+            "Only these lessons; what the site has of others stays. All by default.", "NAME ..."
+        ),
     ] = (),
     base_url: Annotated[str | None, Option("The address the site will have.", "URL")] = None,
-    force: Annotated[bool, Option("Replace files that publish did not write, or that were changed since.")] = False,
+    force: Annotated[
+        bool, Option("Replace files that publish did not write, or that were changed since.")
+    ] = False,
+    recordings: Annotated[
+        Literal["all", "linked", "none"],
+        Option("Of which runs: all, those that a text names, or none.", "all|linked|none"),
+    ] = "linked",
 ) -> None:
     """Write static tutorial pages that play in any browser, without Python."""
-    from workbench.progress import bar
+    from workbench.machinery.progress import bar
     from workbench.publish.runs import swept_files
     from workbench.publish.site import publish as publish_site
     from workbench.publish.site import sizes_told
@@ -325,10 +398,21 @@ def publish(
     given = dict[str, str]()
     for word, one in zip(names or catalog(), chosen, strict=True):
         if one.name in given:
-            raise InputError(f"{given[one.name]} and {word} are both named {one.name!r}: a site has one of a name")
+            raise InputError(
+                f"{given[one.name]} and {word} are both named {one.name!r}: a site has one of a"
+                " name"
+            )
         given[one.name] = word
     with bar(sys.stderr, "Publishing") as progress:
-        files = publish_site(out, chosen, base_url=base_url, force=force, remove_others=not names, progress=progress)
+        files = publish_site(
+            out,
+            chosen,
+            base_url=base_url,
+            force=force,
+            remove_others=not names,
+            recordings=recordings,
+            progress=progress,
+        )
     sys.stdout.write(sizes_told(out, files, swept_files(chosen)) + "\n")
 
 
@@ -360,27 +444,31 @@ def _carry_out(words: list[str]) -> int | None:
     if words == ["--version"]:
         sys.stdout.write(f"{__version__}\n")
     elif not words or words[0].startswith("-"):
-        return parse(serve, words, "workbench", _overview())()
+        return parse(serve, words, "workbench", description=_overview())()
     elif words[0] not in COMMANDS:
         raise InputError(f"no command is named {words[0]!r}; {not_among(words[0], COMMANDS)}")
     else:
         function = COMMANDS[words[0]]
-        return parse(function, words[1:], f"workbench {words[0]}", function.__doc__ or "")()
+        return parse(
+            function, words[1:], f"workbench {words[0]}", description=function.__doc__ or ""
+        )()
     return None
 
 
 def _overview() -> str:
-    lines = [f"  {name:<9} {(function.__doc__ or '').splitlines()[0]}" for name, function in COMMANDS.items()]
+    lines = [f"  {name:<9} {summary_of(function)}" for name, function in COMMANDS.items()]
     head = (
         "Watch, touch, record and grade the algorithms of 3D vision. Without a command: "
         + (serve.__doc__ or "").lower()
     )
-    return "\n".join([head, "", "commands:", *lines, "", "`workbench COMMAND --help` says more of each."])
+    return "\n".join(
+        [head, "", "commands:", *lines, "", "`workbench COMMAND --help` says more of each."]
+    )
 
 
 def _try_first_step(lesson: Any, params: Any) -> None:
     """Raise InputError before a server starts where the run cannot give even its first step."""
-    from workbench.timeline import Timeline
+    from workbench.run.timeline import Timeline
 
     timeline = Timeline(lesson, params)
     with called_by_flags():

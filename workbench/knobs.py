@@ -1,7 +1,10 @@
-"""Knobs: what a Params field says of itself, from which panels, command flags and links are generated.
+"""Knobs: what a Params field says of itself, from which panels, command flags and links are
+generated.
 
-A Params class is a frozen dataclass whose fields are `Annotated[type, Knob(...)]`. Types: `float`, `int`, `bool`,
-`Literal[...]` of strings, `tuple` of a fixed number of floats or ints, `Path | None`.
+A class of inputs is a subclass of `Params` whose fields are `name: type = knob(default, "hint",
+...)`. Types: `float`, `int`, `bool`, `Literal[...]` of strings, `tuple` of a fixed number of floats
+or ints, `Path | None`. Lessons of the first form have a frozen dataclass in its place, whose fields
+are `Annotated[type, Knob(...)]`.
 """
 
 import contextlib
@@ -15,7 +18,17 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import (
+    Annotated,
+    Any,
+    Literal,
+    TypeVar,
+    Union,
+    dataclass_transform,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from workbench.errors import InputError, not_among
 
@@ -31,8 +44,8 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 class Gizmo:
     """The field is also set by a handle in the scene.
 
-    The field is a tuple of floats: 2 are a position in the plane z = 0, metres, 3 one in space, 6 a position and a rotation
-    vector (radians), in the world.
+    The field is a tuple of floats: 2 are a position in the plane z = 0, metres, 3 one in space, 6 a
+    position and a rotation vector (radians), in the world.
     """
 
     size: float = 0.5
@@ -42,8 +55,8 @@ class Gizmo:
 class Pick:
     """The field is also set by a click on the primitive at `path`.
 
-    The field is an int (the index of the nearest point or vertex), or a tuple of ints (the last so many clicks); on a
-    Picture a pair of ints is the pixel (u, v), column first.
+    The field is an int (the index of the nearest point or vertex), or a tuple of ints (the last so
+    many clicks); on a Picture a pair of ints is the pixel (u, v), column first.
     """
 
     path: str
@@ -57,15 +70,17 @@ class Knob:
         hint: One line that says what it does to the run.
         low: The lower end of the range, included; of every entry for tuples. Required for numbers.
         high: Its upper end, likewise.
-        unit: Written behind the value: `m`, `deg`, `px`. Degrees are converted in the first lines of `run`.
+        unit: Written behind the value: `m`, `deg`, `px`. Degrees are converted in the first lines
+            of `run`.
         step: The slider's step; None picks a fine one.
         label: The words on the control; None makes them from the field's name.
         parts: What the entries of a tuple are called, where x, y, z would mislead.
         by: A Gizmo or a Pick where the scene sets it too.
-        needs: Other params and the values they need for this one to have an effect, as {"metric": ("plane",)}; a page greys
-            it out while they have others, and says so. Changing it then changes nothing in the run. {"scan": (None,)}
-            asks that no own file is open as `scan`.
-        of_files: It says how to read a person's own files (their unit, which axis is up), and is kept as long as they are.
+        needs: Other params and the values they need for this one to have an effect, as {"metric":
+            ("plane",)}; a page greys it out while they have others, and says so. Changing it then
+            changes nothing in the run. {"scan": (None,)} asks that no own file is open as `scan`.
+        of_files: It says how to read a person's own files (their unit, which axis is up), and is
+            kept as long as they are.
     """
 
     hint: str
@@ -80,12 +95,49 @@ class Knob:
     of_files: bool = False
 
 
+def knob(
+    default: Any,
+    hint: str,
+    low: float | None = None,
+    high: float | None = None,
+    *,
+    unit: str = "",
+    step: float | None = None,
+    label: str | None = None,
+    parts: tuple[str, ...] = (),
+    by: Gizmo | Pick | None = None,
+    of_files: bool = False,
+) -> Any:
+    """Return a field of `Params`: its default, and how it is shown and set (see `Knob`).
+
+    There is no `needs`: a run that does not read the field leaves the control without effect, and a
+    page shows it so.
+    """
+    shown = Knob(
+        hint, low, high, unit, step=step, label=label, parts=parts, by=by, of_files=of_files
+    )
+    return dataclasses.field(default=default, metadata={"knob": shown})
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True)  # a knob is a default, to a checker
+class Params:
+    """The inputs of a lesson. A subclass is a frozen dataclass by itself: `angle: float =
+    knob(30, "How far", 0, 90)`.
+    """
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        dataclass(frozen=True, kw_only=True)(cls)
+
+
 Kind = Literal["float", "int", "bool", "choice", "floats", "ints", "path"]
 
 
 @dataclass(frozen=True)
 class Field:
-    """One field of a Params class, read: its name, kind, default, choices or length, and its knob."""
+    """One field of a Params class, read: its name, kind, default, choices or length, and its
+    knob.
+    """
 
     name: str
     kind: Kind
@@ -96,7 +148,9 @@ class Field:
 
     @property
     def label(self) -> str:
-        """The words on the control; a name like `k1` is a symbol and is written as formulas write it."""
+        """The words on the control; a name like `k1` is a symbol and is written as formulas write
+        it.
+        """
         if self.knob.label is not None:
             return self.knob.label
         if symbol := _SYMBOL.fullmatch(self.name):
@@ -115,7 +169,9 @@ class Field:
 
     @property
     def sensitive(self) -> bool:
-        """Whether a value from a browser must not be taken: it names a file of the machine that serves."""
+        """Whether a value from a browser must not be taken: it names a file of the machine that
+        serves.
+        """
         return self.kind == "path"
 
     def clean(self, value: Any, *, clamp: bool = False) -> Any:
@@ -140,8 +196,11 @@ class Field:
             return None if value in (None, "", "None") else Path(value)
         if self.kind == "bool":
             if isinstance(value, str):
-                value = {"true": True, "1": True, "false": False, "0": False}[value.lower()] if value.lower() in (
-                    "true", "1", "false", "0") else value  # fmt: skip
+                value = (
+                    {"true": True, "1": True, "false": False, "0": False}[value.lower()]
+                    if value.lower() in ("true", "1", "false", "0")
+                    else value
+                )
             if not isinstance(value, (bool, int)) or value not in (0, 1):
                 raise ValueError
             return bool(value)
@@ -164,7 +223,10 @@ class Field:
             raise ValueError
         low, high = self.knob.low, self.knob.high
         if clamp:
-            number = min(max(number, low if low is not None else number), high if high is not None else number)
+            number = min(
+                max(number, low if low is not None else number),
+                high if high is not None else number,
+            )
         elif (low is not None and number < low) or (high is not None and number > high):
             raise ValueError
         return round(number) if whole else number
@@ -186,7 +248,8 @@ def fields_of(params: type) -> tuple[Field, ...]:
     """Read a Params class into its fields.
 
     Raises:
-        TypeError: If the class is not a frozen dataclass of annotated fields with defaults; says which field and why.
+        TypeError: If the class is not a frozen dataclass of annotated fields with defaults; says
+            which field and why.
     """
     if not dataclasses.is_dataclass(params) or not params.__dataclass_params__.frozen:  # type: ignore[attr-defined]
         raise TypeError(f"{params.__name__} must be a frozen dataclass")
@@ -196,17 +259,21 @@ def fields_of(params: type) -> tuple[Field, ...]:
 
 def _read(owner: type, field: dataclasses.Field, hint: Any) -> Field:
     where = f"{owner.__name__}.{field.name}"
-    if get_origin(hint) is not Annotated:
-        raise TypeError(f"{where}: write Annotated[type, Knob(...)]")
-    declared, *extras = get_args(hint)
-    knob = next((extra for extra in extras if isinstance(extra, Knob)), None)
+    declared, *extras = get_args(hint) if get_origin(hint) is Annotated else (hint,)
+    knob = next(
+        (extra for extra in (*extras, field.metadata.get("knob")) if isinstance(extra, Knob)), None
+    )
     if knob is None:
-        raise TypeError(f"{where}: has no Knob")
+        raise TypeError(
+            f'{where}: has no knob; write {field.name}: type = knob(default, "hint", ...)'
+        )
     if field.default is dataclasses.MISSING:
         raise TypeError(f"{where}: needs a default")
     kind, choices, length = _kind(where, declared)
-    if kind in ("float", "int", "floats", "ints") and (knob.low is None or knob.high is None or knob.low >= knob.high):
-        raise TypeError(f"{where}: a number needs Knob(hint, low, high) with low < high")
+    if kind in ("float", "int", "floats", "ints") and (
+        knob.low is None or knob.high is None or knob.low >= knob.high
+    ):
+        raise TypeError(f"{where}: a number needs a knob with low < high")
     if isinstance(knob.by, Gizmo) and not (kind == "floats" and length in (2, 3, 6)):
         wanted = "2 floats (a place at z = 0), 3 (a position) or 6 (with a rotation vector)"
         raise TypeError(f"{where}: a Gizmo sets {wanted}, not {declared}")
@@ -229,11 +296,14 @@ def _kind(where: str, declared: Any) -> tuple[Kind, tuple[str, ...], int]:
     if origin in (Union, types.UnionType) and set(args) == {Path, type(None)}:
         return "path", (), 0
     raise TypeError(
-        f"{where}: {declared} is none of float, int, bool, Literal of strings, tuple of numbers, Path | None"
+        f"{where}: {declared} is none of float, int, bool, Literal of strings, tuple of numbers,"
+        " Path | None"
     )
 
 
-def make(params: type[P], values: Mapping[str, Any], *, base: P | None = None, clamp: bool = False) -> P:
+def make(
+    params: type[P], values: Mapping[str, Any], *, base: P | None = None, clamp: bool = False
+) -> P:
     """Return Params from loose values (a link, JSON, a browser), every one checked.
 
     Args:
@@ -259,7 +329,9 @@ def make(params: type[P], values: Mapping[str, Any], *, base: P | None = None, c
 
 
 def only(params: P, *names: str) -> P:
-    """Return the defaults with these fields of the params: what one part of a run depends on, as the key of its cache."""
+    """Return the defaults with these fields of the params: what one part of a run depends on, as
+    the key of its cache.
+    """
     return dataclasses.replace(type(params)(), **{name: getattr(params, name) for name in names})  # type: ignore[type-var]
 
 
@@ -274,18 +346,22 @@ def names_files(params: Any) -> bool:
 
 
 def with_own_files(params: P, mine: P) -> P:
-    """Return the params with a person's own files in them, and with what says how to read these (`Knob.of_files`).
+    """Return the params with a person's own files in them, and with what says how to read these
+    (`Knob.of_files`).
 
     A preset or a reset keeps them so. Params that name files themselves stay as they are.
     """
     if names_files(params) or not names_files(mine):
         return params
-    kept = paths_of(type(params)) + [field.name for field in fields_of(type(params)) if field.knob.of_files]
+    kept = paths_of(type(params)) + [
+        field.name for field in fields_of(type(params)) if field.knob.of_files
+    ]
     return dataclasses.replace(params, **{name: getattr(mine, name) for name in kept})  # type: ignore[type-var]
 
 
 def showing(params: P, files: Iterable[str], *, kept: Collection[str] = ()) -> P:
-    """Return the params with the choices under which files are read (`Knob.needs`); those that are so stay.
+    """Return the params with the choices under which files are read (`Knob.needs`); those that are
+    so stay.
 
     Args:
         params: What was asked for.
@@ -297,7 +373,9 @@ def showing(params: P, files: Iterable[str], *, kept: Collection[str] = ()) -> P
     """
     fields = {field.name: field for field in fields_of(type(params))}
     for name in files:
-        for other, wanted in fields[name].knob.needs.items() if getattr(params, name) is not None else ():
+        for other, wanted in (
+            fields[name].knob.needs.items() if getattr(params, name) is not None else ()
+        ):
             if getattr(params, other) in wanted:
                 continue
             if other in kept:
@@ -308,7 +386,9 @@ def showing(params: P, files: Iterable[str], *, kept: Collection[str] = ()) -> P
 
 
 def called(name: str) -> str:
-    """Return the name of a param for a message, in marks by which a page puts its label there, a command its flag."""
+    """Return the name of a param for a message, in marks by which a page puts its label there, a
+    command its flag.
+    """
     return f"“{name}”"
 
 
@@ -323,7 +403,9 @@ def called_by_flags() -> Iterator[None]:
 
 
 def in_words(message: str, params: type) -> str:
-    """Return a message with the names of params (`called`) as people see them: labels, or flags in `called_by_flags`."""
+    """Return a message with the names of params (`called`) as people see them: labels, or flags in
+    `called_by_flags`.
+    """
     labels = {field.name: field.label for field in fields_of(params)}
 
     def name(found: re.Match) -> str:
@@ -335,8 +417,12 @@ def in_words(message: str, params: type) -> str:
 
 
 def validated(params: Any) -> Any:
-    """Return the params when every field is inside its range; raise InputError with one line when one is not."""
-    return make(type(params), {field.name: getattr(params, field.name) for field in fields_of(type(params))})
+    """Return the params when every field is inside its range; raise InputError with one line when
+    one is not.
+    """
+    return make(
+        type(params), {field.name: getattr(params, field.name) for field in fields_of(type(params))}
+    )
 
 
 def to_json(params: Any) -> str:
@@ -361,7 +447,9 @@ def from_json(params: type[P], text: str) -> P:
 
 
 def changed(params: Any, base: Any = None) -> dict[str, str]:
-    """Return the fields that differ from the base (or the defaults), as the text a link or command line takes."""
+    """Return the fields that differ from the base (or the defaults), as the text a link or command
+    line takes.
+    """
     base = type(params)() if base is None else base
     return {
         f.name: text_of(getattr(params, f.name))
@@ -378,7 +466,13 @@ def text_of(value: Any) -> str:
 
 
 def _plain(value: Any) -> Any:
-    return str(value) if isinstance(value, Path) else list(value) if isinstance(value, tuple) else value
+    return (
+        str(value)
+        if isinstance(value, Path)
+        else list(value)
+        if isinstance(value, tuple)
+        else value
+    )
 
 
 def _shown(value: Any) -> str:

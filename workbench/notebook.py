@@ -1,6 +1,8 @@
-"""A run in a notebook: the page in one frame, with all that it needs inside, so that it plays in a saved notebook too.
+"""A run in a notebook: the page in one frame, with all that it needs inside, so that it plays in a
+saved notebook too.
 
-A notebook that is not trusted shows no frames: a still picture stands behind it, with a line that says what to do.
+A notebook that is not trusted shows no frames: a still picture stands behind it, with a line that
+says what to do.
 """
 
 import base64
@@ -14,13 +16,14 @@ import numpy as np
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
-from workbench.links import show_command
-from workbench.loading import load
+from workbench.moved import moved
 from workbench.numerals import brief, length
 from workbench.page.document import lesson_document
 from workbench.page.thumbnail import still_of
 from workbench.publish.runs import Run, client_script, run_script
-from workbench.timeline import Timeline
+from workbench.run.links import show_command
+from workbench.run.loading import load
+from workbench.run.timeline import Timeline
 
 LEAST_HEIGHT = 320
 STILL = 640, 400
@@ -38,8 +41,8 @@ def replay(
 ) -> "Replay":
     """Return a run to be shown as the value of a notebook's cell.
 
-    It plays, steps back, pins and shows its code like any page, without a server and without any file or network, also
-    where the notebook was saved or exported as HTML.
+    It plays, steps back, pins and shows its code like any page, without a server and without any
+    file or network, also where the notebook was saved or exported as HTML.
 
         workbench.replay("icp", start_angle=120)
         workbench.replay("icp", preset="far", steps=40, height=500)
@@ -52,15 +55,27 @@ def replay(
         params: Fields of the lesson's Params.
 
     Raises:
-        InputError: If there is no such lesson, preset or param, a value is out of range, or the run gives no step.
+        InputError: If there is no such lesson, preset or param, a value is out of range, or the run
+            gives no step.
     """
-    chosen = lesson if isinstance(lesson, Lesson) else load(lesson) if isinstance(lesson, Path) else find(lesson)
+    if isinstance(lesson, str):
+        led = moved(lesson, preset, params)
+        lesson, preset, params = led.lesson, led.preset, led.values
+    chosen = (
+        lesson
+        if isinstance(lesson, Lesson)
+        else load(lesson)
+        if isinstance(lesson, Path)
+        else find(lesson)
+    )
     if steps is not None and steps < 1:
         raise InputError(f"steps = {steps}: how many steps are kept, 1 or more")
     if height < LEAST_HEIGHT:
         raise InputError(f"height = {height}: the page needs {LEAST_HEIGHT} pixels or more")
     base = None if preset is None else chosen.preset(preset).params
-    return Replay(chosen, chosen.validated(knobs.make(chosen.params, params, base=base)), steps, height)
+    return Replay(
+        chosen, chosen.validated(knobs.make(chosen.params, params, base=base)), steps, height
+    )
 
 
 class Replay:
@@ -82,10 +97,14 @@ class Replay:
         while (steps is None or len(self.timeline) < steps) and self.timeline.extend():
             pass
         if not len(self.timeline):
-            raise InputError(self.timeline.stopped or f"lesson {lesson.name}: the run gives no step")
+            raise InputError(
+                self.timeline.stopped or f"lesson {lesson.name}: the run gives no step"
+            )
 
     def __repr__(self) -> str:
-        """Return the run as text: its last caption and numbers, and the command that opens it live."""
+        """Return the run as text: its last caption and numbers, and the command that opens it
+        live.
+        """
         last = len(self.timeline) - 1
         numbers = [
             f"{one.scalar.name}: {_said(one.values[last], one.scalar.unit)}"
@@ -121,7 +140,12 @@ class Replay:
             "answers": {},
         }
         document = lesson_document(
-            self.lesson, "", home="notebook", root=None, more={"RECORDED": known}, alone=(run.title, "")
+            self.lesson,
+            "",
+            home="notebook",
+            root=None,
+            more={"RECORDED": known},
+            alone=(run.title, ""),
         )
         own = client_script() + run_script(self.lesson, run, self.timeline)
         return document.replace("</body>", f"<script>{own}</script></body>")
@@ -130,7 +154,11 @@ class Replay:
         """Return the step where it opens, negative from the end."""
         preset, last = self.lesson.preset_of(self.params), len(self.timeline) - 1
         is_default = self.params == self.lesson.params()  # which may be a preset too
-        step = self.lesson.first_step if is_default or preset is None or preset.step is None else preset.step
+        step = (
+            self.lesson.first_step
+            if is_default or preset is None or preset.step is None
+            else preset.step
+        )
         return min(max(step, -last - 1), last)
 
     @functools.cached_property
@@ -143,10 +171,14 @@ class Replay:
     def _html(self) -> str:
         title = escape(f"{self.lesson.title}, a run to be played")
         caption = escape(self.timeline[self._first() % len(self.timeline)].caption.text)
-        still = f'<img src="data:image/png;base64,{self._still}" alt="{caption}" style="max-width:100%">'
+        still = (
+            f'<img src="data:image/png;base64,{self._still}" alt="{caption}"'
+            ' style="max-width:100%">'
+        )
         frame = (
-            f'<iframe srcdoc="{escape(self.document())}" title="{title}" style="position:absolute;inset:0;width:100%;'
-            'height:100%;border:1px solid #ccc;border-radius:6px;background:#fff"></iframe>'
+            f'<iframe srcdoc="{escape(self.document())}" title="{title}"'
+            ' style="position:absolute;inset:0;width:100%;height:100%;border:1px solid'
+            ' #ccc;border-radius:6px;background:#fff"></iframe>'
         )
         place = f"position:relative;height:{self.height}px;overflow:hidden"
         return f'<div style="{place}">{still}<p>{HOW_TO_PLAY}</p>{frame}</div>'

@@ -1,7 +1,8 @@
 """Watches where an algorithm stands each time it yields: its line, and its local variables.
 
-A suspended generator knows its line and its locals. `traced` reads them off at every yield, but only while somebody
-listens (`listening`), so an algorithm that nobody watches pays one attribute test per step.
+A suspended generator knows its line and its locals. `traced` reads them off at every yield, but
+only while somebody listens (`listening`), so an algorithm that nobody watches pays one attribute
+test per step.
 """
 
 import functools
@@ -20,7 +21,9 @@ State = TypeVar("State")
 
 @dataclass(frozen=True)
 class Variable:
-    """One local variable as a reader sees it: its name, its shape or type, and its value or range."""
+    """One local variable as a reader sees it: its name, its shape or type, and its value or
+    range.
+    """
 
     name: str
     shape: str
@@ -29,7 +32,9 @@ class Variable:
 
 @dataclass(frozen=True)
 class Moment:
-    """Where a generator stood when it yielded: the function, the line, the locals in order of definition."""
+    """Where a generator stood when it yielded: the function, the line, the locals in order of
+    definition.
+    """
 
     function: Callable[..., Any]
     line: int
@@ -37,15 +42,21 @@ class Moment:
 
     @property
     def source(self) -> tuple[tuple[str, ...], int]:
-        """The function's source lines without its decorators, and the number of the first of them in its file."""
+        """The function's source lines without its decorators, and the number of the first of them
+        in its file.
+        """
         return source_of(self.function)
 
 
 @functools.lru_cache(maxsize=256)
 def source_of(function: Callable[..., Any]) -> tuple[tuple[str, ...], int]:
-    """Return the source lines of a function without decorators, dedented, and the file line of the first."""
+    """Return the source lines of a function without decorators, dedented, and the file line of the
+    first.
+    """
     lines, first = inspect.getsourcelines(function)
-    skip = next((i for i, line in enumerate(lines) if line.lstrip().startswith(("def ", "async def "))), 0)
+    skip = next(
+        (i for i, line in enumerate(lines) if line.lstrip().startswith(("def ", "async def "))), 0
+    )
     kept = lines[skip:]
     indent = len(kept[0]) - len(kept[0].lstrip())
     return tuple(line[indent:].rstrip("\n") if line.strip() else "" for line in kept), first + skip
@@ -75,7 +86,9 @@ def listening() -> Iterator[Callable[[], Moment | None]]:
 
 @contextmanager
 def untraced() -> Iterator[None]:
-    """Record nothing in this thread for the length of the block: for runs inside a run whose lines nobody looks at."""
+    """Record nothing in this thread for the length of the block: for runs inside a run whose lines
+    nobody looks at.
+    """
     before, _listener.on = _listener.on, False
     try:
         yield
@@ -84,9 +97,11 @@ def untraced() -> Iterator[None]:
 
 
 def traced(algorithm: Callable[Options, Iterator[State]]) -> Callable[Options, Iterator[State]]:
-    """Let whoever listens know the line and the locals of this generator function at each of its yields.
+    """Let whoever listens know the line and the locals of this generator function at each of its
+    yields.
 
-    Where one traced generator passes on what another yielded, the inner one, which did the work, is reported.
+    Where one traced generator passes on what another yielded, the inner one, which did the work, is
+    reported.
     """
 
     @functools.wraps(algorithm)
@@ -105,7 +120,11 @@ def moment_of(generator: Any, function: Callable[..., Any]) -> Moment | None:
     frame = getattr(generator, "gi_frame", None)
     if frame is None:
         return None
-    return Moment(function, frame.f_lineno, tuple(describe(name, value) for name, value in frame.f_locals.items()))
+    return Moment(
+        function,
+        frame.f_lineno,
+        tuple(describe(name, value) for name, value in frame.f_locals.items()),
+    )
 
 
 def describe(name: str, value: object) -> Variable:
@@ -115,7 +134,9 @@ def describe(name: str, value: object) -> Variable:
         if value.size == 0:
             return Variable(name, shape, "empty")
         if value.ndim == 0 or value.size <= 4:
-            return Variable(name, shape, _short(np.array2string(value, precision=4, separator=", ")))
+            return Variable(
+                name, shape, _short(np.array2string(value, precision=4, separator=", "))
+            )
         if value.dtype == bool:
             return Variable(name, shape, f"{int(value.sum()):,} of {value.size:,} true")
         if value.dtype.kind in "iuf":

@@ -5,7 +5,7 @@ from pathlib import PurePosixPath
 import numpy as np
 
 from lessons.calibration.state import Ending, State, Subject
-from workbench.algorithms.board_adjustment import Adjustment, Stop
+from workbench.algorithms.least_squares.board_adjustment import Adjustment, Stop
 from workbench.certain import sure
 from workbench.errors import one_line
 from workbench.numerals import brief, counted, fixed, percent, pixels, plus_minus
@@ -24,7 +24,9 @@ STOPS = {
 def caption(state: State) -> Caption:
     """Return what happened in this step and why."""
     if state.ending is not None:
-        return {"views": _views, "without": _without, "known": _known}[state.ending.kind](state, state.ending)
+        return {"views": _views, "without": _without, "known": _known}[state.ending.kind](
+            state, state.ending
+        )
     return {
         "homography": _homography,
         "constraints": _constraints,
@@ -39,7 +41,11 @@ def title(subject: Subject, view: int) -> str:
     if subject.pictures is None:
         return f"View {view}"
     name = subject.pictures.names[view]
-    return f"View {view}, no picture" if name is None else f"View {view}, {one_line(PurePosixPath(name).name)}"
+    return (
+        f"View {view}, no picture"
+        if name is None
+        else f"View {view}, {one_line(PurePosixPath(name).name)}"
+    )
 
 
 def is_right(state: State) -> bool:
@@ -56,21 +62,26 @@ def f_of(state: State) -> str:
 
 def _homography(state: State) -> Caption:
     text = (
-        f"View {state.subject.views[0]}: a homography takes the flat board to its picture, straight lines to straight"
-        f" lines. It misses the corners by {pixels(state.rms)} (rms)"
+        f"View {state.subject.views[0]}: a homography takes the flat board to its picture, straight"
+        f" lines to straight lines. It misses the corners by {pixels(state.rms)} (rms)"
     )
     if state.subject.K is None:
         return Caption(f"{text}: noise, and what a lens bends.{_left_out(state.subject.without)}")
     sigma = state.params.noise
     if state.rms > 1.4 * np.sqrt(2) * sigma:
-        return Caption(f"{text}, more than noise of {pixels(sigma)} in each coordinate explains: the lens bends lines.")
+        return Caption(
+            f"{text}, more than noise of {pixels(sigma)} in each coordinate explains: the lens"
+            " bends lines."
+        )
     return Caption(f"{text}, about what noise of {pixels(sigma)} in each coordinate leaves.")
 
 
 def _left_out(names: tuple[str, ...]) -> str:
     if not names:
         return ""
-    some = ", ".join(one_line(PurePosixPath(name).name)[:30] for name in names[:3]) + (" …" if len(names) > 3 else "")
+    some = ", ".join(one_line(PurePosixPath(name).name)[:30] for name in names[:3]) + (
+        " …" if len(names) > 3 else ""
+    )
     return f" No whole board was found in {counted(len(names), 'picture')}: {some}."
 
 
@@ -80,17 +91,24 @@ def _constraints(state: State) -> Caption:
     if len(now.rows) < 4:
         return Caption(f"{text} They leave B open; more views are needed.")
     if now.K is None:
-        return Caption(f"{text} The B that fits best is not positive definite: no camera sees such views.")
+        return Caption(
+            f"{text} The B that fits best is not positive definite: no camera sees such views."
+        )
     cx, cy = now.K[:2, 2]
     return Caption(
-        f"{text} K so far: {f_of(state)}; principal point ({fixed(cx, 0)}, {fixed(cy, 0)}). No lens is in it yet."
+        f"{text} K so far: {f_of(state)}; principal point ({fixed(cx, 0)}, {fixed(cy, 0)}). No lens"
+        " is in it yet."
     )
 
 
 def _poses(state: State) -> Caption:
     now = state.now
     Ts = now.Ts_camera_board
-    start = "No likely camera has these rows: f is guessed as the picture's width. " if now.guessed else ""
+    start = (
+        "No likely camera has these rows: f is guessed as the picture's width. "
+        if now.guessed
+        else ""
+    )
     behind = int((Ts[:, 2, 3] <= 0).sum())
     R = Ts[:, :3, :3]
     off = np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max(axis=(1, 2)) > ORTHONORMAL
@@ -98,14 +116,20 @@ def _poses(state: State) -> Caption:
     if behind or off.any() or mirrored:
         what = [
             (behind, "stands behind the camera", "stand behind the camera"),
-            (int(off.sum()), "has an R that is not orthonormal", "have an R that is not orthonormal"),
+            (
+                int(off.sum()),
+                "has an R that is not orthonormal",
+                "have an R that is not orthonormal",
+            ),
             (mirrored, "is a mirror image", "are mirror images"),
         ]
-        said = "; ".join(counted(count, f"board {one}", f"boards {more}") for count, one, more in what if count)
+        said = "; ".join(
+            counted(count, f"board {one}", f"boards {more}") for count, one, more in what if count
+        )
         return Caption(f"{start}{said}: these are no poses.", "wrong")
     return Caption(
-        f"{start}With this K every view gets a pose: {counted(len(Ts), 'board')} before the camera. {f_of(state)}."
-        f" No lens yet: corners are off by {pixels(state.rms)} (rms)."
+        f"{start}With this K every view gets a pose: {counted(len(Ts), 'board')} before the camera."
+        f" {f_of(state)}. No lens yet: corners are off by {pixels(state.rms)} (rms)."
     )
 
 
@@ -114,7 +138,9 @@ def _lens(state: State) -> Caption:
     text = f"K and poses stay, and a linear system gives the lens: k1 = {fixed(k1, 3)}"
     tail = f" The rms goes from {pixels(state.before)} to {pixels(state.rms)}."
     if state.subject.K is None:
-        return Caption(f"{text}.{tail} K and poses were made without a lens and may have taken it up.")
+        return Caption(
+            f"{text}.{tail} K and poses were made without a lens and may have taken it up."
+        )
     true = state.subject.lens.k1
     text += f", in truth {fixed(true, 2)}."
     if abs(k1 - true) > 0.3 * abs(true):
@@ -126,11 +152,14 @@ def _refine(state: State) -> Caption:
     now = sure(state.now.adjustment)
     unknowns = int(now.free.sum()) + 6 * len(now.Ts_camera_board)
     if not now.accepted:
-        text = f"Iteration {now.iteration}: the step would raise the cost and is not taken; the damping grows tenfold."
+        text = (
+            f"Iteration {now.iteration}: the step would raise the cost and is not taken; the"
+            " damping grows tenfold."
+        )
     elif now.iteration == 1:
         text = (
-            f"Iteration 1: camera, lens and poses move together, {unknowns} unknowns at once. The rms falls from"
-            f" {pixels(state.before)} to {pixels(state.rms)}; {f_of(state)}."
+            f"Iteration 1: camera, lens and poses move together, {unknowns} unknowns at once. The"
+            f" rms falls from {pixels(state.before)} to {pixels(state.rms)}; {f_of(state)}."
         )
     else:
         text = f"Iteration {now.iteration}: rms {pixels(state.rms)}; {f_of(state)}."
@@ -141,9 +170,10 @@ def _views(state: State, ending: Ending) -> Caption:
     rms = state.per_view
     others = np.delete(rms, ending.worst)
     return Caption(
-        f"View {state.subject.views[ending.worst]} fits worst: {pixels(float(rms[ending.worst]))} (rms), the others"
-        f" {pixels(float(np.median(others)))} in the median. Its residuals carry"
-        f" {fixed(100 * float(rms[ending.worst] ** 2 / (rms**2).sum()), 0)} % of the sum of squares."
+        f"View {state.subject.views[ending.worst]} fits worst: {pixels(float(rms[ending.worst]))}"
+        f" (rms), the others {pixels(float(np.median(others)))} in the median. Its residuals carry"
+        f" {fixed(100 * float(rms[ending.worst] ** 2 / (rms**2).sum()), 0)} % of the sum of"
+        " squares."
     )
 
 
@@ -151,10 +181,15 @@ def _without(state: State, ending: Ending) -> Caption:
     found, now = sure(state.now.adjustment), sure(ending.without)
     sd = found.deviations[0]
     moved = float(now.K[0, 0] - found.K[0, 0])
-    by = f"{brief(abs(moved) / sd, 2)} times its ±" if np.isfinite(sd) and sd > 0 else "with no ± to compare"
+    by = (
+        f"{brief(abs(moved) / sd, 2)} times its ±"
+        if np.isfinite(sd) and sd > 0
+        else "with no ± to compare"
+    )
     return Caption(
-        f"Without view {state.subject.views[ending.worst]}: f = {fixed(found.K[0, 0], 1)} px becomes"
-        f" {fixed(now.K[0, 0], 1)} px, a move of {pixels(abs(moved))}, {by}.{_cut_off(found, now)}"
+        f"Without view {state.subject.views[ending.worst]}: f = {fixed(found.K[0, 0], 1)} px"
+        f" becomes {fixed(now.K[0, 0], 1)} px, a move of {pixels(abs(moved))},"
+        f" {by}.{_cut_off(found, now)}"
     )
 
 
@@ -173,8 +208,8 @@ def _known(state: State, ending: Ending) -> Caption:
     text = f"f = {f} px" + ("" if np.isfinite(sd) else ", and the views do not determine it")
     if state.subject.K is None:
         return Caption(
-            f"{text}; rms {pixels(state.rms)}. Nobody knows the truth here: the ± takes the board for flat, and errors"
-            f" of corners for independent.{_cut_off(now)}"
+            f"{text}; rms {pixels(state.rms)}. Nobody knows the truth here: the ± takes the board"
+            f" for flat, and errors of corners for independent.{_cut_off(now)}"
         )
     text += f", in truth {fixed(state.subject.K[0, 0], 0)} px"
     worst = state.worst_in_picture

@@ -1,10 +1,12 @@
-"""What stands beside the picture: the rms beside the error to the truth, f, the camera in numbers, and its uncertainty."""
+"""What stands beside the picture: the rms beside the error to the truth, f, the camera in numbers,
+and its uncertainty.
+"""
 
 import numpy as np
 
 from lessons.calibration.state import Ending, State
 from lessons.calibration.views import GRID, places
-from workbench.algorithms.board_adjustment import SHARED, shared_numbers
+from workbench.algorithms.least_squares.board_adjustment import SHARED, shared_numbers
 from workbench.numerals import brief, fixed, pixels, plus_minus
 from workbench.scene import Chart, Field, Picture, Primitive, Table
 
@@ -25,7 +27,9 @@ def beside(state: State) -> dict[str, Primitive]:
         scene["camera in numbers"] = _camera(state)
     if subject.K is not None:
         scene["f/truth"] = FOCAL.scalar(float(subject.K[0, 0]), "fx in truth", "truth")
-        scene["map"] = ERROR.scalar(state.worst_in_picture, "worst in the picture", "truth", log=True)
+        scene["map"] = ERROR.scalar(
+            state.worst_in_picture, "worst in the picture", "truth", log=True
+        )
     if now.phase == "constraints":
         rows = tuple((str(i + 1), brief(value)) for i, value in enumerate(now.singular_values))
         scene["singular values"] = Table("Singular values of the rows", ("", "value"), rows)
@@ -47,8 +51,12 @@ def _camera(state: State) -> Table:
         value, deviation = fixed(found[i], decimals), ""
         if 0 < sd[i] < np.inf:
             value, deviation = plus_minus(found[i], sd[i], decimals)
-        rows.append((name, value, deviation, *(() if true is None else (fixed(true[i], decimals),))))
-    return Table("The camera", ("", "found", "±", *(() if true is None else ("true",))), tuple(rows))
+        rows.append(
+            (name, value, deviation, *(() if true is None else (fixed(true[i], decimals),)))
+        )
+    return Table(
+        "The camera", ("", "found", "±", *(() if true is None else ("true",))), tuple(rows)
+    )
 
 
 def _ending(state: State, ending: Ending) -> dict[str, Primitive]:
@@ -58,7 +66,9 @@ def _ending(state: State, ending: Ending) -> dict[str, Primitive]:
         scene: dict[str, Primitive] = {"views": VIEWS.bars(numbers, state.per_view, "rms")}
         if ending.without is not None and ending.kind == "without":
             off = np.sqrt(np.square(ending.without.residuals).sum(axis=2).mean(axis=1))
-            scene["views/without"] = VIEWS.dots(numbers[kept], off, "without the worst", "highlight")
+            scene["views/without"] = VIEWS.dots(
+                numbers[kept], off, "without the worst", "highlight"
+            )
         return scene | {"names": _names(state)}
     w, h = state.subject.size
     scene = {}
@@ -79,7 +89,11 @@ def _ending(state: State, ending: Ending) -> dict[str, Primitive]:
     if ending.tilts is not None:
         tilts, deviation = ending.tilts
         scene["tilts"] = TILT.curve(
-            tilts, np.log10(deviation), "promised by such boards", "source", marks=(state.params.tilt,)
+            tilts,
+            np.log10(deviation),
+            "promised by such boards",
+            "source",
+            marks=(state.params.tilt,),
         )
     return scene
 
@@ -92,6 +106,9 @@ def _names(state: State) -> Table:
         ("rms of points", pixels(float(np.sqrt((lengths**2).mean())))),
         ("rms of coordinates", pixels(float(np.sqrt((off**2).mean())))),
         ("mean length", pixels(float(lengths.mean()))),
-        ("norm / n, of an old tutorial", pixels(float((np.sqrt((lengths**2).sum(axis=1)) / lengths.shape[1]).mean()))),
+        (
+            "norm / n, of an old tutorial",
+            pixels(float((np.sqrt((lengths**2).sum(axis=1)) / lengths.shape[1]).mean())),
+        ),
     )
     return Table("What is called the error", ("name", "here"), rows)

@@ -1,4 +1,6 @@
-"""What one step looks like: the camera and the boards before it, one view enlarged, and what is known beside them."""
+"""What one step looks like: the camera and the boards before it, one view enlarged, and what is
+known beside them.
+"""
 
 import functools
 
@@ -8,14 +10,27 @@ from lessons.calibration.captions import caption, title
 from lessons.calibration.charts import beside
 from lessons.calibration.state import State, Subject
 from lessons.calibration.views import photograph
-from workbench.data.boards import board_mesh, board_points
+from workbench.data.views.boards import board_mesh, board_points
 from workbench.geometry.cameras import look_at
 from workbench.geometry.motions import apply, inverse, motion
 from workbench.geometry.polylines import at_height, between, rectangle, segments
 from workbench.lesson import View
-from workbench.scene import Camera, Color, Field, Label, Mesh, Picture, Points, Primitive, Scene, Segments
+from workbench.scene import (
+    Camera,
+    Color,
+    Field,
+    Label,
+    Mesh,
+    Picture,
+    Points,
+    Primitive,
+    Scene,
+    Segments,
+)
 
-VIEW = View(eye=(0.62, -0.52, 0.42), target=(-0.02, 0.2, 0.1), fov_degrees=40.0, grid=None, axes=False)
+VIEW = View(
+    eye=(0.62, -0.52, 0.42), target=(-0.02, 0.2, 0.1), fov_degrees=40.0, grid=None, axes=False
+)
 SCREEN = (VIEW.facing(-0.4, 0.1, -0.45), 0.66)
 """Where the enlarged picture stands, behind the boards, and its width in metres."""
 LAYER = 0.004  # metres from the picture to what is drawn on it
@@ -37,14 +52,22 @@ def _boards(state: State) -> dict[str, Primitive]:
     scale, outline = _scale(subject), _outline(subject)
     scene: dict[str, Primitive] = {}
     if subject.K is not None:
-        scene["true camera"] = Camera(subject.K, w, h, T_WORLD_CAMERA, DEPTH, color="truth", name="true camera")
+        scene["true camera"] = Camera(
+            subject.K, w, h, T_WORLD_CAMERA, DEPTH, color="truth", name="true camera"
+        )
         for view, T in zip(subject.views, subject.Ts_camera_board, strict=True):
-            scene[f"true boards/{view}"] = Segments(outline, "truth", 2.5, _placed(T, scale), name="true boards")
+            scene[f"true boards/{view}"] = Segments(
+                outline, "truth", 2.5, _placed(T, scale), name="true boards"
+            )
     if now.K is not None and now.K[0, 0] > 0 and now.K[1, 1] > 0:
-        scene["camera"] = Camera(now.K, w, h, T_WORLD_CAMERA, DEPTH, color="source", name="camera as found")
+        scene["camera"] = Camera(
+            now.K, w, h, T_WORLD_CAMERA, DEPTH, color="source", name="camera as found"
+        )
     for i, (view, T) in enumerate(zip(subject.views, now.Ts_camera_board, strict=False)):
         T_world_board = _placed(T, scale)
-        scene[f"boards/{view}"] = Segments(outline, "source", 2.0, T_world_board, name="boards as found")
+        scene[f"boards/{view}"] = Segments(
+            outline, "source", 2.0, T_world_board, name="boards as found"
+        )
         if subject.K is not None and i == state.shown:
             p, faces, colors = _squares()
             scene["squares"] = Mesh(p, faces, colors, T_world_board, flat=True)
@@ -52,15 +75,23 @@ def _boards(state: State) -> dict[str, Primitive]:
     if len(Ts):
         middle = subject.p_board.mean(axis=0) * scale
         p = np.stack([apply(_placed(T, scale), middle) for T in Ts])
-        color: Color = Field.magnitude(state.per_view, "rms of a view", "px") if len(now.Ts_camera_board) else "target"
+        color: Color = (
+            Field.magnitude(state.per_view, "rms of a view", "px")
+            if len(now.Ts_camera_board)
+            else "target"
+        )
         scene["middles"] = Points(p, color, 0.008, name="middles of the boards")
         scene["shown"] = Points(p[[state.shown]], "highlight", 0.014, name="the view that is shown")
-        scene["shown/name"] = Label(f"view {subject.views[state.shown]}", p[state.shown] + [0, 0, 0.03], "highlight")
+        scene["shown/name"] = Label(
+            f"view {subject.views[state.shown]}", p[state.shown] + [0, 0, 0.03], "highlight"
+        )
     return scene
 
 
 def _scale(subject: Subject) -> float:
-    """Return by how much a scene is made larger, so that a board of any unit is as large as ours."""
+    """Return by how much a scene is made larger, so that a board of any unit is as large as
+    ours.
+    """
     ours = np.ptp(board_points(), axis=0).max()
     return 1.0 if subject.K is not None else float(ours / np.ptp(subject.p_board, axis=0).max())
 
@@ -75,7 +106,9 @@ def _outline(subject: Subject) -> np.ndarray:
 
 @functools.lru_cache(maxsize=16)
 def _rim(p_board: bytes, scale: float) -> np.ndarray:
-    """Return the rim of the board, a square's width around its corners, and the first corner's square."""
+    """Return the rim of the board, a square's width around its corners, and the first corner's
+    square.
+    """
     p = scale * np.frombuffer(p_board).reshape(-1, 3)
     low, high = p[:, :2].min(axis=0), p[:, :2].max(axis=0)
     edge = (high - low).max() / 8
@@ -96,7 +129,9 @@ def _picture(state: State) -> dict[str, Primitive]:
     factor = picture.size[0] / subject.size[0]
     uv, off = subject.uv[state.shown], now.residuals[state.shown]
     long = LONGER * off
-    long = long * np.minimum(1.0, MOST / np.maximum(np.linalg.norm(long, axis=1, keepdims=True), 1e-12))
+    long = long * np.minimum(
+        1.0, MOST / np.maximum(np.linalg.norm(long, axis=1, keepdims=True), 1e-12)
+    )
 
     def on(pixels: np.ndarray, layer: float = LAYER) -> np.ndarray:
         return picture.places(factor * (pixels + 0.5) - 0.5, layer)
@@ -105,6 +140,10 @@ def _picture(state: State) -> dict[str, Primitive]:
         "picture": picture,
         "picture/border": Segments(picture.border(LAYER), "highlight", 2.0),
         "corners": Points(on(uv), "target", 0.0045, name="corners as measured"),
-        "residuals": Segments(between(on(uv, 1.5 * LAYER), on(uv + long, 1.5 * LAYER)), "wrong", 2.5,
-                              name=f"residuals, {LONGER} times as long"),
-    }  # fmt: skip
+        "residuals": Segments(
+            between(on(uv, 1.5 * LAYER), on(uv + long, 1.5 * LAYER)),
+            "wrong",
+            2.5,
+            name=f"residuals, {LONGER} times as long",
+        ),
+    }

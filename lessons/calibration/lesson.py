@@ -1,8 +1,9 @@
 """A camera from pictures of a board: closed form, refinement, and how well the answer is known.
 
-What it teaches: each picture of a flat board is a homography and gives two equations about K; that is only a start, for
-lens and poses have to be refined together; and the residual alone tells neither whether the views determine f, nor whether
-the model holds beyond the corners, nor whether the board was printed as one believes.
+What it teaches: each picture of a flat board is a homography and gives two equations about K; that
+is only a start, for lens and poses have to be refined together; and the residual alone tells
+neither whether the views determine f, nor whether the model holds beyond the corners, nor whether
+the board was printed as one believes.
 """
 
 from collections.abc import Callable, Iterator
@@ -15,17 +16,18 @@ from lessons.calibration.draw import VIEW, draw
 from lessons.calibration.presets import PRESETS, QUESTIONS
 from lessons.calibration.state import COEFFICIENTS, Ending, Params, State
 from lessons.calibration.views import deviations, map_error, over_tilt, subject_of
-from workbench.algorithms import calibration as calibration_steps
-from workbench.algorithms.board_adjustment import adjust
-from workbench.algorithms.calibration import Pose, Rows, calibrate
+from workbench.algorithms.cameras import calibration as calibration_steps
+from workbench.algorithms.cameras.calibration import Pose, Rows, calibrate
+from workbench.algorithms.least_squares.board_adjustment import adjust
 from workbench.certain import sure
 from workbench.errors import InputError
-from workbench.geometry import calibration
+from workbench.geometry.cameras import calibration
 from workbench.lesson import Lesson, Sweep
 
 Rms = Callable[[np.ndarray], float]
 MOST_ITERATIONS = 400
-TOLERANCE = 1e-8  # of the cost: where boards are hardly tilted, the valley is so flat that a millionth is no rest
+# of the cost: where boards are hardly tilted, the valley is so flat that a millionth is no rest
+TOLERANCE = 1e-8
 EACH, EVERY = 30, 10  # iterations that are shown one by one, and of those after them, which
 
 
@@ -74,20 +76,35 @@ def run(
 def passed_over(now: calibration_steps.State) -> bool:
     """Tell whether an iteration is not shown: of a long refinement every tenth is, and the last."""
     refined = now.adjustment
-    return bool(refined and refined.iteration > EACH and refined.iteration % EVERY and not refined.stop)
+    return bool(
+        refined and refined.iteration > EACH and refined.iteration % EVERY and not refined.stop
+    )
 
 
 def endings(state: State, corner: float | None) -> Iterator[State]:
-    """Yield how well each view fits, what changes without the worst one, and how well all is known."""
-    subject, found, worst = state.subject, sure(state.now.adjustment), int(np.argmax(state.per_view))
+    """Yield how well each view fits, what changes without the worst one, and how well all is
+    known.
+    """
+    subject, found, worst = (
+        state.subject,
+        sure(state.now.adjustment),
+        int(np.argmax(state.per_view)),
+    )
     views = Ending(kind="views", worst=worst)
     yield replace(state, shown=worst, ending=views)
     if len(subject.views) > 2:
         keep = np.arange(len(subject.views)) != worst
         *_, without = adjust(
-            found.K, found.lens, found.Ts_camera_board[keep], subject.p_board, subject.uv[keep],
-            coefficients=COEFFICIENTS[state.params.lens], corner=corner, max_iterations=MOST_ITERATIONS, tolerance=TOLERANCE,
-        )  # fmt: skip
+            found.K,
+            found.lens,
+            found.Ts_camera_board[keep],
+            p_board=subject.p_board,
+            uv=subject.uv[keep],
+            coefficients=COEFFICIENTS[state.params.lens],
+            corner=corner,
+            max_iterations=MOST_ITERATIONS,
+            tolerance=TOLERANCE,
+        )
         yield replace(state, shown=worst, ending=replace(views, kind="without", without=without))
     known = Ending(
         kind="known",
@@ -101,13 +118,16 @@ def endings(state: State, corner: float | None) -> Iterator[State]:
 lesson = Lesson(
     name="calibration",
     title="Calibration",
-    summary="A camera from pictures of a board: two equations a view, one refinement of all, and an honest ± of f.",
+    summary="Photographs of a chessboard tell what a camera's lens does. See how sure of it you "
+    "can be.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1500,
-    needs=("pinhole",),
+    order=900,
+    chapter="See",
+    minutes=25,
+    needs=("pinhole", "fitting"),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

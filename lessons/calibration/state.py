@@ -6,17 +6,23 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms import calibration
-from workbench.algorithms.board_adjustment import Adjustment
-from workbench.data.boards import Fault
-from workbench.data.corners import MOST_VIEWS, Which
+from workbench.algorithms.cameras import calibration
+from workbench.algorithms.least_squares.board_adjustment import Adjustment
 from workbench.data.framing import Unit
 from workbench.data.pictures import Pictures
-from workbench.geometry.distortion import NONE, Distortion
+from workbench.data.views.boards import Fault
+from workbench.data.views.corners import MOST_VIEWS, Which
+from workbench.geometry.cameras.distortion import NONE, Distortion
 from workbench.knobs import Knob, Pick
 
 Lens = Literal["none", "k1", "k1 k2", "k1 k2 p1 p2", "k1 k2 p1 p2 k3"]
-COEFFICIENTS: dict[Lens, int] = {"none": 0, "k1": 1, "k1 k2": 2, "k1 k2 p1 p2": 4, "k1 k2 p1 p2 k3": 5}
+COEFFICIENTS: dict[Lens, int] = {
+    "none": 0,
+    "k1": 1,
+    "k1 k2": 2,
+    "k1 k2 p1 p2": 4,
+    "k1 k2 p1 p2 k3": 5,
+}
 
 
 @dataclass(frozen=True)
@@ -24,22 +30,50 @@ class Params:
     """Pictures of a board, what is wrong with them, and the model that is fitted."""
 
     views: Annotated[int, Knob("How many pictures of the board", 2, 20)] = 8
-    tilt: Annotated[float, Knob("How far boards are turned away from the picture's plane", 0, 60, unit="deg")] = 30.0
+    tilt: Annotated[
+        float, Knob("How far boards are turned away from the picture's plane", 0, 60, unit="deg")
+    ] = 30.0
     distance: Annotated[float, Knob("How far away boards are", 0.3, 1.2, unit="m", step=0.05)] = 0.4
-    spread: Annotated[float, Knob("How far boards go to the sides: 0 in the middle, 1 all over", 0, 1, step=0.05)] = 1.0
-    noise: Annotated[float, Knob("Noise of each coordinate of a corner (sigma)", 0, 1, unit="px", step=0.05)] = 0.2
+    spread: Annotated[
+        float, Knob("How far boards go to the sides: 0 in the middle, 1 all over", 0, 1, step=0.05)
+    ] = 1.0
+    noise: Annotated[
+        float, Knob("Noise of each coordinate of a corner (sigma)", 0, 1, unit="px", step=0.05)
+    ] = 0.2
     lens: Annotated[Lens, Knob("Which terms of the lens are estimated")] = "k1 k2 p1 p2"
-    fault: Annotated[Fault, Knob("What is wrong with the printed board; nobody tells the calibration")] = "none"
+    fault: Annotated[
+        Fault, Knob("What is wrong with the printed board; nobody tells the calibration")
+    ] = "none"
     bad_corners: Annotated[int, Knob("Corners of view 1 that were found 5 px away", 0, 10)] = 0
-    leave_out: Annotated[int, Knob("Leave out this view, counted from 0; −1: none", -1, MOST_VIEWS - 1)] = -1
-    loss: Annotated[Literal["squares", "Cauchy"], Knob("How much a far corner may pull")] = "squares"
+    leave_out: Annotated[
+        int, Knob("Leave out this view, counted from 0; −1: none", -1, MOST_VIEWS - 1)
+    ] = -1
+    loss: Annotated[Literal["squares", "Cauchy"], Knob("How much a far corner may pull")] = (
+        "squares"
+    )
     corner: Annotated[
-        float, Knob("Residuals beyond this hardly pull", 0.05, 5, unit="px", step=0.05, needs={"loss": ("Cauchy",)})
+        float,
+        Knob(
+            "Residuals beyond this hardly pull",
+            0.05,
+            5,
+            unit="px",
+            step=0.05,
+            needs={"loss": ("Cauchy",)},
+        ),
     ] = 0.3
     shown: Annotated[
-        int, Knob("Whose picture is shown: click the middle of a board", 0, MOST_VIEWS - 1, by=Pick("middles"))
+        int,
+        Knob(
+            "Whose picture is shown: click the middle of a board",
+            0,
+            MOST_VIEWS - 1,
+            by=Pick("middles"),
+        ),
     ] = 0
-    corners: Annotated[Path | None, Knob("Own corners: npz (object_points, corners) or lines view X Y u v")] = None
+    corners: Annotated[
+        Path | None, Knob("Own corners: npz (object_points, corners) or lines view X Y u v")
+    ] = None
     camera: Annotated[Which, Knob("Which camera, where a file has two", of_files=True)] = "first"
     board: Annotated[
         tuple[int, int],
@@ -54,7 +88,10 @@ class Params:
     unit: Annotated[Unit, Knob("In which unit an own board is", of_files=True)] = "m"
     images: Annotated[
         Path | None,
-        Knob("Own pictures of the views: a folder or a zip of jpg or png; or one picture, of the view shown"),
+        Knob(
+            "Own pictures of the views: a folder or a zip of jpg or png; or one picture, of the"
+            " view shown"
+        ),
     ] = None
     seed: Annotated[int, Knob("Where boards are, and their noise", 0, 99)] = 0
 
@@ -94,8 +131,10 @@ class Ending:
         kind: How well each view fits; what changes without the worst; or how well all is known.
         worst: Which of the views that are used has the largest rms.
         without: The calibration without it, or None where too few views are left.
-        deviation: Predicted standard deviation of where a ray is seen, over the picture, pixels; NaN where unknown.
-        tilts: Of other boards at the same places: their tilt in degrees, and the predicted deviation of f, pixels.
+        deviation: Predicted standard deviation of where a ray is seen, over the picture, pixels;
+            NaN where unknown.
+        tilts: Of other boards at the same places: their tilt in degrees, and the predicted
+            deviation of f, pixels.
     """
 
     kind: Literal["views", "without", "known"]
@@ -116,7 +155,8 @@ class State:
         rms: Of all residuals so far, as the function in the slot has it, pixels.
         before: The rms one step earlier; NaN at the first.
         shown: Which of the views that are used has its picture shown.
-        map_error: How far off rays are seen, over a grid of the picture, pixels; empty where there is no camera or truth.
+        map_error: How far off rays are seen, over a grid of the picture, pixels; empty where there
+            is no camera or truth.
         ending: What is asked at the end, or None before.
     """
 

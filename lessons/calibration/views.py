@@ -1,4 +1,6 @@
-"""Where views come from, built-in or a person's own, what they look like, and how well a camera is known by them."""
+"""Where views come from, built-in or a person's own, what they look like, and how well a camera is
+known by them.
+"""
 
 import functools
 from dataclasses import replace
@@ -6,14 +8,18 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.calibration.state import COEFFICIENTS, Params, Subject
-from workbench.algorithms.board_adjustment import linearised, shared_information, shared_numbers
-from workbench.data import boards
-from workbench.data.corners import find_corners, pictures_below, read_corners
+from workbench.algorithms.least_squares.board_adjustment import (
+    linearised,
+    shared_information,
+    shared_numbers,
+)
 from workbench.data.framing import METRES
+from workbench.data.views import boards
+from workbench.data.views.corners import find_corners, pictures_below, read_corners
 from workbench.errors import InputError
 from workbench.geometry.cameras import normalize, resize_intrinsics
-from workbench.geometry.distortion import Distortion, distort
-from workbench.geometry.raster import MeshItem, render
+from workbench.geometry.cameras.distortion import Distortion, distort
+from workbench.geometry.cameras.raster import MeshItem, render
 from workbench.knobs import only
 
 TILTS = np.array([1.0, 2, 5, 10, 15, 20, 30, 40, 50, 60])  # degrees
@@ -32,7 +38,17 @@ def subject_of(params: Params) -> Subject:
         subject = _own(params)
     else:
         subject = _built_in(
-            only(params, "views", "tilt", "distance", "spread", "noise", "fault", "bad_corners", "seed")
+            only(
+                params,
+                "views",
+                "tilt",
+                "distance",
+                "spread",
+                "noise",
+                "fault",
+                "bad_corners",
+                "seed",
+            )
         )
     if params.leave_out not in subject.views:
         return subject
@@ -43,7 +59,9 @@ def subject_of(params: Params) -> Subject:
         subject,
         uv=subject.uv[keep],
         views=tuple(view for view in subject.views if view != params.leave_out),
-        Ts_camera_board=subject.Ts_camera_board[keep] if subject.K is not None else subject.Ts_camera_board,
+        Ts_camera_board=subject.Ts_camera_board[keep]
+        if subject.K is not None
+        else subject.Ts_camera_board,
     )
 
 
@@ -54,7 +72,9 @@ def _own(params: Params) -> Subject:
         found, pictures, without = find_corners(params.images, *params.board)
     else:
         found = read_corners(params.corners, params.camera)
-        pictures = None if params.images is None else pictures_below(found, params.images, params.shown)
+        pictures = (
+            None if params.images is None else pictures_below(found, params.images, params.shown)
+        )
     return Subject(
         p_board=METRES[params.unit if params.corners else "m"] * found.p_board,
         uv=found.uv,
@@ -84,14 +104,23 @@ def _built_in(params: Params) -> Subject:
 
 
 def _poses(rng: np.random.Generator, params: Params, tilt: float) -> np.ndarray:
-    return boards.board_poses(rng, params.views, tilt=np.radians(tilt), distance=params.distance, spread=params.spread)
+    return boards.board_poses(
+        rng, params.views, tilt=np.radians(tilt), distance=params.distance, spread=params.spread
+    )
 
 
 def photograph(params: Params, subject: Subject, shown: int) -> np.ndarray:
     """Return the picture of a view: as our camera takes it, a person's own, or an empty one."""
     if subject.K is not None:
-        return _taken(only(params, "views", "tilt", "distance", "spread", "fault", "seed"), subject.views[shown])
-    own = None if subject.pictures is None else subject.pictures.shown(subject.views[shown], MOST_SIDE)
+        return _taken(
+            only(params, "views", "tilt", "distance", "spread", "fault", "seed"),
+            subject.views[shown],
+        )
+    own = (
+        None
+        if subject.pictures is None
+        else subject.pictures.shown(subject.views[shown], MOST_SIDE)
+    )
     if own is not None:
         return own
     w, h = subject.size
@@ -105,7 +134,9 @@ def _taken(params: Params, view: int) -> np.ndarray:
     w, h = PHOTOGRAPH
     K = resize_intrinsics(boards.K_TRUE, w / boards.SIZE[0], h / boards.SIZE[1])
     item = MeshItem(boards.printed(p, params.fault), faces, colors)
-    return render([item], T_camera_board, K, w, h, boards.LENS_TRUE, background=(196, 203, 212)).colors
+    return render(
+        [item], T_camera_board, K, w, h, boards.LENS_TRUE, background=(196, 203, 212)
+    ).colors
 
 
 def places(size: tuple[int, int]) -> np.ndarray:
@@ -128,14 +159,20 @@ def _true_rays() -> np.ndarray:
     return normalize(places(boards.SIZE), boards.K_TRUE, boards.LENS_TRUE)
 
 
-def deviations(size: tuple[int, int], K: np.ndarray, lens: Distortion, covariance: np.ndarray | None) -> np.ndarray:
-    """Return over the picture the predicted standard deviation, in its worst direction, of where a ray is seen, pixels."""
+def deviations(
+    size: tuple[int, int], K: np.ndarray, lens: Distortion, covariance: np.ndarray | None
+) -> np.ndarray:
+    """Return over the picture the predicted standard deviation, in its worst direction, of where a
+    ray is seen, pixels.
+    """
     xy = normalize(places(size), K, lens)
     if covariance is None:
         return np.full(GRID[::-1], np.nan)
     p = np.column_stack([xy, np.ones(len(xy))])
     shared = shared_numbers(K, lens)
-    J = linearised(shared, np.eye(3)[None], np.zeros((1, 3)), p, np.zeros((1, len(p), 2)))[0, : len(covariance)]
+    J = linearised(shared, np.eye(3)[None], np.zeros((1, 3)), p, np.zeros((1, len(p), 2)))[
+        0, : len(covariance)
+    ]
     J = J.reshape(len(covariance), 2, -1)
     C = np.einsum("iap,ij,jbp->pab", J, covariance, J)
     known = np.isfinite(C).all(axis=(1, 2))
@@ -157,6 +194,10 @@ def _over_tilt(params: Params) -> tuple[np.ndarray, np.ndarray]:
     p_board, found = boards.board_points(), []
     for tilt in TILTS:
         T = _poses(np.random.default_rng(params.seed), params, tilt)
-        block = linearised(shared, T[:, :3, :3], T[:, :3, 3], p_board, np.zeros((len(T), len(p_board), 2)))
-        found.append(params.noise * float(np.sqrt(np.linalg.inv(shared_information(block, free))[0, 0])))
+        block = linearised(
+            shared, T[:, :3, :3], T[:, :3, 3], p_board, np.zeros((len(T), len(p_board), 2))
+        )
+        found.append(
+            params.noise * float(np.sqrt(np.linalg.inv(shared_information(block, free))[0, 0]))
+        )
     return TILTS, np.array(found)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from lessons.chamfer_emd.state import Numbers, Side, State
-from workbench.algorithms.flow import Stop
+from workbench.algorithms.transport.flow import Stop
 from workbench.numerals import brief, percent
 from workbench.scene import Caption
 
@@ -23,21 +23,36 @@ def caption(state: State) -> Caption:
 
 def _start(state: State) -> Caption:
     now, note, params = state.left.numbers, state.yardsticks["5 % larger"], state.params
-    size = "" if state.clouds.scale == 1 else f" A unit of your files is {brief(state.clouds.scale)} m of the picture."
+    size = (
+        ""
+        if state.clouds.scale == 1
+        else f" A unit of your files is {brief(state.clouds.scale)} m of the picture."
+    )
     text = (
-        f"The source is {state.clouds.name}: Chamfer {squared(now.chamfer)}, earth mover's {metres(now.earth_movers)}."
+        f"The source is {state.clouds.name}: Chamfer {squared(now.chamfer)}, earth mover's"
+        f" {metres(now.earth_movers)}."
     )
     larger = f"the target 5 % larger ({squared(note.chamfer)}, {metres(note.earth_movers)})"
     if 0 < now.chamfer < note.chamfer and now.earth_movers > note.earth_movers:
-        text += f" The ranking flips: to Chamfer this is closer than {larger}, to earth mover's it is farther."
+        text += (
+            f" The ranking flips: to Chamfer this is closer than {larger}, to earth mover's it is"
+            " farther."
+        )
         return Caption(text + size)
     if now.chamfer == 0 < now.earth_movers:
-        return Caption(text + " To Chamfer the two are equal: each point lies on one of the other cloud." + size)
+        return Caption(
+            text
+            + " To Chamfer the two are equal: each point lies on one of the other cloud."
+            + size
+        )
     if now.earth_movers == 0 < now.index_mse:
-        return Caption(text + f" Only pairs by index see a change: {squared(now.index_mse)}." + size)
+        return Caption(
+            text + f" Only pairs by index see a change: {squared(now.index_mse)}." + size
+        )
     if params.lowers == "source to target" and state.left.flow.stop is Stop.ARRIVED:
         text += (
-            " Every source point lies on the target, so that side of Chamfer is 0 and the left flow has nothing to do;"
+            " Every source point lies on the target, so that side of Chamfer is 0 and the left flow"
+            " has nothing to do;"
         )
         return Caption(text + f" the other side is {squared(now.to_source)}." + size)
     return Caption(text + ("" if params.start == "larger" else f" Compare {larger}.") + size)
@@ -49,7 +64,10 @@ def _step(state: State, before_left: Numbers, before_right: Numbers) -> Caption:
     if left.flow.step < state.step:
         text += f"ended at {_lowered_value(state)}"
     else:
-        text += f"{LOWERED[state.params.lowers]} {_value_before(state, before_left)} → {_lowered_value(state)}"
+        text += (
+            f"{LOWERED[state.params.lowers]} {_value_before(state, before_left)} →"
+            f" {_lowered_value(state)}"
+        )
     text += f", {percent(left.numbers.astray, 0)} of the mass astray. Right: earth mover's "
     if right.flow.step < state.step:
         text += f"ended at {metres(right.numbers.earth_movers)}"
@@ -61,7 +79,10 @@ def _step(state: State, before_left: Numbers, before_right: Numbers) -> Caption:
     text += f" Left {_why(left)}; right {_why(right)}."
     if max(left.numbers.astray, right.numbers.astray) <= ALMOST_NONE:
         return Caption(text, "good")
-    unintended = state.params.lowers == "both sides" and left.numbers.astray > ALMOST_NONE + right.numbers.astray
+    unintended = (
+        state.params.lowers == "both sides"
+        and left.numbers.astray > ALMOST_NONE + right.numbers.astray
+    )
     return Caption(text, "wrong" if unintended else "info")
 
 
@@ -75,7 +96,11 @@ def _why(side: Side) -> str:
 
 
 def _value_before(state: State, before: Numbers) -> str:
-    sides = {"both sides": before.chamfer, "source to target": before.to_target, "target to source": before.to_source}
+    sides = {
+        "both sides": before.chamfer,
+        "source to target": before.to_target,
+        "target to source": before.to_source,
+    }
     return squared(sides[state.params.lowers])
 
 

@@ -1,11 +1,10 @@
-"""The two clouds of a run, built-in or the person's own, and known changes of the target to compare with."""
+"""The two clouds of a run, built-in or the person's own, and known changes of the target to compare
+with.
+"""
 
 import numpy as np
 
-from lessons.chamfer_emd.state import Clouds, Params, Start
-from workbench.data.files import read_cloud
-from workbench.data.framing import FAR, Frame, frame
-from workbench.data.point_sets import (
+from lessons.chamfer_emd.point_sets import (
     blob,
     bumped,
     bunched,
@@ -17,6 +16,9 @@ from workbench.data.point_sets import (
     spread,
     with_outlier,
 )
+from lessons.chamfer_emd.state import Clouds, Params, Start
+from workbench.data.files import read_cloud
+from workbench.data.framing import FAR, Frame, frame
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.knobs import called
@@ -39,7 +41,9 @@ def clouds_of(params: Params) -> Clouds:
         InputError: If an own file cannot be used, or a source is given without its target.
     """
     if params.source is not None and params.target is None:
-        raise InputError(f"an own source needs an own target to flow to: give {called('target')} too")
+        raise InputError(
+            f"an own source needs an own target to flow to: give {called('target')} too"
+        )
     rng = np.random.default_rng(params.seed)
     if params.target is None:
         framed, p_target = Frame(), spread(params.shape, params.points)
@@ -50,13 +54,19 @@ def clouds_of(params: Params) -> Clouds:
     if params.source is None:
         p_source, name = changed(p_target, params.start, params.amount, params, rng), _name(params)
     else:
-        p_source = framed.shown(some_points(read_cloud(params.source), params.source_points or params.points, rng))
+        p_source = framed.shown(
+            some_points(read_cloud(params.source), params.source_points or params.points, rng)
+        )
         name = params.source.name
     return Clouds(p_source=p_source, p_target=p_target, name=name, scale=framed.scale)
 
 
-def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator) -> np.ndarray:
-    """Return a source: a blob, or the target, with as many points as are asked for, after one change."""
+def changed(
+    p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator
+) -> np.ndarray:
+    """Return a source: a blob, or the target, with as many points as are asked for, after one
+    change.
+    """
     built_in, count = params.target is None, params.source_points or len(p_target)
     share = min(amount, 1.0)
     if start == "blob":
@@ -68,7 +78,11 @@ def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, r
     if count == len(p_target):
         p = p_target
     else:
-        p = spread(params.shape, count) if built_in else p_target[np.resize(rng.permutation(len(p_target)), count)]
+        p = (
+            spread(params.shape, count)
+            if built_in
+            else p_target[np.resize(rng.permutation(len(p_target)), count)]
+        )
     if start == "larger":
         return grown(p, amount)
     if start == "bunched":
@@ -83,10 +97,15 @@ def changed(p_target: np.ndarray, start: Start, amount: float, params: Params, r
 
 
 def yardsticks(clouds: Clouds, params: Params) -> tuple[tuple[str, np.ndarray], ...]:
-    """Return the target after each of the known changes, with as many points, for numbers to compare with."""
+    """Return the target after each of the known changes, with as many points, for numbers to
+    compare with.
+    """
     rng = np.random.default_rng(params.seed)
     alike = Params(shape=params.shape, points=params.points, target=params.target)
-    return tuple((name, changed(clouds.p_target, start, amount, alike, rng)) for name, start, amount in YARDSTICKS)
+    return tuple(
+        (name, changed(clouds.p_target, start, amount, alike, rng))
+        for name, start, amount in YARDSTICKS
+    )
 
 
 def _name(params: Params) -> str:

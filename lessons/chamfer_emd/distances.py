@@ -1,6 +1,7 @@
 """The distances of the lesson: what each says of a cloud, and which way it falls.
 
-A student's function in a slot gives its value only; which way it falls is then found by differences.
+A student's function in a slot gives its value only; which way it falls is then found by
+differences.
 """
 
 from dataclasses import dataclass
@@ -9,11 +10,11 @@ import numpy as np
 
 from lessons.chamfer_emd.clouds import yardsticks
 from lessons.chamfer_emd.state import Clouds, Lowers, Numbers, Params, Side
-from workbench.algorithms import transport
-from workbench.algorithms.flow import Distance, Flow, Gradient, numeric_gradient
 from workbench.algorithms.transport import Matching, best_matching, earth_movers_gradient
-from workbench.geometry import shape_distances
-from workbench.geometry.shape_distances import (
+from workbench.algorithms.transport import exact as transport
+from workbench.algorithms.transport.flow import Distance, Flow, Gradient, numeric_gradient
+from workbench.geometry.points import shape_distances
+from workbench.geometry.points.shape_distances import (
     DEFINITIONS,
     Nearest,
     chamfer_gradient,
@@ -35,17 +36,34 @@ class Measures:
     one_sided: Distance
 
 
-def measured(now: Flow, before: Side | None, p_target: np.ndarray, params: Params, measures: Measures) -> Side:
+def measured(
+    now: Flow, before: Side | None, p_target: np.ndarray, params: Params, measures: Measures
+) -> Side:
     """Measure a flow where it is, or return what was measured where it has been waiting."""
     if before is not None and before.flow is now:
         return before
-    near, matching = nearest_both_ways(now.p_moving, p_target), best_matching(now.p_moving, p_target)
+    near, matching = (
+        nearest_both_ways(now.p_moving, p_target),
+        best_matching(now.p_moving, p_target),
+    )
     now_numbers = numbers(now.p_moving, p_target, near, matching, params, measures)
-    return Side(flow=now, numbers=now_numbers, near=near, matching=matching, p_target=p_target, blur=params.blur)
+    return Side(
+        flow=now,
+        numbers=now_numbers,
+        near=near,
+        matching=matching,
+        p_target=p_target,
+        blur=params.blur,
+    )
 
 
 def numbers(
-    p: np.ndarray, p_target: np.ndarray, near: Nearest, matching: Matching, params: Params, measures: Measures
+    p: np.ndarray,
+    p_target: np.ndarray,
+    near: Nearest,
+    matching: Matching,
+    params: Params,
+    measures: Measures,
 ) -> Numbers:
     """Measure one cloud against the target by every distance of the lesson."""
     return Numbers(
@@ -65,36 +83,56 @@ def numbers_of_yardsticks(clouds: Clouds, params: Params, measures: Measures) ->
     """Measure the target after each of the known changes."""
     p_target = clouds.p_target
     return {
-        name: numbers(p, p_target, nearest_both_ways(p, p_target), best_matching(p, p_target), params, measures)
+        name: numbers(
+            p,
+            p_target,
+            nearest_both_ways(p, p_target),
+            best_matching(p, p_target),
+            params,
+            measures,
+        )
         for name, p in yardsticks(clouds, params)
     }
 
 
 def left(lowers: Lowers, measures: Measures) -> tuple[Distance, Gradient]:
-    """Return the distance that the left flow lowers, and its gradient with respect to the moving cloud."""
+    """Return the distance that the left flow lowers, and its gradient with respect to the moving
+    cloud.
+    """
     one_sided, ours = measures.one_sided, shape_distances.one_sided
     if lowers == "source to target":
         return one_sided, slope_of(one_sided, ours, one_sided_gradient)
     if lowers == "target to source":
-        return swapped(one_sided), slope_of(swapped(one_sided), swapped(ours), one_sided_back_gradient)
+        return swapped(one_sided), slope_of(
+            swapped(one_sided), swapped(ours), one_sided_back_gradient
+        )
     return measures.chamfer, slope_of(measures.chamfer, shape_distances.chamfer, chamfer_gradient)
 
 
 def right(measures: Measures) -> tuple[Distance, Gradient]:
-    """Return the distance that the right flow lowers, and its gradient with respect to the moving cloud."""
-    return measures.earth_movers, slope_of(measures.earth_movers, transport.earth_movers, earth_movers_gradient)
+    """Return the distance that the right flow lowers, and its gradient with respect to the moving
+    cloud.
+    """
+    return measures.earth_movers, slope_of(
+        measures.earth_movers, transport.earth_movers, earth_movers_gradient
+    )
 
 
 def slope_of(distance: Distance, ours: Distance, gradient: Gradient) -> Gradient:
-    """Return the gradient of a distance: ours wherever the distance equals ours, here and nearby, else by differences.
+    """Return the gradient of a distance: ours wherever the distance equals ours, here and nearby,
+    else by differences.
 
-    So a right function flows exactly as ours does, at three calls a step, and a wrong one flows where it leads.
+    So a right function flows exactly as ours does, at three calls a step, and a wrong one flows
+    where it leads.
     """
     if distance is ours:
         return gradient
 
     def slope(p: np.ndarray, p_target: np.ndarray) -> np.ndarray:
-        same = all(np.isclose(distance(q, p_target), ours(q, p_target), _TOLERANCE, _TOLERANCE) for q in around(p))
+        same = all(
+            np.isclose(distance(q, p_target), ours(q, p_target), _TOLERANCE, _TOLERANCE)
+            for q in around(p)
+        )
         return gradient(p, p_target) if same else numeric_gradient(distance, p, p_target)
 
     return slope
@@ -112,5 +150,7 @@ def swapped(distance: Distance) -> Distance:
 
 
 def one_sided_back_gradient(p: np.ndarray, p_target: np.ndarray) -> np.ndarray:
-    """Return the gradient of the side from the target back to the cloud: that of both sides less the other one."""
+    """Return the gradient of the side from the target back to the cloud: that of both sides less
+    the other one.
+    """
     return chamfer_gradient(p, p_target) - one_sided_gradient(p, p_target)

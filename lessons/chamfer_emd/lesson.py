@@ -1,8 +1,8 @@
 """Chamfer and earth mover's: one cloud flows down two distances, side by side.
 
-What it teaches: nearest neighbours are not one to one, so a small Chamfer distance says little about density; the earth
-mover's distance matches one to one, so it does. "Chamfer" names several numbers, and every number of the table has a
-blind spot.
+What it teaches: nearest neighbours are not one to one, so a small Chamfer distance says little
+about density; the earth mover's distance matches one to one, so it does. "Chamfer" names several
+numbers, and every number of the table has a blind spot.
 """
 
 from collections.abc import Iterator
@@ -15,9 +15,9 @@ from lessons.chamfer_emd.distances import Measures, measured, numbers_of_yardsti
 from lessons.chamfer_emd.draw import VIEW, draw
 from lessons.chamfer_emd.presets import PRESETS, QUESTIONS
 from lessons.chamfer_emd.state import Params, State
-from workbench.algorithms import transport
-from workbench.algorithms.flow import Distance, Flow, flow
-from workbench.geometry import shape_distances
+from workbench.algorithms.transport import exact as transport
+from workbench.algorithms.transport.flow import Distance, Flow, flow
+from workbench.geometry.points import shape_distances
 from workbench.lesson import Lesson, Sweep
 
 
@@ -64,13 +64,16 @@ def side_by_side(lefts: Iterator[Flow], rights: Iterator[Flow]) -> Iterator[tupl
 lesson = Lesson(
     name="chamfer_emd",
     title="Chamfer and earth mover's",
-    summary="When are two shapes close? One cloud flows down two distances: see where each of them leads it.",
+    summary="Two ways to say how far one cloud of points is from another: partners may be "
+    "shared, or they may not.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=600,
-    needs=("icp",),
+    order=1800,
+    chapter="Measure",
+    minutes=25,
+    needs=("distances",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -1,4 +1,6 @@
-"""Who belongs to whom, unrolled: under each flow its target as one row of points, the cloud as another, joined."""
+"""Who belongs to whom, unrolled: under each flow its target as one row of points, the cloud as
+another, joined.
+"""
 
 import numpy as np
 
@@ -9,8 +11,12 @@ from workbench.scene import Classes, Label, Points, Primitive, Segments
 WIDTH, TARGET_ROW, SOURCE_ROW = 2.1, -1.3, -2.0
 
 
-def unrolled(state: State, side: Side, T_world_side: np.ndarray, *, nearest: bool) -> dict[str, Primitive]:
-    """Return both rows in the order of their angle, and the pairs between them, one to one or each with its nearest."""
+def unrolled(
+    state: State, side: Side, T_world_side: np.ndarray, *, nearest: bool
+) -> dict[str, Primitive]:
+    """Return both rows in the order of their angle, and the pairs between them, one to one or each
+    with its nearest.
+    """
     p_target = state.clouds.p_target
     target = _row(p_target, p_target, TARGET_ROW)
     source = _row(side.flow.p_moving, p_target, SOURCE_ROW)
@@ -21,10 +27,15 @@ def unrolled(state: State, side: Side, T_world_side: np.ndarray, *, nearest: boo
         "target row": Points(target, "target", radius, T_world_side),
         "source row": Points(source, who if nearest else "source", radius, T_world_side),
         "pairing": Segments(
-            between(target[ends[0]], source[ends[1]]), "other" if nearest else "correspondence", 1.5, T_world_side
+            between(target[ends[0]], source[ends[1]]),
+            "other" if nearest else "correspondence",
+            1.5,
+            T_world_side,
         ),
-        "pairing words": Label(words, np.array([0.0, 0.0, SOURCE_ROW - 0.17]), "neutral", T_world_side),
-    }  # fmt: skip
+        "pairing words": Label(
+            words, np.array([0.0, 0.0, SOURCE_ROW - 0.17]), "neutral", T_world_side
+        ),
+    }
 
 
 def _nearest(state: State, side: Side) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray, str]:
@@ -45,8 +56,12 @@ def _matched(state: State, side: Side) -> tuple[tuple[np.ndarray, np.ndarray], n
 
 
 def _row(p: np.ndarray, p_target: np.ndarray, height: float) -> np.ndarray:
-    """Return points side by side in the order of their angle around the target's middle, from its left side on."""
+    """Return points side by side in the order of their angle around the target's middle, from its
+    left side on.
+    """
     x, _, z = (p - p_target.mean(axis=0)).T
     place = np.empty(len(p))
-    place[np.lexsort((np.arange(len(p)), np.round(np.arctan2(z, x), 6)))] = (np.arange(len(p)) + 0.5) / len(p) - 0.5
+    place[np.lexsort((np.arange(len(p)), np.round(np.arctan2(z, x), 6)))] = (
+        np.arange(len(p)) + 0.5
+    ) / len(p) - 0.5
     return np.column_stack([WIDTH * place, np.zeros(len(p)), np.full(len(p), height)])

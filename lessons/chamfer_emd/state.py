@@ -7,13 +7,22 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.flow import Flow
+from lessons.chamfer_emd.point_sets import Shape
 from workbench.algorithms.transport import Matching, blurred_earth_movers
-from workbench.data.point_sets import Shape
-from workbench.geometry.shape_distances import Definition, Nearest
+from workbench.algorithms.transport.flow import Flow
+from workbench.geometry.points.shape_distances import Definition, Nearest
 from workbench.knobs import Knob
 
-Start = Literal["blob", "larger", "bunched", "bump", "part missing", "one outlier", "shuffled rows", "doubled points"]
+Start = Literal[
+    "blob",
+    "larger",
+    "bunched",
+    "bump",
+    "part missing",
+    "one outlier",
+    "shuffled rows",
+    "doubled points",
+]
 Lowers = Literal["both sides", "source to target", "target to source"]
 
 
@@ -25,28 +34,57 @@ class Params:
     start: Annotated[Start, Knob("A blob, or the target after one change", label="Source")] = "blob"
     amount: Annotated[
         float,
-        Knob("How much: blob, bump and outlier in metres; the others as a share, up to 1", 0, 3, step=0.001),
+        Knob(
+            "How much: blob, bump and outlier in metres; the others as a share, up to 1",
+            0,
+            3,
+            step=0.001,
+        ),
     ] = 0.3
     points: Annotated[
-        int, Knob("Points of the target; an own cloud is thinned to them", 10, 200, label="Target points")
+        int,
+        Knob(
+            "Points of the target; an own cloud is thinned to them", 10, 200, label="Target points"
+        ),
     ] = 80
-    source_points: Annotated[int, Knob("Points of the source; 0 takes as many as the target has", 0, 200)] = 0
-    lowers: Annotated[Lowers, Knob("Which sides of Chamfer the left flow lowers", label="Left flow lowers")] = (
-        "both sides"
-    )
+    source_points: Annotated[
+        int, Knob("Points of the source; 0 takes as many as the target has", 0, 200)
+    ] = 0
+    lowers: Annotated[
+        Lowers, Knob("Which sides of Chamfer the left flow lowers", label="Left flow lowers")
+    ] = "both sides"
     blur: Annotated[
-        float, Knob("Regularisation of Sinkhorn's transport", 0.01, 2, unit="m", step=0.01, label="Sinkhorn blur")
+        float,
+        Knob(
+            "Regularisation of Sinkhorn's transport",
+            0.01,
+            2,
+            unit="m",
+            step=0.01,
+            label="Sinkhorn blur",
+        ),
     ] = 0.05
     near: Annotated[
-        float, Knob("Up to here the F-score counts a point, and mass is not astray", 0.01, 0.5, unit="m", step=0.01)
+        float,
+        Knob(
+            "Up to here the F-score counts a point, and mass is not astray",
+            0.01,
+            0.5,
+            unit="m",
+            step=0.01,
+        ),
     ] = 0.1
     longest_step: Annotated[
         float, Knob("No step moves the points farther than this", 0.01, 0.3, unit="m", step=0.01)
     ] = 0.06
     steps: Annotated[int, Knob("Steps of each flow, unless it ends before", 0, 150)] = 40
-    target: Annotated[Path | None, Knob("Own target cloud: ply, pcd, obj, xyz, csv, npz; scaled to the picture")] = None
+    target: Annotated[
+        Path | None, Knob("Own target cloud: ply, pcd, obj, xyz, csv, npz; scaled to the picture")
+    ] = None
     source: Annotated[Path | None, Knob("Own source cloud, in the frame of the own target")] = None
-    seed: Annotated[int, Knob("Which points of the blob, which order, which points of own clouds", 0, 99)] = 0
+    seed: Annotated[
+        int, Knob("Which points of the blob, which order, which points of own clouds", 0, 99)
+    ] = 0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -73,11 +111,13 @@ class Numbers:
     Attributes:
         chamfer: By the function in the slot: ours is the mean of squares, both sides.
         definitions: Two-sided Chamfer by the name of its definition.
-        to_target, to_source: One-sided Chamfer by the function in its slot: from the cloud to the target, and back.
+        to_target, to_source: One-sided Chamfer by the function in its slot: from the cloud to the
+            target, and back.
         earth_movers: By the function in the slot: ours is exact.
         hausdorff, f_score: As named.
         index_mse: Mean squared distance of rows with the same index; NaN where the counts differ.
-        astray: The share of the cloud's mass whose place in the best one-to-one matching is farther than `Params.near`.
+        astray: The share of the cloud's mass whose place in the best one-to-one matching is farther
+            than `Params.near`.
     """
 
     chamfer: float
@@ -104,8 +144,12 @@ class Side:
 
     @functools.cached_property
     def sinkhorn(self) -> float:
-        """The cost of Sinkhorn's blurred plan, metres; found when first asked for: nothing else depends on it."""
-        return blurred_earth_movers(self.flow.p_moving, self.p_target, self.blur, max_sweeps=200, tolerance=1e-4)
+        """The cost of Sinkhorn's blurred plan, metres; found when first asked for: nothing else
+        depends on it.
+        """
+        return blurred_earth_movers(
+            self.flow.p_moving, self.p_target, self.blur, max_sweeps=200, tolerance=1e-4
+        )
 
     @property
     def served(self) -> np.ndarray:

@@ -1,15 +1,17 @@
-"""What a step says: what just happened, the number that changed, and in the end whether it is right."""
+"""What a step says: what just happened, the number that changed, and in the end whether it is
+right.
+"""
 
 import numpy as np
 
+from lessons.coordinates.pan_tilt import Followed
+from lessons.coordinates.parallels import Met, Scaled, Seen
+from lessons.coordinates.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
 from lessons.coordinates.state import Params, State
-from workbench.algorithms.pan_tilt import Followed
-from workbench.algorithms.parallels import Met, Scaled, Seen
-from workbench.algorithms.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
-from workbench.algorithms.voyages import Raised, Travelled
+from lessons.coordinates.voyages import Raised, Travelled
 from workbench.data.places import Places
-from workbench.geometry.curvilinear import Convention, Coordinates
-from workbench.geometry.globe import great_circle_distance
+from workbench.geometry.shapes.curvilinear import Convention, Coordinates
+from workbench.geometry.shapes.globe import great_circle_distance
 from workbench.numerals import angle, brief, coordinates, counted, fixed, length, percent
 from workbench.scene import Caption
 
@@ -21,9 +23,14 @@ MEANT: dict[Convention, str] = {
     "elevation": "astronomy: azimuth round the z axis, elevation up from the ground",
 }
 WAYS = {  # what each coordinate does, by its name
-    "x": "along x", "y": "along y", "z": "up along z", "ρ": "out from the axis", "r": "out from the origin",
-    "θ": "down from the z axis", "φ": "round the z axis",
-}  # fmt: skip
+    "x": "along x",
+    "y": "along y",
+    "z": "up along z",
+    "ρ": "out from the axis",
+    "r": "out from the origin",
+    "θ": "down from the z axis",
+    "φ": "round the z axis",
+}
 HOME = 1e-6  # metres or radians: what rounding leaves
 MEASURED = 1e-3  # by which share a measured way may be off
 FAR_APART = 1e4  # metres between two means
@@ -67,41 +74,59 @@ def quantity(value: float, is_angle: bool) -> str:
 
 def said(c: np.ndarray, system: Coordinates) -> str:
     """Write three coordinates with their names."""
-    parts = (f"{n} = {quantity(v, a)}" for n, v, a in zip(system.names, c, system.angles, strict=True))
+    parts = (
+        f"{n} = {quantity(v, a)}" for n, v, a in zip(system.names, c, system.angles, strict=True)
+    )
     return ", ".join(parts)
 
 
 def _placed(now: Placed, system: Coordinates, params: Params) -> str:
     if now.moves is None:
         return (
-            f"{params.system.capitalize()} coordinates {', '.join(system.names)}: each says how far to go from the origin to"
-            " the point, on a way of its own."
+            f"{params.system.capitalize()} coordinates {', '.join(system.names)}: each says how far"
+            " to go from the origin to the point, on a way of its own."
         )
-    name, value = system.names[now.moves], quantity(float(now.c[now.moves]), system.angles[now.moves])
+    name, value = (
+        system.names[now.moves],
+        quantity(float(now.c[now.moves]), system.angles[now.moves]),
+    )
     return f"{name} = {value}, {WAYS[name]}: the point is at {coordinates(now.p, 2)} m."
 
 
 def _cell(now: Cell, system: Coordinates, params: Params) -> str:
     sides = zip(now.high - now.low, system.angles, strict=True)
-    text = f"A cell of {' × '.join(quantity(float(s), a) for s, a in sides)} holds {brief(1e3 * now.volume)} litres"
+    text = (
+        f"A cell of {' × '.join(quantity(float(s), a) for s, a in sides)} holds"
+        f" {brief(1e3 * now.volume)} litres"
+    )
     if params.system == "cartesian":
         return f"{text}, here as anywhere."
     density = "r² sin θ" if params.system == "spherical" else "ρ"
-    return f"{text}. One of the same sides holds less near the axis: its volume goes with {density}."
+    return (
+        f"{text}. One of the same sides holds less near the axis: its volume goes with {density}."
+    )
 
 
 def _readings(now: Readings, params: Params) -> str:
-    numbers = ", ".join([brief(float(now.numbers[0]))] + [angle(float(np.degrees(a))) for a in now.numbers[1:]])
+    numbers = ", ".join(
+        [brief(float(now.numbers[0]))] + [angle(float(np.degrees(a))) for a in now.numbers[1:]]
+    )
     here = now.p[params.convention]
-    others = [length(float(np.linalg.norm(p - here))) for name, p in now.p.items() if name != params.convention]
+    others = [
+        length(float(np.linalg.norm(p - here)))
+        for name, p in now.p.items()
+        if name != params.convention
+    ]
     return (
-        f"({numbers}) is this point by {MEANT[params.convention]}. By the two other conventions the same three numbers"
-        f" are points {others[0]} and {others[1]} away."
+        f"({numbers}) is this point by {MEANT[params.convention]}. By the two other conventions the"
+        f" same three numbers are points {others[0]} and {others[1]} away."
     )
 
 
 def turned(c: np.ndarray) -> float:
-    """Return by how much an angle changed from one row to the next at most, degrees, the short way round."""
+    """Return by how much an angle changed from one row to the next at most, degrees, the short way
+    round.
+    """
     changes = (np.diff(c) + np.pi) % (2 * np.pi) - np.pi
     return float(np.degrees(np.abs(changes).max(initial=0.0)))
 
@@ -117,13 +142,16 @@ def _walked(now: Walked, system: Coordinates, state: State) -> Caption:
     miss = float(now.misses.max())
     if not miss < HOME:
         return Caption(
-            f"Put back from their coordinates, places of the walk are up to {length(miss)} off. It is wrong.", "wrong"
+            f"Put back from their coordinates, places of the walk are up to {length(miss)} off. It"
+            " is wrong.",
+            "wrong",
         )
     text = "The walk is over, and its coordinates put every place back where it was: right."
     if "φ" not in system.names:
         return Caption(f"{text} None of them changed faster than the walk.", "good")
     return Caption(
-        f"{text} One step of {length(float(np.linalg.norm(now.p[-1] - now.p[-2])))} changed φ by {angle(turned(c))}.",
+        f"{text} One step of {length(float(np.linalg.norm(now.p[-1] - now.p[-2])))} changed φ by"
+        f" {angle(turned(c))}.",
         "good",
     )
 
@@ -132,15 +160,21 @@ def _scaled(now: Scaled) -> str:
     if now.mean_h is not None and now.other_h is not None:
         a, b, mean = (v[:3] / v[3] for v in (now.p_h, now.other_h, now.mean_h))
         return (
-            f"Vectors with w = {brief(float(now.p_h[3]))} and w = {brief(float(now.other_h[3]))}, averaged entry by entry:"
-            f" that is {length(float(np.linalg.norm(mean - (a + b) / 2)))} from the middle of the two points. Divide by w"
-            " first."
+            f"Vectors with w = {brief(float(now.p_h[3]))} and w = {brief(float(now.other_h[3]))},"
+            f" averaged entry by entry: that is {length(float(np.linalg.norm(mean - (a + b) / 2)))}"
+            " from the middle of the two points. Divide by w first."
         )
     w, v = float(now.p_h[3]), coordinates(now.p_h, 2)
     if w == 0:
-        return f"{v}, w = 0: no point has this name, but a direction has. It is the point at infinity that way."
+        return (
+            f"{v}, w = 0: no point has this name, but a direction has. It is the point at infinity"
+            " that way."
+        )
     p = now.p_h[:3] / w
-    return f"{v} names the point {coordinates(p, 2)} m: {length(float(np.linalg.norm(p)))} from the origin."
+    return (
+        f"{v} names the point {coordinates(p, 2)} m: {length(float(np.linalg.norm(p)))} from the"
+        " origin."
+    )
 
 
 def in_caps(p: np.ndarray) -> float:
@@ -152,18 +186,30 @@ def _scattered(now: Scattered, state: State) -> Caption:
     if not state.last:
         how = "θ and φ are" if state.params.even == "angle" else "z and φ are"
         return Caption(
-            f"{counted(len(now.p), 'point')} on the unit sphere: {how} drawn evenly. Compare poles and equator."
+            f"{counted(len(now.p), 'point')} on the unit sphere: {how} drawn evenly. Compare poles"
+            " and equator."
         )
     share, sigma = in_caps(now.p), np.sqrt(CAPS_AREA * (1 - CAPS_AREA) / len(now.p))
-    text = f"{percent(share, 1)} of the points lie within 30° of a pole, in {percent(CAPS_AREA, 1)} of the area"
+    text = (
+        f"{percent(share, 1)} of the points lie within 30° of a pole, in {percent(CAPS_AREA, 1)} of"
+        " the area"
+    )
     if abs(share - CAPS_AREA) < 4 * sigma:
         return Caption(f"{text}: even, but for chance, and right.", "good")
-    return Caption(f"{text}: drawn evenly in θ, they are not even on the sphere. It is wrong.", "wrong")
+    return Caption(
+        f"{text}: drawn evenly in θ, they are not even on the sphere. It is wrong.", "wrong"
+    )
 
 
 def _ranged(now: Ranged, state: State) -> Caption:
-    sigma, off = angle(state.params.bearing_noise), length(float(np.linalg.norm(now.mean - now.true)))
-    text = f"{counted(len(now.p), 'measurement')}, bearings with σ = {sigma}: their mean is {off} from the point"
+    sigma, off = (
+        angle(state.params.bearing_noise),
+        length(float(np.linalg.norm(now.mean - now.true))),
+    )
+    text = (
+        f"{counted(len(now.p), 'measurement')}, bearings with σ = {sigma}: their mean is {off} from"
+        " the point"
+    )
     if not state.last:
         return Caption(f"{text}.")
     expected = length(float(np.linalg.norm(now.expected - now.true)))
@@ -179,24 +225,28 @@ def kilometres(metres: float) -> str:
 def _travelled(now: Travelled, places: Places) -> Caption:
     start, end = places.names[0], places.names[-1]
     if now.means is not None:
-        text = f"The mean of the latitudes and longitudes is {kilometres(now.apart)} from the middle of the places"
+        text = (
+            f"The mean of the latitudes and longitudes is {kilometres(now.apart)} from the middle"
+            " of the places"
+        )
         if now.apart < FAR_APART:
             return Caption(f"{text}: here it is right.", "good")
         return Caption(f"{text}. It is wrong.", "wrong")
     if now.share == 0:
         return Caption(
-            f"{start} to {end}: one goes straight on the map, latitude and longitude changing evenly, the other along the"
-            " great circle."
+            f"{start} to {end}: one goes straight on the map, latitude and longitude changing"
+            " evenly, the other along the great circle."
         )
     if not abs(now.circle_length / (now.share * direct(places)) - 1) < MEASURED:
         said = kilometres(now.circle_length) if np.isfinite(now.circle_length) else "no number"
         return Caption(
-            f"So far {said} along the great circle, by your measure; {kilometres(now.share * direct(places))} were gone."
-            " It is wrong.",
+            f"So far {said} along the great circle, by your measure;"
+            f" {kilometres(now.share * direct(places))} were gone. It is wrong.",
             "wrong",
         )
     text = (
-        f"{kilometres(now.circle_length)} along the great circle, {kilometres(now.straight_length)} straight on the map"
+        f"{kilometres(now.circle_length)} along the great circle, {kilometres(now.straight_length)}"
+        " straight on the map"
     )
     if now.share < 1:
         return Caption(f"So far {text}.")
@@ -214,7 +264,9 @@ def _raised(now: Raised, state: State) -> str:
     k = int(now.apart.argmax()) if state.last else -1
     plumb, centre = float(np.degrees(now.latitude[k])), float(np.degrees(now.geocentric[k]))
     text = f"the plumb line rises by {angle(plumb)}, the line to the centre by {fixed(centre, 3)}°:"
-    text += f" {fixed(plumb - centre, 3)}° less, {kilometres(float(now.apart[k]))} along the ground."
+    text += (
+        f" {fixed(plumb - centre, 3)}° less, {kilometres(float(now.apart[k]))} along the ground."
+    )
     if state.last:
         return f"At the pole both are 90°. Between, they differ most where {text}"
     return f"{state.params.planet}: {text}"
@@ -230,18 +282,21 @@ def _followed(now: Followed, state: State) -> Caption:
     if not now.off < HOME:
         off = angle(float(np.degrees(now.off)))
         return Caption(
-            f"Pan {angle(float(np.degrees(now.pan)))}: the camera looks {off} past the target. It is wrong.", "wrong"
+            f"Pan {angle(float(np.degrees(now.pan)))}: the camera looks {off} past the target. It"
+            " is wrong.",
+            "wrong",
         )
     if state.last:
         return Caption(
-            f"The target was in the middle all the time: right. For that the pan axis turned with {per_second(now.pan_peak)}"
-            f" at its fastest, the line of sight with {per_second(now.sight_peak)}.",
+            "The target was in the middle all the time: right. For that the pan axis turned with"
+            f" {per_second(now.pan_peak)} at its fastest, the line of sight with"
+            f" {per_second(now.sight_peak)}.",
             "good",
         )
     pan, tilt = (angle(float(np.degrees(a))) for a in (now.pan, now.tilt))
     return Caption(
-        f"Pan {pan}, tilt {tilt}: the pan axis turns with {per_second(now.pan_rate)}, the line of sight with"
-        f" {per_second(now.sight_rate)}."
+        f"Pan {pan}, tilt {tilt}: the pan axis turns with {per_second(now.pan_rate)}, the line of"
+        f" sight with {per_second(now.sight_rate)}."
     )
 
 
@@ -254,28 +309,43 @@ def lies_on_both(now: Met) -> bool:
 
 def _met(now: Met, state: State) -> Caption:
     if not lies_on_both(now):
-        return Caption(f"{coordinates(now.x_h, 3)} is no point of both lines. It is wrong.", "wrong")
+        return Caption(
+            f"{coordinates(now.x_h, 3)} is no point of both lines. It is wrong.", "wrong"
+        )
     x, y, w = now.x_h / np.abs(now.x_h).max()
     degrees, tilt = angle_of(now), float(now.H[2, 0])
     if tilt:
         where = f"({brief(x / w)}, {fixed(y / w, 2)}) m" if w else "infinity still"
         text = (
-            f"A homography with h₃₁ = {brief(tilt)} takes infinity to the horizon x = {brief(1 / tilt)} m, and the meeting"
-            f" to {where}. The cross-ratio stays {brief(now.cross_ratio)}, lengths as 3 : 1 become {brief(now.ratio)} : 1."
+            f"A homography with h₃₁ = {brief(tilt)} takes infinity to the horizon x ="
+            f" {brief(1 / tilt)} m, and the meeting to {where}. The cross-ratio stays"
+            f" {brief(now.cross_ratio)}, lengths as 3 : 1 become {brief(now.ratio)} : 1."
         )
-        return Caption(f"{text} Both lines still go through it: right.", "good") if state.last else Caption(text)
+        return (
+            Caption(f"{text} Both lines still go through it: right.", "good")
+            if state.last
+            else Caption(text)
+        )
     vector = f"({', '.join(brief(float(v)) for v in (x, y, w))})"
     if w == 0:
-        return Caption(f"Parallel lines: l × l′ is the vector {vector}. Its w is 0: a point at infinity, and no error.")
+        return Caption(
+            f"Parallel lines: l × l′ is the vector {vector}. Its w is 0: a point at infinity, and"
+            " no error."
+        )
     return Caption(
-        f"Lines at {degrees}: l × l′ is the vector {vector}, the point {far(abs(float(np.hypot(x, y) / w)))} away."
+        f"Lines at {degrees}: l × l′ is the vector {vector}, the point"
+        f" {far(abs(float(np.hypot(x, y) / w)))} away."
     )
 
 
 def angle_of(now: Met) -> str:
     """Write the angle between the lines, however small."""
     degrees = float(np.degrees(now.angle))
-    return f"{brief(degrees)}°" if degrees >= 0.001 else f"{counted(round(1e6 * degrees), 'millionth')} of a degree"
+    return (
+        f"{brief(degrees)}°"
+        if degrees >= 0.001
+        else f"{counted(round(1e6 * degrees), 'millionth')} of a degree"
+    )
 
 
 def far(metres: float) -> str:
@@ -285,6 +355,7 @@ def far(metres: float) -> str:
 
 def _seen(now: Seen) -> str:
     return (
-        f"The eye is {brief(now.times)} half-depths away: the near side looks {percent(now.near)} too large, the far side"
-        f" {percent(-now.far)} too small. Parallel rays show both in one size."
+        f"The eye is {brief(now.times)} half-depths away: the near side looks {percent(now.near)}"
+        f" too large, the far side {percent(-now.far)} too small. Parallel rays show both in one"
+        " size."
     )

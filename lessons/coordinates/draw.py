@@ -4,20 +4,32 @@ import numpy as np
 
 from lessons.coordinates.captions import CAP, CAPS_AREA, caption, in_caps, quantity
 from lessons.coordinates.flat import met, ranged, seen
+from lessons.coordinates.pan_tilt import Followed
+from lessons.coordinates.parallels import Met, Scaled, Seen
+from lessons.coordinates.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
 from lessons.coordinates.state import State
-from workbench.algorithms.pan_tilt import Followed
-from workbench.algorithms.parallels import Met, Scaled, Seen
-from workbench.algorithms.placing import Cell, Placed, Ranged, Readings, Scattered, Walked
-from workbench.algorithms.voyages import Raised, Travelled
+from lessons.coordinates.voyages import Raised, Travelled
 from workbench.data.places import Places
-from workbench.data.surfaces import sphere
+from workbench.data.shapes.surfaces import sphere
 from workbench.geometry.cameras import intrinsics
-from workbench.geometry.curvilinear import Coordinates, cartesian_from_spherical, cell_edges
-from workbench.geometry.globe import Ellipsoid, graticule, parallel, units_of_places
 from workbench.geometry.motions import motion
 from workbench.geometry.polylines import at_height, between, circle, fan, segments, sphere_rings
+from workbench.geometry.shapes.curvilinear import Coordinates, cartesian_from_spherical, cell_edges
+from workbench.geometry.shapes.globe import Ellipsoid, graticule, parallel, units_of_places
 from workbench.numerals import angle, fixed
-from workbench.scene import Camera, Chart, Classes, Label, Mesh, Points, Primitive, Role, Scene, Segments, Table
+from workbench.scene import (
+    Camera,
+    Chart,
+    Classes,
+    Label,
+    Mesh,
+    Points,
+    Primitive,
+    Role,
+    Scene,
+    Segments,
+    Table,
+)
 
 WALK = Chart("Along the walk", "x along the walk (m)", "°")
 WALK_LENGTHS = Chart("Along the walk", "x along the walk (m)", "m")
@@ -30,10 +42,14 @@ RATES = Chart("How fast it turns", unit="°/s")
 ANGLES = Chart("Pan and tilt", unit="°")
 ORIGIN = np.zeros(3)
 RINGS = Segments(sphere_rings(ORIGIN, 1.0), "neutral", 1, opacity=0.4)
-AXIS = Segments(np.array([[[0.0, 0.0, -1.2], [0.0, 0.0, 1.2]]]), "z", 3, opacity=0.7, name="the axis")
+AXIS = Segments(
+    np.array([[[0.0, 0.0, -1.2], [0.0, 0.0, 1.2]]]), "z", 3, opacity=0.7, name="the axis"
+)
 FLAT = Ellipsoid(1.0, 0.35)  # how flat a planet is drawn
 BALL = sphere(1500)
-PALE = np.tile(np.array([222, 228, 236], np.uint8), (len(BALL.p), 1))  # land and sea: nothing to tell apart
+PALE = np.tile(
+    np.array([222, 228, 236], np.uint8), (len(BALL.p), 1)
+)  # land and sea: nothing to tell apart
 GRATICULE = graticule(15)
 K = intrinsics(60.0, 31.5, 23.5)
 
@@ -73,16 +89,25 @@ def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
     if isinstance(now, Placed):
         if now.moves:  # the first goes straight out and sweeps nothing
             swept = np.vstack([ORIGIN, now.path])
-            scene["swept"] = Mesh(swept, fan(len(swept)), "source", opacity=0.6, name="swept by the ray to it")
+            scene["swept"] = Mesh(
+                swept, fan(len(swept)), "source", opacity=0.6, name="swept by the ray to it"
+            )
         if now.moves is not None:
-            scene["path"] = Segments(segments(now.path), "source", 4, name="its coordinates, one after the other")
+            scene["path"] = Segments(
+                segments(now.path), "source", 4, name="its coordinates, one after the other"
+            )
         scene["place"] = Points(now.p[None], "source", 0.025, name="so far")
         scene["numbers"] = _table("So far", system, now.c)
     elif isinstance(now, Cell):
         scene["cell"] = Segments(cell_edges(system, now.low, now.high), "source", 3, name="a cell")
-        rows = (("with the density", fixed(now.solid[0], 2)), ("sides alone", fixed(now.solid[1], 2)))
+        rows = (
+            ("with the density", fixed(now.solid[0], 2)),
+            ("sides alone", fixed(now.solid[1], 2)),
+        )
         what = "unit ball" if state.params.system == "spherical" else "solid 2 m wide"
-        scene["solid"] = Table(f"Cells of a {what} (m³)", ("", "sum"), (*rows, ("true", fixed(system.volume, 2))))
+        scene["solid"] = Table(
+            f"Cells of a {what} (m³)", ("", "sum"), (*rows, ("true", fixed(system.volume, 2)))
+        )
     elif isinstance(now, Readings):
         others = [name for name in now.p if name != state.params.convention]
         q = np.stack([now.p[name] for name in others])
@@ -107,23 +132,33 @@ def _walked(now: Walked, system: Coordinates) -> dict[str, Primitive]:
         "walk": Points(now.p, "target", 0.014, name="the walk"),
         "ray": Segments(between(ORIGIN, now.p[-1]), "source", 3, name="to here"),
         "shadow": Segments(
-            between(ORIGIN, now.p[-1] * [1.0, 1.0, 0.0]), "source", 2, opacity=0.6, name="its direction below"
+            between(ORIGIN, now.p[-1] * [1.0, 1.0, 0.0]),
+            "source",
+            2,
+            opacity=0.6,
+            name="its direction below",
         ),
         "drop": Segments(between(now.p[-1] * [1.0, 1.0, 0.0], now.p[-1]), "correspondence", 1.5),
         "here": _table("Here", system, now.c[-1]),
     }
     roles = ("target", "other", "source")
-    for name, values, is_angle, role in zip(system.names, now.c.T, system.angles, roles, strict=True):
+    for name, values, is_angle, role in zip(
+        system.names, now.c.T, system.angles, roles, strict=True
+    ):
         if is_angle or not any(system.angles):
             chart = WALK if is_angle else WALK_LENGTHS
-            scene[f"along {name}"] = chart.curve(now.p[:, 0], np.degrees(values) if is_angle else values, name, role)
+            scene[f"along {name}"] = chart.curve(
+                now.p[:, 0], np.degrees(values) if is_angle else values, name, role
+            )
     return scene
 
 
 def _scaled(now: Scaled) -> dict[str, Primitive]:
     v = now.p_h[:3]
     scene: dict[str, Primitive] = {"frame": RINGS}
-    scene["ray"] = Segments(between(ORIGIN, 3.0 * v), "correspondence", 2, name="all points of this direction")
+    scene["ray"] = Segments(
+        between(ORIGIN, 3.0 * v), "correspondence", 2, name="all points of this direction"
+    )
     if now.mean_h is not None and now.other_h is not None:
         p, q, mean = (h[:3] / h[3] for h in (now.p_h, now.other_h, now.mean_h))
         scene["two"] = Points(np.stack([p, q]), "target", 0.03, name="two points")
@@ -135,7 +170,9 @@ def _scaled(now: Scaled) -> dict[str, Primitive]:
     if w and np.linalg.norm(v / w) <= 3.0:
         scene["point"] = Points(v[None] / w, "source", 0.035, name="the point")
     else:
-        scene["arrow"] = Segments(between(ORIGIN, 3.0 * v / np.linalg.norm(v)), "source", 4, name="beyond the picture")
+        scene["arrow"] = Segments(
+            between(ORIGIN, 3.0 * v / np.linalg.norm(v)), "source", 4, name="beyond the picture"
+        )
     names = zip("xyzw", now.p_h, strict=True)
     scene["numbers"] = Table(
         "The vector", ("", "value"), tuple((name, fixed(float(value), 2)) for name, value in names)
@@ -154,7 +191,10 @@ def _scattered(now: Scattered) -> dict[str, Primitive]:
         "ball": Mesh(0.985 * BALL.p, BALL.faces, PALE),
         "rims": Segments(rims, "highlight", 3, name="30° from a pole"),
         "points": Points(
-            now.p, Classes.marking(near, "source", "near a pole", others=("target", "elsewhere")), radius, name="points"
+            now.p,
+            Classes.marking(near, "source", "near a pole", others=("target", "elsewhere")),
+            radius,
+            name="points",
         ),
         "drawn": CELLS.histogram(polar, edges, "drawn"),
         "even": CELLS.curve((edges[1:] + edges[:-1]) / 2, expected, "even on the sphere", "truth"),
@@ -165,7 +205,10 @@ def _scattered(now: Scattered) -> dict[str, Primitive]:
 
 def _travelled(now: Travelled, places: Places) -> dict[str, Primitive]:
     turn = np.radians(-90.0 - _middle(places)[1])
-    T = motion(np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]]), ORIGIN)
+    T = motion(
+        np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]]),
+        ORIGIN,
+    )
     names, degrees = places.names, places.degrees
     ways: dict[str, tuple[np.ndarray, Role, str]] = {
         "straight": (now.straight, "wrong", "straight on the map"),
@@ -201,17 +244,24 @@ def _middle(places: Places) -> np.ndarray:
 
 
 def _raised(now: Raised) -> dict[str, Primitive]:
-    """Return the meridian of a planet, drawn flatter than it is, with both lines at the latitude reached."""
+    """Return the meridian of a planet, drawn flatter than it is, with both lines at the latitude
+    reached.
+    """
     latitude = now.latitude[-1:]
     rho, z = FLAT.meridian(latitude)[0]
     p, turn = np.array([rho, 0.0, z]), np.linspace(-np.pi, np.pi, 145)
     outline = FLAT.meridian(turn)
-    foot = p - (z / np.sin(latitude[0]) if z > 0 else 0.35) * np.array([np.cos(latitude[0]), 0.0, np.sin(latitude[0])])
+    foot = p - (z / np.sin(latitude[0]) if z > 0 else 0.35) * np.array(
+        [np.cos(latitude[0]), 0.0, np.sin(latitude[0])]
+    )
     up = p + 0.3 * np.array([np.cos(latitude[0]), 0.0, np.sin(latitude[0])])
     apart = np.degrees(now.latitude - now.geocentric)
     return {
         "meridian": Segments(
-            segments(np.insert(outline, 1, 0.0, axis=1)), "neutral", 2, name="a meridian, drawn flatter"
+            segments(np.insert(outline, 1, 0.0, axis=1)),
+            "neutral",
+            2,
+            name="a meridian, drawn flatter",
         ),
         "equator": Segments(np.array([[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]]), "neutral", 1.5),
         "pole": Segments(np.array([[[0.0, 0.0, -0.65], [0.0, 0.0, 0.65]]]), "neutral", 1.5),
@@ -233,11 +283,15 @@ def _followed(now: Followed) -> dict[str, Primitive]:
         "pan": Segments(between(ORIGIN, 4.0 * np.array([c, s, 0.0])), "source", 5, name="pan"),
         "camera": Camera(K, 64, 48, T_world_camera, 3.0, color="source", name="camera"),
         "track": Segments(track, "neutral", 1.5, name="way of the target"),
-        "zenith": Segments(between(ORIGIN, np.array([0.0, 0.0, 12.0])), "z", 1.5, opacity=0.6, name="zenith"),
+        "zenith": Segments(
+            between(ORIGIN, np.array([0.0, 0.0, 12.0])), "z", 1.5, opacity=0.6, name="zenith"
+        ),
         "sight": Segments(between(ORIGIN, now.p), "correspondence", 2, name="line of sight"),
         "target": Points(now.p[None], "target", 0.4, name="target"),
         "pan rate": RATES.scalar(abs(float(np.degrees(now.pan_rate))), "pan axis", log=True),
-        "sight rate": RATES.scalar(float(np.degrees(now.sight_rate)), "line of sight", "truth", log=True),
+        "sight rate": RATES.scalar(
+            float(np.degrees(now.sight_rate)), "line of sight", "truth", log=True
+        ),
         "pan angle": ANGLES.scalar(float(np.degrees(now.pan)), "pan"),
         "tilt angle": ANGLES.scalar(float(np.degrees(now.tilt)), "tilt", "other"),
         "moment": Table(

@@ -1,8 +1,8 @@
 """Coordinate systems: what they name, where their names fail, and what one number more buys.
 
-What it teaches: spherical coordinates have poles where they change without bound although nothing turns fast; even angles
-are not even on a sphere, straight numbers are no straight way, means of angles are no means; and homogeneous coordinates
-name what the others cannot: points at infinity.
+What it teaches: spherical coordinates have poles where they change without bound although nothing
+turns fast; even angles are not even on a sphere, straight numbers are no straight way, means of
+angles are no means; and homogeneous coordinates name what the others cannot: points at infinity.
 """
 
 from collections.abc import Iterator
@@ -14,21 +14,34 @@ from lessons.coordinates.draw import draw
 from lessons.coordinates.exercises.great_circle_distance import great_circle_distance
 from lessons.coordinates.exercises.meet import meet
 from lessons.coordinates.exercises.spherical_from_cartesian import spherical_from_cartesian
+from lessons.coordinates.pan_tilt import follow
+from lessons.coordinates.parallels import Meet, step_back, turn_parallel
+from lessons.coordinates.placing import Spherical, measure, scatter
 from lessons.coordinates.point import point_stage
 from lessons.coordinates.presets import PRESETS, QUESTIONS, VIEW
 from lessons.coordinates.state import SECONDS, TILTS, Now, Params, State
 from lessons.coordinates.subjects import places_of, thing_of
-from workbench.algorithms.pan_tilt import follow
-from workbench.algorithms.parallels import Meet, step_back, turn_parallel
-from workbench.algorithms.placing import Spherical, measure, scatter
-from workbench.algorithms.voyages import Distance, to_the_pole, travel
+from lessons.coordinates.voyages import Distance, to_the_pole, travel
 from workbench.data.thinning import growing
-from workbench.geometry.globe import PLANETS
+from workbench.geometry.shapes.globe import PLANETS
 from workbench.lesson import Lesson, Sweep
 
 HEIGHT, SPEED = 10.0, 10.0  # of the passer-by: metres, metres per second
 RANGE, RANGE_SIGMA = 10.0, 0.02  # metres
-TURNS = (40.0, 30.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1, 0.01, 1e-6, 0.0)  # degrees between two lines
+TURNS = (
+    40.0,
+    30.0,
+    20.0,
+    10.0,
+    5.0,
+    2.0,
+    1.0,
+    0.5,
+    0.1,
+    0.01,
+    1e-6,
+    0.0,
+)  # degrees between two lines
 STOPS = np.array([0.0, 1.0, 3.0, 7.0])
 
 
@@ -48,7 +61,9 @@ def run(
     if params.stage == "sphere":
         found = scatter(growing(params.samples, 6), params.even, rng)
     elif params.stage == "radar":
-        found = measure(RANGE, np.radians(params.bearing_noise), RANGE_SIGMA, growing(params.samples, 6), rng)
+        found = measure(
+            RANGE, np.radians(params.bearing_noise), RANGE_SIGMA, growing(params.samples, 6), rng
+        )
     elif params.stage == "globe":
         subject = places_of(params)
         found = travel(subject.degrees, 16, great_circle_distance)
@@ -63,13 +78,17 @@ def run(
         found = turn_parallel(np.radians(angles), TILTS, 1.0, STOPS, meet)
     else:
         subject = thing_of(params)
-        found = step_back(subject.p, subject.half_depth, np.geomspace(1.5, max(params.distance, 1.51), 17))
+        found = step_back(
+            subject.p, subject.half_depth, np.geomspace(1.5, max(params.distance, 1.51), 17)
+        )
     for now in found:
         yield State(params=params, now=now, subject=subject)
 
 
 def moments(scale: float) -> np.ndarray:
-    """Return the times of a passage, seconds: evenly, and where the pan axis has turned evenly, so that none is missed."""
+    """Return the times of a passage, seconds: evenly, and where the pan axis has turned evenly, so
+    that none is missed.
+    """
     turned = scale * np.tan(np.radians(np.arange(-80.0, 81.0, 20.0)))
     times = np.concatenate([np.linspace(-SECONDS, SECONDS, 17), turned[np.abs(turned) < SECONDS]])
     return np.unique(times.round(9))
@@ -78,13 +97,16 @@ def moments(scale: float) -> np.ndarray:
 lesson = Lesson(
     name="coordinates",
     title="Coordinates and their poles",
-    summary="Coordinates name points, and every system has places where names fail. One number more names infinity.",
+    summary="Every system of coordinates breaks down somewhere. Walk to these places, and see "
+    "what one more number adds.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1000,
-    needs=("pinhole",),
+    order=200,
+    chapter="Move",
+    minutes=20,
+    needs=("transforms",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -1,15 +1,17 @@
-"""The stage `point`: a point placed by three numbers, the cell about it, and a walk past the axis."""
+"""The stage `point`: a point placed by three numbers, the cell about it, and a walk past the
+axis.
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
+from lessons.coordinates.parallels import scale_last
+from lessons.coordinates.placing import Spherical, cell_at, place, read_by_all, walk
 from lessons.coordinates.state import WALKED, Params, State
-from workbench.algorithms.parallels import scale_last
-from workbench.algorithms.placing import Spherical, cell_at, place, read_by_all, walk
 from workbench.errors import InputError
-from workbench.geometry.curvilinear import SYSTEMS
+from workbench.geometry.shapes.curvilinear import SYSTEMS
 
 STEPS = 3  # for each coordinate
 SIDE, TURN = 0.2, np.radians(20.0)  # of the cell: metres and radians
@@ -33,10 +35,14 @@ def point_stage(params: Params, spherical_from_cartesian: Spherical) -> Iterator
     c = np.asarray(system.of_points(p[None]), float)[0]
     for placed in place(c, system, STEPS):
         yield State(params=params, now=placed, subject=system)
-    yield State(params=params, now=cell_at(c, np.where(system.angles, TURN, SIDE), system), subject=system)
+    yield State(
+        params=params, now=cell_at(c, np.where(system.angles, TURN, SIDE), system), subject=system
+    )
     if params.system == "spherical":
         yield State(params=params, now=read_by_all(c, params.convention), subject=system)
     beside = CLIMB * np.tan(np.radians(params.miss))
     x = np.linspace(-REACH, REACH, WALKED)
-    for walked in walk(np.column_stack([x, np.full(WALKED, beside), np.full(WALKED, CLIMB)]), system):
+    for walked in walk(
+        np.column_stack([x, np.full(WALKED, beside), np.full(WALKED, CLIMB)]), system
+    ):
         yield State(params=params, now=walked, subject=system)

@@ -6,20 +6,24 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.pan_tilt import Followed
-from workbench.algorithms.parallels import Met, Scaled, Seen
-from workbench.algorithms.placing import Cell, Even, Placed, Ranged, Readings, Scattered, Walked
-from workbench.algorithms.voyages import Raised, Travelled
+from lessons.coordinates.pan_tilt import Followed
+from lessons.coordinates.parallels import Met, Scaled, Seen
+from lessons.coordinates.placing import Cell, Even, Placed, Ranged, Readings, Scattered, Walked
+from lessons.coordinates.voyages import Raised, Travelled
 from workbench.data.framing import Up
 from workbench.data.places import Places
-from workbench.geometry.curvilinear import Convention, Coordinates
+from workbench.geometry.shapes.curvilinear import Convention, Coordinates
 from workbench.knobs import Gizmo, Knob
 
 Stage = Literal["point", "sphere", "radar", "globe", "latitude", "mount", "projective", "project"]
 Named = Literal["cartesian", "cylindrical", "spherical", "homogeneous"]
 Route = Literal[
-    "London – Los Angeles", "Frankfurt – Anchorage", "Tokyo – London", "Suva – Apia", "Quito – Kampala"
-]  # fmt: skip
+    "London – Los Angeles",
+    "Frankfurt – Anchorage",
+    "Tokyo – London",
+    "Suva – Apia",
+    "Quito – Kampala",
+]
 Planet = Literal["Earth", "Mars", "Saturn"]
 WALKED = 17  # points of the walk past the axis
 SECONDS = 1.6  # that somebody who passes is followed, before and after the middle
@@ -31,44 +35,89 @@ class Params:
     """What is to be named by coordinates, and by which."""
 
     stage: Annotated[Stage, Knob("What coordinates are tried on")] = "point"
-    system: Annotated[Named, Knob("By which numbers the point is named", needs={"stage": ("point",)})] = "spherical"
+    system: Annotated[
+        Named, Knob("By which numbers the point is named", needs={"stage": ("point",)})
+    ] = "spherical"
     convention: Annotated[
         Convention,
         Knob("Whose names the angles have", needs={"stage": ("point",), "system": ("spherical",)}),
     ] = "ISO"
     point: Annotated[
         tuple[float, float, float],
-        Knob("The point; drag its handle", -1.5, 1.5, unit="m", by=Gizmo(0.25), needs={"stage": ("point",)}),
+        Knob(
+            "The point; drag its handle",
+            -1.5,
+            1.5,
+            unit="m",
+            by=Gizmo(0.25),
+            needs={"stage": ("point",)},
+        ),
     ] = (0.66, 0.38, 0.64)
     miss: Annotated[
         float,
-        Knob("How far from the axis something passes, as seen from the origin", 0.1, 30, unit="deg", step=0.1,
-             needs={"stage": ("point", "mount")}),
-    ] = 1.0  # fmt: skip
+        Knob(
+            "How far from the axis something passes, as seen from the origin",
+            0.1,
+            30,
+            unit="deg",
+            step=0.1,
+            needs={"stage": ("point", "mount")},
+        ),
+    ] = 1.0
     even: Annotated[Even, Knob("What is drawn evenly", needs={"stage": ("sphere",)})] = "angle"
     samples: Annotated[
-        int, Knob("How many points or measurements are drawn", 100, 20_000, needs={"stage": ("sphere", "radar")})
+        int,
+        Knob(
+            "How many points or measurements are drawn",
+            100,
+            20_000,
+            needs={"stage": ("sphere", "radar")},
+        ),
     ] = 4000
     bearing_noise: Annotated[
         float,
-        Knob("Standard deviation of a bearing", 0, 30, unit="deg", label="bearing σ", needs={"stage": ("radar",)}),
+        Knob(
+            "Standard deviation of a bearing",
+            0,
+            30,
+            unit="deg",
+            label="bearing σ",
+            needs={"stage": ("radar",)},
+        ),
     ] = 20.0
-    route: Annotated[Route, Knob("From where to where", needs={"stage": ("globe",)})] = "London – Los Angeles"
+    route: Annotated[Route, Knob("From where to where", needs={"stage": ("globe",)})] = (
+        "London – Los Angeles"
+    )
     planet: Annotated[Planet, Knob("Whose flattening", needs={"stage": ("latitude",)})] = "Earth"
     angle_between: Annotated[
         float,
-        Knob("At what angle the two lines meet in the end", 0, 10, unit="deg", needs={"stage": ("projective",)}),
+        Knob(
+            "At what angle the two lines meet in the end",
+            0,
+            10,
+            unit="deg",
+            needs={"stage": ("projective",)},
+        ),
     ] = 0.0
     distance: Annotated[
         float,
-        Knob("How far the eye goes away, in half-depths of the object", 1.5, 100, needs={"stage": ("project",)}),
+        Knob(
+            "How far the eye goes away, in half-depths of the object",
+            1.5,
+            100,
+            needs={"stage": ("project",)},
+        ),
     ] = 100.0
     places: Annotated[
-        Path | None, Knob("Own places instead: csv of latitude, longitude, name", needs={"stage": ("globe",)})
+        Path | None,
+        Knob("Own places instead: csv of latitude, longitude, name", needs={"stage": ("globe",)}),
     ] = None
     cloud: Annotated[
         Path | None,
-        Knob("Own object instead of the house: ply, pcd, obj, xyz, csv, npz", needs={"stage": ("project",)}),
+        Knob(
+            "Own object instead of the house: ply, pcd, obj, xyz, csv, npz",
+            needs={"stage": ("project",)},
+        ),
     ] = None
     up: Annotated[Up, Knob("Which axis of an own object points up", of_files=True)] = "z"
     seed: Annotated[int, Knob("What chance draws", 0, 99, needs={"stage": ("sphere", "radar")})] = 0
@@ -76,7 +125,9 @@ class Params:
 
 @dataclass(frozen=True, eq=False)
 class Thing:
-    """What is seen from far away: points about the origin, m, its lines where it has any, and its half-depth."""
+    """What is seen from far away: points about the origin, m, its lines where it has any, and its
+    half-depth.
+    """
 
     p: np.ndarray
     lines: np.ndarray
@@ -84,7 +135,20 @@ class Thing:
     name: str
 
 
-Now = Placed | Cell | Readings | Walked | Scaled | Scattered | Ranged | Travelled | Raised | Followed | Met | Seen
+Now = (
+    Placed
+    | Cell
+    | Readings
+    | Walked
+    | Scaled
+    | Scattered
+    | Ranged
+    | Travelled
+    | Raised
+    | Followed
+    | Met
+    | Seen
+)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -94,7 +158,8 @@ class State:
     Attributes:
         params: The inputs.
         now: What the stage knows.
-        subject: What it is about and stays for the whole run: coordinates, places, or a thing; None where it needs none.
+        subject: What it is about and stays for the whole run: coordinates, places, or a thing; None
+            where it needs none.
     """
 
     params: Params

@@ -9,10 +9,10 @@ from lessons.coordinates.state import Params, Thing
 from workbench.data.files import read_cloud, stamp
 from workbench.data.framing import Up, frame
 from workbench.data.places import Places, between_cities, read_places
-from workbench.data.solids import house
+from workbench.data.shapes.solids import house
 from workbench.data.thinning import evenly
 from workbench.errors import InputError
-from workbench.geometry.globe import great_circle_distance, mean_place
+from workbench.geometry.shapes.globe import great_circle_distance, mean_place
 
 MOST_POINTS = 3000
 SHORTEST = 1e-9  # radians, and as much short of half round
@@ -49,7 +49,9 @@ def thing_of(params: Params) -> Thing:
 def _house() -> Thing:
     solid = house()
     middle = np.array([0.0, 0.0, solid.p[:, 2].max() / 2])
-    return Thing(solid.p - middle, solid.lines - middle, float(np.abs(solid.lines[..., 1]).max()), "house")
+    return Thing(
+        solid.p - middle, solid.lines - middle, float(np.abs(solid.lines[..., 1]).max()), "house"
+    )
 
 
 @functools.lru_cache(maxsize=2)
@@ -60,5 +62,7 @@ def _own(path: Path, up: Up, _stamp: tuple[int, int]) -> Thing:
     p = p[inside][evenly(int(inside.sum()), MOST_POINTS)]
     half_depth = float(np.abs(p[:, 1]).max()) if len(p) else 0.0
     if half_depth < 1e-3 * WIDTH:
-        raise InputError(f"{path.name}: the points have no depth along y: there is nothing nearer and farther")
+        raise InputError(
+            f"{path.name}: the points have no depth along y: there is nothing nearer and farther"
+        )
     return Thing(p, np.empty((0, 2, 3)), half_depth, path.name)

@@ -23,7 +23,10 @@ def _mesh(state: State) -> Caption:
     border = int(np.count_nonzero(subject.border))
     text += f", {border} vertices on the border." if border else ", no border."
     if subject.truth is None:
-        text += f" A length of 1 in its file is {brief(subject.enlarged)} m here; its {subject.up} axis points up."
+        text += (
+            f" A length of 1 in its file is {brief(subject.enlarged)} m here; its {subject.up} axis"
+            " points up."
+        )
         text += "".join(f" Mended: {', '.join(subject.mended)}." for _ in subject.mended[:1])
     elif params.jitter or params.noise:
         ways = [f"up to {brief(params.jitter)} cells along it"] * bool(params.jitter)
@@ -37,16 +40,21 @@ def _mesh(state: State) -> Caption:
 def _ring(state: State) -> Caption:
     angles = sure(state.now.angles)
     total = np.degrees(angles.sum())
-    text = f"{len(angles)} triangles meet at vertex {state.now.vertex:,}; their angles add up to {total:.2f}°."
+    text = (
+        f"{len(angles)} triangles meet at vertex {state.now.vertex:,}; their angles add up to"
+        f" {total:.2f}°."
+    )
     if state.on_border:
-        return Caption(text + " It lies on the border: on a straight, flat border they would add up to 180°.")
+        return Caption(
+            text + " It lies on the border: on a straight, flat border they would add up to 180°."
+        )
     return Caption(text + " In a plane they would add up to 360°.")
 
 
 def _unfolding(state: State) -> Caption:
     return Caption(
-        f"Cut along one edge, the ring unfolds, {100 * state.unfolded:.0f} % of the way: each of its"
-        f" {len(state.now.angles)} triangles keeps its shape and its angle."
+        f"Cut along one edge, the ring unfolds, {100 * state.unfolded:.0f} % of the way: each of"
+        f" its {len(state.now.angles)} triangles keeps its shape and its angle."
     )
 
 
@@ -55,17 +63,25 @@ def _defect(state: State) -> Caption:
     here = np.degrees(float(defects[state.now.vertex]))
     if abs(here) < 5e-7:
         return Caption(
-            "Laid flat, the ring closes: angle defect 0. Flat triangles can bend around an edge without one."
+            "Laid flat, the ring closes: angle defect 0. Flat triangles can bend around an edge"
+            " without one."
         )
-    text = f"Laid flat, the ring leaves a gap of {here:.2f}°" if here > 0 else f"Laid flat, it overlaps by {-here:.2f}°"
+    text = (
+        f"Laid flat, the ring leaves a gap of {here:.2f}°"
+        if here > 0
+        else f"Laid flat, it overlaps by {-here:.2f}°"
+    )
     text += ": the angle defect, curvature times area and not curvature yet."
     if not state.on_border:
         return Caption(text + " A finer mesh has smaller defects.")
     if state.params.mistake == "2 pi on the border":
-        return Caption(f"Taken from 360°, a border vertex misses {here:.2f}°: half a turn that is not there.", "wrong")
+        return Caption(
+            f"Taken from 360°, a border vertex misses {here:.2f}°: half a turn that is not there.",
+            "wrong",
+        )
     return Caption(
-        f"On the border angles are taken from 180°: {here:.2f}° is how the border itself turns here, not how the surface"
-        " bends."
+        f"On the border angles are taken from 180°: {here:.2f}° is how the border itself turns"
+        " here, not how the surface bends."
     )
 
 
@@ -73,12 +89,22 @@ def _gaussian(state: State) -> Caption:
     now = state.now
     v, true = now.vertex, state.true("gaussian")
     if state.on_border:
-        return Caption(NOWHERE.format("K") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
+        return Caption(
+            NOWHERE.format("K") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²")
+        )
     if state.params.mistake == "defect taken for K":
         text = f"Without the division by the area, K at vertex {v:,} would be {brief(now.K[v])}"
-        return Caption(text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}", "wrong")
-    text = f"K = defect / area = {brief(now.defects[v])} rad / {brief(now.areas[v])} m² = {brief(now.K[v])} m⁻²"
-    return Caption(text + _truth(true, "m⁻²") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
+        return Caption(
+            text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}",
+            "wrong",
+        )
+    text = (
+        f"K = defect / area = {brief(now.defects[v])} rad / {brief(now.areas[v])} m² ="
+        f" {brief(now.K[v])} m⁻²"
+    )
+    return Caption(
+        text + _truth(true, "m⁻²") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²")
+    )
 
 
 def _normal(state: State) -> Caption:
@@ -88,11 +114,14 @@ def _normal(state: State) -> Caption:
     v = now.normals_2H[now.vertex]
     side = "outward" if v @ now.normals[now.vertex] > 0 else "inward"
     if np.linalg.norm(v) < 1e-6:
-        return Caption(f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H n = 0.")
+        return Caption(
+            f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H"
+            " n = 0."
+        )
     return Caption(
-        f"Each neighbour pushes the vertex away from itself, weighted by the cotangents opposite their edge; over twice the"
-        f" area the pushes at vertex {now.vertex:,} add up to 2 H n, {brief(float(np.linalg.norm(v)))} m⁻¹ long and"
-        f" pointing {side}."
+        "Each neighbour pushes the vertex away from itself, weighted by the cotangents opposite"
+        f" their edge; over twice the area the pushes at vertex {now.vertex:,} add up to 2 H n,"
+        f" {brief(float(np.linalg.norm(v)))} m⁻¹ long and pointing {side}."
     )
 
 
@@ -103,9 +132,13 @@ def _mean(state: State) -> Caption:
     H, true = float(now.H[now.vertex]), state.true("mean")
     if state.params.mistake == "H without the half":
         text = f"Taken whole, the normal's length gives H = {brief(H)} m⁻¹"
-        return Caption(text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), "wrong")
+        return Caption(
+            text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), "wrong"
+        )
     text = f"H is half the normal's length, positive where it points outward: {brief(H)} m⁻¹"
-    return Caption(text + _truth(true, "m⁻¹") + _error(state, "H") + _colors(state, now.H, H_SCALE, "m⁻¹"))
+    return Caption(
+        text + _truth(true, "m⁻¹") + _error(state, "H") + _colors(state, now.H, H_SCALE, "m⁻¹")
+    )
 
 
 def _principal(state: State) -> Caption:
@@ -116,7 +149,13 @@ def _principal(state: State) -> Caption:
     text = f"H ± √(H² − K) gives k₁ = {brief(k1)} and k₂ = {brief(k2)} m⁻¹"
     if np.isfinite(state.true("k1")):
         text += f" (truth {brief(state.true('k1'))}, {brief(state.true('k2'))})"
-    kind = "to both sides, as on a saddle" if k1 * k2 < -1e-6 else "to one side" if k1 * k2 > 1e-6 else "one way only"
+    kind = (
+        "to both sides, as on a saddle"
+        if k1 * k2 < -1e-6
+        else "to one side"
+        if k1 * k2 > 1e-6
+        else "one way only"
+    )
     kind = kind if max(abs(k1), abs(k2)) > 1e-6 else "not at all"
     return Caption(f"{text}. The two circles have these curvatures: they bend {kind}.")
 
@@ -126,13 +165,18 @@ def _quadric(state: State) -> Caption:
     K, H = (float(values[v]) for values in quadrics.curvatures())
     n = int(quadrics.neighbours[v])
     if not np.isfinite(K):
-        return Caption(f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}.")
-    text = f"Another way: a quadric fitted to {n} vertices bends by K = {brief(K)} m⁻², H = {brief(H)} m⁻¹."
+        return Caption(
+            f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}."
+        )
+    text = (
+        f"Another way: a quadric fitted to {n} vertices bends by K = {brief(K)} m⁻², H = {brief(H)}"
+        " m⁻¹."
+    )
     if state.errors:
         e = state.errors
         text += (
-            f" Relative errors (RMS over all vertices): K {percent(e['K by fit'])} (angles {percent(e['K'])}), H"
-            f" {percent(e['H by fit'])} (cotangents {percent(e['H'])})."
+            f" Relative errors (RMS over all vertices): K {percent(e['K by fit'])} (angles"
+            f" {percent(e['K'])}), H {percent(e['H by fit'])} (cotangents {percent(e['H'])})."
         )
     return Caption(text)
 
@@ -140,11 +184,18 @@ def _quadric(state: State) -> Caption:
 def _total(state: State) -> Caption:
     now = state.now
     expected = 2 * np.pi * now.chi
-    text = f"All {len(now.p):,} defects add up to {brief(now.total)} rad = {brief(now.total / np.pi)} π;"
+    text = (
+        f"All {len(now.p):,} defects add up to {brief(now.total)} rad ="
+        f" {brief(now.total / np.pi)} π;"
+    )
     text += f" V − E + F = {brief(now.chi)} promises {brief(2 * now.chi)} π."
     if abs(now.total - expected) < 1e-6:
-        return Caption(text + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and borders do.",
-                       "good")  # fmt: skip
+        return Caption(
+            text
+            + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and"
+            " borders do.",
+            "good",
+        )
     halves = (now.total - expected) / np.pi
     text += f" The sum is {brief(now.total - expected)} rad too large"
     if state.params.mistake == "2 pi on the border":
@@ -154,10 +205,15 @@ def _total(state: State) -> Caption:
 
 def _finer(state: State) -> Caption:
     study = sure(state.study)
-    text = f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from angles (RMS) goes from"
+    text = (
+        f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from"
+        " angles (RMS) goes from"
+    )
     text += f" {percent(study.K[0])} to {percent(study.K[-1])}, by quadric fit from"
     text += f" {percent(study.K_fit[0])} to {percent(study.K_fit[-1])}."
-    missing = {"defect taken for K": "division by the area", "H without the half": "½ in H"}.get(state.params.mistake)
+    missing = {"defect taken for K": "division by the area", "H without the half": "½ in H"}.get(
+        state.params.mistake
+    )
     if missing:
         return Caption(f"{text} No mesh is fine enough to mend a missing {missing}.", "wrong")
     if study.K.max() < 1e-8:
@@ -167,7 +223,9 @@ def _finer(state: State) -> Caption:
         return Caption(f"{text} Finer is worse{why}", "wrong")
     if study.K[-1] > study.K[0] / 4:
         return Caption(
-            text + " On such meshes the quotient defect / area does not converge to K; the defects' sum stays exact.",
+            text
+            + " On such meshes the quotient defect / area does not converge to K; the defects' sum"
+            " stays exact.",
             "wrong",
         )
     return Caption(text + " On such meshes angles converge.", "good")
@@ -204,4 +262,7 @@ def _colors(state: State, values: np.ndarray, fixed: float, unit: str) -> str:
     if state.subject.truth is not None:
         return ""
     limit = reach(state, values, fixed)
-    return f" The colours reach to ±{brief(limit)} {unit}; {share_within(values, limit)} of the vertices lie within."
+    return (
+        f" The colours reach to ±{brief(limit)} {unit}; {share_within(values, limit)} of the"
+        " vertices lie within."
+    )

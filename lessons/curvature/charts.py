@@ -1,11 +1,13 @@
-"""What stands beside the picture: estimates against the truth, errors, sums, and the vertex in numbers."""
+"""What stands beside the picture: estimates against the truth, errors, sums, and the vertex in
+numbers.
+"""
 
 import numpy as np
 
 from lessons.curvature.state import State
 from workbench.certain import sure
 from workbench.data.thinning import evenly
-from workbench.geometry.normals import surface_variation
+from workbench.geometry.points.normals import surface_variation
 from workbench.numerals import brief
 from workbench.scene import Chart, Primitive, Role, Scalar, Table
 
@@ -31,15 +33,24 @@ def beside(state: State) -> dict[str, Primitive]:
 
 
 def _errors(state: State) -> dict[str, Primitive]:
-    roles: dict[str, Role] = {"K": "source", "H": "other", "K by fit": "highlight", "H by fit": "truth"}
+    roles: dict[str, Role] = {
+        "K": "source",
+        "H": "other",
+        "K by fit": "highlight",
+        "H by fit": "truth",
+    }
     return {
         f"error {name}": Scalar(round(100 * error, 6), name, "Error to the truth", "%", roles[name])
         for name, error in state.errors.items()
     }
 
 
-def _against(state: State, letter: str, name: str, estimate: np.ndarray, which: int) -> dict[str, Primitive]:
-    """Return the estimates of some vertices in the order of their truth; without a truth a histogram."""
+def _against(
+    state: State, letter: str, name: str, estimate: np.ndarray, which: int
+) -> dict[str, Primitive]:
+    """Return the estimates of some vertices in the order of their truth; without a truth a
+    histogram.
+    """
     unit = "m⁻²" if letter == "K" else "m⁻¹"
     rows = np.flatnonzero(state.subject.inside & np.isfinite(estimate))
     if not len(rows):
@@ -53,14 +64,20 @@ def _against(state: State, letter: str, name: str, estimate: np.ndarray, which: 
     rows = rows[np.argsort(true[rows], kind="stable")]
     rows = rows[evenly(len(rows), SAMPLES)]
     x = np.linspace(0, 100, len(rows))
-    chart = Chart(f"{letter} and its truth", f"vertices in the order of the true {letter} (%)", f"{letter} ({unit})")
+    chart = Chart(
+        f"{letter} and its truth",
+        f"vertices in the order of the true {letter} (%)",
+        f"{letter} ({unit})",
+    )
     way = "from angles" if letter == "K" else "from cotangents"
     scene: dict[str, Primitive] = {
         f"estimates {letter}": chart.dots(x, _rounded(estimate[rows]), way),
         f"truth {letter}": chart.curve(x, _rounded(true[rows]), "truth", "truth"),
     }
     if fits is not None:
-        scene[f"fits {letter}"] = chart.dots(x, _rounded(fits.curvatures()[which][rows]), "quadric fit", "highlight")
+        scene[f"fits {letter}"] = chart.dots(
+            x, _rounded(fits.curvatures()[which][rows]), "quadric fit", "highlight"
+        )
     return scene
 
 
@@ -78,7 +95,10 @@ def _sum(state: State) -> dict[str, Primitive]:
 
 def _finer(state: State) -> dict[str, Primitive]:
     study = sure(state.study)
-    x, chart = np.log10(study.counts), Chart("Error over resolution", "log₁₀ vertices", "log₁₀ error (%)")
+    x, chart = (
+        np.log10(study.counts),
+        Chart("Error over resolution", "log₁₀ vertices", "log₁₀ error (%)"),
+    )
     roles: tuple[tuple[str, np.ndarray, Role], ...] = (
         ("K from angles", study.K, "source"),
         ("H from cotangents", study.H, "other"),
@@ -107,7 +127,13 @@ def vertex_table(state: State) -> Table:
     add("K = defect / A", now.K, "m⁻²", "gaussian")
     if len(now.normals_2H):
         length = np.linalg.norm(now.normals_2H, axis=1)
-        rows.append(("length of 2 H n (m⁻¹)", _number(float(length[v])), _number(2 * abs(state.true("mean")))))
+        rows.append(
+            (
+                "length of 2 H n (m⁻¹)",
+                _number(float(length[v])),
+                _number(2 * abs(state.true("mean"))),
+            )
+        )
     add("H", now.H, "m⁻¹", "mean")
     add("k₁", now.k1, "m⁻¹", "k1")
     add("k₂", now.k2, "m⁻¹", "k2")
@@ -116,7 +142,11 @@ def vertex_table(state: State) -> Table:
         add("K by fit", K, "m⁻²", "gaussian")
         add("H by fit", H, "m⁻¹", "mean")
         rows.append(
-            ("surface variation of the rings", f"{surface_variation(state.subject.p[state.two_rings]):.4f}", "")
+            (
+                "surface variation of the rings",
+                f"{surface_variation(state.subject.p[state.two_rings]):.4f}",
+                "",
+            )
         )
     return Table(f"At vertex {v:,}", ("", "here", "truth"), tuple(rows))
 

@@ -1,11 +1,21 @@
-"""What one step looks like: the mesh in the colours of what was measured, and the vertex from close by."""
+"""What one step looks like: the mesh in the colours of what was measured, and the vertex from close
+by.
+"""
 
 import numpy as np
 
 from lessons.curvature import ring
 from lessons.curvature.captions import caption
 from lessons.curvature.charts import beside
-from lessons.curvature.scales import DEFECT_SCALE, ERROR_SCALE, H_SCALE, K_SCALE, arrow, reach, share_within
+from lessons.curvature.scales import (
+    DEFECT_SCALE,
+    ERROR_SCALE,
+    H_SCALE,
+    K_SCALE,
+    arrow,
+    reach,
+    share_within,
+)
 from lessons.curvature.state import State
 from workbench.data.thinning import every
 from workbench.geometry.polylines import between
@@ -20,7 +30,9 @@ def draw(state: State) -> Scene:
     subject, now, stage = state.subject, state.now, state.stage
     edge = ring.edge_length(now)
     scene: dict[str, Primitive] = {
-        "surface": Mesh(subject.p, subject.faces, _color(state), opacity=0.6 if stage == "principal" else 1.0),
+        "surface": Mesh(
+            subject.p, subject.faces, _color(state), opacity=0.6 if stage == "principal" else 1.0
+        ),
         "vertex": Points(
             now.p[[now.vertex]] + 0.1 * edge * now.normals[now.vertex],
             "highlight",
@@ -65,7 +77,9 @@ def _color(state: State) -> Color:
 def _signed(state: State, values: np.ndarray, fixed: float, title: str, unit: str) -> Field:
     scale = reach(state, values, fixed)
     title = (
-        title if state.subject.truth is not None else f"{title}, {share_within(values, scale)} of the vertices within"
+        title
+        if state.subject.truth is not None
+        else f"{title}, {share_within(values, scale)} of the vertices within"
     )
     return Field(values, -scale, scale, title, unit, "diverging")
 
@@ -85,7 +99,9 @@ def _crosses(state: State) -> dict[str, Primitive]:
     now = state.now
     rows = every(len(now.p), MOST_CROSSES)
     p, n = now.p[rows], now.normals[rows]
-    half = 0.3 * np.median(np.linalg.norm(np.diff(now.p[state.subject.edges], axis=1)[:, 0], axis=1))
+    half = 0.3 * np.median(
+        np.linalg.norm(np.diff(now.p[state.subject.edges], axis=1)[:, 0], axis=1)
+    )
     scene: dict[str, Primitive] = {}
     both: tuple[tuple[str, Role, np.ndarray], ...] = (
         ("k₁", "source", now.along_k1),

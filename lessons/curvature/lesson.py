@@ -1,8 +1,9 @@
 """How a surface bends, measured on triangles.
 
-What it teaches: angles around a vertex that do not add up to a full turn *are* Gaussian curvature, times area; the
-cotangent formula gives the mean-curvature normal; both follow from a few triangles and suffer with them, which a fit to
-a neighbourhood does not; and the defects' sum knows nothing of the mesh but its number of holes.
+What it teaches: angles around a vertex that do not add up to a full turn *are* Gaussian curvature,
+times area; the cotangent formula gives the mean-curvature normal; both follow from a few triangles
+and suffer with them, which a fit to a neighbourhood does not; and the defects' sum knows nothing of
+the mesh but its number of holes.
 """
 
 from collections.abc import Iterator
@@ -16,10 +17,15 @@ from lessons.curvature.mesh import subject_of
 from lessons.curvature.presets import GAUSSIAN, PRESETS, QUESTIONS, UNFOLDING, VIEW
 from lessons.curvature.state import Params, State, Subject
 from lessons.curvature.study import error_of, study_of
-from workbench.algorithms.curvature import Defects, Gaussian, MeanNormals, Measured, measure_curvature
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import mixed_areas
-from workbench.geometry.meshes import on_boundary
+from workbench.algorithms.surfaces.curvature import (
+    Defects,
+    Gaussian,
+    MeanNormals,
+    Measured,
+    measure_curvature,
+)
+from workbench.geometry.meshes import curvature, on_boundary
+from workbench.geometry.meshes.laplacian import mixed_areas
 from workbench.lesson import Lesson, Sweep
 
 
@@ -30,9 +36,13 @@ def run(
     gaussian_curvature: Gaussian = curvature.gaussian_curvature,
     mean_curvature_normals: MeanNormals = curvature.mean_curvature_normals,
 ) -> Iterator[State]:
-    """Yield the stages of measuring one mesh, then, where the truth is known, the errors on ever finer meshes."""
+    """Yield the stages of measuring one mesh, then, where the truth is known, the errors on ever
+    finer meshes.
+    """
     subject = subject_of(params)
-    defects, gaussian, normals = with_mistake(params, angle_defects, gaussian_curvature, mean_curvature_normals)
+    defects, gaussian, normals = with_mistake(
+        params, angle_defects, gaussian_curvature, mean_curvature_normals
+    )
     errors: dict[str, float] = {}
     state = None
     for now in measure_curvature(
@@ -73,7 +83,11 @@ def with_mistake(
 ) -> tuple[Defects, Gaussian, MeanNormals]:
     """Return the three functions, one of them spoilt by the chosen mistake."""
     if params.mistake == "2 pi on the border":
-        return lambda p, faces: defects(p, faces) + np.pi * on_boundary(faces, len(p)), gaussian, normals
+        return (
+            lambda p, faces: defects(p, faces) + np.pi * on_boundary(faces, len(p)),
+            gaussian,
+            normals,
+        )
     if params.mistake == "defect taken for K":
         return defects, lambda p, faces: gaussian(p, faces) * mixed_areas(p, faces), normals
     if params.mistake == "H without the half":
@@ -84,12 +98,16 @@ def with_mistake(
 lesson = Lesson(
     name="curvature",
     title="Curvature of a mesh",
-    summary="Angles that miss a full turn, a normal made of cotangents, and a sum that counts holes.",
+    summary="On flat paper the angles around a point add up to 360°. On a curved surface they "
+    "may not.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=500,
+    order=1600,
+    chapter="Measure",
+    minutes=25,
+    needs=("measures",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

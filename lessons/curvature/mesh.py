@@ -10,13 +10,14 @@ from lessons.curvature.state import MOST_OWN, Params, Subject
 from workbench.data.files import stamp
 from workbench.data.framing import Upward, box, broad_side_to, extent, upward
 from workbench.data.own_meshes import read_surface
-from workbench.data.surfaces import SURFACES, Surface, inside_out, scaled, with_noise
+from workbench.data.shapes.surfaces import SURFACES, Surface, inside_out, scaled, with_noise
 from workbench.geometry.meshes import edges, on_boundary, vertex_normals
 from workbench.knobs import only
 
 EYE = np.array([2.5, -2.9, 2.3])
 UPWARD = np.array([0.46, -0.53, 0.71])
-OWN_SIZE = 2.0  # metres: how long the longest side of an own mesh is made, so that scales and colours fit it
+# metres: how long the longest side of an own mesh is made, so that scales and colours fit it
+OWN_SIZE = 2.0
 
 
 def subject_of(params: Params) -> Subject:
@@ -32,7 +33,9 @@ def subject_of(params: Params) -> Subject:
 
 
 def shape_of(params: Params) -> Params:
-    """Return the params with nothing but what makes a built-in surface; its seed is 0 where nothing strays."""
+    """Return the params with nothing but what makes a built-in surface; its seed is 0 where nothing
+    strays.
+    """
     chance = ("seed",) if params.jitter or params.noise else ()
     return only(params, "surface", "vertices", "jitter", "noise", "size", "inside_out", *chance)
 
@@ -40,13 +43,21 @@ def shape_of(params: Params) -> Params:
 @functools.lru_cache(maxsize=16)
 def _built_in(shape: Params) -> Subject:
     surface = surface_of(shape)
-    return _subject(surface.p, surface.faces, turned=shape.inside_out, name=f"the {shape.surface}", truth=surface)
+    return _subject(
+        surface.p,
+        surface.faces,
+        turned=shape.inside_out,
+        name=f"the {shape.surface}",
+        truth=surface,
+    )
 
 
 def surface_of(shape: Params) -> Surface:
     """Return a built-in surface; noise is in metres whatever the size."""
     rng = np.random.default_rng(shape.seed)
-    surface = scaled(SURFACES[shape.surface](shape.vertices, jitter=shape.jitter, rng=rng), shape.size)
+    surface = scaled(
+        SURFACES[shape.surface](shape.vertices, jitter=shape.jitter, rng=rng), shape.size
+    )
     surface = with_noise(surface, shape.noise, rng) if shape.noise else surface
     return inside_out(surface) if shape.inside_out else surface
 
@@ -59,7 +70,8 @@ def _subject(p: np.ndarray, faces: np.ndarray, *, turned: bool, **known: Any) ->
 
 
 def front_of(p: np.ndarray, normals: np.ndarray, border: np.ndarray) -> int:
-    """Return a vertex in front whose normal points up more than the eye, so that it and the circles are seen well.
+    """Return a vertex in front whose normal points up more than the eye, so that it and the circles
+    are seen well.
 
     It lies inside the border where any vertex does.
     """
@@ -71,7 +83,9 @@ def front_of(p: np.ndarray, normals: np.ndarray, border: np.ndarray) -> int:
 
 @functools.lru_cache(maxsize=4)
 def _own(path: Path, _stamp: tuple[int, int], *, size: float, turned: bool, up: Upward) -> Subject:
-    """Read a mesh, mend what can be mended, stand it up, make it OWN_SIZE long about the origin; anew when it changed."""
+    """Read a mesh, mend what can be mended, stand it up, make it OWN_SIZE long about the origin;
+    anew when it changed.
+    """
     p_file, faces, mended = read_surface(path, MOST_OWN)
     axis = upward(p_file, path, up)
     enlarged = size * OWN_SIZE / extent(p_file)

@@ -1,11 +1,13 @@
-"""What is drawn close to the vertex: its angles, its faces laid flat, its area, circles that bend as it does."""
+"""What is drawn close to the vertex: its angles, its faces laid flat, its area, circles that bend
+as it does.
+"""
 
 import numpy as np
 
 from lessons.curvature.state import State
-from workbench.algorithms.curvature import Measured
+from workbench.algorithms.surfaces.curvature import Measured
 from workbench.certain import sure
-from workbench.geometry.laplacian import mixed_cell, vertex_pushes
+from workbench.geometry.meshes.laplacian import mixed_cell, vertex_pushes
 from workbench.geometry.polylines import between, fan, segments
 from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
@@ -44,13 +46,16 @@ def angles(now: Measured) -> dict[str, Primitive]:
         turn = np.linspace(0.06, 0.94, 9)[:, None] * angle
         arcs.append(segments(centre + radius * (np.cos(turn) * a + np.sin(turn) * b)))
         middle = np.cos(angle / 2) * a + np.sin(angle / 2) * b
-        scene[f"angle {i}"] = Label(f"{np.degrees(angle):.1f}°", centre + 1.75 * radius * middle, "highlight")
+        scene[f"angle {i}"] = Label(
+            f"{np.degrees(angle):.1f}°", centre + 1.75 * radius * middle, "highlight"
+        )
     scene["arcs"] = Segments(np.concatenate(arcs), "highlight", 3)
     return scene
 
 
 def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
-    """Return the ring, cut along an edge and laid flat above the vertex to a share of the way; no triangle is bent.
+    """Return the ring, cut along an edge and laid flat above the vertex to a share of the way; no
+    triangle is bent.
 
     Where it is flat and does not close, the gap is the defect.
     """
@@ -68,8 +73,14 @@ def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
     def flat(turn: np.ndarray) -> np.ndarray:
         return np.cos(turn)[:, None] * right + np.sin(turn)[:, None] * up
 
-    def at(along: np.ndarray, turn: np.ndarray, radius: np.ndarray | float, height: float = 0.0) -> np.ndarray:
-        return centre + np.reshape(radius, (-1, 1)) * along + (height * edge + rise * turn)[:, None] * n
+    def at(
+        along: np.ndarray, turn: np.ndarray, radius: np.ndarray | float, height: float = 0.0
+    ) -> np.ndarray:
+        return (
+            centre
+            + np.reshape(radius, (-1, 1)) * along
+            + (height * edge + rise * turn)[:, None] * n
+        )
 
     along = flat(turned)
     if share < 1:
@@ -87,20 +98,32 @@ def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
     end = at(flat(full), full, lengths[-1])
     word = "gap" if defect > 0 else "overlap"
     return scene | {
-        "gap": Segments(segments(at(flat(gap), gap, 0.8 * lengths.min(), 0.02)), "source", 5, name="angle defect"),
+        "gap": Segments(
+            segments(at(flat(gap), gap, 0.8 * lengths.min(), 0.02)),
+            "source",
+            5,
+            name="angle defect",
+        ),
         "gap edge": Segments(between(centre, end), "source", 3),
         "gap label": Label(
-            f"{word} {abs(np.degrees(defect)):.2f}°", at(flat(full), full, 1.1 * lengths.max())[0], "source"
+            f"{word} {abs(np.degrees(defect)):.2f}°",
+            at(flat(full), full, 1.1 * lengths.max())[0],
+            "source",
         ),
     }
 
 
 def _unbent(along: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    """Return directions near those given, each at its angle from the one before, so that triangles keep their shape."""
+    """Return directions near those given, each at its angle from the one before, so that triangles
+    keep their shape.
+    """
     found = [along[0] / np.linalg.norm(along[0])]
     for wanted, angle in zip(along[1:], angles, strict=True):
         aside = wanted - (wanted @ found[-1]) * found[-1]
-        found.append(np.cos(angle) * found[-1] + np.sin(angle) * aside / max(float(np.linalg.norm(aside)), 1e-12))
+        found.append(
+            np.cos(angle) * found[-1]
+            + np.sin(angle) * aside / max(float(np.linalg.norm(aside)), 1e-12)
+        )
     return np.array(found)
 
 
@@ -115,7 +138,9 @@ def cell(now: Measured) -> dict[str, Primitive]:
     return {
         "cell": Mesh(p, faces, "highlight", opacity=0.6, flat=True),
         "cell rim": Segments(rim, "highlight", 3),
-        "cell label": Label(f"A = {brief(now.areas[now.vertex])} m²", _lifted(now, 0.5), "highlight"),
+        "cell label": Label(
+            f"A = {brief(now.areas[now.vertex])} m²", _lifted(now, 0.5), "highlight"
+        ),
     }
 
 
@@ -126,15 +151,23 @@ def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
     if np.isfinite(total).all():
         parts = scale * vertex_pushes(now.p[now.vertex], now.p[now.ring], now.areas[now.vertex])
         chain = np.cumsum(np.vstack([np.zeros(3), parts]), axis=0) + start
-        scene["pushes"] = Segments(segments(chain), "other", 3, name="cotangent × edge, neighbour after neighbour")
+        scene["pushes"] = Segments(
+            segments(chain), "other", 3, name="cotangent × edge, neighbour after neighbour"
+        )
         tip = start + scale * total
-        scene["mean normal"] = Segments(between(start, tip), "highlight", 6, name="their sum: 2 H n")
-        scene["mean label"] = Label(f"|2 H n| = {brief(float(np.linalg.norm(total)))} m⁻¹", tip, "highlight")
+        scene["mean normal"] = Segments(
+            between(start, tip), "highlight", 6, name="their sum: 2 H n"
+        )
+        scene["mean label"] = Label(
+            f"|2 H n| = {brief(float(np.linalg.norm(total)))} m⁻¹", tip, "highlight"
+        )
     return scene
 
 
 def circles(now: Measured) -> dict[str, Primitive]:
-    """Return the two osculating circles at the vertex: radius 1/|k|, on the side to which the surface bends."""
+    """Return the two osculating circles at the vertex: radius 1/|k|, on the side to which the
+    surface bends.
+    """
     scene: dict[str, Primitive] = {}
     here, n = now.p[now.vertex], now.normals[now.vertex]
     both: tuple[tuple[str, Role, np.ndarray, np.ndarray], ...] = (
@@ -176,9 +209,14 @@ def patch(state: State) -> dict[str, Primitive]:
     }
     c = quadrics.coefficients[now.vertex]
     if np.isfinite(c).all():
-        right, up, n = (axis[now.vertex] for axis in (quadrics.right, quadrics.up, quadrics.normals))
+        right, up, n = (
+            axis[now.vertex] for axis in (quadrics.right, quadrics.up, quadrics.normals)
+        )
         reach = 0.8 * np.linalg.norm(now.p[near] - now.p[now.vertex], axis=1).max()
-        r, t = (g.ravel()[:, None] for g in np.meshgrid(reach * np.arange(9) / 8, CIRCLE[::4], indexing="ij"))
+        r, t = (
+            g.ravel()[:, None]
+            for g in np.meshgrid(reach * np.arange(9) / 8, CIRCLE[::4], indexing="ij")
+        )
         x, y = r * np.cos(t), r * np.sin(t)
         z = c[0] + c[1] * x + c[2] * y + c[3] * x**2 + c[4] * x * y + c[5] * y**2
         i, j = (g.ravel() for g in np.meshgrid(np.arange(8), np.arange(24), indexing="ij"))

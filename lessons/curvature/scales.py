@@ -1,4 +1,6 @@
-"""How far the colours reach, and how long the arrows are: fixed for built-in surfaces, by percentile for own meshes."""
+"""How far the colours reach, and how long the arrows are: fixed for built-in surfaces, by
+percentile for own meshes.
+"""
 
 import numpy as np
 
@@ -13,9 +15,11 @@ MOST = 90  # per cent of an own mesh' vertices that its colours tell apart
 
 
 def reach(state: State, values: np.ndarray, fixed: float) -> float:
-    """Return where the colours of these values end: `fixed`, or for an own mesh what MOST per cent of its vertices keep to.
+    """Return where the colours of these values end: `fixed`, or for an own mesh what MOST per cent
+    of its vertices keep to.
 
-    Rounded to two digits that count. Where nearly all values are 0, as on a box of many faces, the largest counts.
+    Rounded to two digits that count. Where nearly all values are 0, as on a box of many faces, the
+    largest counts.
     """
     if state.subject.truth is not None:
         return fixed

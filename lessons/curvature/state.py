@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.curvature import Measured
+from workbench.algorithms.surfaces.curvature import Measured
 from workbench.data.framing import Upward
-from workbench.data.surfaces import MOST_JITTER, Surface
+from workbench.data.shapes.surfaces import MOST_JITTER, Surface
 from workbench.geometry.meshes import vertices_within
 from workbench.knobs import Knob, Pick
 
@@ -20,22 +20,37 @@ MOST_OWN = 200_000
 
 @dataclass(frozen=True)
 class Params:
-    """A surface whose curvature is known, or an own mesh; how it is meshed; and the vertex that is looked at."""
+    """A surface whose curvature is known, or an own mesh; how it is meshed; and the vertex that is
+    looked at.
+    """
 
     surface: Annotated[Shape, Knob("A surface whose curvature is known in closed form")] = "torus"
     vertices: Annotated[int, Knob("About how many vertices its mesh has", 50, 6000, step=10)] = 400
     jitter: Annotated[
-        float, Knob("How far vertices stray along the surface", 0, MOST_JITTER, unit="cells", step=0.01)
+        float,
+        Knob("How far vertices stray along the surface", 0, MOST_JITTER, unit="cells", step=0.01),
     ] = 0.0
-    noise: Annotated[float, Knob("How far they stray off the surface (sigma)", 0, 0.02, unit="m", step=0.001)] = 0.0
-    size: Annotated[float, Knob("Everything this many times as large", 0.5, 2, unit="×", step=0.05)] = 1.0
+    noise: Annotated[
+        float, Knob("How far they stray off the surface (sigma)", 0, 0.02, unit="m", step=0.001)
+    ] = 0.0
+    size: Annotated[
+        float, Knob("Everything this many times as large", 0.5, 2, unit="×", step=0.05)
+    ] = 1.0
     inside_out: Annotated[bool, Knob("Turn all faces round, so that inside is outside")] = False
     mistake: Annotated[Mistake, Knob("Calculate with a classic mistake")] = "none"
     vertex: Annotated[
-        int, Knob("The vertex that is looked at: click one; -1 faces you", -1, MOST_OWN - 1, by=Pick("surface"))
+        int,
+        Knob(
+            "The vertex that is looked at: click one; -1 faces you",
+            -1,
+            MOST_OWN - 1,
+            by=Pick("surface"),
+        ),
     ] = -1
     mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
-    up: Annotated[Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)] = "auto"
+    up: Annotated[
+        Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)
+    ] = "auto"
     seed: Annotated[int, Knob("Which way the vertices stray", 0, 99)] = 0
 
 
@@ -47,7 +62,8 @@ class Subject:
         name: What it is called in sentences.
         p: Vertices, metres.
         faces: Triangles, counterclockwise seen from outside.
-        truth: The surface from which it was made, with its analytic curvature; None for an own mesh.
+        truth: The surface from which it was made, with its analytic curvature; None for an own
+            mesh.
         edges: Every edge once.
         border: Which vertices lie on its border.
         front: The vertex inside the border that faces the viewer best.
@@ -113,7 +129,13 @@ class State:
     @property
     def stage(self) -> str:
         """The stage by name."""
-        return "finer" if self.study is not None else "unfolding" if self.unfolded < 1 else self.now.stage
+        return (
+            "finer"
+            if self.study is not None
+            else "unfolding"
+            if self.unfolded < 1
+            else self.now.stage
+        )
 
     @property
     def on_border(self) -> bool:
@@ -126,7 +148,9 @@ class State:
         return vertices_within(self.subject.edges, self.now.vertex, 2)
 
     def true(self, name: str) -> float:
-        """Return the analytic `gaussian`, `mean`, `k1` or `k2` at the vertex; NaN where nobody knows."""
+        """Return the analytic `gaussian`, `mean`, `k1` or `k2` at the vertex; NaN where nobody
+        knows.
+        """
         surface = self.subject.truth
         return float("nan") if surface is None else float(getattr(surface, name)[self.now.vertex])
 

@@ -8,20 +8,26 @@ import numpy as np
 
 from lessons.curvature.mesh import shape_of, surface_of
 from lessons.curvature.state import Params, Study
-from workbench.algorithms.curvature import Gaussian, MeanNormals
-from workbench.data.surfaces import Surface
-from workbench.geometry.curvature import mean_from_normals
+from workbench.algorithms.surfaces.curvature import Gaussian, MeanNormals
+from workbench.data.shapes.surfaces import Surface
 from workbench.geometry.meshes import on_boundary, vertex_normals
-from workbench.geometry.quadric_fit import fit_quadrics
+from workbench.geometry.meshes.curvature import mean_from_normals
+from workbench.geometry.meshes.quadric_fit import fit_quadrics
 
 Letter = Literal["gaussian", "mean"]
 COUNTS = (400, 1000, 2500, 6400)
 
 
-def study_of(params: Params, gaussian_curvature: Gaussian, mean_curvature_normals: MeanNormals) -> Study:
-    """Measure a built-in surface on four meshes, the last with edges four times shorter than the first."""
+def study_of(
+    params: Params, gaussian_curvature: Gaussian, mean_curvature_normals: MeanNormals
+) -> Study:
+    """Measure a built-in surface on four meshes, the last with edges four times shorter than the
+    first.
+    """
     errors: dict[str, list[float]] = {name: [] for name in ("K", "H", "K_fit", "H_fit")}
-    meshes = _meshes(replace(shape_of(params), vertices=Params.vertices))  # the same whatever is looked at
+    meshes = _meshes(
+        replace(shape_of(params), vertices=Params.vertices)
+    )  # the same whatever is looked at
     for made in meshes:
         p, faces = made.surface.p, made.surface.faces
         H = mean_from_normals(mean_curvature_normals(p, faces), made.normals)
@@ -68,8 +74,8 @@ def _made(surface: Surface) -> _Made:
 def error_of(surface: Surface, inside: np.ndarray, name: Letter, estimate: np.ndarray) -> float:
     """Return the relative L2 error of K or H over the vertices inside the border.
 
-    Where the truth is 0 everywhere, the error is related to what the larger principal curvature alone would give, and on
-    a plane to a sphere of one metre.
+    Where the truth is 0 everywhere, the error is related to what the larger principal curvature
+    alone would give, and on a plane to a sphere of one metre.
     """
     true = getattr(surface, name)[inside]
     size = np.linalg.norm(true)

@@ -7,16 +7,22 @@ import numpy as np
 
 from lessons.disparity.state import State
 from lessons.disparity.truth import depth_errors, flat_parts, known_depths
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 from workbench.certain import sure
 from workbench.numerals import brief, fixed, length, percent
 from workbench.scene import Caption
 
 Tone: TypeAlias = Literal["info", "good", "wrong"]
 WAYS = {
-    (0, 1): "to the right", (0, -1): "to the left", (1, 0): "down", (-1, 0): "up",
-    (1, 1): "down and right", (-1, -1): "up and left", (1, -1): "down and left", (-1, 1): "up and right",
-}  # fmt: skip
+    (0, 1): "to the right",
+    (0, -1): "to the left",
+    (1, 0): "down",
+    (-1, 0): "up",
+    (1, 1): "down and right",
+    (-1, -1): "up and left",
+    (1, -1): "down and left",
+    (-1, 1): "up and right",
+}
 
 
 def caption(state: State) -> Caption:
@@ -37,11 +43,13 @@ def caption(state: State) -> Caption:
 def _compared(state: State) -> str:
     d, n = state.done - 1, state.disparity.size
     if d == 0:
-        return "d = 0: both pictures lie on each other as they are. So far each pixel keeps this one."
+        return (
+            "d = 0: both pictures lie on each other as they are. So far each pixel keeps this one."
+        )
     fresh = int((state.disparity == d).sum())
     return (
-        f"d = {d}: left (u, v) against right (u − {d}, v). {fresh:,} pixels ({percent(fresh / n, 1)}) fit better than at any"
-        " smaller shift."
+        f"d = {d}: left (u, v) against right (u − {d}, v). {fresh:,} pixels"
+        f" ({percent(fresh / n, 1)}) fit better than at any smaller shift."
     )
 
 
@@ -49,7 +57,8 @@ def _aggregated(state: State) -> str:
     window, cost = state.setup.params.window, state.setup.params.cost
     if window == 1:
         return (
-            f"A window of one pixel sums nothing: the winner of each {cost} curve stays as it was{_wrong_now(state)}."
+            f"A window of one pixel sums nothing: the winner of each {cost} curve stays as it"
+            f" was{_wrong_now(state)}."
         )
     return (
         f"{cost} over {window} × {window} pixels: a whole window must fit, not one pixel by chance"
@@ -59,8 +68,14 @@ def _aggregated(state: State) -> str:
 
 def _path(state: State) -> str:
     change = _change(state, "")
-    change = change or f"energy {brief(sure(state.before).energy, 4)} → {brief(state.energy, 4)} per pixel"
-    return f"Path {state.done} of 8, {WAYS[sure(state.direction)]}: neighbours that disagree pay; {change}."
+    change = (
+        change
+        or f"energy {brief(sure(state.before).energy, 4)} → {brief(state.energy, 4)} per pixel"
+    )
+    return (
+        f"Path {state.done} of 8, {WAYS[sure(state.direction)]}: neighbours that disagree pay;"
+        f" {change}."
+    )
 
 
 def _checked(state: State) -> str:
@@ -83,8 +98,8 @@ def _exchanged(state: State) -> str:
         return ""
     as_given, exchanged = state.setup.agreeing
     return (
-        f" With the pictures exchanged more pixels find each other, {percent(exchanged, 0)} instead of"
-        f" {percent(as_given, 0)}: is the left one the right one?"
+        f" With the pictures exchanged more pixels find each other, {percent(exchanged, 0)} instead"
+        f" of {percent(as_given, 0)}: is the left one the right one?"
     )
 
 
@@ -99,7 +114,10 @@ def _refined(state: State) -> str:
 
 
 def _smoothed(state: State) -> str:
-    return f"The median of each 3 × 3 neighbourhood drops single outliers and keeps edges{_error(state)}{_wrong_now(state)}."
+    return (
+        "The median of each 3 × 3 neighbourhood drops single outliers and keeps"
+        f" edges{_error(state)}{_wrong_now(state)}."
+    )
 
 
 def _of_depth(state: State) -> Caption:
@@ -117,7 +135,10 @@ def _of_depth(state: State) -> Caption:
     elif math.isinf(depth):
         here = f"left pixel ({u}, {v}) has d = 0, which means infinitely far, not missing{truth}"
     else:
-        here = f"left pixel ({u}, {v}), d = {fixed(state.chosen, 2)} px, is {distance(depth)} away{truth}"
+        here = (
+            f"left pixel ({u}, {v}), d = {fixed(state.chosen, 2)} px, is {distance(depth)}"
+            f" away{truth}"
+        )
     infinite = int(np.isinf(state.depth).sum())
     more = f" {infinite:,} pixels are infinitely far." if infinite else ""
     extra = (
@@ -132,21 +153,25 @@ def _of_unknown_cameras(state: State) -> Caption:
     u, v = state.setup.pixel
     here = "is unknown" if math.isnan(state.chosen) else f"has d = {fixed(state.chosen, 2)} px"
     return Caption(
-        f"Left pixel ({u}, {v}) {here}. Z = f B / d needs f and the baseline B of these cameras, which are not known: give"
-        " own_focal_length and own_baseline for metres. The cloud only shows what is nearer than what; its size is made up."
-        f"{_exchanged(state)}"
+        f"Left pixel ({u}, {v}) {here}. Z = f B / d needs f and the baseline B of these cameras,"
+        " which are not known: give own_focal_length and own_baseline for metres. The cloud only"
+        f" shows what is nearer than what; its size is made up.{_exchanged(state)}"
     )
 
 
 def _of_relative_error(state: State) -> Caption:
     """Say by which part of itself a depth moves, for which no camera has to be known."""
-    e, known = state.disparity_error, state.disparity[np.isfinite(state.disparity) & (state.disparity > 0)]
+    e, known = (
+        state.disparity_error,
+        state.disparity[np.isfinite(state.disparity) & (state.disparity > 0)],
+    )
     if not len(known):
         return Caption("No pixel has a disparity above 0, so there is no error to show.", "wrong")
     at = [float(d) + state.setup.pair.camera.doffs for d in np.percentile(known, [98, 50])]
     moved = ", ".join(f"at {brief(d)} px by {percent(e / d)}" for d in at if d > 0)
     return Caption(
-        f"To first order {brief(e)} px of error moves a depth by {brief(e)} px / d of itself, whatever the cameras: {moved}."
+        f"To first order {brief(e)} px of error moves a depth by {brief(e)} px / d of itself,"
+        f" whatever the cameras: {moved}."
     )
 
 
@@ -164,9 +189,14 @@ def _of_error(state: State) -> Caption:
         else [float(z) for z in np.percentile(state.depth[known], [2, 98])]
     )
     moved = ", ".join(f"{length(z)} by {length(z * z / fB * e)}" for z in at)
-    text = f"To first order {brief(e)} px of error moves a depth by Z² / (f B) · {brief(e)} px: {moved}."
+    text = (
+        f"To first order {brief(e)} px of error moves a depth by Z² / (f B) · {brief(e)} px:"
+        f" {moved}."
+    )
     if state.setup.params.disparity_error and at == list(flat):
-        text += f" Measured: {', '.join(length(abs(float(np.median(off)))) for off in flat.values())}."
+        text += (
+            f" Measured: {', '.join(length(abs(float(np.median(off)))) for off in flat.values())}."
+        )
     off = depth_errors(state)
     if len(off):
         text += f" Half of all points are within {length(float(np.median(off)))} of the truth."
@@ -174,7 +204,8 @@ def _of_error(state: State) -> Caption:
 
 
 def _tone(state: State) -> Tone:
-    """Judge the depths: good within 3 % in the median and with few wrong pixels, wrong beyond 10 % or with many.
+    """Judge the depths: good within 3 % in the median and with few wrong pixels, wrong beyond 10 %
+    or with many.
 
     Who asks for a mistake, or leaves the paths out, gets what was asked for.
     """
@@ -183,14 +214,22 @@ def _tone(state: State) -> Tone:
         return "info"
     params, relative = state.setup.params, float(np.median(np.abs(found / true - 1.0)))
     if relative > 0.1 or state.wrong > 0.2:
-        asked_for = params.mistake != "none" or params.disparity_error != 0 or params.smoothness == 0
+        asked_for = (
+            params.mistake != "none" or params.disparity_error != 0 or params.smoothness == 0
+        )
         return "info" if asked_for else "wrong"
     return "info" if relative > 0.03 or state.wrong > 0.05 else "good"
 
 
 def distance(depth: float) -> str:
     """Write how far away something is, in metres, to the millimetre."""
-    return "unknown" if math.isnan(depth) else "infinitely far" if math.isinf(depth) else f"{fixed(depth, 3)} m"
+    return (
+        "unknown"
+        if math.isnan(depth)
+        else "infinitely far"
+        if math.isinf(depth)
+        else f"{fixed(depth, 3)} m"
+    )
 
 
 def _wrong_now(state: State) -> str:
@@ -206,4 +245,7 @@ def _change(state: State, lead: str) -> str:
 def _error(state: State) -> str:
     if state.before is None or math.isnan(state.error) or math.isnan(state.before.error):
         return ""
-    return f"; mean error of the right ones {fixed(state.before.error, 3)} → {fixed(state.error, 3)} px"
+    return (
+        f"; mean error of the right ones {fixed(state.before.error, 3)} →"
+        f" {fixed(state.error, 3)} px"
+    )

@@ -1,4 +1,6 @@
-"""What stands beside the scene: maps and windows, the cost curve of the followed pixel, and the numbers per step."""
+"""What stands beside the scene: maps and windows, the cost curve of the followed pixel, and the
+numbers per step.
+"""
 
 import math
 
@@ -6,9 +8,9 @@ import numpy as np
 
 from lessons.disparity.captions import distance
 from lessons.disparity.state import State
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 from workbench.data.windows import side_by_side
-from workbench.geometry.stereo import depth_interval
+from workbench.geometry.cameras.stereo import depth_interval
 from workbench.numerals import brief, fixed
 from workbench.scene import PALETTE, Chart, Field, Picture, Primitive, Table
 
@@ -27,17 +29,22 @@ def _pictures(state: State) -> dict[str, Primitive]:
     if state.piece is not None:
         costs = np.where(np.isfinite(state.piece), state.piece, np.nan).astype(np.float32)
         shown["map/slice"] = Picture(
-            Field.magnitude(costs, "Cost", percent=98), f"Slice d = {state.done - 1} of the cost volume"
+            Field.magnitude(costs, "Cost", percent=98),
+            f"Slice d = {state.done - 1} of the cost volume",
         )
     elif setup.pair.disparity is not None:
         off = (state.disparity - setup.pair.disparity).astype(np.float32)
-        shown["map/error"] = Picture(Field(off, -3.0, 3.0, "Error to truth", "px", "diverging"), "Error to truth")
+        shown["map/error"] = Picture(
+            Field(off, -3.0, 3.0, "Error to truth", "px", "diverging"), "Error to truth"
+        )
     d = state.done - 1 if state.stage is Stage.COMPARE else state.chosen
     if math.isfinite(d):
         pair, window = setup.pair, setup.params.window
         frame = PALETTE["highlight"]
         image = side_by_side(pair.left, pair.right, setup.pixel, round(d), window, frame=frame)
-        shown["windows"] = Picture(image, f"Left window, and right window {round(d)} px further left")
+        shown["windows"] = Picture(
+            image, f"Left window, and right window {round(d)} px further left"
+        )
     return shown
 
 
@@ -72,7 +79,9 @@ def _curves(state: State) -> dict[str, Primitive]:
 
 
 def _error_curves(state: State) -> dict[str, Primitive]:
-    """Return the predicted error over depth, and beside it the measured one where the truth is known."""
+    """Return the predicted error over depth, and beside it the measured one where the truth is
+    known.
+    """
     setup = state.setup
     camera = setup.pair.camera
     known = np.isfinite(state.depth) & (state.depth <= setup.far)
@@ -92,7 +101,10 @@ def _error_curves(state: State) -> dict[str, Primitive]:
     off = np.abs(state.depth[known] - true)
     edges = np.unique(np.quantile(true, np.linspace(0, 1, BINS + 1)))
     bins = np.clip(np.searchsorted(edges, true, "right") - 1, 0, max(len(edges) - 2, 0))
-    middles = [(float(np.median(true[bins == k])), float(np.median(off[bins == k]))) for k in np.unique(bins)]
+    middles = [
+        (float(np.median(true[bins == k])), float(np.median(off[bins == k])))
+        for k in np.unique(bins)
+    ]
     x, y = np.array(sorted(set(middles))).T
     shown["error/measured"] = chart.dots(x, y, "measured median", "truth")
     return shown
@@ -109,15 +121,23 @@ def _table(state: State) -> Table:
     if setup.metric and 0 < depth < math.inf:
         error = state.disparity_error or 1.0
         d = np.array([setup.f * camera.baseline / depth])
-        near, far = (float(z[0]) for z in depth_interval(d, setup.f, camera.baseline, error))
+        near, far = (
+            float(z[0]) for z in depth_interval(d, setup.f, camera.baseline, disparity_error=error)
+        )
         rows.append((f"± {brief(error)} px", f"{distance(near)} to {distance(far)}"))
     if setup.pair.disparity is not None:
         true = float(setup.pair.disparity[v, u])
-        seen = "" if setup.pair.visible is None or setup.pair.visible[v, u] else ", hidden from the right camera"
+        seen = (
+            ""
+            if setup.pair.visible is None or setup.pair.visible[v, u]
+            else ", hidden from the right camera"
+        )
         rows.append(
             (
                 "truth",
-                "unknown" if math.isnan(true) else f"{_px(true)}, {distance(float(setup.true_depth[v, u]))}{seen}",
+                "unknown"
+                if math.isnan(true)
+                else f"{_px(true)}, {distance(float(setup.true_depth[v, u]))}{seen}",
             )
         )
     return Table(f"Left pixel ({u}, {v})", ("", "value"), tuple(rows))

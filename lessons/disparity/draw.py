@@ -1,4 +1,6 @@
-"""What one step looks like: the two cameras with their pictures, the cloud so far, and the ray of the followed pixel."""
+"""What one step looks like: the two cameras with their pictures, the cloud so far, and the ray of
+the followed pixel.
+"""
 
 import functools
 import math
@@ -9,12 +11,17 @@ from lessons.disparity.captions import caption
 from lessons.disparity.charts import beside
 from lessons.disparity.stage import T_WORLD_LEFT, pictures
 from lessons.disparity.state import Setup, State
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 from workbench.data.framing import round_below
 from workbench.geometry.cameras import back_project
+from workbench.geometry.cameras.stereo import (
+    depth_cloud,
+    depth_from_disparity,
+    depth_interval,
+    points_on_ray,
+)
 from workbench.geometry.motions import R_UPRIGHT, apply, motion
 from workbench.geometry.polylines import between, segments
-from workbench.geometry.stereo import depth_cloud, depth_from_disparity, depth_interval, points_on_ray
 from workbench.numerals import brief, length
 from workbench.scene import Camera, Color, Field, Label, Points, Primitive, Scene, Segments
 
@@ -50,7 +57,9 @@ def _cameras(setup: Setup) -> dict[str, Primitive]:
 
 
 def _cloud(state: State) -> dict[str, Primitive]:
-    """Show the points that the disparities stand for, by the colours of the picture, in the last step by their error."""
+    """Show the points that the disparities stand for, by the colours of the picture, in the last
+    step by their error.
+    """
     setup = state.setup
     h, w = state.depth.shape
     stride = math.ceil(math.sqrt(h * w / MOST_POINTS))
@@ -64,7 +73,9 @@ def _cloud(state: State) -> dict[str, Primitive]:
     color, name = _cloud_color(state, seen)
     name = name if setup.metric else f"{name}; its size is made up"
     scene: dict[str, Primitive] = {
-        "cloud": Points(apply(T_WORLD_LEFT, setup.scale * p_camera).astype(np.float32), color, radius, name=name),
+        "cloud": Points(
+            apply(T_WORLD_LEFT, setup.scale * p_camera).astype(np.float32), color, radius, name=name
+        ),
     }
     if state.uncertainty is not None:
         scene["bars"] = _bars(state, seen)
@@ -94,8 +105,11 @@ def _bars(state: State, seen: np.ndarray) -> Segments:
     some = np.linspace(0, len(u) - 1, min(BARS, len(u))).astype(int)
     d = camera.f * camera.baseline / state.depth[v[some], u[some]]
     uv = np.column_stack([u[some], v[some]]).astype(float)
-    near_far = depth_interval(d, camera.f, camera.baseline, error)
-    ends = [back_project(uv, np.minimum(depth, 2 * setup.far), np.eye(4), camera.K) for depth in near_far]
+    near_far = depth_interval(d, camera.f, camera.baseline, disparity_error=error)
+    ends = [
+        back_project(uv, np.minimum(depth, 2 * setup.far), np.eye(4), K=camera.K)
+        for depth in near_far
+    ]
     return Segments(
         setup.scale * np.stack(ends, axis=1),
         "correspondence",
@@ -113,7 +127,12 @@ def _followed(state: State) -> dict[str, Primitive]:
     depths = _depth(state, np.arange(setup.max_disparity + 1.0))
     shown = np.isfinite(depths) & (depths <= setup.far) & np.isfinite(state.costs)
     scene: dict[str, Primitive] = {
-        "ray": Segments(between(np.zeros(3), _along(setup, np.array([setup.far]))), "highlight", 2.0, T_WORLD_LEFT)
+        "ray": Segments(
+            between(np.zeros(3), _along(setup, np.array([setup.far]))),
+            "highlight",
+            2.0,
+            T_WORLD_LEFT,
+        )
     }
     if shown.any():
         scene["candidates"] = Points(_along(setup, depths[shown]), "highlight", SIZE, T_WORLD_LEFT)
@@ -127,7 +146,9 @@ def _followed(state: State) -> dict[str, Primitive]:
         eye = np.array([setup.scale * camera.baseline, 0.0, 0.0])
         scene["partner ray"] = Segments(between(eye, p), "source", 1.5, T_WORLD_LEFT)
     if setup.true_depth[v, u] <= setup.far:
-        scene["truth"] = Points(_along(setup, setup.true_depth[v, u : u + 1]), "truth", 1.7 * SIZE, T_WORLD_LEFT)
+        scene["truth"] = Points(
+            _along(setup, setup.true_depth[v, u : u + 1]), "truth", 1.7 * SIZE, T_WORLD_LEFT
+        )
     return scene
 
 
@@ -137,7 +158,9 @@ def _along(setup: Setup, depths: np.ndarray) -> np.ndarray:
 
 
 def _swept(state: State) -> dict[str, Primitive]:
-    """Show where everything would be that has the disparity just compared: a plane before the cameras."""
+    """Show where everything would be that has the disparity just compared: a plane before the
+    cameras.
+    """
     setup = state.setup
     depth = float(_depth(state, np.array([state.done - 1.0]))[0])
     if state.stage is not Stage.COMPARE or not depth <= setup.far:
@@ -145,17 +168,27 @@ def _swept(state: State) -> dict[str, Primitive]:
     corners = _corners(setup, depth)
     return {
         "swept": Segments(segments(corners, closed=True), "other", 2.5, T_WORLD_LEFT),
-        "label/swept": Label(f"d = {state.done - 1} px{_away(setup, depth)}", corners[1], "other", T_WORLD_LEFT),
+        "label/swept": Label(
+            f"d = {state.done - 1} px{_away(setup, depth)}", corners[1], "other", T_WORLD_LEFT
+        ),
     }
 
 
 @functools.lru_cache(maxsize=16)
 def _ruler(setup: Setup) -> dict[str, Primitive]:
-    """Show what the cameras see as a faint pyramid, along one edge of which the metres are counted."""
+    """Show what the cameras see as a faint pyramid, along one edge of which the metres are
+    counted.
+    """
     far = _corners(setup, setup.far / 1.25)
     edges = between(np.zeros(3), far)
     shown: dict[str, Primitive] = {
-        "seen": Segments(np.concatenate([edges, segments(far, closed=True)]), "correspondence", 1.0, T_WORLD_LEFT, 0.45)
+        "seen": Segments(
+            np.concatenate([edges, segments(far, closed=True)]),
+            "correspondence",
+            1.0,
+            T_WORLD_LEFT,
+            0.45,
+        )
     }
     if setup.metric:
         apart = round_below(setup.far / 3)

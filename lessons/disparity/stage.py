@@ -1,4 +1,6 @@
-"""Where things stand: both pictures upright side by side, the map of disparities below, and beside it the depths."""
+"""Where things stand: both pictures upright side by side, the map of disparities below, and beside
+it the depths.
+"""
 
 import functools
 import math
@@ -7,7 +9,7 @@ import numpy as np
 
 from lessons.disparity.pairs import ROWS_OFF
 from lessons.disparity.state import Setup, State
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import between
 from workbench.lesson import View
@@ -63,16 +65,22 @@ def _named(picture: Picture, name: str, color: Role) -> Label:
 
 
 def _row(state: State, left: Picture, right: Picture) -> dict[str, Primitive]:
-    """Return the row of the followed pixel across both pictures: where it is, where its partner is sought, and found."""
+    """Return the row of the followed pixel across both pictures: where it is, where its partner is
+    sought, and found.
+    """
     setup = state.setup
     (u, v), w = setup.pixel, setup.left.shape[1]
-    ends = between(left.places(np.array([-0.5, v]), LAYER), right.places(np.array([w - 0.5, v]), LAYER))
+    ends = between(
+        left.places(np.array([-0.5, v]), LAYER), right.places(np.array([w - 0.5, v]), LAYER)
+    )
     comparing = state.stage is Stage.COMPARE
     tried = state.done - 1 if comparing else setup.max_disparity
     sought = right.places(np.array([[max(u - tried, 0), v], [u, v]]), 2 * LAYER)
     shown: dict[str, Primitive] = {
         "row": Segments(ends, "highlight", 1.5, name=f"row v = {v}"),
-        "row/sought": Segments(sought[None], "other", 5.0, name="tried so far" if comparing else ""),
+        "row/sought": Segments(
+            sought[None], "other", 5.0, name="tried so far" if comparing else ""
+        ),
         "left/window": _frame(setup, left, u, v, "highlight"),
     }
     at = tried if comparing else state.chosen
@@ -83,7 +91,9 @@ def _row(state: State, left: Picture, right: Picture) -> dict[str, Primitive]:
     truth = setup.pair.disparity
     if truth is not None and setup.params.mistake != "pictures exchanged" and _seen(setup):
         lower = ROWS_OFF if setup.params.mistake == "rows off by 2 px" else 0
-        shown["right/truth"] = _frame(setup, right, u - float(truth[v, u]), v + lower, "truth", "true partner")
+        shown["right/truth"] = _frame(
+            setup, right, u - float(truth[v, u]), v + lower, "truth", "true partner"
+        )
     return shown
 
 
@@ -93,6 +103,8 @@ def _seen(setup: Setup) -> bool:
     return visible is not None and bool(visible[v, u])
 
 
-def _frame(setup: Setup, picture: Picture, u: float, v: float, color: Role, name: str = "") -> Segments:
+def _frame(
+    setup: Setup, picture: Picture, u: float, v: float, color: Role, name: str = ""
+) -> Segments:
     half, middle = max(setup.params.window / 2, LEAST_FRAME), np.array([u, v])
     return Segments(picture.box(middle - half, middle + half, 3 * LAYER), color, 3.0, name=name)

@@ -1,4 +1,6 @@
-"""What stands beside the picture: errors to the truth, what they shrink with, and who is near by which distance."""
+"""What stands beside the picture: errors to the truth, what they shrink with, and who is near by
+which distance.
+"""
 
 import numpy as np
 
@@ -36,8 +38,12 @@ def beside(state: State) -> dict[str, Primitive]:
             return _scatter(now)
         case Landmarks():
             return {
-                "by euclid": RIGHT.scalar(100 * _right(now, now.euclid), "nearest by Euclid's distance", "source"),
-                "by mahalanobis": RIGHT.scalar(100 * _right(now, now.mahalanobis), "by Mahalanobis'", "truth"),
+                "by euclid": RIGHT.scalar(
+                    100 * _right(now, now.euclid), "nearest by Euclid's distance", "source"
+                ),
+                "by mahalanobis": RIGHT.scalar(
+                    100 * _right(now, now.mahalanobis), "by Mahalanobis'", "truth"
+                ),
             }
         case _:
             return {}
@@ -66,20 +72,28 @@ def _found(state: State, now: Found) -> dict[str, Primitive]:
             low, high = -1.0, 1.0
         scene["errors"] = SPREAD.histogram(known, np.linspace(low, high, 25), "nodes", "truth")
     of_grid = state.params.stage == "grid"
-    chart = Chart(FINER.format("grids" if of_grid else "spheres"), "log₁₀ spacing (m)", "log₁₀ worst error (%)")
+    chart = Chart(
+        FINER.format("grids" if of_grid else "spheres"),
+        "log₁₀ spacing (m)",
+        "log₁₀ worst error (%)",
+    )
     for (name, (x, y)), role in zip(now.study.items(), ROLES, strict=False):
         scene[f"finer/{name}"] = chart.curve(x, y, name, role)
     if now.times is not None:
         scene["times"] = TIME.curve(*now.times, "mean error", "truth", marks=(state.params.time,))
     if len(now.asymmetry):
         scene["metric"] = Table(
-            "Is heat distance a metric?", ("axiom", "broken"),
+            "Is heat distance a metric?",
+            ("axiom", "broken"),
             (
-                ("d(a, b) = d(b, a)", f"by {percent(float(np.median(now.asymmetry)))} (median),"
-                                      f" {percent(float(now.asymmetry.max()))} at most"),
+                (
+                    "d(a, b) = d(b, a)",
+                    f"by {percent(float(np.median(now.asymmetry)))} (median),"
+                    f" {percent(float(now.asymmetry.max()))} at most",
+                ),
                 ("d(a, c) ≤ d(a, b) + d(b, c)", f"by {percent(now.broken)} of the triples"),
             ),
-        )  # fmt: skip
+        )
     return scene | _goal(state, now)
 
 
@@ -95,7 +109,9 @@ def _goal(state: State, now: Found) -> dict[str, Primitive]:
 
 
 def _nearest(params: Params, now: Ball) -> dict[str, Primitive]:
-    scene: dict[str, Primitive] = {"radius": Chart("Radius of the ball").scalar(now.radius, "radius")}
+    scene: dict[str, Primitive] = {
+        "radius": Chart("Radius of the ball").scalar(now.radius, "radius")
+    }
     if now.nearest:
         rows = [(name, f"point {index}") for name, index in now.nearest.items()]
         if params.stretch > 1:
@@ -105,7 +121,9 @@ def _nearest(params: Params, now: Ball) -> dict[str, Primitive]:
 
 
 def _axioms(now: Trials) -> dict[str, Primitive]:
-    rows = tuple((name, "never" if share == 0 else percent(share)) for name, share in now.axioms.items())
+    rows = tuple(
+        (name, "never" if share == 0 else percent(share)) for name, share in now.axioms.items()
+    )
     ab, bc, ac = now.sides
     sides = (
         ("d(a, b)", brief(ab)),

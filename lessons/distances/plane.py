@@ -1,4 +1,6 @@
-"""The stages in the plane: balls, axioms, a scatter that is made round, and landmarks seen by a stereo camera."""
+"""The stages in the plane: balls, axioms, a scatter that is made round, and landmarks seen by a
+stereo camera.
+"""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -8,17 +10,27 @@ import numpy as np
 from lessons.distances.slots import Functions, Mahalanobis
 from lessons.distances.state import Ball, Landmarks, Now, Params, Scatter, Trials
 from workbench.errors import InputError
-from workbench.geometry import metrics
-from workbench.geometry.metrics import Distance, Metric
+from workbench.geometry.points import metrics
+from workbench.geometry.points.metrics import Distance, Metric
 from workbench.geometry.polylines import circle
 from workbench.tracing import traced
 
 Steps = Iterator[tuple[None, Now]]
-METRICS: tuple[Metric, ...] = ("euclid", "manhattan", "chebyshev", "squared", "cosine", "mahalanobis")
+METRICS: tuple[Metric, ...] = (
+    "euclid",
+    "manhattan",
+    "chebyshev",
+    "squared",
+    "cosine",
+    "mahalanobis",
+)
 HALF, DOTS, QUERIES = 1.0, 30, 500  # half a side of the square, metres; points; queries
 TRIPLES, ROUNDS = 500, 20
 SHARE, WITHIN, FRESH, DIMENSIONS = 0.95, 2.0, 4000, 10
-SECOND, SPREAD = np.array([1.0, -1.0]) / np.sqrt(2), 0.1  # towards the second cluster, and its standard deviation
+SECOND, SPREAD = (
+    np.array([1.0, -1.0]) / np.sqrt(2),
+    0.1,
+)  # towards the second cluster, and its standard deviation
 FOCAL, BASELINE, SIGMA = 700.0, 0.12, 0.5  # pixels, metres, pixels
 LANDMARKS, SIGHTS, VIEWS = 60, 30, 8
 
@@ -36,7 +48,9 @@ def distance_in(params: Params, metric: Metric) -> Distance:
 
 
 def balls(params: Params, _: Functions) -> Steps:
-    """Yield the ball of a metric about a point as it grows to the nearest other, and whose nearest it changes."""
+    """Yield the ball of a metric about a point as it grows to the nearest other, and whose nearest
+    it changes.
+    """
     rng = np.random.default_rng(params.seed)
     p = np.concatenate([np.array([[0.15, 0.1]]), rng.uniform(-HALF, HALF, (DOTS - 1, 2))])
     query = max(params.source, 0) % len(p)
@@ -49,7 +63,9 @@ def balls(params: Params, _: Functions) -> Steps:
         metrics.distance_of("euclid"), p, asked
     )
     names = METRICS if params.metric in METRICS else (*METRICS, params.metric)
-    nearest = {name: int(np.argmin(from_point(distance_in(params, name), p, query))) for name in names}
+    nearest = {
+        name: int(np.argmin(from_point(distance_in(params, name), p, query))) for name in names
+    }
     straight = int(np.argmin(from_point(metrics.distance_of("euclid"), p, query)))
     yield None, replace(ball, queries=asked, changed=changed, nearest=nearest, straight=straight)
 
@@ -73,7 +89,9 @@ def from_point(distance: Distance, p: np.ndarray, query: int) -> np.ndarray:
 
 
 def outline(params: Params, centre: np.ndarray, radius: float) -> np.ndarray:
-    """Return where the distance from a centre is the radius: closed, but for the cosine, whose ball is a wedge."""
+    """Return where the distance from a centre is the radius: closed, but for the cosine, whose ball
+    is a wedge.
+    """
     if params.metric == "cosine":
         units = np.array([1.0, float(params.stretch)])
         towards = np.arctan2(*(centre * units)[::-1])
@@ -83,7 +101,9 @@ def outline(params: Params, centre: np.ndarray, radius: float) -> np.ndarray:
         return np.stack([ends[0], np.zeros(2), ends[1]])
     rays = circle(360)
     reach = distance_in(params, params.metric)(rays, np.zeros(2))
-    power = {"squared": 2.0, "p-sum": params.p}.get(params.metric, 1.0)  # how the distance grows along a ray
+    power = {"squared": 2.0, "p-sum": params.p}.get(
+        params.metric, 1.0
+    )  # how the distance grows along a ray
     return centre + rays * ((radius / reach) ** (1 / power))[:, None]
 
 
@@ -100,14 +120,21 @@ def axioms(params: Params, _: Functions) -> Steps:
 
 @traced
 def tried(distance: Distance, rng: np.random.Generator) -> Iterator[Trials]:
-    """Yield how many triples so far break the triangle inequality, and how often the other axioms are broken."""
-    broken, names = 0, ("d(a, a) = 0", "d(a, b) > 0", "d(a, b) = d(b, a)", "d(a, c) ≤ d(a, b) + d(b, c)")
+    """Yield how many triples so far break the triangle inequality, and how often the other axioms
+    are broken.
+    """
+    broken, names = (
+        0,
+        ("d(a, a) = 0", "d(a, b) > 0", "d(a, b) = d(b, a)", "d(a, c) ≤ d(a, b) + d(b, c)"),
+    )
     counts = np.zeros(3)
     for k in range(1, ROUNDS + 1):
         a, b, c = rng.random((3, TRIPLES, 2))
-        excess, sides = metrics.triangle_excess(distance, a, b, c)
+        excess, sides = metrics.triangle_excess(distance, a, b, c=c)
         broken += int((excess > 1e-9).sum())
-        along = a * rng.uniform(0.2, 0.9, (TRIPLES, 1))  # other points on the same ray from the origin
+        along = a * rng.uniform(
+            0.2, 0.9, (TRIPLES, 1)
+        )  # other points on the same ray from the origin
         counts += [
             (np.abs(distance(a, a)) > 1e-9).sum(),
             (distance(a, along) <= 1e-9).sum(),
@@ -115,12 +142,19 @@ def tried(distance: Distance, rng: np.random.Generator) -> Iterator[Trials]:
         ]
         worst = int(np.argmax(excess))
         shares = dict(zip(names, (*(counts / (k * TRIPLES)), broken / (k * TRIPLES)), strict=True))
-        yield Trials(tried=k * TRIPLES, broken=broken, corners=np.stack([a[worst], b[worst], c[worst]]),
-                     sides=sides[worst], axioms=shares)  # fmt: skip
+        yield Trials(
+            tried=k * TRIPLES,
+            broken=broken,
+            corners=np.stack([a[worst], b[worst], c[worst]]),
+            sides=sides[worst],
+            axioms=shares,
+        )
 
 
 def whiten(params: Params, functions: Functions) -> Steps:
-    """Yield a scatter as it is centred, turned and scaled to a round one, and which of its points lie far out."""
+    """Yield a scatter as it is centred, turned and scaled to a round one, and which of its points
+    lie far out.
+    """
     rng = np.random.default_rng(params.seed)
     p = rng.multivariate_normal([0, 0], covariance_of(params), params.points)
     p = np.concatenate([p, params.away * SECOND + SPREAD * rng.normal(size=(params.outliers, 2))])
@@ -138,7 +172,9 @@ def whiten(params: Params, functions: Functions) -> Steps:
 
 
 @traced
-def rounded(params: Params, p: np.ndarray, rng: np.random.Generator, mahalanobis: Mahalanobis) -> Iterator[Scatter]:
+def rounded(
+    params: Params, p: np.ndarray, rng: np.random.Generator, mahalanobis: Mahalanobis
+) -> Iterator[Scatter]:
     """Yield the steps that turn Mahalanobis' distance into Euclid's."""
     try:
         mean, C = (
@@ -158,7 +194,9 @@ def rounded(params: Params, p: np.ndarray, rng: np.random.Generator, mahalanobis
     yield replace(now, phase="centred", p=p - mean, rim=rim - mean)
     turned = (p - mean) @ axes, (rim - mean) @ axes
     yield replace(now, phase="turned", p=turned[0], rim=turned[1])
-    yield replace(now, phase="scaled", p=turned[0] / np.sqrt(variances), rim=turned[1] / np.sqrt(variances))
+    yield replace(
+        now, phase="scaled", p=turned[0] / np.sqrt(variances), rim=turned[1] / np.sqrt(variances)
+    )
     yield replace(now, phase="told")
 
 
@@ -177,7 +215,9 @@ def stereo(params: Params, functions: Functions) -> Steps:
 
 @traced
 def sighted(rng: np.random.Generator, mahalanobis: Callable) -> Iterator[Landmarks]:
-    """Yield sights of random landmarks from above, thirty at a time, with the covariance of depth by disparity."""
+    """Yield sights of random landmarks from above, thirty at a time, with the covariance of depth
+    by disparity.
+    """
     landmarks = np.column_stack([rng.uniform(-1, 1, LANDMARKS), rng.uniform(4, 6, LANDMARKS)])
     seen, true, near, told = [np.empty((0, 2))], [], [], []
     for _ in range(VIEWS):
@@ -193,10 +233,16 @@ def sighted(rng: np.random.Generator, mahalanobis: Callable) -> Iterator[Landmar
             C = SIGMA**2 * J @ J.T
             near.append(int(np.argmin(np.linalg.norm(landmarks - q, axis=1))))
             told.append(int(np.argmin(_finite(mahalanobis(landmarks, q, C)))))
-            rims.append(q + metrics.radius_of_share(SHARE, 2) * circle(32) @ np.linalg.cholesky(C).T)
+            rims.append(
+                q + metrics.radius_of_share(SHARE, 2) * circle(32) @ np.linalg.cholesky(C).T
+            )
         seen.append(np.column_stack([across, depth]))
         true.extend(k.tolist())
         yield Landmarks(
-            landmarks=landmarks, seen=np.concatenate(seen), true=np.array(true), euclid=np.array(near),
-            mahalanobis=np.array(told), rims=np.array(rims),
-        )  # fmt: skip
+            landmarks=landmarks,
+            seen=np.concatenate(seen),
+            true=np.array(true),
+            euclid=np.array(near),
+            mahalanobis=np.array(told),
+            rims=np.array(rims),
+        )

@@ -31,123 +31,200 @@ SHORTCUT = Params(stage="roll", points=2000, k=20)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
-        "taxi", "Along streets only",
-        "Manhattan's ball is a square on its corner. It touches point 10 first, Euclid's disc point 18. At the end 13 % of"
-        " the queries are red: theirs is another too.",
-        Params(stage="balls", metric="manhattan", source=28), 4, PLANE,
+        "taxi",
+        "Along streets only",
+        "Manhattan's ball is a square on its corner. It touches point 10 first, Euclid's disc point"
+        " 18. At the end 13 % of the queries are red: theirs is another too.",
+        Params(stage="balls", metric="manhattan", source=28),
+        4,
+        PLANE,
     ),
     Preset(
-        "units", "x in metres, y in millimetres",
-        "Euclid's distance adds what has different units: now y alone decides. At the end 80 % of the queries are red, with"
-        " another nearest point.",
-        Params(stage="balls", stretch=1000), 4, PLANE,
+        "units",
+        "x in metres, y in millimetres",
+        "Euclid's distance adds what has different units: now y alone decides. At the end 80 % of"
+        " the queries are red, with another nearest point.",
+        Params(stage="balls", stretch=1000),
+        4,
+        PLANE,
     ),
     Preset(
-        "cosine-axioms", "One minus the cosine",
-        "Points on one ray are at distance 0, and in 32 % of the triples the way over b is shorter than the straight one.",
-        Params(stage="axioms", metric="cosine"), -1, PLANE, breaks=True,
+        "cosine-axioms",
+        "One minus the cosine",
+        "Points on one ray are at distance 0, and in 32 % of the triples the way over b is shorter"
+        " than the straight one.",
+        Params(stage="axioms", metric="cosine"),
+        -1,
+        PLANE,
+        breaks=True,
     ),
     Preset(
-        "half", "An exponent below one",
+        "half",
+        "An exponent below one",
         "With p = ½ a detour is shorter in 15 % of the triples: the ball is a star, not convex.",
-        HALF, -1, PLANE, breaks=True,
+        HALF,
+        -1,
+        PLANE,
+        breaks=True,
     ),
     Preset(
-        "whiten", "A scatter made round",
-        "Centre, turn, scale: Mahalanobis' distance is Euclid's after that. Step on and watch the ellipse.",
-        WHITEN, 0, CLOUD,
+        "whiten",
+        "A scatter made round",
+        "Centre, turn, scale: Mahalanobis' distance is Euclid's after that. Step on and watch the"
+        " ellipse.",
+        WHITEN,
+        0,
+        CLOUD,
     ),
     Preset(
-        "masking", "Outliers hide themselves",
-        "Forty points lie off to one side. They are part of the covariance that should tell them, and are only 2.15 standard"
-        " deviations away.",
-        MASKING, TOLD, CLOUD, breaks=True,
+        "masking",
+        "Outliers hide themselves",
+        "Forty points lie off to one side. They are part of the covariance that should tell them,"
+        " and are only 2.15 standard deviations away.",
+        MASKING,
+        TOLD,
+        CLOUD,
+        breaks=True,
     ),
     Preset(
-        "robust", "The half that lies closest",
-        "The covariance of the half with the smallest determinant: the second cluster lies 9.2 standard deviations out.",
-        replace(MASKING, estimate="robust"), TOLD, CLOUD,
+        "robust",
+        "The half that lies closest",
+        "The covariance of the half with the smallest determinant: the second cluster lies 9.2"
+        " standard deviations out.",
+        replace(MASKING, estimate="robust"),
+        TOLD,
+        CLOUD,
     ),
     Preset(
-        "stereo", "Which landmark was it?",
-        "A stereo camera, 4 to 6 m away, measures depth far worse than what lies across: Euclid's nearest is right for 54 %,"
-        " Mahalanobis' for 94 %.",
-        Params(stage="stereo"), -1, AHEAD,
+        "stereo",
+        "Which landmark was it?",
+        "A stereo camera, 4 to 6 m away, measures depth far worse than what lies across: Euclid's"
+        " nearest is right for 54 %, Mahalanobis' for 94 %.",
+        Params(stage="stereo"),
+        -1,
+        AHEAD,
     ),
     Preset(
-        "staircase", "Up and across only",
-        "Four neighbours: every way is as long as along streets, up to 41 % too long, and the front is a square on its"
-        " corner.",
-        Params(neighbours="4", grid=31), 6, breaks=True,
+        "staircase",
+        "Up and across only",
+        "Four neighbours: every way is as long as along streets, up to 41 % too long, and the front"
+        " is a square on its corner.",
+        Params(neighbours="4", grid=31),
+        6,
+        breaks=True,
     ),
     Preset(
-        "marching", "Fast marching",
-        "Each node takes its distance from two neighbours at once, as if a straight front came by. On this grid that is 10 %"
-        " off at worst, on one twice as fine 6 %.",
-        Params(neighbours="march"), 6,
+        "marching",
+        "Fast marching",
+        "Each node takes its distance from two neighbours at once, as if a straight front came by."
+        " On this grid that is 10 % off at worst, on one twice as fine 6 %.",
+        Params(neighbours="march"),
+        6,
     ),
     Preset(
-        "disc", "Exact near the source",
-        "The front is most curved at the source. Exact distances in a small disc mend the rest too.",
-        Params(neighbours="march", wall=0.0, disc=0.1), 6,
+        "disc",
+        "Exact near the source",
+        "The front is most curved at the source. Exact distances in a small disc mend the rest"
+        " too.",
+        Params(neighbours="march", wall=0.0, disc=0.1),
+        6,
     ),
     Preset(
-        "sphere", "Along the edges of a sphere",
-        "The purple way zigzags, the green one is a great circle. Ways along edges are 6.2 % too long on average, 16 % at"
-        " worst.",
-        SPHERE, ERRORS, BALL, breaks=True,
+        "sphere",
+        "Along the edges of a sphere",
+        "The purple way zigzags, the green one is a great circle. Ways along edges are 6.2 % too"
+        " long on average, 16 % at worst.",
+        SPHERE,
+        ERRORS,
+        BALL,
+        breaks=True,
     ),
     Preset(
-        "jitter", "A less regular mesh",
-        "Every vertex of the sphere is moved a little, edges point everywhere. The worst way is still 14 % too long, where"
-        " it was 16 %.",
-        replace(SPHERE, jitter=0.2), -1, BALL, breaks=True,
+        "jitter",
+        "A less regular mesh",
+        "Every vertex of the sphere is moved a little, edges point everywhere. The worst way is"
+        " still 14 % too long, where it was 16 %.",
+        replace(SPHERE, jitter=0.2),
+        -1,
+        BALL,
+        breaks=True,
     ),
     Preset(
-        "points", "Points on the edges",
-        "With three points on every edge ways may cross the faces: 0.9 % off at worst. Look at the end: on finer spheres"
-        " that does not fall.",
-        Params(stage="surface", points=1000, extra=3), ERRORS, BALL,
+        "points",
+        "Points on the edges",
+        "With three points on every edge ways may cross the faces: 0.9 % off at worst. Look at the"
+        " end: on finer spheres that does not fall.",
+        Params(stage="surface", points=1000, extra=3),
+        ERRORS,
+        BALL,
     ),
     Preset(
-        "heat", "Distance by heat",
-        "Heat flows for a moment. Its size falls by many powers of ten, but its direction is all that is kept.",
-        HEAT, 1, RABBIT,
+        "heat",
+        "Distance by heat",
+        "Heat flows for a moment. Its size falls by many powers of ten, but its direction is all"
+        " that is kept.",
+        HEAT,
+        1,
+        RABBIT,
     ),
     Preset(
-        "no-metric", "There and back by heat",
-        "A distance by heat is no metric: there and back differ by 1.4 % in the median and 17 % at most, and 1.5 % of the"
-        " detours are shorter.",
-        HEAT, -1, RABBIT, breaks=True,
+        "no-metric",
+        "There and back by heat",
+        "A distance by heat is no metric: there and back differ by 1.4 % in the median and 17 % at"
+        " most, and 1.5 % of the detours are shorter.",
+        HEAT,
+        -1,
+        RABBIT,
+        breaks=True,
     ),
     Preset(
-        "early", "Heat for too short a time",
-        "A hundredth of the time: heat counts edges instead of lengths, and distances come out 26 % too short.",
-        Params(stage="surface", shape="rabbit", method="heat", time=-2.0), 3, RABBIT, breaks=True,
+        "early",
+        "Heat for too short a time",
+        "A hundredth of the time: heat counts edges instead of lengths, and distances come out 26 %"
+        " too short.",
+        Params(stage="surface", shape="rabbit", method="heat", time=-2.0),
+        3,
+        RABBIT,
+        breaks=True,
     ),
     Preset(
-        "flattered", "A sphere flatters",
-        "Heat for a hundred times as long, on a sphere: here it is no worse, 1.2 % off in place of 1.4 %. Never choose"
-        " the time on a sphere.",
-        Params(stage="surface", method="heat", time=2.0), -1, BALL,
+        "flattered",
+        "A sphere flatters",
+        "Heat for a hundred times as long, on a sphere: here it is no worse, 1.2 % off in place of"
+        " 1.4 %. Never choose the time on a sphere.",
+        Params(stage="surface", method="heat", time=2.0),
+        -1,
+        BALL,
     ),
     Preset(
-        "wrung", "Obtuse triangles",
-        "A sphere wrung about its axis: 848 of its 3,000 edges have negative weights, and distances by heat are 20 % off.",
-        WRUNG, 3, BALL, breaks=True,
+        "wrung",
+        "Obtuse triangles",
+        "A sphere wrung about its axis: 848 of its 3,000 edges have negative weights, and distances"
+        " by heat are 20 % off.",
+        WRUNG,
+        3,
+        BALL,
+        breaks=True,
     ),
     Preset(
-        "delaunay", "The same sphere, edges flipped",
-        "Edges are flipped within the surface until no weight is negative. No vertex moves, and heat is 1.5 % off.",
-        replace(WRUNG, delaunay=True), 3, BALL,
+        "delaunay",
+        "The same sphere, edges flipped",
+        "Edges are flipped within the surface until no weight is negative. No vertex moves, and"
+        " heat is 1.5 % off.",
+        replace(WRUNG, delaunay=True),
+        3,
+        BALL,
     ),
     Preset(
-        "roll", "Along a roll",
-        "Joined to its 15 nearest, a point has its neighbours on the sheet. The way round is 6.4 m, straight through it"
-        " would be 1.9 m.",
-        Params(stage="roll", points=2000), ERRORS, ROLL,
+        "roll",
+        "Along a roll",
+        "Joined to its 15 nearest, a point has its neighbours on the sheet. The way round is 6.4 m,"
+        " straight through it would be 1.9 m.",
+        Params(stage="roll", points=2000),
+        ERRORS,
+        ROLL,
     ),
-)  # fmt: skip
+)
 
 
 def found(states: Sequence[State], step: int = -1) -> Found:
@@ -196,58 +273,84 @@ def _why_shortcut(states: Sequence[State]) -> str:
     if not many:
         return f"{length(d)} for {length(true)}: with these points no edge leaves the sheet."
     told = counted(many, "edge leaves the sheet and joins", "edges leave the sheet and join")
-    return f"{length(d)} for {length(true)}: {told} two turns of it. A shortest way takes whatever is short."
+    return (
+        f"{length(d)} for {length(true)}: {told} two turns of it. A shortest way takes whatever is"
+        " short."
+    )
 
 
 QUESTIONS: tuple[Question[Params, State], ...] = (
     Question(
         "finer",
-        "By 8 neighbours the worst distance is 8.2 % too long. The grid is made 16 times as fine. The worst is now …",
-        answer=lambda states: float(np.digitize(refined(states)[-1] / refined(states)[0], [0.2, 0.7])),
+        "By 8 neighbours the worst distance is 8.2 % too long. The grid is made 16 times as fine."
+        " The worst is now …",
+        answer=lambda states: float(
+            np.digitize(refined(states)[-1] / refined(states)[0], [0.2, 0.7])
+        ),
         why=lambda states: (
-            f"{fixed(refined(states)[-1], 2)} %, as on the coarse one, {fixed(refined(states)[0], 2)} %. A way along eight"
-            " directions zigzags towards 22.5° however small its steps: sec(22.5°) = 1.0824."
+            f"{fixed(refined(states)[-1], 2)} %, as on the coarse one,"
+            f" {fixed(refined(states)[0], 2)} %. A way along eight directions zigzags towards 22.5°"
+            " however small its steps: sec(22.5°) = 1.0824."
         ),
         params=Params(),
         choices=(
             Choice(
                 "16 times smaller, or nearly",
-                why="That holds for steps that approach a curve ever better. Here every step has one of eight directions,"
-                " on every grid.",
+                why=(
+                    "That holds for steps that approach a curve ever better. Here every step has"
+                    " one of eight directions, on every grid."
+                ),
             ),
             Choice(
                 "about 4 times smaller",
-                why="A root of 16 would need some error that shrinks. Smaller steps in the same eight directions make the"
-                " zigzag finer, not shorter.",
+                why=(
+                    "A root of 16 would need some error that shrinks. Smaller steps in the same"
+                    " eight directions make the zigzag finer, not shorter."
+                ),
             ),
             "the same",
         ),
     ),
     Question(
         "two-sigma",
-        "95 % of a normal distribution lie within 2 standard deviations. How many percent of points in the plane lie within"
-        " a Mahalanobis distance of 2?",
+        "95 % of a normal distribution lie within 2 standard deviations. How many percent of points"
+        " in the plane lie within a Mahalanobis distance of 2?",
         answer=lambda states: 100 * within_two(states),
         why=lambda states: (
-            f"{percent(within_two(states), 1)}: the squared distance has the chi-squared distribution, with as many degrees"
-            f" of freedom as dimensions. In ten it is {percent(float(scatter(states).shares[0][9]), 1)}."  # type: ignore[index]
+            f"{percent(within_two(states), 1)}: the squared distance has the chi-squared"
+            " distribution, with as many degrees"
+            f" of freedom as dimensions. In ten it is {percent(float(scatter(states).shares[0][9]), 1)}."  # type: ignore[index]  # noqa: E501
         ),
         params=WHITEN,
         unit="%",
         tolerance=3.0,
         wrong=(
-            (94.0, 96.0, "That is the share on a line. In the plane both coordinates have to be small at once."),
-            (90.0, 92.0, "95 % of 95 % is a square of half side 2. The ellipse is inside it, without its corners."),
+            (
+                94.0,
+                96.0,
+                (
+                    "That is the share on a line. In the plane both coordinates have to be small at"
+                    " once."
+                ),
+            ),
+            (
+                90.0,
+                92.0,
+                (
+                    "95 % of 95 % is a square of half side 2. The ellipse is inside it, without its"
+                    " corners."
+                ),
+            ),
         ),
     ),
     Question(
         "twenty",
-        "Nineteen points within a few metres, one more 100 m away. Mean and covariance are those of all. How many"
-        " standard deviations is that one from the mean?",
+        "Nineteen points within a few metres, one more 100 m away. Mean and covariance are those of"
+        " all. How many standard deviations is that one from the mean?",
         answer=lambda states: float(scatter(states, TOLD).d.max()),
         why=lambda states: (
-            f"{fixed(float(scatter(states, TOLD).d.max()), 2)}. However far it is, it stretches the covariance with it: no"
-            " point of n can be farther than (n − 1)/√n."
+            f"{fixed(float(scatter(states, TOLD).d.max()), 2)}. However far it is, it stretches the"
+            " covariance with it: no point of n can be farther than (n − 1)/√n."
         ),
         params=Params(stage="whiten", points=19, outliers=1, away=100.0, correlation=0.0),
         step=TOLD,
@@ -257,67 +360,93 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
             (
                 19.0,
                 1e9,
-                "That is measured by the scatter of the nineteen. The far point is part of the covariance and stretches"
-                " it.",
+                (
+                    "That is measured by the scatter of the nineteen. The far point is part of the"
+                    " covariance and stretches it."
+                ),
             ),
             (
                 1.5,
                 3.0,
-                "It is farther than nearly all points of a normal distribution. One point among twenty weighs little.",
+                (
+                    "It is farther than nearly all points of a normal distribution. One point among"
+                    " twenty weighs little."
+                ),
             ),
         ),
     ),
     Question(
         "squares",
-        "Three random points of a square, distances squared. In how many percent of the triples is the way from a to c"
-        " longer than the one over b?",
+        "Three random points of a square, distances squared. In how many percent of the triples is"
+        " the way from a to c longer than the one over b?",
         answer=lambda states: 100 * broken(states),
         why=lambda states: (
-            f"{percent(broken(states), 0)}: wherever the angle at b is obtuse, by the law of cosines. With squared"
-            " distances a stop on the way makes the trip cheaper."
+            f"{percent(broken(states), 0)}: wherever the angle at b is obtuse, by the law of"
+            " cosines. With squared distances a stop on the way makes the trip cheaper."
         ),
         params=Params(stage="axioms", metric="squared"),
         unit="%",
         tolerance=4.0,
         wrong=(
-            (0.0, 5.0, "Squaring keeps the order of distances but not their sums: 1 and 1 make 2, and 2 squared is 4."),
+            (
+                0.0,
+                5.0,
+                (
+                    "Squaring keeps the order of distances but not their sums: 1 and 1 make 2, and"
+                    " 2 squared is 4."
+                ),
+            ),
             (
                 30.0,
                 37.0,
-                "One of three angles is the largest, but it need not be obtuse, and b has it in a third of the cases.",
+                (
+                    "One of three angles is the largest, but it need not be obtuse, and b has it in"
+                    " a third of the cases."
+                ),
             ),
             (
                 45.0,
                 55.0,
-                "Obtuse or not is no even chance: only one angle of a triangle can be obtuse, and it must be b's.",
+                (
+                    "Obtuse or not is no even chance: only one angle of a triangle can be obtuse,"
+                    " and it must be b's."
+                ),
             ),
         ),
     ),
     Question(
         "longer",
-        "On the rabbit heat flows 100 times as long as one squared edge. The mean error of the distances …",
+        "On the rabbit heat flows 100 times as long as one squared edge. The mean error of the"
+        " distances …",
         answer=lambda states: float(np.digitize(late(states), [0.8, 1.25])),
         why=lambda states: (
-            f"{fixed(late(states), 1)} times as large. Heat has had time to go round both ways, and its direction is no"
-            " longer that of the shortest one. On a sphere both ways are alike, and nobody would notice."
+            f"{fixed(late(states), 1)} times as large. Heat has had time to go round both ways, and"
+            " its direction is no longer that of the shortest one. On a sphere both ways are"
+            " alike, and nobody would notice."
         ),
         params=LATE,
         choices=(
             Choice(
                 "falls",
-                why="More heat does arrive far away. But only its direction counts, and that gets worse as heat evens out.",
+                why=(
+                    "More heat does arrive far away. But only its direction counts, and that gets"
+                    " worse as heat evens out."
+                ),
             ),
             Choice(
                 "hardly changes",
-                why="That is so on a sphere, where heat comes round both sides alike. A rabbit is not that regular.",
+                why=(
+                    "That is so on a sphere, where heat comes round both sides alike. A rabbit is"
+                    " not that regular."
+                ),
             ),
             "multiplies",
         ),
     ),
     Question(
         "shortcut",
-        "The far end of a roll is 6.42 m away along the sheet; with 15 neighbours each, 6.52 m are found. And with 20"
-        " neighbours?",
+        "The far end of a roll is 6.42 m away along the sheet; with 15 neighbours each, 6.52 m are"
+        " found. And with 20 neighbours?",
         answer=lambda states: to_goal(states)[0],
         why=_why_shortcut,
         params=SHORTCUT,
@@ -325,11 +454,21 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         unit="m",
         tolerance=0.4,
         wrong=(
-            (5.0, 7.0, "More neighbours make ways straighter, and up to 19 that is all. At 20 something else happens."),
+            (
+                5.0,
+                7.0,
+                (
+                    "More neighbours make ways straighter, and up to 19 that is all. At 20"
+                    " something else happens."
+                ),
+            ),
             (
                 1.8,
                 2.0,
-                "That is straight through the air. One edge that leaves the sheet spares a turn, not the whole way.",
+                (
+                    "That is straight through the air. One edge that leaves the sheet spares a"
+                    " turn, not the whole way."
+                ),
             ),
         ),
     ),

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.algorithms.fast_marching import Update
+from workbench.algorithms.surfaces.fast_marching import Update
 
 Mahalanobis = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 Shortest = Callable[[np.ndarray, np.ndarray, int, int], np.ndarray]

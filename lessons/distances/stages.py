@@ -10,19 +10,21 @@ from lessons.distances.plane import axioms, balls, stereo, whiten
 from lessons.distances.slots import Functions
 from lessons.distances.state import Found, Front, Now, Params, Subject
 from lessons.distances.subjects import reference, subject_of, ways_in_square
-from workbench.algorithms.fast_marching import Update, eikonal_update, march
-from workbench.algorithms.heat_method import HeatMethod, directions_of, heat_method
-from workbench.data import surfaces
+from workbench.algorithms.surfaces.fast_marching import Update, eikonal_update, march
+from workbench.algorithms.surfaces.heat_method import HeatMethod, directions_of, heat_method
+from workbench.data.shapes import surfaces
 from workbench.errors import InputError
-from workbench.geometry import geodesics
-from workbench.geometry.intrinsic import intrinsic_delaunay
-from workbench.geometry.laplacian import negative_weights
-from workbench.geometry.meshes import Corners, corners
+from workbench.geometry.meshes import Corners, corners, geodesics
+from workbench.geometry.meshes.intrinsic import intrinsic_delaunay
+from workbench.geometry.meshes.laplacian import negative_weights
 from workbench.tracing import traced
 
 BANDS = 10
 NEAR = 0.14  # of the largest true distance: nearer than this a relative error says little
-SIDES, VERTICES = (11, 21, 41, 81, 161), (42, 162, 642, 2562)  # of the studies: nodes along a side, on a sphere
+SIDES, VERTICES = (
+    (11, 21, 41, 81, 161),
+    (42, 162, 642, 2562),
+)  # of the studies: nodes along a side, on a sphere
 EXTRA = 3
 TIMES = np.arange(-2.0, 3.1, 0.5)
 PAIRS = 24  # sources between which heat distances are held against each other
@@ -70,15 +72,23 @@ def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now
         found = replace(_found(subject, d, np.empty(0, int)), negative=negative_weights(measured))
         yield subject, found
         asymmetry, broken = _as_a_metric(HeatMethod(measured, time))
-        found = replace(found, asymmetry=asymmetry, broken=broken, times=_over_time(subject, measured))
+        found = replace(
+            found, asymmetry=asymmetry, broken=broken, times=_over_time(subject, measured)
+        )
     else:
-        nodes, edges, lengths = geodesics.with_points_on_edges(subject.p, subject.faces, params.extra)
+        nodes, edges, lengths = geodesics.with_points_on_edges(
+            subject.p, subject.faces, params.extra
+        )
         d = distances_by(functions, edges, lengths, len(nodes), subject.source)
         for front in spread(edges, lengths, d, len(subject.p)):
             yield subject, front
         found = _found(subject, d[: len(subject.p)], np.empty(0, int))
-        goal = int(np.nanargmax(np.abs(found.error))) if np.isfinite(found.error).any() else subject.source
-        way = geodesics.shortest_path(edges, lengths, d, goal)
+        goal = (
+            int(np.nanargmax(np.abs(found.error)))
+            if np.isfinite(found.error).any()
+            else subject.source
+        )
+        way = geodesics.shortest_path(edges, lengths, d, goal=goal)
         found = replace(found, path=nodes[way])
         yield subject, found
     if params.shape == "sphere" and subject.is_sphere:
@@ -96,7 +106,9 @@ def roll(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
     yield subject, _found(subject, d, _path(subject, subject.edges, subject.lengths, d))
 
 
-def distances_by(functions: Functions, edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
+def distances_by(
+    functions: Functions, edges: np.ndarray, lengths: np.ndarray, count: int, source: int
+) -> np.ndarray:
     """Return the distances by the function in the slot.
 
     Raises:
@@ -109,8 +121,12 @@ def distances_by(functions: Functions, edges: np.ndarray, lengths: np.ndarray, c
 
 
 @traced
-def spread(edges: np.ndarray, lengths: np.ndarray, d: np.ndarray, shown: int | None = None) -> Iterator[Front]:
-    """Yield how Dijkstra's front grows: nodes are accepted in the order of their distance, their neighbours are on trial."""
+def spread(
+    edges: np.ndarray, lengths: np.ndarray, d: np.ndarray, shown: int | None = None
+) -> Iterator[Front]:
+    """Yield how Dijkstra's front grows: nodes are accepted in the order of their distance, their
+    neighbours are on trial.
+    """
     farthest = float(np.max(d, where=np.isfinite(d), initial=0.0))
     for reach in np.linspace(0.0, farthest, BANDS + 1) if farthest > 0 else (0.0,):
         accepted = d <= reach + 1e-12 * farthest
@@ -125,17 +141,21 @@ def _marched(params: Params, subject: Subject, update: Update) -> Iterator[Front
     """Yield fast marching's fronts."""
     shape = (subject.side, subject.side)
     start = np.where(
-        np.linalg.norm(subject.p - subject.p[subject.source], axis=1) <= params.disc, subject.truth, np.inf
+        np.linalg.norm(subject.p - subject.p[subject.source], axis=1) <= params.disc,
+        subject.truth,
+        np.inf,
     )
     start[~subject.free] = np.inf
     start[subject.source] = 0.0
     band = float(subject.truth[subject.free].max()) / BANDS
-    for now in march(start.reshape(shape), subject.free.reshape(shape), subject.h, band, update):
+    for now in march(
+        start.reshape(shape), subject.free.reshape(shape), subject.h, band=band, update=update
+    ):
         yield Front(d=now.d.ravel(), accepted=now.accepted.ravel(), reach=now.reach)
 
 
 def _path(subject: Subject, edges: np.ndarray, lengths: np.ndarray, d: np.ndarray) -> np.ndarray:
-    return subject.p[geodesics.shortest_path(edges, lengths, d, subject.goal)]
+    return subject.p[geodesics.shortest_path(edges, lengths, d, goal=subject.goal)]
 
 
 def _found(subject: Subject, d: np.ndarray, path: np.ndarray) -> Found:
@@ -146,21 +166,33 @@ def _found(subject: Subject, d: np.ndarray, path: np.ndarray) -> Found:
 
 
 def relative(d: np.ndarray, truth: np.ndarray) -> np.ndarray:
-    """Return the relative error of distances; NaN near the source, out of reach and where the truth is not known."""
-    known = np.isfinite(d) & np.isfinite(truth) & (truth > NEAR * np.max(truth, where=np.isfinite(truth), initial=0.0))
+    """Return the relative error of distances; NaN near the source, out of reach and where the truth
+    is not known.
+    """
+    known = (
+        np.isfinite(d)
+        & np.isfinite(truth)
+        & (truth > NEAR * np.max(truth, where=np.isfinite(truth), initial=0.0))
+    )
     return np.divide(d, truth, out=np.full(len(d), np.nan), where=known) - 1
 
 
 def _as_a_metric(method: HeatMethod) -> tuple[np.ndarray, float]:
-    """Return the asymmetry of heat distances between some vertices, and the share of triples that break the triangle."""
+    """Return the asymmetry of heat distances between some vertices, and the share of triples that
+    break the triangle.
+    """
     chosen = np.unique(np.linspace(0, method.measured.count - 1, PAIRS).astype(int))
     D = method.between(chosen)
     i, j = np.triu_indices(len(chosen), 1)
     over = D[:, :, None] + D[None, :, :]  # a to b to c
     excess = D[:, None, :] - over
     n = len(chosen)
-    apart = np.array([len({a, b, c}) == 3 for a in range(n) for b in range(n) for c in range(n)]).reshape(n, n, n)
-    return np.abs(D - D.T)[i, j] / np.maximum(np.abs(D), np.abs(D.T))[i, j], float((excess > 1e-9)[apart].mean())
+    apart = np.array(
+        [len({a, b, c}) == 3 for a in range(n) for b in range(n) for c in range(n)]
+    ).reshape(n, n, n)
+    return np.abs(D - D.T)[i, j] / np.maximum(np.abs(D), np.abs(D.T))[i, j], float(
+        (excess > 1e-9)[apart].mean()
+    )
 
 
 def _over_time(subject: Subject, measured: Corners) -> tuple[np.ndarray, np.ndarray]:
@@ -174,7 +206,9 @@ def _over_time(subject: Subject, measured: Corners) -> tuple[np.ndarray, np.ndar
 
 @functools.cache
 def finer_grids() -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Return by method the worst error (%) of distances from a corner over the unit square, over the spacing (m)."""
+    """Return by method the worst error (%) of distances from a corner over the unit square, over
+    the spacing (m).
+    """
     errors: dict[str, list[float]] = {}
     for side in SIDES:
         x = np.linspace(0.0, 1.0, side)
@@ -186,14 +220,15 @@ def finer_grids() -> dict[str, tuple[np.ndarray, np.ndarray]]:
             errors.setdefault(f"{neighbours} neighbours", []).append(_worst(d, truth))
         for name, disc in (("marching", 0.0), ("marching, exact disc", 0.1)):
             start = np.where(truth <= disc, truth, np.inf).reshape(side, side)
-            *_, last = march(start, np.ones((side, side), bool), h, 0.2, eikonal_update)
+            *_, last = march(start, np.ones((side, side), bool), h, band=0.2, update=eikonal_update)
             errors.setdefault(name, []).append(_worst(last.d.ravel(), truth))
     return _log(1 / (np.array(SIDES) - 1.0), errors)
 
 
 @functools.cache
 def finer_spheres(jitter: float = 0.0) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Return by method the worst error (%) of distances over the unit sphere, over the mean length of its edges (m).
+    """Return by method the worst error (%) of distances over the unit sphere, over the mean length
+    of its edges (m).
 
     Args:
         jitter: By how much of a cell vertices are moved.
@@ -218,8 +253,12 @@ def _worst(d: np.ndarray, truth: np.ndarray) -> float:
     return 100 * float(np.nanmax(np.abs(relative(d, truth))))
 
 
-def _log(spacing: np.ndarray, errors: dict[str, list[float]]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    return {name: (np.log10(spacing), np.log10(np.array(values))) for name, values in errors.items()}
+def _log(
+    spacing: np.ndarray, errors: dict[str, list[float]]
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    return {
+        name: (np.log10(spacing), np.log10(np.array(values))) for name, values in errors.items()
+    }
 
 
 STAGES: dict[str, Callable[[Params, Functions], Iterator[tuple[Subject | None, Now]]]] = {

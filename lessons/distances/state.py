@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.heat_method import HeatState
+from workbench.algorithms.surfaces.heat_method import HeatState
 from workbench.data.framing import Upward
-from workbench.data.surfaces import MOST_JITTER
-from workbench.geometry.metrics import Metric
+from workbench.data.shapes.surfaces import MOST_JITTER
+from workbench.geometry.points.metrics import Metric
 from workbench.knobs import Knob, Pick
 
 Stage = Literal["balls", "axioms", "whiten", "stereo", "grid", "surface", "roll"]
@@ -24,82 +24,152 @@ ON_SURFACE = {"stage": ("surface",)}
 class Params:
     """What is near, by which distance, and on what."""
 
-    stage: Annotated[Stage, Knob("In the plane, in a scatter of points, round a wall, or on a surface")] = "grid"
+    stage: Annotated[
+        Stage, Knob("In the plane, in a scatter of points, round a wall, or on a surface")
+    ] = "grid"
     metric: Annotated[Metric, Knob("The distance between two points", needs=IN_PLANE)] = "euclid"
     p: Annotated[
         float,
-        Knob("Exponent of p and p-sum", 0.5, 8, step=0.1, needs=IN_PLANE | {"metric": ("p", "p-sum")}),
+        Knob(
+            "Exponent of p and p-sum", 0.5, 8, step=0.1, needs=IN_PLANE | {"metric": ("p", "p-sum")}
+        ),
     ] = 0.5
     correlation: Annotated[
         float,
-        Knob("Correlation of x and y", -0.95, 0.95, step=0.05, needs={"stage": ("balls", "axioms", "whiten")}),
+        Knob(
+            "Correlation of x and y",
+            -0.95,
+            0.95,
+            step=0.05,
+            needs={"stage": ("balls", "axioms", "whiten")},
+        ),
     ] = 0.9
     stretch: Annotated[
-        int, Knob("y is measured in units this much smaller than x", 1, 1000, unit="×", needs={"stage": ("balls",)})
+        int,
+        Knob(
+            "y is measured in units this much smaller than x",
+            1,
+            1000,
+            unit="×",
+            needs={"stage": ("balls",)},
+        ),
     ] = 1
     outliers: Annotated[
-        int, Knob("Points of a second cluster, off to one side", 0, 60, needs={"stage": ("whiten",)})
+        int,
+        Knob("Points of a second cluster, off to one side", 0, 60, needs={"stage": ("whiten",)}),
     ] = 0
     away: Annotated[
         float,
-        Knob("How far away that cluster is", 1, 100, unit="σ", step=0.1, needs={"stage": ("whiten",)}),
+        Knob(
+            "How far away that cluster is", 1, 100, unit="σ", step=0.1, needs={"stage": ("whiten",)}
+        ),
     ] = 2.8
     estimate: Annotated[
         Literal["sample", "robust"],
-        Knob("Covariance of all points, or of the half that lies closest together", needs={"stage": ("whiten",)}),
+        Knob(
+            "Covariance of all points, or of the half that lies closest together",
+            needs={"stage": ("whiten",)},
+        ),
     ] = "sample"
     points: Annotated[
         int,
-        Knob("How many points or vertices", 4, 3000, needs={"stage": ("balls", "whiten", "surface", "roll")}),
+        Knob(
+            "How many points or vertices",
+            4,
+            3000,
+            needs={"stage": ("balls", "whiten", "surface", "roll")},
+        ),
     ] = 642
-    grid: Annotated[int, Knob("Nodes along a side", 11, 161, step=10, needs={"stage": ("grid",)})] = 41
+    grid: Annotated[
+        int, Knob("Nodes along a side", 11, 161, step=10, needs={"stage": ("grid",)})
+    ] = 41
     neighbours: Annotated[
-        Neighbours, Knob("Ways along edges to so many neighbours, or fast marching", needs={"stage": ("grid",)})
+        Neighbours,
+        Knob(
+            "Ways along edges to so many neighbours, or fast marching", needs={"stage": ("grid",)}
+        ),
     ] = "8"
-    wall: Annotated[float, Knob("Height of the wall", 0, 0.9, unit="m", step=0.1, needs={"stage": ("grid",)})] = 0.8
+    wall: Annotated[
+        float, Knob("Height of the wall", 0, 0.9, unit="m", step=0.1, needs={"stage": ("grid",)})
+    ] = 0.8
     disc: Annotated[
         float,
         Knob(
-            "Around the source distances are given within this radius", 0, 0.2, unit="m", step=0.05,
+            "Around the source distances are given within this radius",
+            0,
+            0.2,
+            unit="m",
+            step=0.05,
             needs={"stage": ("grid",), "neighbours": ("march",)},
         ),
-    ] = 0.0  # fmt: skip
+    ] = 0.0
     shape: Annotated[Shape, Knob("The surface", needs=ON_SURFACE)] = "sphere"
     jitter: Annotated[
         float,
-        Knob("How far vertices stray along the sphere", 0, MOST_JITTER, unit="cells", step=0.05,
-             needs=ON_SURFACE | {"shape": ("sphere",)}),
-    ] = 0.0  # fmt: skip
-    method: Annotated[Literal["edges", "heat"], Knob("Along edges, or by heat", needs=ON_SURFACE)] = "edges"
+        Knob(
+            "How far vertices stray along the sphere",
+            0,
+            MOST_JITTER,
+            unit="cells",
+            step=0.05,
+            needs=ON_SURFACE | {"shape": ("sphere",)},
+        ),
+    ] = 0.0
+    method: Annotated[
+        Literal["edges", "heat"], Knob("Along edges, or by heat", needs=ON_SURFACE)
+    ] = "edges"
     extra: Annotated[
         int,
-        Knob("Points added on every edge, joined across the faces", 0, 4, needs=ON_SURFACE | {"method": ("edges",)}),
+        Knob(
+            "Points added on every edge, joined across the faces",
+            0,
+            4,
+            needs=ON_SURFACE | {"method": ("edges",)},
+        ),
     ] = 0
     time: Annotated[
         float,
-        Knob("How long heat flows, in squared mean edges: log₁₀", -2, 3, step=0.5,
-             needs=ON_SURFACE | {"method": ("heat",)}),
-    ] = 0.0  # fmt: skip
+        Knob(
+            "How long heat flows, in squared mean edges: log₁₀",
+            -2,
+            3,
+            step=0.5,
+            needs=ON_SURFACE | {"method": ("heat",)},
+        ),
+    ] = 0.0
     delaunay: Annotated[
         bool,
-        Knob("Edges are flipped within the surface until no weight is negative",
-             needs=ON_SURFACE | {"method": ("heat",)}),
-    ] = False  # fmt: skip
-    k: Annotated[int, Knob("Neighbours of every point of the roll", 4, 30, needs={"stage": ("roll",)})] = 15
+        Knob(
+            "Edges are flipped within the surface until no weight is negative",
+            needs=ON_SURFACE | {"method": ("heat",)},
+        ),
+    ] = False
+    k: Annotated[
+        int, Knob("Neighbours of every point of the roll", 4, 30, needs={"stage": ("roll",)})
+    ] = 15
     source: Annotated[
         int,
         Knob(
-            "Where distances start: click a place; -1 takes ours", -1, 25_920, by=Pick("nodes"),
+            "Where distances start: click a place; -1 takes ours",
+            -1,
+            25_920,
+            by=Pick("nodes"),
             needs={"stage": ("balls", "grid", "surface", "roll")},
         ),
-    ] = -1  # fmt: skip
-    mesh: Annotated[Path | None, Knob("Own mesh for the stage surface: off, obj, ply, stl, glb", needs=ON_SURFACE)] = (
-        None
-    )
-    cloud: Annotated[
-        Path | None, Knob("Own cloud for the stage roll: ply, pcd, obj, xyz, csv, npz", needs={"stage": ("roll",)})
+    ] = -1
+    mesh: Annotated[
+        Path | None,
+        Knob("Own mesh for the stage surface: off, obj, ply, stl, glb", needs=ON_SURFACE),
     ] = None
-    up: Annotated[Upward, Knob("Which axis of own files is up; auto guesses", of_files=True)] = "auto"
+    cloud: Annotated[
+        Path | None,
+        Knob(
+            "Own cloud for the stage roll: ply, pcd, obj, xyz, csv, npz", needs={"stage": ("roll",)}
+        ),
+    ] = None
+    up: Annotated[Upward, Knob("Which axis of own files is up; auto guesses", of_files=True)] = (
+        "auto"
+    )
     seed: Annotated[int, Knob("Where chance puts points", 0, 99)] = 0
 
 
@@ -115,7 +185,8 @@ class Subject:
         lengths: Of the edges, metres.
         source: Where distances start.
         goal: A node to which the way is shown; -1 for the one whose distance is farthest off.
-        truth: The true distance of every node; empty where only a reference can be computed, or nothing.
+        truth: The true distance of every node; empty where only a reference can be computed, or
+            nothing.
         free: Which nodes can be reached; those of a wall cannot.
         shortcuts: Which edges leave the surface; empty where nobody knows.
         h: Mean length of the edges, or spacing of the grid, metres.
@@ -168,12 +239,16 @@ class Found:
         path: Nodes of the way to the goal.
         error: d over the truth, minus 1, where it means something; NaN elsewhere.
         truth: What they should be; empty where nobody knows.
-        asymmetry: How much d(a, b) and d(b, a) differ for some pairs, as a share; none for ways along edges.
+        asymmetry: How much d(a, b) and d(b, a) differ for some pairs, as a share; none for ways
+            along edges.
         broken: The share of triples of these nodes that break the triangle inequality.
-        study: Of ever finer grids or meshes: log10 of their spacing, and by method log10 of the worst error in per cent.
-        times: Of heat: log10 of the time in squared edges, and the mean size of the error in per cent.
+        study: Of ever finer grids or meshes: log10 of their spacing, and by method log10 of the
+            worst error in per cent.
+        times: Of heat: log10 of the time in squared edges, and the mean size of the error in per
+            cent.
         negative: Of heat: how many edges have a negative weight.
-        eight: Of fast marching: the worst error of ways to 8 neighbours on the same grid; NaN elsewhere.
+        eight: Of fast marching: the worst error of ways to 8 neighbours on the same grid; NaN
+            elsewhere.
     """
 
     d: np.ndarray
@@ -217,7 +292,8 @@ class Ball:
         rims: The outline of the ball by this distance, and of Euclid's, closed or open lines.
         nearest: By every distance the nearest of the others, y being in the unit of the params.
         straight: The nearest by Euclid's distance with x and y in metres.
-        changed: Of many other queries: which have another nearest point than by Euclid's; empty before the end.
+        changed: Of many other queries: which have another nearest point than by Euclid's; empty
+            before the end.
         queries: Where these are.
     """
 

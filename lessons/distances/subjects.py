@@ -7,15 +7,17 @@ from pathlib import Path
 import numpy as np
 
 from lessons.distances.state import MOST_OWN, Params, Subject
-from workbench.data import surfaces
+from lessons.distances.swiss_roll import rolled, swiss_roll
 from workbench.data.files import read_cloud, stamp
 from workbench.data.framing import Upward, own_points
 from workbench.data.own_meshes import read_surface
-from workbench.data.rabbit import rabbit_mesh
-from workbench.data.swiss_roll import rolled, swiss_roll
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
-from workbench.geometry import geodesics, graphs, meshes
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.meshes import geodesics
+from workbench.geometry.meshes import triangles as meshes
 from workbench.geometry.polylines import at_height
 from workbench.knobs import only
 
@@ -37,7 +39,11 @@ def subject_of(params: Params) -> Subject:
     if params.stage == "grid":
         made = _square(params.grid, params.wall)
     elif params.stage == "surface":
-        made = _made_surface(params) if params.mesh is None else _own_mesh(params.mesh, stamp(params.mesh), params.up)
+        made = (
+            _made_surface(params)
+            if params.mesh is None
+            else _own_mesh(params.mesh, stamp(params.mesh), params.up)
+        )
     elif params.cloud is not None:
         made = _own_cloud(params.cloud, stamp(params.cloud), params.up, params.k)
     else:
@@ -62,12 +68,16 @@ def true_distances(subject: Subject, source: int) -> np.ndarray:
 
 
 def reference(subject: Subject) -> np.ndarray:
-    """Return the distances that a subject's ways are held against, computed where no formula is known; empty for clouds."""
+    """Return the distances that a subject's ways are held against, computed where no formula is
+    known; empty for clouds.
+    """
     if len(subject.truth) or not len(subject.faces):
         return subject.truth
     count = POINTS_ON_EDGES if len(subject.p) <= LARGE else 2
     nodes, edges, lengths = _fine(subject.p.tobytes(), subject.faces.tobytes(), count)
-    return geodesics.shortest_distances(edges, lengths, len(nodes), subject.source)[: len(subject.p)]
+    return geodesics.shortest_distances(edges, lengths, len(nodes), subject.source)[
+        : len(subject.p)
+    ]
 
 
 @functools.lru_cache(maxsize=2)
@@ -85,12 +95,26 @@ def _square(side: int, wall: float) -> Subject:
     tip = np.array([x[side // 2], x[round(wall * (side - 1))]])
     free = ~((np.abs(flat[:, 0] - tip[0]) < h / 2) & (flat[:, 1] < tip[1] - h / 2))
     corner = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
-    faces = np.concatenate([corner[:, None] + [0, side, side + 1], corner[:, None] + [0, side + 1, 1]])
-    source, goal = (int(np.argmin(np.linalg.norm(flat - at, axis=1) + 9.0 * ~free)) for at in (FROM, TO))
+    faces = np.concatenate(
+        [corner[:, None] + [0, side, side + 1], corner[:, None] + [0, side + 1, 1]]
+    )
+    source, goal = (
+        int(np.argmin(np.linalg.norm(flat - at, axis=1) + 9.0 * ~free)) for at in (FROM, TO)
+    )
     return Subject(
-        name="the square", p=at_height(flat), faces=faces, edges=np.empty((0, 2), int),
-        lengths=np.empty(0), source=source, goal=goal, free=free, h=h, tip=tip, side=side, radius=0.3 * h,
-    )  # fmt: skip
+        name="the square",
+        p=at_height(flat),
+        faces=faces,
+        edges=np.empty((0, 2), int),
+        lengths=np.empty(0),
+        source=source,
+        goal=goal,
+        free=free,
+        h=h,
+        tip=tip,
+        side=side,
+        radius=0.3 * h,
+    )
 
 
 @functools.lru_cache(maxsize=12)
@@ -107,24 +131,37 @@ def ways_in_square(side: int, wall: float, neighbours: int) -> tuple[np.ndarray,
 
 def _made_surface(params: Params) -> Subject:
     return _surface(
-        only(params, "shape", "points", *(("jitter", "seed") if params.jitter and params.shape == "sphere" else ()))
+        only(
+            params,
+            "shape",
+            "points",
+            *(("jitter", "seed") if params.jitter and params.shape == "sphere" else ()),
+        )
     )
 
 
 @functools.lru_cache(maxsize=8)
 def _surface(params: Params) -> Subject:
     if params.shape == "rabbit":
-        return _mesh("the rabbit", *rabbit_mesh(float(np.clip(0.03 * np.sqrt(2844 / params.points), 0.03, 0.05))))
+        return _mesh(
+            "the rabbit",
+            *rabbit_mesh(float(np.clip(0.03 * np.sqrt(2844 / params.points), 0.03, 0.05))),
+        )
     if params.shape == "torus":
         ring = surfaces.torus(max(params.points, 50), 0.7, 0.3)
         return _mesh("the torus", ring.p, ring.faces)
-    ball = surfaces.sphere(params.points, jitter=params.jitter, rng=np.random.default_rng(params.seed))
+    ball = surfaces.sphere(
+        params.points, jitter=params.jitter, rng=np.random.default_rng(params.seed)
+    )
     if params.shape == "wrung sphere":
         turn = WRUNG * ball.p[:, 2]
         along, across = np.cos(turn), np.sin(turn)
         x = along * ball.p[:, 0] - across * ball.p[:, 1]
         y = across * ball.p[:, 0] + along * ball.p[:, 1]
-        return replace(_mesh("the wrung sphere", np.column_stack([x, y, ball.p[:, 2]]), ball.faces), is_sphere=True)
+        return replace(
+            _mesh("the wrung sphere", np.column_stack([x, y, ball.p[:, 2]]), ball.faces),
+            is_sphere=True,
+        )
     return replace(_mesh("the sphere", ball.p, ball.faces), is_sphere=True)
 
 
@@ -133,9 +170,15 @@ def _mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
     lengths = geodesics.edge_lengths(p, edges)
     h = float(lengths.mean())
     return Subject(
-        name=name, p=p, faces=np.ascontiguousarray(faces, np.int64), edges=edges, lengths=lengths,
-        source=int(np.argmax(p @ TOWARDS_EYE)), h=h, radius=0.25 * h,
-    )  # fmt: skip
+        name=name,
+        p=p,
+        faces=np.ascontiguousarray(faces, np.int64),
+        edges=edges,
+        lengths=lengths,
+        source=int(np.argmax(p @ TOWARDS_EYE)),
+        h=h,
+        radius=0.25 * h,
+    )
 
 
 @functools.lru_cache(maxsize=4)
@@ -151,7 +194,9 @@ def _roll(count: int, k: int, seed: int) -> Subject:
     apart = geodesics.edge_lengths(sheet, made.edges)
     source = int(np.argmin(sheet[:, 0]))
     goal = int(np.argmax(np.linalg.norm(sheet - sheet[source], axis=1)))
-    return replace(made, sheet=sheet, source=source, goal=goal, shortcuts=apart > SHORTCUT * made.lengths)
+    return replace(
+        made, sheet=sheet, source=source, goal=goal, shortcuts=apart > SHORTCUT * made.lengths
+    )
 
 
 @functools.lru_cache(maxsize=4)
@@ -165,17 +210,27 @@ def _own_cloud(path: Path, _stamp: tuple[int, int], up: Upward, k: int) -> Subje
 
 def _neighbours(name: str, p: np.ndarray, k: int) -> Subject:
     if k >= len(p):
-        raise InputError(f"{len(p)} points cannot have {k} neighbours each: fewer neighbours, or more points")
+        raise InputError(
+            f"{len(p)} points cannot have {k} neighbours each: fewer neighbours, or more points"
+        )
     edges = graphs.edges_of(graphs.directed_graph(graphs.neighbours(p, k)[0]))
     lengths = geodesics.edge_lengths(p, edges)
     return Subject(
-        name=name, p=p, faces=np.empty((0, 3), int), edges=edges, lengths=lengths, source=0, h=float(lengths.mean()),
+        name=name,
+        p=p,
+        faces=np.empty((0, 3), int),
+        edges=edges,
+        lengths=lengths,
+        source=0,
+        h=float(lengths.mean()),
         radius=0.4 / np.sqrt(len(p)),
-    )  # fmt: skip
+    )
 
 
 def true_way(subject: Subject, goal: int) -> np.ndarray:
-    """Return points along the true shortest way to a node, a little above the surface; none where nobody knows it."""
+    """Return points along the true shortest way to a node, a little above the surface; none where
+    nobody knows it.
+    """
     p, q = subject.p[subject.source], subject.p[goal]
     t = np.linspace(0.0, 1.0, 60)[:, None]
     if subject.tip is not None:

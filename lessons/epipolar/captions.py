@@ -1,14 +1,16 @@
-"""What a step says: what was just done, the number that changed, and in the end whether the motion is right."""
+"""What a step says: what was just done, the number that changed, and in the end whether the motion
+is right.
+"""
 
 import numpy as np
 
 from lessons.epipolar.state import State
 from workbench.algorithms.two_views import Followed, Related
 from workbench.certain import sure
-from workbench.geometry.epipolar import epipoles, fundamental_from_cameras
-from workbench.geometry.metrics import rms
 from workbench.geometry.motions import rotation_angle
-from workbench.geometry.rectification import growth, torn
+from workbench.geometry.points.metrics import rms
+from workbench.geometry.two_views.epipolar import epipoles, fundamental_from_cameras
+from workbench.geometry.two_views.rectification import growth, torn
 from workbench.numerals import angle, brief, coordinates, counted, fixed, length, percent, pixels
 from workbench.scene import Caption
 
@@ -46,7 +48,10 @@ def to_lines(state: State) -> str:
 def off(state: State) -> str:
     """Write how far the motion is from the true one."""
     if state.moved:
-        return f"the rotation is {angle(state.turn_error)} off, the direction {angle(state.direction_error)}"
+        return (
+            f"the rotation is {angle(state.turn_error)} off, the direction"
+            f" {angle(state.direction_error)}"
+        )
     return f"the rotation is {angle(state.turn_error)} off"
 
 
@@ -54,8 +59,8 @@ def _followed(state: State, now: Followed) -> str:
     pixel = f"Pixel {coordinates(state.uv_first, 0)}"
     if now.stage == "plane":
         return (
-            f"{pixel}, its ray and the second camera's centre span a plane. It cuts the second picture in a line: whatever"
-            " the depth, the partner is on it."
+            f"{pixel}, its ray and the second camera's centre span a plane. It cuts the second"
+            " picture in a line: whatever the depth, the partner is on it."
         )
     if now.stage == "pencil":
         F = fundamental_from_cameras(state.views.K_first, state.views.K_second, sure(state.T_true))
@@ -63,8 +68,9 @@ def _followed(state: State, now: Followed) -> str:
         far = abs(w) * 1e6 < max(abs(u), abs(v))
         where = "at infinity" if far else f"at column {fixed(u / w, 0)}, row {fixed(v / w, 0)}"
         return (
-            "Every pixel has such a plane, and all planes hold the baseline. So all lines meet in one point, the epipole"
-            f" {where}, where the line between both centres meets the picture."
+            "Every pixel has such a plane, and all planes hold the baseline. So all lines meet in"
+            f" one point, the epipole {where}, where the line between both centres meets the"
+            " picture."
         )
     z, uv = float(now.depths[-1]), now.uv_second[-1]
     where = "Infinitely far along its ray" if np.isinf(z) else f"{length(z)} deep along its ray"
@@ -72,26 +78,39 @@ def _followed(state: State, now: Followed) -> str:
         return f"{pixel}: {where} a point lies behind the second camera, which does not see it."
     text = f"{pixel}: {where} a point is seen at {coordinates(uv, 1)} in the second picture."
     if not state.moved:
-        return f"{text} It is this pixel at every depth: a camera that only turns sees the whole ray as one point."
-    return text if np.isfinite(z) else f"{text} Here its line ends: at the vanishing point of the ray."
+        return (
+            f"{text} It is this pixel at every depth: a camera that only turns sees the whole ray"
+            " as one point."
+        )
+    return (
+        text if np.isfinite(z) else f"{text} Here its line ends: at the vanishing point of the ray."
+    )
 
 
 def _equations(state: State, now: Related) -> str:
     n, values = len(state.views.matches), now.singular_values
     text = f"{counted(n, 'match', 'matches')}, as many equations for the nine numbers of F"
-    text += ", in coordinates about 0 and of size 1." if state.params.normalise else ", in raw pixels."
+    text += (
+        ", in coordinates about 0 and of size 1." if state.params.normalise else ", in raw pixels."
+    )
     ratio = values[7] / values[0]
     said = percent(ratio) if ratio > 1e-4 else f"{brief(1e6 * ratio)} millionths"
-    return f"{text} The eighth singular value is {said} of the first: the smaller, the more answers fit nearly as well."
+    return (
+        f"{text} The eighth singular value is {said} of the first: the smaller, the more answers"
+        " fit nearly as well."
+    )
 
 
 def _rank_three(state: State, now: Related) -> str:
     s = np.linalg.svd(now.F)[1]
     if s[2] < FLAT * s[1]:
-        return f"F has rank two already: without noise the equations need no more. The {to_lines(state)}."
+        return (
+            "F has rank two already: without noise the equations need no more. The"
+            f" {to_lines(state)}."
+        )
     return (
-        f"The vector of the smallest singular value is F, and {to_lines(state)}. But F has rank three: no point lies on all"
-        " its lines."
+        f"The vector of the smallest singular value is F, and {to_lines(state)}. But F has rank"
+        " three: no point lies on all its lines."
     )
 
 
@@ -111,8 +130,8 @@ def _refined(state: State, now: Related) -> str:
 def _essential(state: State, now: Related) -> str:
     first, second = sure(now.E_values)[:2]
     return (
-        f"With K it is E = K′ᵀ F K. Its second singular value is {percent(second / first)} of its first; of a motion they"
-        " are equal, so both become their mean."
+        f"With K it is E = K′ᵀ F K. Its second singular value is {percent(second / first)} of its"
+        " first; of a motion they are equal, so both become their mean."
     )
 
 
@@ -120,8 +139,8 @@ def _pose(state: State, now: Related) -> str:
     k, n = len(now.tested), len(state.views.matches)
     turn = angle(float(np.degrees(rotation_angle(now.tested[-1][:3, :3]))))
     return (
-        f"Motion {k} of 4 that E allows, turned by {turn}: it puts {now.in_front[-1]:,} of {n:,} points in front of both"
-        " cameras."
+        f"Motion {k} of 4 that E allows, turned by {turn}: it puts {now.in_front[-1]:,} of {n:,}"
+        " points in front of both cameras."
     )
 
 
@@ -141,25 +160,41 @@ def _rectified(state: State, now: Related) -> Caption:
     if state.right is None:
         return Caption(text)
     if not state.moved:
-        made_up = "The camera only turned: there is no direction, and the one of this motion is made up."
+        made_up = (
+            "The camera only turned: there is no direction, and the one of this motion is made up."
+        )
         return Caption.verdict(f"{text} {made_up}", right=False, settled=False)
     off = f"{angle(state.turn_error)} in rotation and {angle(state.direction_error)} in direction"
     if state.right:
         return Caption.verdict(f"{text} The motion is {off} from the true one: right.", right=True)
-    return Caption.verdict(f"{text} The motion is {off} from the true one.", right=False, settled=False)
+    return Caption.verdict(
+        f"{text} The motion is {off} from the true one.", right=False, settled=False
+    )
 
 
 def _rows(state: State, now: Related) -> str:
     found, sizes = now.rectification, state.views.sizes
     if found is None:
-        return "The baseline runs along the optical axes: no turn of the cameras makes rows correspond."
+        return (
+            "The baseline runs along the optical axes: no turn of the cameras makes rows"
+            " correspond."
+        )
     Hs = found.H_first, found.H_second
     if any(torn(H, size) for H, size in zip(Hs, sizes, strict=True)):
-        return "Turned to the baseline, a picture would be torn: a part of it would look backwards. No rows correspond."
-    text = f"Both cameras turned: matched rows are {pixels(rms(sure(state.disparities)[:, 1]))} apart (rms)"
+        return (
+            "Turned to the baseline, a picture would be torn: a part of it would look backwards. No"
+            " rows correspond."
+        )
+    text = (
+        f"Both cameras turned: matched rows are {pixels(rms(sure(state.disparities)[:, 1]))} apart"
+        " (rms)"
+    )
     times = max(growth(H, size) for H, size in zip(Hs, sizes, strict=True))
     if times > 3:
         text += f", in pictures {brief(times, 2)} times as large"
     if rotation_angle(found.R_rectified_first) > np.pi / 2:
-        text += f"; they are upside down, turned by {angle(float(np.degrees(rotation_angle(found.R_rectified_first))))}"
+        text += (
+            "; they are upside down, turned by"
+            f" {angle(float(np.degrees(rotation_angle(found.R_rectified_first))))}"
+        )
     return f"{text}."

@@ -1,4 +1,6 @@
-"""What stands beside the scene: distances to lines, errors of the pose, singular values, the four motions, rows."""
+"""What stands beside the scene: distances to lines, errors of the pose, singular values, the four
+motions, rows.
+"""
 
 import numpy as np
 
@@ -23,15 +25,25 @@ def beside(state: State) -> dict[str, Primitive]:
     now = state.now
     if isinstance(now, Followed):
         rows = zip(now.depths, now.uv_second, strict=True)
-        said = tuple(("∞" if np.isinf(z) else fixed(float(z), 0), coordinates(uv, 1)) for z, uv in rows)
-        return {"pictures of the ray": Table("Pictures of the ray", ("depth (m)", "pixel (u′, v′)"), said)}
+        said = tuple(
+            ("∞" if np.isinf(z) else fixed(float(z), 0), coordinates(uv, 1)) for z, uv in rows
+        )
+        return {
+            "pictures of the ray": Table(
+                "Pictures of the ray", ("depth (m)", "pixel (u′, v′)"), said
+            )
+        }
     matched, clean = state.to_lines(state.views.matches), state.to_lines(state.views.clean)
     scene: dict[str, Primitive] = {"to lines": LINES.scalar(matched, "matches", log=True)}
     if not np.isnan(clean):
-        scene["clean to lines"] = LINES.scalar(clean, "other points, without noise", "truth", log=True)
+        scene["clean to lines"] = LINES.scalar(
+            clean, "other points, without noise", "truth", log=True
+        )
     if not np.isnan(state.turn_error):
         scene["turn"] = POSE.scalar(state.turn_error, "rotation", "truth", log=True)
-        scene["direction"] = POSE.scalar(state.direction_error, "direction of the translation", "other", log=True)
+        scene["direction"] = POSE.scalar(
+            state.direction_error, "direction of the translation", "other", log=True
+        )
     values = np.maximum(now.singular_values / now.singular_values[0], FLOOR)
     scene["values"] = VALUES.dots(np.arange(1.0, 10.0), np.log10(values), "over the largest")
     scene["matrices"] = _matrices(now)
@@ -78,7 +90,9 @@ def _depths(state: State, now: Related) -> dict[str, Primitive]:
     order = np.argsort(true[:, 2])
     z, off = true[order, 2], (state.length * now.p_first[:, 2] - true[:, 2])[order]
     top = 2.0 * z[-1]  # what is farther off is drawn there
-    scene: dict[str, Primitive] = {"depth errors": DEPTH.dots(z, np.minimum(np.abs(off), top), "points", "source")}
+    scene: dict[str, Primitive] = {
+        "depth errors": DEPTH.dots(z, np.minimum(np.abs(off), top), "points", "source")
+    }
     if state.moved:
         sigma = np.minimum(state.depth_sigma(true[order]), top)
         scene["depth sigma"] = DEPTH.curve(z, sigma, "σ from the pixels' noise", "truth")

@@ -10,7 +10,10 @@ from workbench.numerals import angle, counted, fixed_row, length, percent
 from workbench.scene import Caption
 
 HALF = 0.5
-SIFT = "SIFT's keypoints are where the picture differs most from a smoother one, across places and sizes:"
+SIFT = (
+    "SIFT's keypoints are where the picture differs most from a smoother one, across places and"
+    " sizes:"
+)
 FILTERS = {
     "nearest": "every nearest one",
     "ratio": "those much nearer than the second nearest",
@@ -58,23 +61,32 @@ def _scanned(state: State, now: Scanned) -> Caption:
             return Caption(_histogram_text(now))
         case "similar":
             return Caption(
-                "The descriptor of the picked point against that of every target point: dark is alike."
-                " The nearest of all is its match."
+                "The descriptor of the picked point against that of every target point: dark is"
+                " alike. The nearest of all is its match."
             )
         case "nearest":
-            which = "source point takes the target point" if params.where == "every point" else "keypoint takes the one"
+            which = (
+                "source point takes the target point"
+                if params.where == "every point"
+                else "keypoint takes the one"
+            )
             return Caption(f"Every {which} with the nearest descriptor.{_share(state)}")
         case "kept":
             kept = f"{len(sure(now.pairs)):,} of {len(sure(now.asked)):,}"
             return Caption(f"Keep {FILTERS[params.keep]}: {kept} stay.{_share(state)}")
         case "sample":
             return Caption(
-                f"Sample {now.iteration:,} of three matches gives the best motion so far: {_votes(now)}.{_off(now)}"
+                f"Sample {now.iteration:,} of three matches gives the best motion so far:"
+                f" {_votes(now)}.{_off(now)}"
             )
         case "refit":
-            return Caption(f"The motion is fitted again to all that agree: {_votes(now)}.{_off(now)}")
+            return Caption(
+                f"The motion is fitted again to all that agree: {_votes(now)}.{_off(now)}"
+            )
         case "icp":
-            return Caption(f"Fit {now.iteration} of ICP starts from there and needs no descriptor.{_off(now)}")
+            return Caption(
+                f"Fit {now.iteration} of ICP starts from there and needs no descriptor.{_off(now)}"
+            )
         case "end":
             return _end(now)
 
@@ -82,10 +94,16 @@ def _scanned(state: State, now: Scanned) -> Caption:
 def _pair_text(state: State, now: Scanned) -> str:
     count = len(sure(now.around))
     if not count:
-        return f"No other point lies within {length(state.params.radius)} of the picked one: it has no pairs."
+        return (
+            f"No other point lies within {length(state.params.radius)} of the picked one: it has no"
+            " pairs."
+        )
     text = f"{counted(count, 'pair')} within {length(state.params.radius)} of the picked point."
     theta, alpha, phi = sure(now.angles)[0]
-    return f"{text} Of each three angles are kept: the first has (θ, α, φ) = ({fixed_row((theta, alpha, phi), 2)})."
+    return (
+        f"{text} Of each three angles are kept: the first has (θ, α, φ) ="
+        f" ({fixed_row((theta, alpha, phi), 2)})."
+    )
 
 
 def _histogram_text(now: Scanned) -> str:
@@ -94,7 +112,10 @@ def _histogram_text(now: Scanned) -> str:
     if now.scans.T_truth is None:
         return f"{text} Beside it the most alike of the target."
     nearer = int(np.count_nonzero(off < off[now.there]))
-    return f"{text} {counted(nearer, 'target point is', 'target points are')} more alike than the true one."
+    return (
+        f"{text} {counted(nearer, 'target point is', 'target points are')} more alike than the true"
+        " one."
+    )
 
 
 def _votes(now: Scanned) -> str:
@@ -105,24 +126,37 @@ def _votes(now: Scanned) -> str:
 def _off(now: Scanned) -> str:
     if now.scans.T_truth is None:
         return ""
-    return f" It is {angle(now.error.rotation)} and {length(now.error.displacement)} (RMS) from the truth."
+    return (
+        f" It is {angle(now.error.rotation)} and {length(now.error.displacement)} (RMS) from the"
+        " truth."
+    )
 
 
 def _end(now: Scanned) -> Caption:
     if now.T_target_source is None:
         some = 0 if now.inliers is None else int(now.inliers.sum())
-        text = f"{some or 'No'} matches agree on a motion, and any three agree on some: nothing is found."
+        text = (
+            f"{some or 'No'} matches agree on a motion, and any three agree on some: nothing is"
+            " found."
+        )
         return Caption(text, "info" if now.scans.T_truth is None else "wrong")
     text = f"ICP ends after {counted(now.iteration, 'fit', 'fits')}."
     if now.T_before is not None and now.scans.T_truth is not None:
         before = now.scans.error(now.T_before).rotation
-        text = f"ICP ends after {counted(now.iteration, 'fit', 'fits')}: {angle(before)} → {angle(now.error.rotation)}."
+        text = (
+            f"ICP ends after {counted(now.iteration, 'fit', 'fits')}: {angle(before)} →"
+            f" {angle(now.error.rotation)}."
+        )
         text += f" Points are {length(now.error.displacement)} (RMS) from the truth."
     if now.scans.T_truth is None:
-        found = scipy.spatial.KDTree(now.scans.p_target).query(apply(now.T_target_source, now.scans.p_source))[0]
+        found = scipy.spatial.KDTree(now.scans.p_target).query(
+            apply(now.T_target_source, now.scans.p_source)
+        )[0]
         near = percent(float(np.mean(found < INLIER)), 0)
         text += f" Now {near} of the source's points have a target point within {length(INLIER)}."
-        return Caption(f"{text} Only their known pose could say whether it is right; none is given.")
+        return Caption(
+            f"{text} Only their known pose could say whether it is right; none is given."
+        )
     return Caption.verdict(text + (" It has come home." if now.home else ""), right=now.home)
 
 
@@ -134,11 +168,14 @@ def _pictured(state: State, now: Pictured) -> Caption:
             turned = f", the right one turned by {angle(params.turn)}" if params.turn else ""
             return Caption(f"Two pictures of {w} × {h} pixels, taken from two places{turned}.")
         case "gradient":
-            return Caption("How steep the grey levels are: large along every edge, so a place on an edge can slide.")
+            return Caption(
+                "How steep the grey levels are: large along every edge, so a place on an edge can"
+                " slide."
+            )
         case "response":
             return Caption(
-                "det(M) − 0.04 trace(M)² of the products of derivatives around each pixel: above zero only where"
-                " two directions are steep."
+                "det(M) − 0.04 trace(M)² of the products of derivatives around each pixel: above"
+                " zero only where two directions are steep."
             )
         case "corners":
             left, right = len(sure(now.uv_first)), len(sure(now.uv_second))
@@ -152,17 +189,19 @@ def _pictured(state: State, now: Pictured) -> Caption:
         case "patch":
             if now.sifts:
                 return Caption(
-                    "A keypoint is described by 128 numbers: how steep the grey levels are in 8 directions, in 4 × 4 cells,"
-                    " counted from its own direction. These two are the clearest match, both turned to it."
+                    "A keypoint is described by 128 numbers: how steep the grey levels are in 8"
+                    " directions, in 4 × 4 cells, counted from its own direction. These two are the"
+                    " clearest match, both turned to it."
                 )
             return Caption(
-                f"A corner is described by the {params.patch} × {params.patch} pixels around it, less their mean and of"
-                " length 1. These two are the clearest match."
+                f"A corner is described by the {params.patch} × {params.patch} pixels around it,"
+                " less their mean and of length 1. These two are the clearest match."
             )
         case "nearest":
             which = ("keypoint", "descriptor") if now.sifts else ("corner", "patch")
             return Caption(
-                f"Every left {which[0]} takes the right one with the nearest {which[1]}.{_known(state, now)}"
+                f"Every left {which[0]} takes the right one with the nearest"
+                f" {which[1]}.{_known(state, now)}"
             )
         case "kept":
             return _kept_pictures(state, now)
@@ -182,7 +221,11 @@ def _kept_pictures(state: State, now: Pictured) -> Caption:
     if now.known is None or not now.known.any():
         return Caption(text)
     right = state.right_share > HALF
-    return Caption.verdict(text, right=True) if right else Caption(f"{text} Most of what is kept is wrong.", "wrong")
+    return (
+        Caption.verdict(text, right=True)
+        if right
+        else Caption(f"{text} Most of what is kept is wrong.", "wrong")
+    )
 
 
 def _outlined(state: State, now: Outlined) -> Caption:
@@ -190,21 +233,30 @@ def _outlined(state: State, now: Outlined) -> Caption:
     match now.phase:
         case "outlines":
             return Caption(
-                f"A horse's outline in {len(now.first)} points, and the same one larger and turned by {angle(params.turn)}."
+                f"A horse's outline in {len(now.first)} points, and the same one larger and turned"
+                f" by {angle(params.turn)}."
             )
         case "bins":
             return Caption(
-                "Around the picked point, 5 rings and 12 sectors: how many other points lie in each is its descriptor."
-                f" Angles count {params.angles}."
+                "Around the picked point, 5 rings and 12 sectors: how many other points lie in"
+                f" each is its descriptor. Angles count {params.angles}."
             )
         case "histogram":
-            return Caption("The histogram of the picked point, and that of its true partner on the other outline.")
+            return Caption(
+                "The histogram of the picked point, and that of its true partner on the other"
+                " outline."
+            )
         case "costs":
             return Caption(
-                "How different every two histograms are: rows are points of the first outline, columns of the second."
-                f" The true partners cost {np.diag(sure(now.costs)).mean():.2f} on average."
+                "How different every two histograms are: rows are points of the first outline,"
+                " columns of the second. The true partners cost"
+                f" {np.diag(sure(now.costs)).mean():.2f} on average."
             )
         case "matched":
             text = f"One to one, at the least total cost.{_share(state)}"
             right = state.right_share > HALF
-            return Caption.verdict(text, right=True) if right else Caption(f"{text} Most are wrong.", "wrong")
+            return (
+                Caption.verdict(text, right=True)
+                if right
+                else Caption(f"{text} Most are wrong.", "wrong")
+            )

@@ -6,13 +6,15 @@ from lessons.features.captions import caption
 from lessons.features.flat import lines_between, outlined, pictured
 from lessons.features.state import Outlined, Pictured, Scanned, State
 from workbench.data.thinning import every
-from workbench.geometry.alignment import rmse
-from workbench.geometry.fpfh import BINS
+from workbench.geometry.features.fpfh import BINS
 from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions.alignment import rmse
 from workbench.geometry.polylines import between
 from workbench.scene import Chart, Color, Field, Label, Points, Primitive, Scene, Segments
 
-T_BESIDE = motion(np.eye(3), np.array([1.0, 0.0, 0.0]))  # where the source is shown until a motion is found
+T_BESIDE = motion(
+    np.eye(3), np.array([1.0, 0.0, 0.0])
+)  # where the source is shown until a motion is found
 MOST_NORMALS, MOST_LINES, NORMAL = 500, 400, 0.05
 BARS = Chart("Descriptor of the picked point", "bar: 11 of θ, 11 of α, 11 of φ", "%")
 SHARE, TURN, DISTANCE = (
@@ -32,7 +34,9 @@ def draw(state: State) -> Scene:
             scene = pictured(now)
         case Outlined() as now:
             scene = outlined(state, now)
-    share = {"right share": SHARE.scalar(100 * state.right_share, "right among the matches", "truth")}
+    share = {
+        "right share": SHARE.scalar(100 * state.right_share, "right among the matches", "truth")
+    }
     return {"caption": caption(state)} | scene | share
 
 
@@ -43,10 +47,18 @@ def _scanned(now: Scanned) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
         "target": Points(scans.p_target, _target_color(now), radius, name="target"),
         "source": Points(scans.p_source, "source", radius, T, name="source"),
-        "picked": Points(scans.p_source[[now.picked]], "highlight", 3 * radius, T, name="picked point"),
+        "picked": Points(
+            scans.p_source[[now.picked]], "highlight", 3 * radius, T, name="picked point"
+        ),
     }
-    if now.phase in ("nearest", "kept") and now.asked is not None and len(now.asked) < len(scans.p_source):
-        scene["keypoints"] = Points(scans.p_source[now.asked], "highlight", 2 * radius, T, name="keypoints")
+    if (
+        now.phase in ("nearest", "kept")
+        and now.asked is not None
+        and len(now.asked) < len(scans.p_source)
+    ):
+        scene["keypoints"] = Points(
+            scans.p_source[now.asked], "highlight", 2 * radius, T, name="keypoints"
+        )
     if now.phase == "normals" and now.n_target is not None and now.n_source is not None:
         scene["target normals"] = _normals(scans.p_target, now.n_target, None)
         scene["source normals"] = _normals(scans.p_source, now.n_source, T)
@@ -54,17 +66,23 @@ def _scanned(now: Scanned) -> dict[str, Primitive]:
         some = now.around[every(len(now.around), 60)]
         ends = between(scans.p_source[now.picked], scans.p_source[some])
         scene["pairs"] = Segments(ends, "correspondence", 2, T, name="pairs")
-        scene["pair normals"] = _normals(scans.p_source[[now.picked, *some]], now.n_source[[now.picked, *some]], T)
+        scene["pair normals"] = _normals(
+            scans.p_source[[now.picked, *some]], now.n_source[[now.picked, *some]], T
+        )
     if now.phase in ("histogram", "similar"):
         known = scans.T_truth is not None
         name = "its true place" if known else "most alike"
-        scene["there"] = Points(scans.p_target[[now.there]], "truth" if known else "highlight", 3 * radius, name=name)
+        scene["there"] = Points(
+            scans.p_target[[now.there]], "truth" if known else "highlight", 3 * radius, name=name
+        )
     scene |= _bars(now) if now.phase in ("pairs", "histogram", "similar") else {}
     if now.pairs is not None and now.phase not in ("icp", "end"):
         scene |= _matches(now, T)
     scene |= _errors(now)
     if now.T_target_source is not None:
-        scene["start"] = Points(scans.p_source, "neutral", radius, T_BESIDE, opacity=0.3, name="source, as it came")
+        scene["start"] = Points(
+            scans.p_source, "neutral", radius, T_BESIDE, opacity=0.3, name="source, as it came"
+        )
     else:
         top = float(apply(T, scans.p_source)[:, 2].max())
         scene["source name"] = Label("source", np.array([1.0, 0.0, top + 0.08]), "source")
@@ -86,9 +104,13 @@ def _normals(p: np.ndarray, n: np.ndarray, T: np.ndarray | None) -> Segments:
 def _bars(now: Scanned) -> dict[str, Primitive]:
     if now.phase == "pairs" or now.f_source is None or now.f_target is None:
         return {}
-    there = "true place in the target" if now.scans.T_truth is not None else "most alike in the target"
+    there = (
+        "true place in the target" if now.scans.T_truth is not None else "most alike in the target"
+    )
     return {
-        "bars": BARS.curve(PLACE, now.f_source[now.picked], "picked point", "source", marks=(10.5, 21.5)),
+        "bars": BARS.curve(
+            PLACE, now.f_source[now.picked], "picked point", "source", marks=(10.5, 21.5)
+        ),
         "bars there": BARS.curve(PLACE, now.f_target[now.there], there, "truth"),
     }
 
@@ -107,7 +129,12 @@ def _errors(now: Scanned) -> dict[str, Primitive]:
     if now.scans.T_truth is None:
         return {}
     error, rms = now.error, np.nan
-    if now.T_target_source is not None and now.pairs is not None and now.inliers is not None and now.inliers.any():
+    if (
+        now.T_target_source is not None
+        and now.pairs is not None
+        and now.inliers is not None
+        and now.inliers.any()
+    ):
         source, target = now.pairs[now.inliers].T
         rms = rmse(now.T_target_source, now.scans.p_target[target], now.scans.p_source[source])
     return {

@@ -1,12 +1,14 @@
-"""What one step looks like where pictures or outlines are matched: both lie side by side in a plane, seen from above."""
+"""What one step looks like where pictures or outlines are matched: both lie side by side in a
+plane, seen from above.
+"""
 
 import numpy as np
 
 from lessons.features.state import Outlined, Pictured, State
+from workbench.geometry.features.shape_context import EDGES, SECTORS, tangent_angles
+from workbench.geometry.features.sift import Sift
 from workbench.geometry.motions import R_ROWS_DOWN, motion
 from workbench.geometry.polylines import at_height, between, circle, segments
-from workbench.geometry.shape_context import EDGES, SECTORS, tangent_angles
-from workbench.geometry.sift import Sift
 from workbench.scene import Chart, Field, Picture, Points, Primitive, Role, Segments
 
 WIDTH, NEARER, SIZE = 1.2, 0.01, 0.006  # metres
@@ -32,8 +34,12 @@ def pictured(now: Pictured) -> dict[str, Primitive]:
             scene |= lines_between(a, b, now.right, now.known)
     if now.sifts and now.phase in ("corners", "patch"):
         for k, (name, picture, found) in enumerate(zip(NAMES, shown, now.sifts, strict=True)):
-            ends = picture.places(_marks(found, slice(None) if now.pairs is None else now.pairs[:, k]), NEARER)
-            scene[f"{name} keypoints"] = Segments(ends, "highlight", 1.5, name="keypoints: size and direction")
+            ends = picture.places(
+                _marks(found, slice(None) if now.pairs is None else now.pairs[:, k]), NEARER
+            )
+            scene[f"{name} keypoints"] = Segments(
+                ends, "highlight", 1.5, name="keypoints: size and direction"
+            )
     if now.phase == "patch" and now.windows is not None:
         scene["patches"] = Picture(now.windows, "Two patches that match")
     return scene
@@ -54,7 +60,9 @@ def _picture(now: Pictured, k: int) -> Picture:
 
 
 def _marks(found: Sift, some: slice | np.ndarray) -> np.ndarray:
-    """Return circles as wide as some keypoints and lines along their directions, pixels, (k, 2, 2)."""
+    """Return circles as wide as some keypoints and lines along their directions, pixels, (k, 2,
+    2).
+    """
     uv, angle, radius = found.uv[some], found.angle[some], ROUND * found.sigma[some, None]
     rims = uv[:, None] + radius[:, None] * circle(24)
     tips = uv + radius * np.column_stack([np.cos(angle), np.sin(angle)])
@@ -63,20 +71,26 @@ def _marks(found: Sift, some: slice | np.ndarray) -> np.ndarray:
 
 def outlined(state: State, now: Outlined) -> dict[str, Primitive]:
     """Return two outlines, the bins of a point, its histograms, and lines between matches."""
-    first, second = (at_height(p) + place for p, place in zip((now.first, now.second), PLACES, strict=True))
+    first, second = (
+        at_height(p) + place for p, place in zip((now.first, now.second), PLACES, strict=True)
+    )
     scene: dict[str, Primitive] = {
         "first": Segments(segments(first, closed=True), "target", 3, name="first outline"),
         "second": Segments(segments(second, closed=True), "source", 3, name="second outline"),
         "picked": Points(first[[now.picked]], "highlight", 3 * SIZE, name="picked point"),
     }
     if now.phase in ("bins", "histogram"):
-        scene["bins"] = Segments(_bins(state, now) + PLACES[0], "neutral", 1.5, opacity=0.7, name="bins")
+        scene["bins"] = Segments(
+            _bins(state, now) + PLACES[0], "neutral", 1.5, opacity=0.7, name="bins"
+        )
     if now.phase != "outlines":
         scene["there"] = Points(second[[now.picked]], "truth", 3 * SIZE, name="its true partner")
     if now.phase == "histogram" and now.f_first is not None and now.f_second is not None:
         x = np.arange(float(now.f_first.shape[1]))
         scene["bars"] = BARS.curve(x, 100 * now.f_first[now.picked], "picked point", "highlight")
-        scene["bars there"] = BARS.curve(x, 100 * now.f_second[now.picked], "its true partner", "truth")
+        scene["bars there"] = BARS.curve(
+            x, 100 * now.f_second[now.picked], "its true partner", "truth"
+        )
     if now.costs is not None:
         scene["costs"] = Picture(Field(now.costs, 0.0, 1.0, "cost"), "Cost of every pair")
     if now.pairs is not None:
@@ -89,7 +103,11 @@ def _bins(state: State, now: Outlined) -> np.ndarray:
     p, n = now.first[now.picked], len(now.first)
     apart = np.linalg.norm(now.first[:, None] - now.first, axis=2)
     unit = apart.sum() / (n * (n - 1))
-    start = float(tangent_angles(now.first)[now.picked]) if state.params.angles == "along the outline" else 0.0
+    start = (
+        float(tangent_angles(now.first)[now.picked])
+        if state.params.angles == "along the outline"
+        else 0.0
+    )
     rings = [segments(p + unit * edge * circle(48), closed=True) for edge in EDGES]
     at = start + 2 * np.pi * np.arange(SECTORS) / SECTORS
     way = unit * np.column_stack([np.cos(at), np.sin(at)])
@@ -97,9 +115,14 @@ def _bins(state: State, now: Outlined) -> np.ndarray:
 
 
 def lines_between(
-    a: np.ndarray, b: np.ndarray, right: np.ndarray | None, known: np.ndarray | None = None, thin: str = "wrong match"
+    a: np.ndarray,
+    b: np.ndarray,
+    right: np.ndarray | None,
+    known: np.ndarray | None = None,
+    thin: str = "wrong match",
 ) -> dict[str, Primitive]:
-    """Return lines between matches: those that are wrong are thin where there are many, so that the right ones show.
+    """Return lines between matches: those that are wrong are thin where there are many, so that the
+    right ones show.
 
     Args:
         a: Places of the first set, metres.
@@ -109,10 +132,15 @@ def lines_between(
         thin: What the others are called.
     """
     if right is None:
-        return {"matches": Segments(between(a, b), "correspondence", 1.5, opacity=0.7, name="matches")}
+        return {
+            "matches": Segments(between(a, b), "correspondence", 1.5, opacity=0.7, name="matches")
+        }
     known = np.ones(len(right), bool) if known is None else known
     width, opacity = (1.0, 0.45) if len(right) > MANY else (2.0, 0.9)
-    thick, agrees = 2.5 if right.sum() <= MANY else 1.5, "right match" if thin == "wrong match" else "agrees"
+    thick, agrees = (
+        2.5 if right.sum() <= MANY else 1.5,
+        "right match" if thin == "wrong match" else "agrees",
+    )
     kinds: tuple[tuple[str, np.ndarray, Role, float, float, str], ...] = (
         ("matches/unknown", ~known, "neutral", 1.0, 0.4, "truth not known"),
         ("matches/wrong", known & ~right, "wrong", width, opacity, thin),

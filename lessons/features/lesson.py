@@ -1,8 +1,8 @@
 """Descriptors: number-pictures of a neighbourhood that stay the same when the object moves.
 
-What it teaches: equal descriptors vote for a motion, so registration needs no start and ICP only polishes; most votes may be
-wrong as long as the right ones agree; and what a descriptor does not change with (a turn, brightness, which side a normal
-faces) is a choice somebody made.
+What it teaches: equal descriptors vote for a motion, so registration needs no start and ICP only
+polishes; most votes may be wrong as long as the right ones agree; and what a descriptor does not
+change with (a turn, brightness, which side a normal faces) is a choice somebody made.
 """
 
 from collections.abc import Iterator
@@ -14,8 +14,8 @@ from lessons.features.pictures import Response, picture_steps
 from lessons.features.presets import PRESETS, QUESTIONS, VIEW
 from lessons.features.scans import Matcher, scan_steps
 from lessons.features.state import Params, State
-from workbench.geometry import fpfh, keypoints, matching
-from workbench.geometry.fpfh import PairAngles
+from workbench.geometry.features import fpfh, keypoints, matching
+from workbench.geometry.features.fpfh import PairAngles
 from workbench.lesson import Lesson, Sweep
 
 
@@ -40,12 +40,14 @@ def run(
 lesson = Lesson(
     name="features",
     title="Features and descriptors",
-    summary="Find the same place twice: descriptors that do not change with a motion vote for one, from any start.",
+    summary="Describe a place by its surroundings, and find it again in another scan or picture.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1800,
+    order=1100,
+    chapter="See",
+    minutes=25,
     needs=("icp", "ransac"),
     view=VIEW,
     presets=PRESETS,

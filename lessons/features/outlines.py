@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from lessons.features.silhouettes import horse
 from lessons.features.state import STEPS_ALONG, Outlined, Params
 from workbench.algorithms.transport import best_assignment
-from workbench.data.silhouettes import horse
-from workbench.geometry.shape_context import context_costs, shape_contexts
+from workbench.geometry.features.shape_context import context_costs, shape_contexts
 
 COUNT, SIZE, LARGER, NOISE = 100, 0.5, 1.2, 0.002
 PICKED = 12

@@ -1,4 +1,6 @@
-"""Finding places of a picture in another: gradient, structure tensor, corners and patches, or SIFT; then matches."""
+"""Finding places of a picture in another: gradient, structure tensor, corners and patches, or SIFT;
+then matches.
+"""
 
 import functools
 from collections.abc import Callable, Iterator
@@ -9,20 +11,30 @@ import numpy as np
 
 from lessons.features.scans import Matcher, chosen
 from lessons.features.state import PIXELS, Params, Pictured
+from lessons.features.turned_pictures import (
+    motorcycle_levels,
+    places_in_turned,
+    read_levels,
+    turned,
+)
 from workbench.data.files import stamp
-from workbench.data.turned_pictures import motorcycle_levels, places_in_turned, read_levels, turned
 from workbench.errors import InputError
-from workbench.geometry.keypoints import gradient, patches, strongest
-from workbench.geometry.matching import nearest_both_ways
-from workbench.geometry.sift import Sift, sift, turned_patch
+from workbench.geometry.features.keypoints import gradient, patches, strongest
+from workbench.geometry.features.matching import nearest_both_ways
+from workbench.geometry.features.sift import Sift, sift, turned_patch
 from workbench.knobs import called
 
 Response = Callable[[np.ndarray], np.ndarray]
 BORDER = 16  # no corner is nearer to the border, whatever the patch
-SEEN, SIDE = 6.0, 25  # of the square that SIFT describes: half its side, in sizes of the keypoint; pixels shown
+SEEN, SIDE = (
+    6.0,
+    25,
+)  # of the square that SIFT describes: half its side, in sizes of the keypoint; pixels shown
 
 
-def picture_steps(params: Params, harris_response: Response, mutual_matches: Matcher) -> Iterator[Pictured]:
+def picture_steps(
+    params: Params, harris_response: Response, mutual_matches: Matcher
+) -> Iterator[Pictured]:
     """Yield the steps from two pictures to their matches."""
     first, second, disparity = pictures_of(params)
     now = Pictured(phase="pictures", first=first, second=second)
@@ -47,15 +59,26 @@ def picture_steps(params: Params, harris_response: Response, mutual_matches: Mat
     if now.sifts:
         a, b = (found.descriptors for found in now.sifts)
     else:
-        a, b = (patches(image, uv, params.patch) for image, uv in ((first, uv_first), (second, uv_second)))
+        a, b = (
+            patches(image, uv, params.patch)
+            for image, uv in ((first, uv_first), (second, uv_second))
+        )
     found = nearest_both_ways(a, b)
     pairs = np.column_stack([np.arange(len(a)), found.index])
     best = int(np.argmin(found.distance / np.maximum(found.second, 1e-12)))
     if now.sifts:
-        seen = [_turned(image, by, k) for image, by, k in zip((first, second), now.sifts, pairs[best], strict=True)]
+        seen = [
+            _turned(image, by, k)
+            for image, by, k in zip((first, second), now.sifts, pairs[best], strict=True)
+        ]
     else:
-        seen = [_shown(of[k].reshape(params.patch, params.patch)) for of, k in zip((a, b), pairs[best], strict=True)]
-    now = replace(now, windows=np.hstack([seen[0], np.full((len(seen[0]), 2), 255, np.uint8), seen[1]]))
+        seen = [
+            _shown(of[k].reshape(params.patch, params.patch))
+            for of, k in zip((a, b), pairs[best], strict=True)
+        ]
+    now = replace(
+        now, windows=np.hstack([seen[0], np.full((len(seen[0]), 2), 255, np.uint8), seen[1]])
+    )
     yield replace(now, phase="patch", **judged(now, pairs[[best]]))
     yield replace(now, phase="nearest", **judged(now, pairs))
     pairs = chosen(params, found, a, b, mutual_matches)
@@ -69,7 +92,9 @@ def _sift(levels: bytes, shape: tuple[int, int]) -> Sift:
 
 
 def _turned(image: np.ndarray, by: Sift, k: int) -> np.ndarray:
-    patch = turned_patch(image, by.uv[k], float(by.angle[k]), SEEN * float(by.sigma[k]), SIDE)
+    patch = turned_patch(
+        image, by.uv[k], float(by.angle[k]), half=SEEN * float(by.sigma[k]), side=SIDE
+    )
     return _shown(patch - patch.mean())
 
 
@@ -85,12 +110,15 @@ def checked(harris_response: Response, image: np.ndarray) -> np.ndarray:
     """Return the response, which must have the picture's size."""
     found = np.asarray(harris_response(image), float)
     if found.shape != image.shape:
-        raise InputError(f"harris_response returned {found.shape} numbers for a picture of {image.shape}")
+        raise InputError(
+            f"harris_response returned {found.shape} numbers for a picture of {image.shape}"
+        )
     return np.nan_to_num(found)
 
 
 def pictures_of(params: Params) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
-    """Return the grey levels of both pictures, the second turned, and the true disparity where it is known.
+    """Return the grey levels of both pictures, the second turned, and the true disparity where it
+    is known.
 
     Raises:
         InputError: If own files are no pair of pictures.
@@ -99,7 +127,10 @@ def pictures_of(params: Params) -> tuple[np.ndarray, np.ndarray, np.ndarray | No
     if files == (None, None):
         first, second, disparity = motorcycle_levels()
     elif files[0] is None or files[1] is None:
-        raise InputError(f"own pictures come in pairs: give both {called('first_image')} and {called('second_image')}")
+        raise InputError(
+            f"own pictures come in pairs: give both {called('first_image')} and"
+            f" {called('second_image')}"
+        )
     else:
         first, second, disparity = *(_own(file, stamp(file)) for file in files if file), None
     return first, turned(second, np.radians(params.turn)), disparity

@@ -7,20 +7,20 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.features.state import INLIER, RIGHT, Params, Scanned
-from workbench.algorithms.icp import Gate, icp
-from workbench.algorithms.models import RIGID
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.samplers import uniform_samples
+from workbench.algorithms.registration.icp import Gate, icp
+from workbench.algorithms.robust.models import RIGID
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.certain import sure
-from workbench.data.clouds import pair
 from workbench.data.files import stamp
 from workbench.data.scan_pairs import Scans, read_scans
+from workbench.data.shapes.clouds import pair
 from workbench.errors import InputError
-from workbench.geometry.fpfh import PairAngles, fpfh
-from workbench.geometry.keypoints import iss_keypoints
-from workbench.geometry.matching import Nearest, filtered, nearest_both_ways
+from workbench.geometry.features.fpfh import PairAngles, fpfh
+from workbench.geometry.features.keypoints import iss_keypoints
+from workbench.geometry.features.matching import Nearest, filtered, nearest_both_ways
 from workbench.geometry.motions import apply, exp_so3, motion
-from workbench.geometry.normals import point_normals
+from workbench.geometry.points.normals import point_normals
 from workbench.knobs import called, only
 
 Matcher = Callable[[np.ndarray, np.ndarray, float], np.ndarray]
@@ -32,10 +32,16 @@ MOST_SAMPLES, CONFIDENCE = 4000, 0.999
 FEWEST_AGREE = 6  # three matches agree with the motion that was made of them, whatever they are
 MOST_FITS, SHOWN_FITS = 60, 6
 SALIENT = 0.5  # of the radius: the neighbourhood in which a keypoint is salient
-OURS = (0.17, 0.09, 0.68)  # the tip of the built-in rabbit's upright ear, target frame: described unless one is picked
+OURS = (
+    0.17,
+    0.09,
+    0.68,
+)  # the tip of the built-in rabbit's upright ear, target frame: described unless one is picked
 
 
-def scan_steps(params: Params, pair_angles: PairAngles, mutual_matches: Matcher) -> Iterator[Scanned]:
+def scan_steps(
+    params: Params, pair_angles: PairAngles, mutual_matches: Matcher
+) -> Iterator[Scanned]:
     """Yield the steps from two scans to the motion between them."""
     scans = scans_of(params)
     now = Scanned(phase="scans", scans=scans, picked=picked_of(params, scans))
@@ -120,7 +126,9 @@ def _moved(params: Params, now: Scanned) -> Iterator[Scanned]:
     ]
     for fit in fits[: SHOWN_FITS - 1]:
         yield replace(now, T_target_source=fit.T_target_source, iteration=fit.iteration)
-    yield replace(now, phase="end", T_target_source=fits[-1].T_target_source, iteration=fits[-1].iteration)
+    yield replace(
+        now, phase="end", T_target_source=fits[-1].T_target_source, iteration=fits[-1].iteration
+    )
 
 
 def matched_points(params: Params, p: np.ndarray) -> np.ndarray:
@@ -133,12 +141,18 @@ def matched_points(params: Params, p: np.ndarray) -> np.ndarray:
         return np.arange(len(p))
     found = iss_keypoints(p, SALIENT * params.radius, SALIENT * params.radius / 2)
     if len(found) < RIGID.sample_size:
-        raise InputError(f"{len(found)} ISS keypoints in {len(p):,} points: match every point, or change the radius")
+        raise InputError(
+            f"{len(found)} ISS keypoints in {len(p):,} points: match every point, or change the"
+            " radius"
+        )
     return found
 
 
-def chosen(params: Params, found: Nearest, a: np.ndarray, b: np.ndarray, mutual_matches: Matcher) -> np.ndarray:
-    """Return the matches that the params keep; both filters together are the function that was given.
+def chosen(
+    params: Params, found: Nearest, a: np.ndarray, b: np.ndarray, mutual_matches: Matcher
+) -> np.ndarray:
+    """Return the matches that the params keep; both filters together are the function that was
+    given.
 
     Raises:
         InputError: If that function names what is not there.
@@ -185,16 +199,22 @@ def scans_of(params: Params) -> Scans:
     if params.target is None and params.source is None and params.truth is None:
         return _made(only(params, "shape", "turn", "overlap", "noise", "points", "seed"))
     if params.target is None or params.source is None:
-        raise InputError(f"own scans come in pairs: give both {called('target')} and {called('source')}")
+        raise InputError(
+            f"own scans come in pairs: give both {called('target')} and {called('source')}"
+        )
     asked = only(params, "target", "source", "truth", "up", "voxel", "seed")
-    return _own(asked, tuple(stamp(file) for file in (params.target, params.source, params.truth) if file))
+    return _own(
+        asked, tuple(stamp(file) for file in (params.target, params.source, params.truth) if file)
+    )
 
 
 @functools.lru_cache(maxsize=8)
 def _made(params: Params) -> Scans:
     T_truth = motion(exp_so3(np.radians(params.turn) * AXIS), SHIFT)
     rng = np.random.default_rng(params.seed)
-    made = pair(params.shape, params.points, T_truth, rng, overlap=params.overlap, noise=params.noise)
+    made = pair(
+        params.shape, params.points, T_truth, rng, overlap=params.overlap, noise=params.noise
+    )
     p, q = made.p_source, made.p_target
     return Scans(p_target=q, p_source=p, fine_target=q, fine_source=p, T_truth=T_truth)
 

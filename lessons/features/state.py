@@ -8,9 +8,9 @@ import numpy as np
 
 from workbench.data.framing import Up
 from workbench.data.scan_pairs import Scans
-from workbench.geometry.alignment import MotionError
-from workbench.geometry.matching import Filter
-from workbench.geometry.sift import Sift
+from workbench.geometry.features.matching import Filter
+from workbench.geometry.features.sift import Sift
+from workbench.geometry.motions.alignment import MotionError
 from workbench.knobs import Knob, Pick
 
 Part = Literal["scans", "pictures", "outlines"]
@@ -31,60 +31,117 @@ STEPS_ALONG = 2  # within which a match of outlines is right
 class Params:
     """What is described, how it is compared, and which matches are kept."""
 
-    part: Annotated[Part, Knob("What is found again: points of scans, corners of pictures, points of outlines")] = (
-        "scans"
-    )
-    shape: Annotated[Shape, Knob("The built-in shape: without symmetry, turning, or sliding", needs=SCANS)] = "rabbit"
+    part: Annotated[
+        Part, Knob("What is found again: points of scans, corners of pictures, points of outlines")
+    ] = "scans"
+    shape: Annotated[
+        Shape, Knob("The built-in shape: without symmetry, turning, or sliding", needs=SCANS)
+    ] = "rabbit"
     turn: Annotated[
         float,
         Knob(
-            "How far the built-in source, the right picture or the second outline is turned", 0, 180, unit="deg", step=1
+            "How far the built-in source, the right picture or the second outline is turned",
+            0,
+            180,
+            unit="deg",
+            step=1,
         ),
     ] = 140.0
-    overlap: Annotated[float, Knob("Share of the source that the target saw too", 0.4, 1, step=0.05, needs=SCANS)] = 0.8
-    noise: Annotated[float, Knob("Noise of each coordinate", 0, 0.01, unit="m", step=0.001, needs=SCANS)] = 0.002
-    points: Annotated[int, Knob("Points of each built-in scan", 400, 4000, step=100, needs=SCANS)] = 2000
-    radius: Annotated[float, Knob("Of a neighbourhood", 0.04, 0.4, unit="m", step=0.01, needs=SCANS)] = 0.15
+    overlap: Annotated[
+        float, Knob("Share of the source that the target saw too", 0.4, 1, step=0.05, needs=SCANS)
+    ] = 0.8
+    noise: Annotated[
+        float, Knob("Noise of each coordinate", 0, 0.01, unit="m", step=0.001, needs=SCANS)
+    ] = 0.002
+    points: Annotated[
+        int, Knob("Points of each built-in scan", 400, 4000, step=100, needs=SCANS)
+    ] = 2000
+    radius: Annotated[
+        float, Knob("Of a neighbourhood", 0.04, 0.4, unit="m", step=0.01, needs=SCANS)
+    ] = 0.15
     normals: Annotated[Facing, Knob("Which side normals face", needs=SCANS)] = "outwards"
     where: Annotated[Where, Knob("Which points are matched", needs=SCANS)] = "every point"
-    compare: Annotated[Compare, Knob("Histograms as they are, or the square root of every bar", needs=SCANS)] = "plain"
+    compare: Annotated[
+        Compare, Knob("Histograms as they are, or the square root of every bar", needs=SCANS)
+    ] = "plain"
     keep: Annotated[
         Filter,
-        Knob("Keep every nearest, by ratio of the two nearest, nearest both ways, or both",
-             needs={"part": ("scans", "pictures")}),
-    ] = "both"  # fmt: skip
+        Knob(
+            "Keep every nearest, by ratio of the two nearest, nearest both ways, or both",
+            needs={"part": ("scans", "pictures")},
+        ),
+    ] = "both"
     ratio: Annotated[
         float,
-        Knob("Nearest over second nearest distance, at most", 0.5, 1, step=0.05,
-             needs={"part": ("scans", "pictures"), "keep": ("ratio", "both")}),
-    ] = 0.9  # fmt: skip
+        Knob(
+            "Nearest over second nearest distance, at most",
+            0.5,
+            1,
+            step=0.05,
+            needs={"part": ("scans", "pictures"), "keep": ("ratio", "both")},
+        ),
+    ] = 0.9
     picked: Annotated[
-        int, Knob("The source point whose descriptor is shown: click one; -1 takes ours", -1, 4000, by=Pick("source"),
-                  needs=SCANS)
-    ] = -1  # fmt: skip
+        int,
+        Knob(
+            "The source point whose descriptor is shown: click one; -1 takes ours",
+            -1,
+            4000,
+            by=Pick("source"),
+            needs=SCANS,
+        ),
+    ] = -1
     describe: Annotated[
-        Describe, Knob("What is found and compared: corners with the pixels around them, or SIFT", needs=PICTURES)
+        Describe,
+        Knob(
+            "What is found and compared: corners with the pixels around them, or SIFT",
+            needs=PICTURES,
+        ),
     ] = "patches"
     corners: Annotated[int, Knob("Corners of each picture", 50, 600, step=50, needs=PATCHES)] = 300
-    patch: Annotated[int, Knob("Side of a patch, odd", 7, 31, unit="px", step=2, needs=PATCHES)] = 15
-    angles: Annotated[Angles, Knob("Where the angles of an outline's bins begin", needs=OUTLINES)] = "along the outline"
-    target: Annotated[Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz", needs=SCANS)] = None
+    patch: Annotated[int, Knob("Side of a patch, odd", 7, 31, unit="px", step=2, needs=PATCHES)] = (
+        15
+    )
+    angles: Annotated[
+        Angles, Knob("Where the angles of an outline's bins begin", needs=OUTLINES)
+    ] = "along the outline"
+    target: Annotated[
+        Path | None, Knob("Own target scan: ply, pcd, obj, xyz, csv, npz", needs=SCANS)
+    ] = None
     source: Annotated[Path | None, Knob("Own source scan, found in the target", needs=SCANS)] = None
     truth: Annotated[
-        Path | None, Knob("Known pose of the source in the target's frame: 4×4 or list of poses", needs=SCANS)
+        Path | None,
+        Knob("Known pose of the source in the target's frame: 4×4 or list of poses", needs=SCANS),
     ] = None
     first_image: Annotated[Path | None, Knob("Own first picture", needs=PICTURES)] = None
     second_image: Annotated[Path | None, Knob("Own second picture", needs=PICTURES)] = None
     up: Annotated[Up, Knob("Which axis of own scans points up", of_files=True)] = "z"
     voxel: Annotated[
-        float, Knob("Own scans: edge of the voxels that thin them, of the target's longest extent", 1, 10, unit="%",
-                    step=0.5, of_files=True)
-    ] = 2.5  # fmt: skip
+        float,
+        Knob(
+            "Own scans: edge of the voxels that thin them, of the target's longest extent",
+            1,
+            10,
+            unit="%",
+            step=0.5,
+            of_files=True,
+        ),
+    ] = 2.5
     seed: Annotated[int, Knob("What chance draws: points, noise, samples", 0, 99)] = 0
 
 
 ScanPhase = Literal[
-    "scans", "normals", "pairs", "histogram", "similar", "nearest", "kept", "sample", "refit", "icp", "end"
+    "scans",
+    "normals",
+    "pairs",
+    "histogram",
+    "similar",
+    "nearest",
+    "kept",
+    "sample",
+    "refit",
+    "icp",
+    "end",
 ]
 
 
@@ -102,7 +159,8 @@ class Scanned:
         around: The other points of these pairs.
         f_source: Descriptors.
         f_target: Descriptors.
-        there: The target point that is nearest to the truth of the picked one; the most alike where nobody knows.
+        there: The target point that is nearest to the truth of the picked one; the most alike where
+            nobody knows.
         asked: The source points that are matched.
         pairs: Matches (source, target).
         right: Which of them are right; None where nobody knows.
@@ -139,7 +197,9 @@ class Scanned:
 
     @property
     def home(self) -> bool:
-        """Whether the motion is the true one to `HOME_DEGREES` and, by root mean square, to `RIGHT`."""
+        """Whether the motion is the true one to `HOME_DEGREES` and, by root mean square, to
+        `RIGHT`.
+        """
         return self.error.rotation < HOME_DEGREES and self.error.displacement < RIGHT
 
 
@@ -220,7 +280,9 @@ class State:
 
     @property
     def right_share(self) -> float:
-        """The share of the matches that are right, of those whose truth is known; NaN without any, and of a single one."""
+        """The share of the matches that are right, of those whose truth is known; NaN without any,
+        and of a single one.
+        """
         right = self.now.right
         known = self.now.known if isinstance(self.now, Pictured) else None
         if right is None or self.now.phase == "patch":

@@ -5,20 +5,26 @@ from functools import lru_cache
 import numpy as np
 
 from workbench.algorithms.least_squares import Walked
-from workbench.geometry.circles_spheres import costs_of_centers
 from workbench.geometry.clipping import cut_to_rectangle
 from workbench.geometry.level_sets import level_lines
 from workbench.geometry.polylines import at_height, between, segments
+from workbench.geometry.shapes.circles_spheres import costs_of_centers
 from workbench.scene import Points, Primitive, Segments
 
 REACH = 4.5  # metres from the origin that circles and centres are drawn
-FINEST, COARSEST, MOST_DISTANCES = 161, 61, 4_000_000  # points of the grid to a side; distances computed for it
+FINEST, COARSEST, MOST_DISTANCES = (
+    161,
+    61,
+    4_000_000,
+)  # points of the grid to a side; distances computed for it
 LINES, FACTOR = 10, 2.0  # at most, and from one to the next
 DOT, HEIGHT = 0.026, 0.02  # metres; the way lies above the circles, the lines below
 
 
 def on_contours(p: np.ndarray, walked: Walked) -> dict[str, Primitive]:
-    """Return the level lines of the sum of squares over the centre of a circle, and centres kept, tried and taken back."""
+    """Return the level lines of the sum of squares over the centre of a circle, and centres kept,
+    tried and taken back.
+    """
     now, kept = walked.now, walked.kept[:, :2]
     scene: dict[str, Primitive] = {
         "valley": _contours(p.tobytes()),
@@ -29,25 +35,37 @@ def on_contours(p: np.ndarray, walked: Walked) -> dict[str, Primitive]:
     if len(way):
         scene["way"] = Segments(way, "source", 3.0, name="way of the centre")
     if len(walked.taken_back):
-        scene["way/taken back"] = Points(_near(walked.taken_back[:, :2]), "wrong", DOT, name="taken back")
+        scene["way/taken back"] = Points(
+            _near(walked.taken_back[:, :2]), "wrong", DOT, name="taken back"
+        )
     if now.trial is not None and now.phase in ("tried", "rejected"):
         step = _cut(between(now.unknown[:2], now.trial[:2]))
         scene["way/step"] = Segments(step, "highlight" if now.phase == "tried" else "wrong", 3.0)
         if now.phase == "tried":
-            scene["way/trial"] = Points(_near(now.trial[None, :2]), "highlight", 1.4 * DOT, name="centre tried")
+            scene["way/trial"] = Points(
+                _near(now.trial[None, :2]), "highlight", 1.4 * DOT, name="centre tried"
+            )
     return scene
 
 
 @lru_cache(maxsize=8)
 def _contours(p: bytes) -> Segments:
-    """Return the lines on which centres are equally good, each with its best radius; twice as bad from line to line."""
+    """Return the lines on which centres are equally good, each with its best radius; twice as bad
+    from line to line.
+    """
     points = np.frombuffer(p).reshape(-1, 2)
     side = int(np.clip(np.sqrt(MOST_DISTANCES / len(points)), COARSEST, FINEST))
     x = np.linspace(-REACH, REACH, side)
-    costs = costs_of_centers(points, np.stack(np.meshgrid(x, x), axis=-1).reshape(-1, 2)).reshape(side, side)
+    costs = costs_of_centers(points, np.stack(np.meshgrid(x, x), axis=-1).reshape(-1, 2)).reshape(
+        side, side
+    )
     levels = costs.max() / FACTOR ** np.arange(0.5, LINES)
-    ends = level_lines(np.sqrt(costs), np.sqrt(levels), np.full(2, -REACH), x[1] - x[0])  # it is straighter
-    return Segments(at_height(ends, -HEIGHT), "neutral", 1.0, opacity=0.7, name="equally good centres")
+    ends = level_lines(
+        np.sqrt(costs), np.sqrt(levels), np.full(2, -REACH), x[1] - x[0]
+    )  # it is straighter
+    return Segments(
+        at_height(ends, -HEIGHT), "neutral", 1.0, opacity=0.7, name="equally good centres"
+    )
 
 
 def _near(p: np.ndarray) -> np.ndarray:

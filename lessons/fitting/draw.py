@@ -7,21 +7,33 @@ import numpy as np
 
 from lessons.fitting.captions import caption
 from lessons.fitting.contours import REACH, on_contours
+from lessons.fitting.fit_studies import AWAY, FATES, Basin, Lines, Rivals, Spread
+from lessons.fitting.round_shapes import CIRCLE, CYLINDER, RoundShape, feet, outline
 from lessons.fitting.state import State, Subject
-from workbench.algorithms.fit_studies import AWAY, FATES, Basin, Lines, Rivals, Spread
 from workbench.algorithms.least_squares import Descent, Walked
 from workbench.algorithms.robust import LOSSES, Trusted
-from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, RoundShape, feet, outline
 from workbench.certain import sure
-from workbench.data.rims import Rim
+from workbench.data.files.rims import Rim
 from workbench.data.thinning import every
-from workbench.geometry.algebraic_fits import ALGEBRAIC
 from workbench.geometry.clipping import plane_in_box
-from workbench.geometry.lines_planes import line_angle
 from workbench.geometry.motions import R_ROWS_DOWN, across, motion
 from workbench.geometry.polylines import at_height, between, circle, fan, segments
+from workbench.geometry.shapes.algebraic_fits import ALGEBRAIC
+from workbench.geometry.shapes.lines_planes import line_angle
 from workbench.numerals import angle, brief, fixed
-from workbench.scene import Chart, Classes, Field, Mesh, Picture, Points, Primitive, Role, Scene, Segments, Table
+from workbench.scene import (
+    Chart,
+    Classes,
+    Field,
+    Mesh,
+    Picture,
+    Points,
+    Primitive,
+    Role,
+    Scene,
+    Segments,
+    Table,
+)
 
 COST = Chart("Sum of squares", unit="m²")
 ERROR = Chart("Error to the truth", unit="m")
@@ -35,9 +47,15 @@ ANGLES = Chart("Angles, measured anew", "angle (°)", "how many")
 PULL = Chart("How hard a point pulls", "distance (mm)", "weight × distance (mm)")
 PLANE_ERROR = Chart("Error to the truth", unit="mm")
 COLORS: dict[str, Role] = {
-    "Kåsa": "wrong", "Pratt": "neutral", "Taubin": "source", "Hyper": "other", "geometric": "highlight",
-    "upright": "wrong", "level": "other", "perpendicular": "source",
-}  # fmt: skip
+    "Kåsa": "wrong",
+    "Pratt": "neutral",
+    "Taubin": "source",
+    "Hyper": "other",
+    "geometric": "highlight",
+    "upright": "wrong",
+    "level": "other",
+    "perpendicular": "source",
+}
 
 
 def draw(state: State) -> Scene:
@@ -47,9 +65,13 @@ def draw(state: State) -> Scene:
 
 def _points(subject: Subject, z: float = 0.0, least: float = 0.01) -> dict[str, Primitive]:
     radius = max(float(np.clip(0.2 / np.sqrt(len(subject.p)), 0.01, 0.025)), least)
-    scene: dict[str, Primitive] = {"points": Points(at_height(subject.p, z), "target", radius, name="points")}
+    scene: dict[str, Primitive] = {
+        "points": Points(at_height(subject.p, z), "target", radius, name="points")
+    }
     if subject.truth is not None and subject.kind is not None:
-        scene["truth"] = Segments(outline(subject.kind, subject.truth, REACH), "truth", 2.0, name="truth")
+        scene["truth"] = Segments(
+            outline(subject.kind, subject.truth, REACH), "truth", 2.0, name="truth"
+        )
     return scene
 
 
@@ -59,7 +81,9 @@ def _near(ends: np.ndarray) -> np.ndarray:
 
 
 def _distances(p: np.ndarray, at: np.ndarray) -> Segments:
-    return Segments(_near(between(at_height(p), at_height(at))), "correspondence", 1.5, name="distances")
+    return Segments(
+        _near(between(at_height(p), at_height(at))), "correspondence", 1.5, name="distances"
+    )
 
 
 def _walked(state: State, walked: Walked) -> dict[str, Primitive]:
@@ -79,7 +103,9 @@ def _walked(state: State, walked: Walked) -> dict[str, Primitive]:
             dashed, "highlight" if tried else "wrong", 3.0, name="trial" if tried else "taken back"
         )
     if now.stop and subject.straight is not None and abs(now.unknown[-1]) > AWAY:
-        scene["straight"] = Segments(_line(subject.straight, REACH), "neutral", 2.0, name="best straight line")
+        scene["straight"] = Segments(
+            _line(subject.straight, REACH), "neutral", 2.0, name="best straight line"
+        )
     if kind is CIRCLE:
         scene |= on_contours(subject.p, walked)
     return scene | _walked_beside(subject, walked, now)
@@ -88,9 +114,13 @@ def _walked(state: State, walked: Walked) -> dict[str, Primitive]:
 def _walked_beside(subject: Subject, walked: Walked, now: Descent) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {"cost": COST.scalar(now.cost, "estimate", log=True)}
     if subject.straight is not None:
-        scene["straight cost"] = COST.scalar(subject.straight_cost, "best straight line", "neutral", log=True)
+        scene["straight cost"] = COST.scalar(
+            subject.straight_cost, "best straight line", "neutral", log=True
+        )
     if subject.truth is not None and np.isfinite(now.unknown).all():
-        scene["radius error"] = ERROR.scalar(abs(abs(now.unknown[-1]) - subject.truth[-1]), "of the radius", log=True)
+        scene["radius error"] = ERROR.scalar(
+            abs(abs(now.unknown[-1]) - subject.truth[-1]), "of the radius", log=True
+        )
     off = subject.off_best(now.unknown)
     if np.isfinite(off) and subject.truth is not None and subject.kind is not CYLINDER:
         scene["off"] = OFF.scalar(max(off, 1e-9), "estimate", log=True)
@@ -99,7 +129,9 @@ def _walked_beside(subject: Subject, walked: Walked, now: Descent) -> dict[str, 
     if walked.along is not None:
         shares, kept = walked.along.shares, np.minimum(walked.along.costs, 4.0 * now.cost)
         scene["true costs"] = ALONG.curve(shares, kept, "true", marks=(1.0,))
-        scene["promised costs"] = ALONG.curve(shares, walked.along.promised, "linear problem", "highlight")
+        scene["promised costs"] = ALONG.curve(
+            shares, walked.along.promised, "linear problem", "highlight"
+        )
     return scene
 
 
@@ -108,26 +140,46 @@ def _estimate(kind: RoundShape, unknown: np.ndarray) -> dict[str, Primitive]:
 
 
 def _spread(state: State, now: Spread) -> dict[str, Primitive]:
-    subject, kind, unknown, d = state.subject, sure(state.subject.kind), now.unknown, state.subject.p.shape[1]
+    subject, kind, unknown, d = (
+        state.subject,
+        sure(state.subject.kind),
+        now.unknown,
+        state.subject.p.shape[1],
+    )
     scene = _points(subject) | _estimate(kind, unknown)
     axes = np.stack(across(unknown[3:6])) if kind is CYLINDER else np.eye(3)[:2]
     values, vectors = np.linalg.eigh(now.covariance[:2, :2])
-    ellipse = 2.448 * (circle() * np.sqrt(np.maximum(values, 0.0))) @ vectors.T @ axes + at_height(unknown[:d])
-    scene["ellipse"] = Segments(segments(ellipse), "highlight", 4.0, name="95 % of centres, by the covariance")
+    ellipse = 2.448 * (circle() * np.sqrt(np.maximum(values, 0.0))) @ vectors.T @ axes + at_height(
+        unknown[:d]
+    )
+    scene["ellipse"] = Segments(
+        segments(ellipse), "highlight", 4.0, name="95 % of centres, by the covariance"
+    )
     if len(now.radii):
         near = np.abs(now.centers).max(axis=1) < REACH
-        scene["centers"] = Points(at_height(now.centers[near]), "other", 0.0035, name="centres, measured anew")
+        scene["centers"] = Points(
+            at_height(now.centers[near]), "other", 0.0035, name="centres, measured anew"
+        )
         low, high = now.predicted
         edges = np.linspace(max(2 * low - high, 0.0), max(2 * high - low, 1e-6), 40)
         kept = np.clip(now.radii, edges[0], edges[-1])
-        scene["radii"] = AGAIN.histogram(kept * subject.scale, edges * subject.scale, "repetition", "other")
+        scene["radii"] = AGAIN.histogram(
+            kept * subject.scale, edges * subject.scale, "repetition", "other"
+        )
         x, width, sd = (edges[1:] + edges[:-1]) / 2, edges[1] - edges[0], now.radius_deviation
-        expected = len(now.radii) * width * np.exp(-0.5 * ((x - now.radius) / sd) ** 2) / (sd * np.sqrt(2 * np.pi))
+        expected = (
+            len(now.radii)
+            * width
+            * np.exp(-0.5 * ((x - now.radius) / sd) ** 2)
+            / (sd * np.sqrt(2 * np.pi))
+        )
         scene["bell"] = AGAIN.curve(x * subject.scale, expected, "covariance", "highlight")
     rows = [
         (
             name,
-            f"{brief(float(np.degrees(sd)))}°" if name.startswith("tilt") else f"{brief(float(sd * subject.scale))} m",
+            f"{brief(float(np.degrees(sd)))}°"
+            if name.startswith("tilt")
+            else f"{brief(float(sd * subject.scale))} m",
         )
         for name, sd in zip(kind.names, np.sqrt(np.diag(now.covariance)), strict=True)
     ]
@@ -149,14 +201,21 @@ def _rivals(state: State, now: Rivals) -> dict[str, Primitive]:
     scene = _points(subject)
     if subject.rim is not None:
         scene["photograph"] = _photograph(subject.rim)
-        scene["rim"] = Points(at_height(subject.rim.p), "correspondence", 0.008, name="all of the rim")
+        scene["rim"] = Points(
+            at_height(subject.rim.p), "correspondence", 0.008, name="all of the rim"
+        )
     names = list(now.circles)
     for name in names if now.arcs else names[-1:]:
         lines = outline(CIRCLE, now.circles[name], REACH)
-        scene[f"circle/{name}"] = Segments(lines, COLORS[name], 3.0, name=f"{name}'s" if name in ALGEBRAIC else name)
+        scene[f"circle/{name}"] = Segments(
+            lines, COLORS[name], 3.0, name=f"{name}'s" if name in ALGEBRAIC else name
+        )
     rows = tuple((name, fixed(c[2] * subject.scale, 3)) for name, c in now.circles.items())
-    scene["table"] = Table("Radius of these points (m)" if subject.rim is None else "Radius (of the rim's)",
-                           ("fit", "R"), rows)  # fmt: skip
+    scene["table"] = Table(
+        "Radius of these points (m)" if subject.rim is None else "Radius (of the rim's)",
+        ("fit", "R"),
+        rows,
+    )
     if len(now.arcs) > 1:
         x, medians = np.array(now.arcs), np.array(now.medians)
         for k, name in enumerate(names):
@@ -177,11 +236,15 @@ def _lines(state: State, now: Lines) -> dict[str, Primitive]:
     scene = _points(subject) | {"true line": Segments(_line(truth), "truth", 3.0, name="truth")}
     names = list(now.lines)
     for name in names:
-        scene[f"line/{name}"] = Segments(_line(now.lines[name]), COLORS[name], 3.0, name=f"{name} distances")
+        scene[f"line/{name}"] = Segments(
+            _line(now.lines[name]), COLORS[name], 3.0, name=f"{name} distances"
+        )
     if names and not now.angles:
         a, b, c = now.lines[names[-1]]
         off = subject.p @ np.array([a, b]) + c
-        way = {"upright": np.array([0.0, 1.0 / b]), "level": np.array([1.0 / a, 0.0])}.get(names[-1], np.array([a, b]))
+        way = {"upright": np.array([0.0, 1.0 / b]), "level": np.array([1.0 / a, 0.0])}.get(
+            names[-1], np.array([a, b])
+        )
         scene["distances"] = _distances(subject.p, subject.p - np.outer(off, way))
     if names:
         told = (now.lines | {"truth": truth}).items()
@@ -212,19 +275,30 @@ def _trusted(state: State, now: Trusted) -> dict[str, Primitive]:
         corners = plane_in_box(plane, low, high)
         if len(corners):
             scene[name] = Segments(segments(corners, closed=True), color, 4.0, name=name)
-            scene[f"{name}/surface"] = Mesh(corners, fan(len(corners)), color, opacity=0.25, flat=True)
+            scene[f"{name}/surface"] = Mesh(
+                corners, fan(len(corners)), color, opacity=0.25, flat=True
+            )
     weights, off = LOSSES[now.loss.name].weights, now.now.distances
     x = np.linspace(-1.0, 1.0, 161) * float(np.clip(np.abs(off).max(), 3e-3, 1.0))
     scene["pull"] = PULL.curve(scale * x, scale * x * weights(x, now.corner), now.loss.name)
-    scene["pulls"] = PULL.dots(scale * off, scale * off * weights(off, now.corner), "points", "target")
+    scene["pulls"] = PULL.dots(
+        scale * off, scale * off * weights(off, now.corner), "points", "target"
+    )
     error, squares_error = state.plane_errors
     if np.isfinite(error):
         scene["error"] = PLANE_ERROR.scalar(1e3 * error, "estimate", log=True)
-        scene["squares"] = PLANE_ERROR.scalar(1e3 * squares_error, "least squares", "neutral", log=True)
+        scene["squares"] = PLANE_ERROR.scalar(
+            1e3 * squares_error, "least squares", "neutral", log=True
+        )
     scene["loss"] = Chart("Sum of the losses").scalar(now.now.cost / now.corner**2, now.loss.name)
     return scene
 
 
 DRAWN: dict[type, Callable[[State, Any], dict[str, Primitive]]] = {
-    Walked: _walked, Spread: _spread, Basin: _basin, Rivals: _rivals, Lines: _lines, Trusted: _trusted,
-}  # fmt: skip
+    Walked: _walked,
+    Spread: _spread,
+    Basin: _basin,
+    Rivals: _rivals,
+    Lines: _lines,
+    Trusted: _trusted,
+}

@@ -1,8 +1,9 @@
 """Fitting: walk down the sum of squares.
 
-What it teaches: a fit makes squared distances small. Linear problems are solved in one step, others by repeating a linear
-one around the current guess. Which distance is squared, where one starts, and how much a far point may pull decide the
-answer more than the solver does; and what a covariance promises can be compared with measuring anew.
+What it teaches: a fit makes squared distances small. Linear problems are solved in one step, others
+by repeating a linear one around the current guess. Which distance is squared, where one starts, and
+how much a far point may pull decide the answer more than the solver does; and what a covariance
+promises can be compared with measuring anew.
 """
 
 from collections.abc import Iterator
@@ -36,7 +37,13 @@ def run(
     found: Iterator[Now]
     if params.stage == "descent":
         kind = sure(subject.kind)
-        found = walk(params, subject, rng, circle_linearised if kind.name == "circle" else kind.linearise, damped_step)
+        found = walk(
+            params,
+            subject,
+            rng,
+            circle_linearised if kind.name == "circle" else kind.linearise,
+            damped_step,
+        )
     elif params.stage == "basin":
         found = basin(params, subject)
     elif params.stage in ("algebraic", "coin"):
@@ -52,13 +59,16 @@ def run(
 lesson = Lesson(
     name="fitting",
     title="Fitting",
-    summary="Walk down the sum of squares: which distance, from where, and how far a point may pull.",
+    summary="Find the circle or the plane that suits noisy points best, and see how hard one far "
+    "point pulls at it.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1400,
-    needs=("ransac",),
+    order=600,
+    chapter="Estimate",
+    minutes=25,
+    needs=("pairs",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from lessons.fitting.state import Now, Params, Subject
-from workbench.algorithms.fit_studies import (
+from lessons.fitting.fit_scenes import arc_points, errors
+from lessons.fitting.fit_studies import (
     Basin,
     Lines,
     Rivals,
@@ -15,13 +15,19 @@ from workbench.algorithms.fit_studies import (
     repeat_fit,
     try_starts,
 )
-from workbench.algorithms.least_squares import FIRST_DAMPING, DampedStep, Stop, descend, with_its_way
-from workbench.algorithms.models import PLANE
+from lessons.fitting.state import Now, Params, Subject
+from workbench.algorithms.least_squares import (
+    FIRST_DAMPING,
+    DampedStep,
+    Stop,
+    descend,
+    with_its_way,
+)
 from workbench.algorithms.robust import HUBER, LOSSES, Trusted, cascade
+from workbench.algorithms.robust.models import PLANE
 from workbench.certain import sure
-from workbench.data.fit_scenes import arc_points, errors
 from workbench.errors import InputError
-from workbench.geometry.lines_planes import hyperplane_distances
+from workbench.geometry.shapes.lines_planes import hyperplane_distances
 
 Linearised = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 Weights = Callable[[np.ndarray, float], np.ndarray]
@@ -33,7 +39,10 @@ GRID, WALL = 21, 4.0  # starts to a side, metres
 SHOWN_ITERATIONS = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
 ARCS, MOST_DRAWS = (360.0, 270.0, 180.0, 120.0, 90.0, 60.0, 45.0, 30.0, 20.0), 2000
 FEWER_DRAWS = 1200  # where there are several arcs
-ROUNDS, CALM = 100, 0.01  # of a reweighted fit: at most, and by which share of the corner distances still change
+ROUNDS, CALM = (
+    100,
+    0.01,
+)  # of a reweighted fit: at most, and by which share of the corner distances still change
 FIRST_ROUNDS, EVERY = 6, 6  # that become steps: all up to that one, then some
 
 
@@ -54,9 +63,15 @@ def start_of(params: Params) -> np.ndarray:
 
 
 def walk(
-    params: Params, subject: Subject, rng: np.random.Generator, linearise: Linearised, step: DampedStep
+    params: Params,
+    subject: Subject,
+    rng: np.random.Generator,
+    linearise: Linearised,
+    step: DampedStep,
 ) -> Iterator[Now]:
-    """Yield the moments of a descent, and what its end is worth: made points get other errors, own points are drawn anew."""
+    """Yield the moments of a descent, and what its end is worth: made points get other errors, own
+    points are drawn anew.
+    """
     kind, p, now = sure(subject.kind), subject.p, None
     moments = descend(
         lambda unknown: linearise(unknown, p),
@@ -67,8 +82,14 @@ def walk(
         iterations=ITERATIONS,
         tolerance=RESTS[params.rest],
     )
-    shown = (m for m in moments if m.iteration <= SHOWN_IN_PARTS or m.phase not in ("linearised", "tried"))
-    for walked in with_its_way(shown, lambda c: kind.linearise(c, p), kind.retract, np.linspace(0.0, 1.5, 31)):
+    shown = (
+        m
+        for m in moments
+        if m.iteration <= SHOWN_IN_PARTS or m.phase not in ("linearised", "tried")
+    )
+    for walked in with_its_way(
+        shown, lambda c: kind.linearise(c, p), kind.retract, shares=np.linspace(0.0, 1.5, 31)
+    ):
         now = walked.now
         yield walked
     assert now is not None
@@ -84,13 +105,17 @@ def walk(
 def basin(params: Params, subject: Subject) -> Iterator[Basin]:
     """Yield what becomes of a grid of starts."""
     side = np.linspace(-WALL, WALL, GRID)
-    starts = np.stack([*np.meshgrid(side, side), np.full((GRID, GRID), params.start_radius)], axis=-1).reshape(-1, 3)
+    starts = np.stack(
+        [*np.meshgrid(side, side), np.full((GRID, GRID), params.start_radius)], axis=-1
+    ).reshape(-1, 3)
     assert subject.best is not None
     return try_starts(subject.p, starts, subject.best, damping_of(params), SHOWN_ITERATIONS)
 
 
 def rivals(params: Params, subject: Subject, rng: np.random.Generator) -> Iterator[Rivals]:
-    """Yield the circles of the points, and medians over draws from ever shorter arcs, or over windows of a coin's rim."""
+    """Yield the circles of the points, and medians over draws from ever shorter arcs, or over
+    windows of a coin's rim.
+    """
     if subject.rim is not None:
         return compare_circles(subject.p, iter([(params.arc, subject.rim.windows(params.arc))]))
     arcs = [] if subject.truth is None else [arc for arc in ARCS if arc > params.arc] + [params.arc]
@@ -106,17 +131,27 @@ def rivals(params: Params, subject: Subject, rng: np.random.Generator) -> Iterat
 def lines(params: Params, subject: Subject, rng: np.random.Generator) -> Iterator[Lines]:
     """Yield lines by three kinds of distances."""
     assert subject.p_true is not None
-    return compare_lines(subject.p, subject.p_true + errors(rng, (REPEATS[-1], *subject.p.shape), params.noise))
+    return compare_lines(
+        subject.p, subject.p_true + errors(rng, (REPEATS[-1], *subject.p.shape), params.noise)
+    )
 
 
 def trust(params: Params, subject: Subject, huber_weights: Weights) -> Iterator[Trusted]:
-    """Yield the rounds of a reweighted fit of a plane, by one loss or by two, the second from the end of the first."""
+    """Yield the rounds of a reweighted fit of a plane, by one loss or by two, the second from the
+    end of the first.
+    """
     sigma = max(params.noise / subject.scale, 1e-4)
-    losses = [{**LOSSES, "Huber": replace(HUBER, weights=huber_weights)}[name] for name in params.loss.split(" then ")]
+    losses = [
+        {**LOSSES, "Huber": replace(HUBER, weights=huber_weights)}[name]
+        for name in params.loss.split(" then ")
+    ]
     corners = [sigma * min(loss.efficient_corner, 6.0) for loss in losses]
     if params.corner:
         corners[0] = sigma * params.corner
-    model, by = replace(PLANE, distances=hyperplane_distances), list(zip(losses, corners, strict=True))
+    model, by = (
+        replace(PLANE, distances=hyperplane_distances),
+        list(zip(losses, corners, strict=True)),
+    )
     try:
         for now in cascade(subject.p, model, by, max_iterations=ROUNDS, tolerance=CALM):
             k = now.now.iteration

@@ -7,14 +7,14 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.fit_studies import Basin, Lines, Rivals, Spread
+from lessons.fitting.fit_scenes import Errors
+from lessons.fitting.fit_studies import Basin, Lines, Rivals, Spread
+from lessons.fitting.round_shapes import RoundName, RoundShape
 from workbench.algorithms.least_squares import Walked
-from workbench.algorithms.models import PLANE, rms_distance
 from workbench.algorithms.robust import Trusted
-from workbench.algorithms.round_shapes import RoundName, RoundShape
-from workbench.data.fit_scenes import Errors
+from workbench.algorithms.robust.models import PLANE, rms_distance
+from workbench.data.files.rims import Rim
 from workbench.data.framing import Unit
-from workbench.data.rims import Rim
 from workbench.knobs import Gizmo, Knob
 
 Stage = Literal["descent", "basin", "algebraic", "coin", "line", "robust"]
@@ -25,7 +25,9 @@ DESCENT, WALKS = {"stage": ("descent",)}, {"stage": ("descent", "basin")}
 ROBUST = {"stage": ("robust",)}
 OF_POINTS = {"stage": ("descent", "basin", "algebraic", "robust")}
 BENT = {**ROBUST, "loss": ("Huber", "Cauchy", "Geman-McClure", "Tukey", "Huber then Tukey")}
-PLANE_PLACES = np.stack([*np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), np.zeros((9, 9))], axis=-1).reshape(-1, 3)
+PLANE_PLACES = np.stack(
+    [*np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), np.zeros((9, 9))], axis=-1
+).reshape(-1, 3)
 MADE = {"stage": ("descent", "basin", "algebraic", "line", "robust")}
 
 
@@ -35,48 +37,103 @@ class Params:
 
     stage: Annotated[Stage, Knob("What is shown")] = "descent"
     shape: Annotated[RoundName, Knob("What is fitted", needs=DESCENT)] = "circle"
-    arc: Annotated[float, Knob("How much of the way round has points", 20, 360, unit="deg", needs=ROUND)] = 90.0
+    arc: Annotated[
+        float, Knob("How much of the way round has points", 20, 360, unit="deg", needs=ROUND)
+    ] = 90.0
     points: Annotated[int, Knob("How many points", 10, 2000, needs=MADE)] = 60
     noise: Annotated[
-        float, Knob("Standard deviation of each coordinate's error", 0, 0.3, unit="m", step=0.005, needs=MADE)
+        float,
+        Knob(
+            "Standard deviation of each coordinate's error",
+            0,
+            0.3,
+            unit="m",
+            step=0.005,
+            needs=MADE,
+        ),
     ] = 0.02
     errors: Annotated[Errors, Knob("Whether neighbours err alike", needs=DESCENT)] = "independent"
     method: Annotated[Method, Knob("How it goes down", needs=WALKS)] = "Levenberg-Marquardt"
     rest: Annotated[
         Literal["a millionth", "a trillionth"],
         Knob(
-            "It stops when a step changes the sum of squares by less than this share", label="stops at", needs=DESCENT
+            "It stops when a step changes the sum of squares by less than this share",
+            label="stops at",
+            needs=DESCENT,
         ),
     ] = "a millionth"
     start: Annotated[
         tuple[float, float, float],
-        Knob("The centre to start from; drag its handle", -4, 4, unit="m", by=Gizmo(0.4), needs=DESCENT),
+        Knob(
+            "The centre to start from; drag its handle",
+            -4,
+            4,
+            unit="m",
+            by=Gizmo(0.4),
+            needs=DESCENT,
+        ),
     ] = (0.5, 0.4, 0.0)
-    start_radius: Annotated[float, Knob("The radius to start from", 0.05, 5, unit="m", needs=WALKS)] = 0.7
+    start_radius: Annotated[
+        float, Knob("The radius to start from", 0.05, 5, unit="m", needs=WALKS)
+    ] = 0.7
     start_tilt: Annotated[
         float,
-        Knob("How far the axis to start from leans", 0, 89, unit="deg", needs={**DESCENT, "shape": ("cylinder",)}),
+        Knob(
+            "How far the axis to start from leans",
+            0,
+            89,
+            unit="deg",
+            needs={**DESCENT, "shape": ("cylinder",)},
+        ),
     ] = 30.0
-    slope: Annotated[float, Knob("How steep the line is", 0, 85, unit="deg", needs={"stage": ("line",)})] = 60.0
+    slope: Annotated[
+        float, Knob("How steep the line is", 0, 85, unit="deg", needs={"stage": ("line",)})
+    ] = 60.0
     loss: Annotated[LossName, Knob("What a distance costs", needs=ROBUST)] = "Huber"
     corner: Annotated[
         float,
-        Knob("Where the loss bends, in σ; 0 is where it costs 5 % of good points", 0, 6, step=0.1, needs=BENT),
+        Knob(
+            "Where the loss bends, in σ; 0 is where it costs 5 % of good points",
+            0,
+            6,
+            step=0.1,
+            needs=BENT,
+        ),
     ] = 0.0
-    outliers: Annotated[float, Knob("Share of points that lie off the plane", 0, 0.6, step=0.05, needs=ROBUST)] = 0.3
-    reach: Annotated[float, Knob("How far off they lie at most", 0.1, 2, unit="m", step=0.1, needs=ROBUST)] = 0.5
+    outliers: Annotated[
+        float, Knob("Share of points that lie off the plane", 0, 0.6, step=0.05, needs=ROBUST)
+    ] = 0.3
+    reach: Annotated[
+        float, Knob("How far off they lie at most", 0.1, 2, unit="m", step=0.1, needs=ROBUST)
+    ] = 0.5
     side: Annotated[Literal["one", "both"], Knob("On which side of it", needs=ROBUST)] = "one"
     coin: Annotated[
         tuple[int, int],
-        Knob("A pixel inside the coin", 0, 900, unit="px", parts=("u", "v"), needs={"stage": ("coin",)}),
-    ] = (337, 125)  # fmt: skip
+        Knob(
+            "A pixel inside the coin",
+            0,
+            900,
+            unit="px",
+            parts=("u", "v"),
+            needs={"stage": ("coin",)},
+        ),
+    ] = (337, 125)
     cloud: Annotated[
         Path | None,
-        Knob("Own points to fit: x y for a circle, x y z for a sphere, cylinder or plane", needs=OF_POINTS),
+        Knob(
+            "Own points to fit: x y for a circle, x y z for a sphere, cylinder or plane",
+            needs=OF_POINTS,
+        ),
     ] = None
-    cloud_unit: Annotated[Unit, Knob("In which unit the numbers of own points are", of_files=True)] = "m"
+    cloud_unit: Annotated[
+        Unit, Knob("In which unit the numbers of own points are", of_files=True)
+    ] = "m"
     image: Annotated[
-        Path | None, Knob("Own photograph instead of the coins: something bright on dark", needs={"stage": ("coin",)})
+        Path | None,
+        Knob(
+            "Own photograph instead of the coins: something bright on dark",
+            needs={"stage": ("coin",)},
+        ),
     ] = None
     seed: Annotated[int, Knob("Which errors chance makes", 0, 99, needs=MADE)] = 3
 
@@ -107,7 +164,9 @@ class Subject:
 
     @property
     def straight_cost(self) -> float:
-        """The sum of squares of the best straight line through points in the plane; NaN where there is none."""
+        """The sum of squares of the best straight line through points in the plane; NaN where there
+        is none.
+        """
         line = self.straight
         return np.nan if line is None else float(np.square(self.p @ line[:-1] + line[-1]).sum())
 
@@ -119,7 +178,9 @@ class Subject:
         return float(np.square(self.kind.linearise(self.best, self.p)[0]).sum())
 
     def off_best(self, unknown: np.ndarray) -> float:
-        """Return how far the numbers of a fit are from those with the least squares, metres; NaN where nobody knows."""
+        """Return how far the numbers of a fit are from those with the least squares, metres; NaN
+        where nobody knows.
+        """
         return np.nan if self.best is None else float(np.abs(unknown - self.best).max())
 
 
@@ -136,10 +197,15 @@ class State:
 
     @property
     def plane_errors(self) -> tuple[float, float]:
-        """The RMS distances of the true plane from the fit and from that of least squares, metres; NaN if not known."""
+        """The RMS distances of the true plane from the fit and from that of least squares, metres;
+        NaN if not known.
+        """
         if not isinstance(self.now, Trusted) or self.subject.truth is None:
             return np.nan, np.nan
-        fit, first = (rms_distance(PLANE, plane, PLANE_PLACES) for plane in (self.now.now.estimate, self.now.first))
+        fit, first = (
+            rms_distance(PLANE, plane, PLANE_PLACES)
+            for plane in (self.now.now.estimate, self.now.first)
+        )
         return fit, first
 
     @property

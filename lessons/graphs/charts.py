@@ -1,12 +1,14 @@
-"""What stands beside the picture: the matrix, the spectrum, cuts, error to the truth, and one node in numbers."""
+"""What stands beside the picture: the matrix, the spectrum, cuts, error to the truth, and one node
+in numbers.
+"""
 
 import numpy as np
 
 from lessons.graphs.measures import apart, from_clean, reached, right, volume_share
 from lessons.graphs.state import Grown, Matrix, Mode, State
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.geometry.graphs import Sparse, degrees
 from workbench.numerals import brief
 from workbench.scene import Chart, Field, Picture, Primitive, Table
@@ -14,7 +16,12 @@ from workbench.scene import Chart, Field, Picture, Primitive, Table
 LARGEST = 120  # pixels of a picture of a matrix
 FLOOR = 1e-16
 ROWS = 12
-HEAT, LOSS, COMPONENTS, CONDUCTANCE = Chart("Heat"), Chart("Loss"), Chart("Components"), Chart("Conductance")
+HEAT, LOSS, COMPONENTS, CONDUCTANCE = (
+    Chart("Heat"),
+    Chart("Loss"),
+    Chart("Components"),
+    Chart("Conductance"),
+)
 DEGREES, ONE_WAY = Chart("Degrees", "neighbours", "nodes"), Chart("One-way", unit="%")
 OF_A, OF_L = Chart("Eigenvalues of A", "number"), Chart("Eigenvalues of L", "number")
 EIGENVALUES, ERROR = Chart("Eigenvalues", "number", "λ"), Chart("Error to the truth", unit="%")
@@ -38,8 +45,12 @@ def beside(state: State) -> dict[str, Primitive]:
             return _cut(state, now)
         case Heat():
             return {
-                "error": HEAT.scalar(max(now.error, FLOOR), "error to the exact heat", "truth", log=True),
-                "hottest": HEAT.scalar(max(float(np.abs(now.u).max()), FLOOR), "largest heat", log=True),
+                "error": HEAT.scalar(
+                    max(now.error, FLOOR), "error to the exact heat", "truth", log=True
+                ),
+                "hottest": HEAT.scalar(
+                    max(float(np.abs(now.u).max()), FLOOR), "largest heat", log=True
+                ),
             }
         case Smoothed():
             return _smoothed(state, now)
@@ -54,7 +65,9 @@ def _grown(now: Grown) -> dict[str, Primitive]:
     counts = np.bincount(d.astype(int))
     scene: dict[str, Primitive] = {
         "components": COMPONENTS.scalar(float(now.count), "components", "wrong", log=True),
-        "degrees": DEGREES.bars(np.arange(len(counts), dtype=float), counts.astype(float), "nodes", "target"),
+        "degrees": DEGREES.bars(
+            np.arange(len(counts), dtype=float), counts.astype(float), "nodes", "target"
+        ),
     }
     if now.k:
         scene["one-way"] = ONE_WAY.scalar(100 * now.one_way, "neighbours not returned")
@@ -80,7 +93,9 @@ def _blocks(matrix: Sparse) -> np.ndarray:
     size = -(-n // LARGEST)
     side = -(-n // size)
     values = np.zeros(side * side)
-    order = np.argsort(np.abs(entries.data), kind="stable")  # the largest of a block is written last, and stays
+    order = np.argsort(
+        np.abs(entries.data), kind="stable"
+    )  # the largest of a block is written last, and stays
     values[((entries.row // size) * side + entries.col // size)[order]] = entries.data[order]
     return values.reshape(side, side)
 
@@ -89,23 +104,36 @@ def _node_table(state: State, now: Matrix) -> Table:
     """Return the row of L of the node that is looked at, applied to the places along x."""
     node, x = state.vertex, state.subject.p[:, 0]
     row = now.laplacian.matrix[[node]].tocoo()
-    others = [(int(j), -float(w)) for j, w in zip(row.col, row.data, strict=True) if j != node and w != 0]
+    others = [
+        (int(j), -float(w)) for j, w in zip(row.col, row.data, strict=True) if j != node and w != 0
+    ]
     rows = [
-        (f"to node {state.subject.called(j)}", brief(w), brief(x[node] - x[j]), brief(w * (x[node] - x[j])))
+        (
+            f"to node {state.subject.called(j)}",
+            brief(w),
+            brief(x[node] - x[j]),
+            brief(w * (x[node] - x[j])),
+        )
         for j, w in others[:ROWS]
     ]
     if len(others) > ROWS:
         rows.append((f"and {len(others) - ROWS} more", "", "", ""))
     total = float((now.laplacian.matrix @ x)[node])
     rows.append(("sum", brief(sum(w for _, w in others)), "", brief(total)))
-    return Table(f"Row {state.subject.called(node)} of L x", ("", "weight", "x − x′ (m)", "product"), tuple(rows))
+    return Table(
+        f"Row {state.subject.called(node)} of L x",
+        ("", "weight", "x − x′ (m)", "product"),
+        tuple(rows),
+    )
 
 
 def _spectrum(state: State, now: Mode) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {}
     if now.spectra:
         for k, chart in enumerate((OF_A, OF_L)):
-            for which, (spectrum, role) in enumerate(zip(now.spectra, ("target", "source"), strict=True)):
+            for which, (spectrum, role) in enumerate(
+                zip(now.spectra, ("target", "source"), strict=True)
+            ):
                 values = np.round(spectrum[k], 9) + 0.0
                 x = np.arange(len(values)) + 1.0 + 0.15 * which
                 name = f"{'left' if which == 0 else 'right'} graph"
@@ -119,7 +147,9 @@ def _spectrum(state: State, now: Mode) -> dict[str, Primitive]:
         ("plain", "cotangent") if state.subject.of_surface else ("plain",)
     ):
         name = "of the surface" if state.subject.of_surface else "in closed form"
-        scene["true eigenvalues"] = EIGENVALUES.curve(number, np.round(true, 9) + 0.0, name, "truth")
+        scene["true eigenvalues"] = EIGENVALUES.curve(
+            number, np.round(true, 9) + 0.0, name, "truth"
+        )
         here = float(true[now.index])
         error = 100 * abs(now.values[now.index] - here) / here if here > 1e-9 else np.nan
         scene["error"] = ERROR.scalar(round(float(error), 6), "error of this eigenvalue", "truth")
@@ -134,11 +164,15 @@ def _cut(state: State, now: Cut) -> dict[str, Primitive]:
         values = np.sort(now.fiedler)
         x = np.arange(len(values)) + 1.0
         zero = float(np.count_nonzero(values <= 0)) + 0.5
-        scene["sorted"] = SORTED.curve(x, np.round(values, 9) + 0.0, "Fiedler vector", "highlight", marks=(zero,))
+        scene["sorted"] = SORTED.curve(
+            x, np.round(values, 9) + 0.0, "Fiedler vector", "highlight", marks=(zero,)
+        )
     if len(now.conductances):
         x = np.arange(len(now.conductances)) + 1.0
         mark = () if now.k < 0 else (now.k + 1.0,)
-        scene["cuts"] = CUTS.curve(x, now.conductances, "cut edges over the smaller side's degrees", marks=mark)
+        scene["cuts"] = CUTS.curve(
+            x, now.conductances, "cut edges over the smaller side's degrees", marks=mark
+        )
     return scene
 
 
@@ -146,12 +180,18 @@ def _right(state: State) -> dict[str, Primitive]:
     correct = right(state)
     if correct is None:
         return {}
-    return {"right": RIGHT.scalar(100 * correct / len(state.subject.p), "nodes on their true side", "truth")}
+    return {
+        "right": RIGHT.scalar(
+            100 * correct / len(state.subject.p), "nodes on their true side", "truth"
+        )
+    }
 
 
 def _smoothed(state: State, now: Smoothed) -> dict[str, Primitive]:
     off, share = from_clean(state, now.p), volume_share(state)
-    scene: dict[str, Primitive] = {"error": OFF.scalar(off, "RMS distance to the clean places", "truth")}
+    scene: dict[str, Primitive] = {
+        "error": OFF.scalar(off, "RMS distance to the clean places", "truth")
+    }
     if np.isfinite(share):
         scene["volume"] = VOLUME.scalar(100 * share, "volume")
     return scene
@@ -161,11 +201,18 @@ def _layer(state: State, now: Layer) -> dict[str, Primitive]:
     scene = _right(state)
     if now.features.shape[1] == 2:
         share = 100 * np.mean(reached(state))
-        scene["reached"] = RIGHT.scalar(float(share), "nodes that a label has reached", "correspondence")
-    scene["apart"] = SMOOTHED.scalar(100 * apart(state), "what still differs between nodes", "highlight")
+        scene["reached"] = RIGHT.scalar(
+            float(share), "nodes that a label has reached", "correspondence"
+        )
+    scene["apart"] = SMOOTHED.scalar(
+        100 * apart(state), "what still differs between nodes", "highlight"
+    )
     if len(state.subject.classes) and now.features.shape[1] != 2:
         sums = [now.features[state.subject.classes == which].sum(axis=0) for which in (0, 1)]
-        rows = tuple((f"feature {k + 1}", brief(a), brief(b)) for k, (a, b) in enumerate(zip(*sums, strict=True)))
+        rows = tuple(
+            (f"feature {k + 1}", brief(a), brief(b))
+            for k, (a, b) in enumerate(zip(*sums, strict=True))
+        )
         scene["readout"] = Table("Sum over the nodes", ("", "left graph", "right graph"), rows)
     else:
         scene["sum table"] = _sum_table(state, now)
@@ -179,7 +226,10 @@ def _sum_table(state: State, now: Layer) -> Table:
     header = ("from", "weight", "feature 1", "feature 2")
     if now.layer <= 1 and now.part != "layer":
         source = state.first.features if isinstance(state.first, Layer) else now.features
-        rows = [(f"node {state.subject.called(j)}", brief(row[j]), *(brief(v) for v in source[j])) for j in near[:ROWS]]
+        rows = [
+            (f"node {state.subject.called(j)}", brief(row[j]), *(brief(v) for v in source[j]))
+            for j in near[:ROWS]
+        ]
         if len(near) > ROWS:
             rows.append((f"and {len(near) - ROWS} more", "", "", ""))
         if now.part == "gathered":

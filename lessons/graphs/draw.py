@@ -1,4 +1,6 @@
-"""What one step looks like: nodes in the colours of what was computed, edges, and those that are cut."""
+"""What one step looks like: nodes in the colours of what was computed, edges, and those that are
+cut.
+"""
 
 import numpy as np
 
@@ -6,9 +8,9 @@ from lessons.graphs.captions import caption
 from lessons.graphs.charts import beside
 from lessons.graphs.measures import predicted, reached
 from lessons.graphs.state import Grown, Matrix, Mode, State
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.geometry.graphs import edges_of
 from workbench.geometry.polylines import between
 from workbench.scene import Classes, Color, Field, Mesh, Points, Primitive, Role, Scene, Segments
@@ -31,7 +33,9 @@ def draw(state: State) -> Scene:
     p = now.p if isinstance(now, Smoothed) else subject.p
     color = _color(state)
     scene: dict[str, Primitive] = {"caption": caption(state)}
-    if not (len(subject.faces) and isinstance(now, Smoothed)):  # a surface that moves is enough to send
+    if not (
+        len(subject.faces) and isinstance(now, Smoothed)
+    ):  # a surface that moves is enough to send
         scene["nodes"] = Points(p, color, subject.radius, name="nodes")
     if len(subject.faces):
         scene["surface"] = Mesh(p, subject.faces, color, name="surface")
@@ -53,12 +57,16 @@ def _color(state: State) -> Color:
             return Field(now.u / largest, -1.0, 1.0, "heat over the largest", map="diverging")
         case Smoothed():
             off = np.linalg.norm(now.p - state.subject.p, axis=1)
-            return Field(1000 * off, 0.0, float(1000 * off.max()) or 1.0, "distance to the clean place", "mm")
+            return Field(
+                1000 * off, 0.0, float(1000 * off.max()) or 1.0, "distance to the clean place", "mm"
+            )
         case Cut():
             if now.phase == "graph":
                 return "target"
             return (
-                _signed(now.fiedler, "Fiedler vector") if now.phase == "fiedler" else Classes(predicted(state), *SIDES)
+                _signed(now.fiedler, "Fiedler vector")
+                if now.phase == "fiedler"
+                else Classes(predicted(state), *SIDES)
             )
         case Layer() if now.features.shape[1] != 2:
             total = np.round(now.features.sum(axis=1), 9)
@@ -95,7 +103,9 @@ def _edges(state: State, p: np.ndarray) -> dict[str, Primitive]:
         mutual = now.directed.minimum(now.directed.T).tocsr()
         both = np.isin(edges @ [len(p), 1], edges_of(mutual) @ [len(p), 1])
         return {
-            "edges": Segments(p[edges[both]], "correspondence", 1.5, name="edges named from both ends"),
+            "edges": Segments(
+                p[edges[both]], "correspondence", 1.5, name="edges named from both ends"
+            ),
             "one-way edges": Segments(p[edges[~both]], "source", 1.5, name="named from one end"),
         }
     if isinstance(now, Cut) and len(now.side):
@@ -108,25 +118,36 @@ def _edges(state: State, p: np.ndarray) -> dict[str, Primitive]:
 
 
 def _marks(state: State, p: np.ndarray) -> dict[str, Primitive]:
-    """Draw rims: of the node that is looked at, of labelled nodes, and of nodes that are told wrongly."""
+    """Draw rims: of the node that is looked at, of labelled nodes, and of nodes that are told
+    wrongly.
+    """
     now, subject, scene = state.now, state.subject, dict[str, Primitive]()
     under = below(state)
     if isinstance(now, Matrix | Heat | Layer):
         node = state.vertex
         scene["vertex"] = Points(
-            p[[node]] + under, "highlight", 1.7 * subject.radius, name=f"node {subject.called(node)}"
+            p[[node]] + under,
+            "highlight",
+            1.7 * subject.radius,
+            name=f"node {subject.called(node)}",
         )
         near = state.adjacency[[node]].indices
         if isinstance(now, Matrix | Layer) and len(near):
-            scene["its edges"] = Segments(between(p[node], p[near]) + 2 * under, "highlight", 3.0, name="its edges")
+            scene["its edges"] = Segments(
+                between(p[node], p[near]) + 2 * under, "highlight", 3.0, name="its edges"
+            )
     told, classes = predicted(state), subject.classes
     if len(told) and len(classes) and not isinstance(now, Cut):
         misses = (told != classes) & (told >= 0) & reached(state)
         if misses.any():
-            scene["misses"] = Points(p[misses] + under, "wrong", 1.5 * subject.radius, name="told wrongly")
+            scene["misses"] = Points(
+                p[misses] + under, "wrong", 1.5 * subject.radius, name="told wrongly"
+            )
     if isinstance(now, Trained) or (isinstance(now, Layer) and now.features.shape[1] == 2):
         ends = list(subject.labelled)
-        scene["labelled"] = Points(p[ends] + 2 * under, "truth", 1.9 * subject.radius, name="nodes with a label")
+        scene["labelled"] = Points(
+            p[ends] + 2 * under, "truth", 1.9 * subject.radius, name="nodes with a label"
+        )
     return scene
 
 

@@ -1,8 +1,9 @@
 """A cloud whose points know their neighbours is a matrix, and its slow eigenvectors cut and smooth.
 
-What it teaches: "neighbour of" is not mutual; L = D - A measures how far each node is above its neighbours, its second
-eigenvector finds the bridge, though not always by its sign; steps of L smooth until they shrink or explode; and a layer
-of a graph network is one such step and a learned matrix, so that many layers make all nodes alike.
+What it teaches: "neighbour of" is not mutual; L = D - A measures how far each node is above its
+neighbours, its second eigenvector finds the bridge, though not always by its sign; steps of L
+smooth until they shrink or explode; and a layer of a graph network is one such step and a learned
+matrix, so that many layers make all nodes alike.
 """
 
 from collections.abc import Callable, Iterator
@@ -15,9 +16,9 @@ from lessons.graphs.presets import BALL, PRESETS, QUESTIONS, VIEW
 from lessons.graphs.stages import Functions, states
 from lessons.graphs.state import Params, State
 from lessons.graphs.subjects import subject_of
-from workbench.algorithms.graph_network import GcnLayer
+from workbench.algorithms.learning.graph_network import GcnLayer
 from workbench.errors import InputError
-from workbench.geometry import graphs
+from workbench.geometry.graphs import adjacency as graphs
 from workbench.lesson import Lesson, Sweep
 
 OfMatrix = Callable[[np.ndarray], np.ndarray]
@@ -31,7 +32,9 @@ def run(
     knn_adjacency: Neighbours = graphs.knn_adjacency,
     gcn_layer: GcnLayer = graphs.gcn_layer,
 ) -> Iterator[State]:
-    """Yield the steps of one stage; above 2,000 nodes, too many for dense matrices, without these functions."""
+    """Yield the steps of one stage; above 2,000 nodes, too many for dense matrices, without these
+    functions.
+    """
     functions = Functions(laplacian=laplacian, knn_adjacency=knn_adjacency, gcn_layer=gcn_layer)
     try:
         yield from states(params, subject_of(params), functions)
@@ -44,12 +47,16 @@ def run(
 lesson = Lesson(
     name="graphs",
     title="Graphs and their spectra",
-    summary="Neighbours become a matrix, and its slow eigenvectors cut and smooth; a graph network is one such step.",
+    summary="Join neighbouring points and write the edges into a matrix. It finds thin places "
+    "and smooths noise.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1100,
+    order=1900,
+    chapter="Connect",
+    minutes=25,
+    needs=("distances",),
     view=VIEW,
     view_for=lambda params: BALL if params.mesh or params.cloud else None,
     presets=PRESETS,

@@ -6,18 +6,20 @@ import numpy as np
 
 from lessons.graphs.stages import edge_length
 from lessons.graphs.state import State
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.geometry.graphs import degrees
-from workbench.geometry.invariants import signed_volume
+from workbench.geometry.meshes.invariants import signed_volume
 
 Tone = Literal["info", "good", "wrong"]
 WELL, BADLY = 0.9, 0.75  # shares of the nodes that are on their right side
 
 
 def predicted(state: State) -> np.ndarray:
-    """Return the class that a step gives each node, 0 or 1, and -1 where it gives none; none at all before it tells."""
+    """Return the class that a step gives each node, 0 or 1, and -1 where it gives none; none at all
+    before it tells.
+    """
     now = state.now
     if isinstance(now, Cut) and len(now.side):
         return two_sides(now.side, state.subject.classes)
@@ -31,7 +33,9 @@ def predicted(state: State) -> np.ndarray:
 
 
 def two_sides(side: np.ndarray, classes: np.ndarray) -> np.ndarray:
-    """Return a cut as classes: a cut does not say which side is which, so the better way round is taken."""
+    """Return a cut as classes: a cut does not say which side is which, so the better way round is
+    taken.
+    """
     found = side.astype(int)
     if len(classes) and np.mean(found == classes) < 0.5:
         return 1 - found
@@ -48,15 +52,19 @@ def reached(state: State) -> np.ndarray:
 
 
 def right(state: State) -> int | None:
-    """Return how many nodes a step puts where they truly belong; None where nobody knows or nothing was said."""
+    """Return how many nodes a step puts where they truly belong; None where nobody knows or nothing
+    was said.
+    """
     found, classes = predicted(state), state.subject.classes
     return int(np.count_nonzero(found == classes)) if len(found) and len(classes) else None
 
 
 def apart(state: State) -> float:
-    """Return how much nodes still differ: the share of the features that is not along the square roots of degrees.
+    """Return how much nodes still differ: the share of the features that is not along the square
+    roots of degrees.
 
-    Layers take all features to that direction, which tells of a node no more than how many neighbours it has.
+    Layers take all features to that direction, which tells of a node no more than how many
+    neighbours it has.
     """
     assert isinstance(state.now, Layer)
     along = np.sqrt(degrees(state.adjacency) + 1)
@@ -67,17 +75,25 @@ def apart(state: State) -> float:
 
 
 def volume_share(state: State) -> float:
-    """Return the volume of a mesh as a share of the clean one's; NaN without a mesh that has one."""
+    """Return the volume of a mesh as a share of the clean one's; NaN without a mesh that has
+    one.
+    """
     assert isinstance(state.now, Smoothed)
     if not len(state.subject.faces):
         return float("nan")
     clean = signed_volume(state.subject.p, state.subject.faces)
-    return signed_volume(state.now.p, state.subject.faces) / clean if abs(clean) > 1e-12 else float("nan")
+    return (
+        signed_volume(state.now.p, state.subject.faces) / clean
+        if abs(clean) > 1e-12
+        else float("nan")
+    )
 
 
 def from_clean(state: State, p: np.ndarray) -> float:
     """Return the RMS distance of vertices from where they were before the noise, in mean edges."""
-    return float(np.sqrt(((p - state.subject.p) ** 2).sum(axis=1).mean())) / edge_length(state.subject, state.adjacency)
+    return float(np.sqrt(((p - state.subject.p) ** 2).sum(axis=1).mean())) / edge_length(
+        state.subject, state.adjacency
+    )
 
 
 def tone(state: State) -> Tone:

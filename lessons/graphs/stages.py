@@ -9,15 +9,15 @@ import numpy as np
 import scipy
 
 from lessons.graphs.state import ITERATIONS, PAIRS, Grown, Matrix, Mode, Now, Params, State, Subject
-from workbench.algorithms.diffusion import heat, smooth
-from workbench.algorithms.graph_network import GcnLayer, spread, train
-from workbench.algorithms.spectral_cut import spectral_cut
+from workbench.algorithms.graphs.diffusion import heat, smooth
+from workbench.algorithms.graphs.spectral_cut import spectral_cut
+from workbench.algorithms.learning.graph_network import GcnLayer, spread, train
 from workbench.certain import as_a
 from workbench.errors import InputError
-from workbench.geometry import graphs
 from workbench.geometry.graphs import Sparse
-from workbench.geometry.laplacian import cotangent_laplacian, mixed_areas
-from workbench.geometry.spectra import Laplacian
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.graphs.spectra import Laplacian
+from workbench.geometry.meshes.laplacian import cotangent_laplacian, mixed_areas
 from workbench.tracing import traced
 
 MOST_DENSE = 2000  # nodes of which whole matrices are made: 32 MB each
@@ -41,7 +41,9 @@ def graph_steps(params: Params, subject: Subject, functions: Functions) -> Itera
 
 
 @traced
-def grow(params: Params, subject: Subject, functions: Functions, sizes: Iterable[int]) -> Iterator[Grown]:
+def grow(
+    params: Params, subject: Subject, functions: Functions, sizes: Iterable[int]
+) -> Iterator[Grown]:
     """Yield graphs of so many neighbours per point, or of so many quarters of the given edges."""
     for size in sizes:
         if subject.edges is None:
@@ -50,13 +52,24 @@ def grow(params: Params, subject: Subject, functions: Functions, sizes: Iterable
             adjacency = joined(params, subject, directed, functions, size)
         else:
             part = len(subject.edges) * size // 4
-            adjacency = directed = graphs.graph_of(subject.edges[:part], len(subject.p), subject.weights[:part])
+            adjacency = directed = graphs.graph_of(
+                subject.edges[:part], len(subject.p), subject.weights[:part]
+            )
         parts = graphs.components(adjacency)
-        yield Grown(k=size if subject.edges is None else 0, adjacency=adjacency, directed=directed, parts=parts)
+        yield Grown(
+            k=size if subject.edges is None else 0,
+            adjacency=adjacency,
+            directed=directed,
+            parts=parts,
+        )
 
 
-def joined(params: Params, subject: Subject, directed: Sparse, functions: Functions, k: int) -> Sparse:
-    """Return the graph of who names whom, joined as the params say; the union by the function in the slot."""
+def joined(
+    params: Params, subject: Subject, directed: Sparse, functions: Functions, k: int
+) -> Sparse:
+    """Return the graph of who names whom, joined as the params say; the union by the function in
+    the slot.
+    """
     if params.join != "union" or len(subject.p) > MOST_DENSE:
         return graphs.joined(directed, params.join)
     return scipy.sparse.csr_array(_finite("knn_adjacency", functions.knn_adjacency(subject.p, k)))
@@ -71,12 +84,17 @@ def adjacency_of(params: Params, subject: Subject, functions: Functions) -> Spar
     if subject.edges is not None:
         return graphs.graph_of(subject.edges, len(subject.p), subject.weights)
     if params.join == "directed":
-        raise InputError("a one-way graph has no symmetric Laplacian: set join to union or mutual, or stage to graph")
+        raise InputError(
+            "a one-way graph has no symmetric Laplacian: set join to union or mutual, or stage to"
+            " graph"
+        )
     rows, _ = graphs.neighbours(subject.p, params.k)
     return joined(params, subject, graphs.directed_graph(rows), functions, params.k)
 
 
-def laplacian_of(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Laplacian:
+def laplacian_of(
+    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+) -> Laplacian:
     """Return the chosen Laplacian; that of a graph by the function in the slot.
 
     Raises:
@@ -84,18 +102,31 @@ def laplacian_of(params: Params, subject: Subject, adjacency: Sparse, functions:
     """
     if params.laplacian == "cotangent":
         if not len(subject.faces):
-            raise InputError("cotangents need triangles: set graph to sphere or rabbit mesh, or take another laplacian")
-        return Laplacian(cotangent_laplacian(subject.p, subject.faces), mixed_areas(subject.p, subject.faces))
+            raise InputError(
+                "cotangents need triangles: set graph to sphere or rabbit mesh, or take another"
+                " laplacian"
+            )
+        return Laplacian(
+            cotangent_laplacian(subject.p, subject.faces), mixed_areas(subject.p, subject.faces)
+        )
     if adjacency.shape[0] <= MOST_DENSE:
-        matrix = scipy.sparse.csr_array(_finite("laplacian", functions.laplacian(adjacency.toarray())))
+        matrix = scipy.sparse.csr_array(
+            _finite("laplacian", functions.laplacian(adjacency.toarray()))
+        )
     else:
         matrix = graphs.laplacian(adjacency)
     d = graphs.degrees(adjacency)
-    return Laplacian(matrix, np.where(d > 0, d, 1.0) if params.laplacian == "normalised" else np.ones(len(d)))
+    return Laplacian(
+        matrix, np.where(d > 0, d, 1.0) if params.laplacian == "normalised" else np.ones(len(d))
+    )
 
 
-def matrix_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
-    """Yield A, D, L = D - A, L applied to a function of the nodes, and L with its nodes in a better order."""
+def matrix_steps(
+    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+) -> Iterator[Now]:
+    """Yield A, D, L = D - A, L applied to a function of the nodes, and L with its nodes in a better
+    order.
+    """
     laplacian = laplacian_of(params, subject, adjacency, functions)
     return matrices(laplacian, len(subject.p))
 
@@ -111,20 +142,28 @@ def matrices(laplacian: Laplacian, count: int) -> Iterator[Matrix]:
     yield Matrix(part="laplacian", laplacian=laplacian, shown=L, order=as_numbered)
     yield Matrix(part="applied", laplacian=laplacian, shown=L, order=as_numbered)
     _, fiedler = laplacian.second()
-    order = np.argsort(fiedler, kind="stable")  # nodes that are joined have similar values, and come to stand together
+    order = np.argsort(
+        fiedler, kind="stable"
+    )  # nodes that are joined have similar values, and come to stand together
     yield Matrix(part="ordered", laplacian=laplacian, shown=L[order][:, order], order=order)
 
 
-def spectrum_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
+def spectrum_steps(
+    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+) -> Iterator[Now]:
     """Yield eigenvectors one by one, slow ones first."""
     laplacian = laplacian_of(params, subject, adjacency, functions)
     pair = spectra(params, subject, adjacency)
-    return modes(laplacian, min(params.modes, len(subject.p)), of_unit_sphere(params, subject), pair)
+    return modes(
+        laplacian, min(params.modes, len(subject.p)), of_unit_sphere(params, subject), pair
+    )
 
 
 @traced
 def modes(laplacian: Laplacian, count: int, relative: bool, pair: tuple) -> Iterator[Mode]:
-    """Yield the slowest eigenvectors of a Laplacian, its eigenvalues as ratios where only these mean something."""
+    """Yield the slowest eigenvectors of a Laplacian, its eigenvalues as ratios where only these
+    mean something.
+    """
     values, functions = laplacian.smallest(count)
     if relative and count > 3:
         values = values * 2 / values[1:4].mean()  # the first three of a sphere are 2
@@ -133,25 +172,36 @@ def modes(laplacian: Laplacian, count: int, relative: bool, pair: tuple) -> Iter
 
 
 def of_unit_sphere(params: Params, subject: Subject) -> bool:
-    """Tell whether eigenvalues of a graph are to be compared with those of a surface: up to a factor."""
+    """Tell whether eigenvalues of a graph are to be compared with those of a surface: up to a
+    factor.
+    """
     return subject.of_surface and params.laplacian != "cotangent"
 
 
-def spectra(params: Params, subject: Subject, adjacency: Sparse) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
+def spectra(
+    params: Params, subject: Subject, adjacency: Sparse
+) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
     """Return of a pair of graphs the eigenvalues of A and of L of each."""
     if params.graph not in PAIRS or not len(subject.classes):
         return ()
-    dense = [adjacency.toarray()[np.ix_(rows, rows)] for rows in (subject.classes == 0, subject.classes == 1)]
+    dense = [
+        adjacency.toarray()[np.ix_(rows, rows)]
+        for rows in (subject.classes == 0, subject.classes == 1)
+    ]
     return tuple((np.linalg.eigvalsh(A), np.linalg.eigvalsh(graphs.laplacian(A))) for A in dense)
 
 
-def cut_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
+def cut_steps(
+    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+) -> Iterator[Now]:
     """Yield the Fiedler vector and the cuts that it gives."""
     laplacian = laplacian_of(params, subject, adjacency, functions)
     return spectral_cut(adjacency, laplacian)
 
 
-def heat_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
+def heat_steps(
+    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+) -> Iterator[Now]:
     """Yield heat that flows from the node that is looked at."""
     laplacian = laplacian_of(params, subject, adjacency, functions)
     u = np.zeros(len(subject.p))
@@ -160,10 +210,14 @@ def heat_steps(params: Params, subject: Subject, adjacency: Sparse, functions: F
     return heat(u, laplacian, dt, params.steps)
 
 
-def smooth_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
+def smooth_steps(
+    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+) -> Iterator[Now]:
     """Yield the nodes' places, roughened by noise, as they are smoothed."""
     if (graphs.degrees(adjacency) <= 0).any():
-        raise InputError("a node without neighbours has no mean to move to: raise k, or take another graph")
+        raise InputError(
+            "a node without neighbours has no mean to move to: raise k, or take another graph"
+        )
     sigma = params.noise * edge_length(subject, adjacency)
     noise = sigma * np.random.default_rng(params.seed + 1).standard_normal(subject.p.shape)
     if subject.flat:
@@ -178,8 +232,12 @@ def edge_length(subject: Subject, adjacency: Sparse) -> float:
     return float(np.linalg.norm(subject.p[a] - subject.p[b], axis=1).mean()) if len(a) else 1.0
 
 
-def network_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
-    """Yield a network's features: two labels that spread, or of a pair of graphs what messages make of equal nodes."""
+def network_steps(
+    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+) -> Iterator[Now]:
+    """Yield a network's features: two labels that spread, or of a pair of graphs what messages make
+    of equal nodes.
+    """
     dense = _dense(adjacency)
     if params.graph in PAIRS and len(subject.classes):
         features, rng = np.ones((len(dense), 4)), np.random.default_rng(params.seed)
@@ -189,13 +247,22 @@ def network_steps(params: Params, subject: Subject, adjacency: Sparse, functions
     return spread(dense, features, weights, gcn_layer=functions.gcn_layer)
 
 
-def training_steps(params: Params, subject: Subject, adjacency: Sparse, functions: Functions) -> Iterator[Now]:
+def training_steps(
+    params: Params, subject: Subject, adjacency: Sparse, functions: Functions
+) -> Iterator[Now]:
     """Yield a network of one layer or more while it learns two labels, every tenth iteration."""
     dense, rng, n = _dense(adjacency), np.random.default_rng(params.seed), len(subject.p)
     sizes = [n, *[HIDDEN] * (max(params.layers, 1) - 1), 2]
     weights = [rng.normal(size=(a, b)) * np.sqrt(2 / (a + b)) for a, b in pairwise(sizes)]
-    steps = train(dense, np.eye(n), weights, np.array(subject.labelled), np.array([0, 1]),
-                  iterations=ITERATIONS, gcn_layer=functions.gcn_layer)  # fmt: skip
+    steps = train(
+        dense,
+        np.eye(n),
+        weights,
+        labelled=np.array(subject.labelled),
+        classes=np.array([0, 1]),
+        iterations=ITERATIONS,
+        gcn_layer=functions.gcn_layer,
+    )
     return (now for now in steps if now.iteration % EVERY == 0)
 
 
@@ -207,7 +274,9 @@ def _labels(subject: Subject) -> np.ndarray:
 
 def _dense(adjacency: Sparse) -> np.ndarray:
     if adjacency.shape[0] > MOST_DENSE:
-        raise InputError(f"{adjacency.shape[0]:,} nodes; networks are computed on at most {MOST_DENSE:,}")
+        raise InputError(
+            f"{adjacency.shape[0]:,} nodes; networks are computed on at most {MOST_DENSE:,}"
+        )
     return adjacency.toarray()
 
 

@@ -6,18 +6,26 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.data.framing import Upward
 from workbench.geometry.graphs import Join, Sparse, one_way_share
-from workbench.geometry.spectra import Laplacian
+from workbench.geometry.graphs.spectra import Laplacian
 from workbench.knobs import Knob, Pick
 
 GraphName = Literal[
-    "dumbbell", "karate", "grid", "ring", "sphere", "uneven sphere", "rabbit", "rabbit mesh", "star and square",
+    "dumbbell",
+    "karate",
+    "grid",
+    "ring",
+    "sphere",
+    "uneven sphere",
+    "rabbit",
+    "rabbit mesh",
+    "star and square",
     "hexagon and triangles",
-]  # fmt: skip
+]
 Stage = Literal["graph", "matrix", "spectrum", "cut", "heat", "smooth", "network", "training"]
 Kind = Literal["plain", "normalised", "cotangent"]
 
@@ -35,39 +43,98 @@ class Params:
 
     graph: Annotated[GraphName, Knob("Built-in points, meshes and graphs")] = "dumbbell"
     stage: Annotated[Stage, Knob("What is done with the graph")] = "cut"
-    points: Annotated[int, Knob("How many points", 30, 3000, step=10, needs={"graph": (*CLOUDS, "ring", "sphere")})] = (
-        400
-    )
+    points: Annotated[
+        int,
+        Knob("How many points", 30, 3000, step=10, needs={"graph": (*CLOUDS, "ring", "sphere")}),
+    ] = 400
     k: Annotated[int, Knob("Neighbours that every point names", 1, 20, needs=OF_CLOUDS)] = 6
-    join: Annotated[Join, Knob("An edge if either end names the other, both do, or one-way", needs=OF_CLOUDS)] = "union"
+    join: Annotated[
+        Join, Knob("An edge if either end names the other, both do, or one-way", needs=OF_CLOUDS)
+    ] = "union"
     share: Annotated[
-        float, Knob("Share of the points in the left half", 0.5, 0.95, step=0.05, needs={"graph": ("dumbbell",)})
+        float,
+        Knob(
+            "Share of the points in the left half",
+            0.5,
+            0.95,
+            step=0.05,
+            needs={"graph": ("dumbbell",)},
+        ),
     ] = 0.5
-    bridge: Annotated[int, Knob("Points between the halves; 0 is a gap", 0, 40, needs={"graph": ("dumbbell",)})] = 14
-    columns: Annotated[int, Knob("Columns of the grid, which has 10 rows", 2, 20, needs={"graph": ("grid",)})] = 12
+    bridge: Annotated[
+        int, Knob("Points between the halves; 0 is a gap", 0, 40, needs={"graph": ("dumbbell",)})
+    ] = 14
+    columns: Annotated[
+        int, Knob("Columns of the grid, which has 10 rows", 2, 20, needs={"graph": ("grid",)})
+    ] = 12
     jitter: Annotated[
-        float, Knob("How far vertices stray along the sphere", 0, 0.25, unit="cells", needs={"graph": ("sphere",)})
+        float,
+        Knob(
+            "How far vertices stray along the sphere",
+            0,
+            0.25,
+            unit="cells",
+            needs={"graph": ("sphere",)},
+        ),
     ] = 0.0
-    weighted: Annotated[bool, Knob("Friends count by how often they met", needs={"graph": ("karate",)})] = False
-    laplacian: Annotated[Kind, Knob("Which Laplacian; cotangents need triangles", needs=OF_L)] = "plain"
-    modes: Annotated[int, Knob("How many eigenvectors are shown", 2, 30, needs={"stage": ("spectrum",)})] = 8
+    weighted: Annotated[
+        bool, Knob("Friends count by how often they met", needs={"graph": ("karate",)})
+    ] = False
+    laplacian: Annotated[Kind, Knob("Which Laplacian; cotangents need triangles", needs=OF_L)] = (
+        "plain"
+    )
+    modes: Annotated[
+        int, Knob("How many eigenvectors are shown", 2, 30, needs={"stage": ("spectrum",)})
+    ] = 8
     step_size: Annotated[
-        float, Knob("Length of a step of heat", 0.1, 2.5, unit="/ λmax", step=0.01, needs={"stage": ("heat",)})
+        float,
+        Knob(
+            "Length of a step of heat",
+            0.1,
+            2.5,
+            unit="/ λmax",
+            step=0.01,
+            needs={"stage": ("heat",)},
+        ),
     ] = 1.0
     steps: Annotated[int, Knob("How many steps", 1, 200, needs={"stage": ("heat", "smooth")})] = 50
-    filter: Annotated[Literal["laplace", "taubin"], Knob("How to smooth", needs={"stage": ("smooth",)})] = "laplace"
+    filter: Annotated[
+        Literal["laplace", "taubin"], Knob("How to smooth", needs={"stage": ("smooth",)})
+    ] = "laplace"
     noise: Annotated[
-        float, Knob("Noise before smoothing (sigma)", 0, 0.5, unit="edges", step=0.05, needs={"stage": ("smooth",)})
+        float,
+        Knob(
+            "Noise before smoothing (sigma)",
+            0,
+            0.5,
+            unit="edges",
+            step=0.05,
+            needs={"stage": ("smooth",)},
+        ),
     ] = 0.3
-    layers: Annotated[int, Knob("Layers of the network", 0, 64, needs={"stage": ("network", "training")})] = 2
+    layers: Annotated[
+        int, Knob("Layers of the network", 0, 64, needs={"stage": ("network", "training")})
+    ] = 2
     vertex: Annotated[
-        int, Knob("The node that is looked at: click one; -1 takes ours", -1, MOST_OWN - 1, by=Pick("nodes"))
+        int,
+        Knob(
+            "The node that is looked at: click one; -1 takes ours",
+            -1,
+            MOST_OWN - 1,
+            by=Pick("nodes"),
+        ),
     ] = -1
-    numbering: Annotated[int, Knob("In which order nodes are numbered; 0 as they were made", 0, 99)] = 0
-    edges: Annotated[Path | None, Knob("Own graph: csv or txt, two names and maybe a weight per line")] = None
+    numbering: Annotated[
+        int, Knob("In which order nodes are numbered; 0 as they were made", 0, 99)
+    ] = 0
+    edges: Annotated[
+        Path | None, Knob("Own graph: csv or txt, two names and maybe a weight per line")
+    ] = None
     mesh: Annotated[Path | None, Knob("Own mesh: off, obj, ply, stl, glb")] = None
     cloud: Annotated[Path | None, Knob("Own cloud: ply, pcd, obj, xyz, csv, npz")] = None
-    up: Annotated[Upward, Knob("Which axis of own points is up; auto guesses", of_files=True)] = "auto"
+    up: Annotated[Upward, Knob("Which axis of own points is up; auto guesses", of_files=True)] = (
+        "auto"
+    )
     seed: Annotated[int, Knob("Where chance puts points, noise and first weights", 0, 99)] = 0
 
 
@@ -83,7 +150,8 @@ class Subject:
         faces: Triangles of a mesh; none elsewhere.
         classes: Which of two groups each node truly belongs to; empty where nobody knows.
         eigenvalues: What the smallest eigenvalues truly are, ascending; empty where nobody knows.
-        of_surface: Whether these are of the surface, to which a graph's can be compared up to a factor only.
+        of_surface: Whether these are of the surface, to which a graph's can be compared up to a
+            factor only.
         front: The node that is looked at by default.
         labelled: Two nodes whose class a network is told.
         names: What an own graph calls its nodes.
@@ -142,7 +210,9 @@ class Grown:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Matrix:
-    """One of the matrices of a graph; `part` says which, or that L is applied to the nodes' places along x."""
+    """One of the matrices of a graph; `part` says which, or that L is applied to the nodes' places
+    along x.
+    """
 
     part: Literal["adjacency", "degrees", "laplacian", "applied", "ordered"]
     laplacian: Laplacian
@@ -152,9 +222,11 @@ class Matrix:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Mode:
-    """One eigenvector: its number from 0, all eigenvalues that are shown, and of a pair of graphs both spectra.
+    """One eigenvector: its number from 0, all eigenvalues that are shown, and of a pair of graphs
+    both spectra.
 
-    `values` are in the unit of the truth; `spectra` are the eigenvalues of A and of L of each graph of a pair.
+    `values` are in the unit of the truth; `spectra` are the eigenvalues of A and of L of each graph
+    of a pair.
     """
 
     index: int
@@ -189,7 +261,11 @@ class State:
     @property
     def vertex(self) -> int:
         """The node that is looked at."""
-        return self.subject.front if self.params.vertex < 0 else self.params.vertex % len(self.subject.p)
+        return (
+            self.subject.front
+            if self.params.vertex < 0
+            else self.params.vertex % len(self.subject.p)
+        )
 
     @property
     def last(self) -> bool:
@@ -197,7 +273,11 @@ class State:
         now, params = self.now, self.params
         match now:
             case Grown():
-                return now.k == params.k if now.k else now.adjacency.sum() >= 2 * self.subject.weights.sum() - 1e-9
+                return (
+                    now.k == params.k
+                    if now.k
+                    else now.adjacency.sum() >= 2 * self.subject.weights.sum() - 1e-9
+                )
             case Matrix():
                 return now.part == "ordered"
             case Mode():

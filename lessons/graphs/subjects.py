@@ -8,15 +8,16 @@ from typing import Any
 import numpy as np
 
 from lessons.graphs.state import MOST_OWN, PAIRS, Params, Subject
-from workbench.data import networks, surfaces
-from workbench.data.edge_lists import read_edges
+from workbench.data import networks
 from workbench.data.files import read_cloud, read_mesh, stamp
+from workbench.data.files.edge_lists import read_edges
 from workbench.data.framing import Upward, own_points
 from workbench.data.networks import Network
-from workbench.data.rabbit import rabbit, rabbit_mesh
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit, rabbit_mesh
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
-from workbench.geometry import meshes
+from workbench.geometry.meshes import triangles as meshes
 from workbench.knobs import called, only
 
 MOST_CLOUD, MOST_NODES = 3000, 1000
@@ -33,7 +34,9 @@ def subject_of(params: Params) -> Subject:
     own = {"edges": params.edges, "mesh": params.mesh, "cloud": params.cloud}
     given = [(kind, path) for kind, path in own.items() if path is not None]
     if len(given) > 1:
-        raise InputError(f"one own file at a time: {called('edges')}, {called('mesh')} or {called('cloud')}")
+        raise InputError(
+            f"one own file at a time: {called('edges')}, {called('mesh')} or {called('cloud')}"
+        )
     if given:
         kind, path = given[0]
         made = _own(path, stamp(path), kind=kind, up=params.up, seed=params.seed)
@@ -44,7 +47,9 @@ def subject_of(params: Params) -> Subject:
 
 def _what_counts(params: Params) -> Params:
     """Return the params with nothing but what makes a built-in graph, so that it is made once."""
-    chance = params.graph in ("dumbbell", "uneven sphere", "rabbit") or (params.graph == "sphere" and params.jitter > 0)
+    chance = params.graph in ("dumbbell", "uneven sphere", "rabbit") or (
+        params.graph == "sphere" and params.jitter > 0
+    )
     kept = ("graph", "points", "share", "bridge", "columns", "jitter", "weighted")
     return only(params, *kept, *(("seed",) if chance else ()))
 
@@ -53,11 +58,17 @@ def _what_counts(params: Params) -> Params:
 def _built_in(params: Params) -> Subject:
     rng, name = np.random.default_rng(params.seed), params.graph
     if name == "dumbbell":
-        p, classes = networks.dumbbell(params.points, params.share, params.bridge, rng)
+        p, classes = networks.dumbbell(params.points, params.share, params.bridge, rng=rng)
         ends = _nearest(p, np.array([-1.0, 0, 0])), _nearest(p, np.array([1.0, 0, 0]))
-        return Subject(name="the dumbbell", p=p, classes=classes, front=ends[0], labelled=ends, radius=0.016)
+        return Subject(
+            name="the dumbbell", p=p, classes=classes, front=ends[0], labelled=ends, radius=0.016
+        )
     if name == "karate":
-        return replace(_network("the karate club", networks.karate(params.weighted)), labelled=(0, 33), radius=0.045)
+        return replace(
+            _network("the karate club", networks.karate(params.weighted)),
+            labelled=(0, 33),
+            radius=0.045,
+        )
     if name == "grid":
         return _network("the grid", networks.grid(params.columns, 10))
     if name == "ring":
@@ -103,13 +114,23 @@ def _network(name: str, made: Network) -> Subject:
 def _mesh(name: str, p: np.ndarray, faces: np.ndarray, **known: Any) -> Subject:
     edges = meshes.edges(faces)
     made = _cloud(name, p, **known)
-    return replace(made, radius=0.5 * made.radius, faces=faces, edges=edges, weights=np.ones(len(edges)))
+    return replace(
+        made, radius=0.5 * made.radius, faces=faces, edges=edges, weights=np.ones(len(edges))
+    )
 
 
 def _cloud(name: str, p: np.ndarray, **known: Any) -> Subject:
     ends = int(np.argmin(p[:, 0])), int(np.argmax(p[:, 0]))
     radius = 0.16 * float(np.ptp(p, axis=0).max()) / np.sqrt(len(p))
-    return Subject(name=name, p=p, front=int(np.argmax(p[:, 2])), labelled=ends, radius=radius, flat=False, **known)
+    return Subject(
+        name=name,
+        p=p,
+        front=int(np.argmax(p[:, 2])),
+        labelled=ends,
+        radius=radius,
+        flat=False,
+        **known,
+    )
 
 
 def _nearest(p: np.ndarray, to: np.ndarray) -> int:
@@ -122,12 +143,18 @@ def _own(path: Path, _stamp: tuple[int, int], *, kind: str, up: Upward, seed: in
     if kind == "edges":
         given = read_edges(path, MOST_NODES)
         p = networks.drawn(given.edges, len(given.names))
-        return replace(_network(path.name, Network(p=p, edges=given.edges, weights=given.weights)), names=given.names)
+        return replace(
+            _network(path.name, Network(p=p, edges=given.edges, weights=given.weights)),
+            names=given.names,
+        )
     faces = np.empty((0, 3), int)
     if kind == "mesh":
         p, faces = meshes.welded(*read_mesh(path))
         if len(p) > MOST_OWN:
-            raise InputError(f"{path.name}: {len(p):,} vertices; at most {MOST_OWN:,} are taken, simplify it first")
+            raise InputError(
+                f"{path.name}: {len(p):,} vertices; at most {MOST_OWN:,} are taken, simplify it"
+                " first"
+            )
         if len(p) < 3 or not len(faces):
             raise InputError(f"{path.name}: no triangle with three different corners")
     else:

@@ -2,13 +2,13 @@
 
 import numpy as np
 
+from lessons.learning.labelled_shapes import NAMES
 from lessons.learning.state import Clouds, Looks, Params, State, Target, Turns
-from workbench.algorithms.mesh_fitting import MeshFitted
-from workbench.algorithms.point_net import Classified
-from workbench.algorithms.radiance_field import Reconstructed
-from workbench.algorithms.rotation_regression import Regressed
-from workbench.algorithms.set_regression import SetLearned
-from workbench.data.labelled_shapes import NAMES
+from workbench.algorithms.learning.mesh_fitting import MeshFitted
+from workbench.algorithms.learning.point_net import Classified
+from workbench.algorithms.learning.radiance_field import Reconstructed
+from workbench.algorithms.learning.rotation_regression import Regressed
+from workbench.algorithms.learning.set_regression import SetLearned
 from workbench.numerals import angle, brief, counted, fixed, length, percent
 from workbench.scene import Caption
 
@@ -42,22 +42,30 @@ def _told(state: State) -> tuple[str, float, float, float]:
         case SetLearned(), _:
             radii = np.linalg.norm(now.p, axis=1)
             text = (
-                f"{done}: {params.set_loss} loss {fixed(now.loss, 3)} m². The {len(now.p)} points have radii from"
-                f" {fixed(radii.min(), 2)} to {fixed(radii.max(), 2)} m, {fixed(radii.mean(), 2)} on average, with a"
-                f" spread of {fixed(radii.std(), 3)} m."
+                f"{done}: {params.set_loss} loss {fixed(now.loss, 3)} m². The {len(now.p)} points"
+                f" have radii from {fixed(radii.min(), 2)} to {fixed(radii.max(), 2)} m,"
+                f" {fixed(radii.mean(), 2)} on average, with a spread of {fixed(radii.std(), 3)} m."
             )
             return text, float(radii.std()), ROUND, SMEARED
         case MeshFitted(), Target():
             text = (
-                f"{done}: {length(float(np.sqrt(now.to_given)))} from the given points of {about.name},"
-                f" {length(float(np.sqrt(now.to_truth)))} from its true surface (roots of Chamfer)."
-                f" The farthest part of that surface is {length(now.farthest)} from the mesh. Folded by over 90°:"
-                f" {percent(now.folded)} of the edges."
+                f"{done}: {length(float(np.sqrt(now.to_given)))} from the given points of"
+                f" {about.name}, {length(float(np.sqrt(now.to_truth)))} from its true surface"
+                f" (roots of Chamfer). The farthest part of that surface is {length(now.farthest)}"
+                f" from the mesh. Folded by over 90°: {percent(now.folded)} of the edges."
             )
             if about.euler != 2 and now.updates == 0:
                 kind = f"{about.name} is not like a sphere (V − E + F = {about.euler}, not 2)"
-                text = f"{done}, a sphere: it has one piece, no hole and no border, and keeps that. {kind}. What will it do?"
-            return text, now.folded, SMOOTH if now.farthest <= WHOLE else -1.0, CRUMPLED  # never good without its ears
+                text = (
+                    f"{done}, a sphere: it has one piece, no hole and no border, and keeps that."
+                    f" {kind}. What will it do?"
+                )
+            return (
+                text,
+                now.folded,
+                SMOOTH if now.farthest <= WHOLE else -1.0,
+                CRUMPLED,
+            )  # never good without its ears
         case Classified(), Clouds():
             plain, changed = shares_right(now, about)
             if now.updates == 0:
@@ -67,14 +75,18 @@ def _told(state: State) -> tuple[str, float, float, float]:
                     KNOWN,
                     LOST,
                 )
-            text = f"{done}: loss {fixed(now.loss, 2)}; {percent(plain, 0)} of {len(about.of)} new clouds are named rightly"
+            text = (
+                f"{done}: loss {fixed(now.loss, 2)}; {percent(plain, 0)} of {len(about.of)} new"
+                " clouds are named rightly"
+            )
             if changes := changes_of(params):
                 text += f". {changes}: {percent(changed, 0)}"
             return f"{text}.", changed, KNOWN, LOST
         case Reconstructed(), Looks():
             text = (
-                f"{done}: the {params.views} photographs are matched with {fixed(about.trained, 1)} dB, new views with"
-                f" {fixed(about.unseen, 1)} dB. Density and discs share {percent(about.overlap, 0)} of what they cover."
+                f"{done}: the {params.views} photographs are matched with {fixed(about.trained, 1)}"
+                f" dB, new views with {fixed(about.unseen, 1)} dB. Density and discs share"
+                f" {percent(about.overlap, 0)} of what they cover."
             )
             return text, about.unseen, CLEAR, BLIND
     raise AssertionError
@@ -87,14 +99,17 @@ def _of_turns(params: Params, about: Turns, now: Regressed) -> str:
         return f"{mean}."
     of = "a turn of" if params.task == "angle" else "a rotation by"
     return (
-        f"{mean}, at most by {angle(float(now.errors[worst]))}, for {of} {fixed(float(about.degrees[worst]), 0)}°."
-        f" For the picked one, {fixed(float(about.degrees[k]), 0)}°: {angle(float(now.errors[k]))}."
+        f"{mean}, at most by {angle(float(now.errors[worst]))}, for {of}"
+        f" {fixed(float(about.degrees[worst]), 0)}°. For the picked one,"
+        f" {fixed(float(about.degrees[k]), 0)}°: {angle(float(now.errors[k]))}."
     )
 
 
 def shares_right(now: Classified, about: Clouds) -> tuple[float, float]:
     """Return which shares of the test clouds are named rightly: as in training, and changed."""
-    plain, changed = (float((now.scores[name].argmax(axis=1) == about.of).mean()) for name in ("plain", "changed"))
+    plain, changed = (
+        float((now.scores[name].argmax(axis=1) == about.of).mean()) for name in ("plain", "changed")
+    )
     return plain, changed
 
 

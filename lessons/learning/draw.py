@@ -4,22 +4,38 @@ import functools
 
 import numpy as np
 
+from lessons.learning import flatland
 from lessons.learning.captions import caption, changes_of, said, shares_right
+from lessons.learning.labelled_shapes import NAMES
 from lessons.learning.state import Clouds, Looks, Params, State, Target, Turns
 from lessons.learning.tasks import NEW_VIEW, PIXELS, RADII
-from workbench.algorithms.mesh_fitting import MeshFitted
-from workbench.algorithms.point_net import Classified
-from workbench.algorithms.radiance_field import Reconstructed
-from workbench.algorithms.rotation_regression import Regressed
-from workbench.algorithms.set_regression import SetLearned
-from workbench.data import flatland
-from workbench.data.labelled_shapes import NAMES
-from workbench.geometry.mesh_energies import face_pairs, fold_angles
+from workbench.algorithms.learning.mesh_fitting import MeshFitted
+from workbench.algorithms.learning.point_net import Classified
+from workbench.algorithms.learning.radiance_field import Reconstructed
+from workbench.algorithms.learning.rotation_regression import Regressed
+from workbench.algorithms.learning.set_regression import SetLearned
+from workbench.geometry.meshes.mesh_energies import face_pairs, fold_angles
 from workbench.geometry.polylines import at_height, between, circle, segments, sphere_rings
 from workbench.numerals import percent
-from workbench.scene import Chart, Classes, Field, Label, Mesh, Picture, Points, Primitive, Scene, Segments, Table
+from workbench.scene import (
+    Chart,
+    Classes,
+    Field,
+    Label,
+    Mesh,
+    Picture,
+    Points,
+    Primitive,
+    Scene,
+    Segments,
+    Table,
+)
 
-LOSS, ERROR, SPREAD = Chart("Loss"), Chart("Error", unit="°"), Chart("Spread of the radii", unit="m")
+LOSS, ERROR, SPREAD = (
+    Chart("Loss"),
+    Chart("Error", unit="°"),
+    Chart("Spread of the radii", unit="m"),
+)
 OVER_TURN = Chart("Output over turn", "turn (°)", "output (°)")
 BY_TURN = Chart("Error by turn", "turn (°)", "error (°)")
 DISTANCE, FOLDS = Chart("Root of Chamfer", unit="m"), Chart("Folded edges", unit="%")
@@ -29,17 +45,28 @@ T_WORLD_FIELD = np.diag([1.0, -1.0, -1.0, 1.0])  # rows of the picture run along
 GAP, STRIP = 2.3, 6
 LIFT = np.array([0.0, 0.0, 0.02])
 BESIDE = np.eye(4)
-BESIDE[:3, 3] = 1.0, 0.7, 0.0  # m, to the right as the meshes are seen: where the true surface stands
+BESIDE[:3, 3] = (
+    1.0,
+    0.7,
+    0.0,
+)  # m, to the right as the meshes are seen: where the true surface stands
 UNIT = at_height(circle())
 
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
     now, about, params = state.now, state.about, state.params
-    scene: dict[str, Primitive] = {"caption": caption(state), "loss": LOSS.scalar(now.loss, "training loss", log=True)}
+    scene: dict[str, Primitive] = {
+        "caption": caption(state),
+        "loss": LOSS.scalar(now.loss, "training loss", log=True),
+    }
     match now, about:
         case Regressed(), Turns():
-            return scene | (_angle(params, about, now) if params.task == "angle" else _rotation(params, about, now))
+            return scene | (
+                _angle(params, about, now)
+                if params.task == "angle"
+                else _rotation(params, about, now)
+            )
         case SetLearned(), _:
             return scene | _set(now)
         case MeshFitted(), Target():
@@ -62,13 +89,23 @@ def _angle(params: Params, about: Turns, now: Regressed) -> dict[str, Primitive]
     a = np.arctan2(now.R[:, 1, 0], now.R[:, 0, 0])
     put = 1.12 * np.column_stack([np.cos(a), np.sin(a), 0 * a])
     k = params.picked % len(put)
-    nearest = about.degrees + (np.degrees(a) - about.degrees + 180) % 360 - 180  # of all angles that mean the same
+    nearest = (
+        about.degrees + (np.degrees(a) - about.degrees + 180) % 360 - 180
+    )  # of all angles that mean the same
     told = np.degrees(now.outputs[:, 0]) if params.angle == "one number" else nearest
     return _errors(now) | {
         "circle": Segments(segments(UNIT), "neutral", 1.0),
-        "inputs": Points(about.places, Field(now.errors, 0.0, 45.0, "error", "°"), 0.022, name="inputs"),
+        "inputs": Points(
+            about.places, Field(now.errors, 0.0, 45.0, "error", "°"), 0.022, name="inputs"
+        ),
         "outputs": Points(put, "source", 0.014, name="outputs"),
-        "to": Segments(between(about.places, put), "correspondence", 1.0, opacity=0.6, name="which belongs to which"),
+        "to": Segments(
+            between(about.places, put),
+            "correspondence",
+            1.0,
+            opacity=0.6,
+            name="which belongs to which",
+        ),
         "picked": Points(about.places[[k]] + LIFT, "highlight", 0.04, name="picked"),
         "picked/to": Segments(between(about.places[[k]], put[[k]]) + LIFT, "highlight", 4.0),
         "put": OVER_TURN.curve(about.degrees, told, "put out"),
@@ -79,8 +116,15 @@ def _angle(params: Params, about: Turns, now: Regressed) -> dict[str, Primitive]
 def _rotation(params: Params, about: Turns, now: Regressed) -> dict[str, Primitive]:
     k = params.picked % len(about.places)
     return _errors(now) | {
-        "ball": Segments(sphere_rings(np.zeros(3), params.largest / 180), "neutral", 1.0, name="the largest turns"),
-        "inputs": Points(about.places, Field(now.errors, 0.0, 45.0, "error", "°"), 0.025, name="rotation vectors"),
+        "ball": Segments(
+            sphere_rings(np.zeros(3), params.largest / 180),
+            "neutral",
+            1.0,
+            name="the largest turns",
+        ),
+        "inputs": Points(
+            about.places, Field(now.errors, 0.0, 45.0, "error", "°"), 0.025, name="rotation vectors"
+        ),
         "picked": Points(about.places[[k]], "highlight", 0.045, name="picked"),
         "by turn": BY_TURN.dots(about.degrees, now.errors, "test rotations", "truth"),
     }
@@ -92,7 +136,10 @@ def _set(now: SetLearned) -> dict[str, Primitive]:
     lines = np.concatenate([segments(one, closed=True) for one in shown])
     return {
         "band": Segments(
-            np.concatenate([segments(radius * UNIT) for radius in RADII]), "neutral", 1.0, name="least, most"
+            np.concatenate([segments(radius * UNIT) for radius in RADII]),
+            "neutral",
+            1.0,
+            name="least, most",
         ),
         "targets": Segments(lines, "target", 1.5, opacity=0.7, name="targets of this update"),
         "mean": Segments(segments(UNIT), "truth", 2.0, name="circle of the mean radius"),
@@ -116,9 +163,18 @@ def _mesh(now: MeshFitted, about: Target) -> dict[str, Primitive]:
         "given": Points(about.given, "target", 0.01, name="given points"),
         "mesh": Mesh(now.p, about.faces, "source", flat=True, name="fitted mesh"),
         "folded": Segments(now.p[shared[folded]], "wrong", 3.0, name="edges folded by over 90°"),
-        "true": Mesh(about.p_true, about.faces_true, "truth", flat=True, T_world_object=BESIDE, name="true surface"),
+        "true": Mesh(
+            about.p_true,
+            about.faces_true,
+            "truth",
+            flat=True,
+            T_world_object=BESIDE,
+            name="true surface",
+        ),
         "to given": DISTANCE.scalar(float(np.sqrt(now.to_given)), "to the given points", log=True),
-        "to truth": DISTANCE.scalar(float(np.sqrt(now.to_truth)), "to the true surface", "truth", log=True),
+        "to truth": DISTANCE.scalar(
+            float(np.sqrt(now.to_truth)), "to the true surface", "truth", log=True
+        ),
         "folds": FOLDS.scalar(100 * now.folded, "folded by over 90°", "wrong"),
     }
 
@@ -129,31 +185,57 @@ def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primiti
     scene: dict[str, Primitive] = {"plain": RIGHT.scalar(100 * plain, "as in training")}
     if changes_of(params):
         scene["changed"] = RIGHT.scalar(100 * changed, "changed", "wrong")
-    critical = now.network.critical(about.changed[:count]) if params.pool == "max" else [np.empty(0, int)] * count
+    critical = (
+        now.network.critical(about.changed[:count])
+        if params.pool == "max"
+        else [np.empty(0, int)] * count
+    )
     for k, name in enumerate(NAMES):
         p, x = about.changed[k], GAP * (k - (count - 1) / 2)
         decides = np.isin(np.arange(len(p)), critical[k])
         color = Classes.marking(decides, "highlight", "critical", others=("target", "points"))
         right = said(now, k) == name
-        scene[f"clouds/{name}"] = Points(p + np.array([x, 0.0, 0.0]), color, 0.065, name="points" if k == 0 else "")
-        at = np.array([x, 0.0, 1.5 + 0.65 * (k % 2)])  # in two rows: on a phone they would lie on each other
-        scene[f"said/{name}"] = Label(name if right else f"{name} → {said(now, k)}", at, "truth" if right else "wrong")
+        scene[f"clouds/{name}"] = Points(
+            p + np.array([x, 0.0, 0.0]), color, 0.065, name="points" if k == 0 else ""
+        )
+        at = np.array(
+            [x, 0.0, 1.5 + 0.65 * (k % 2)]
+        )  # in two rows: on a phone they would lie on each other
+        scene[f"said/{name}"] = Label(
+            name if right else f"{name} → {said(now, k)}", at, "truth" if right else "wrong"
+        )
     rows = []
     for k, name in enumerate(NAMES):
         of = about.of == k
-        rows.append((name, *(percent(float((now.scores[t][of].argmax(axis=1) == k).mean()), 0) for t in now.scores)))
-    return scene | {"by class": Table("Named rightly, by shape", ("shape", "as in training", "changed"), tuple(rows))}
+        rows.append(
+            (
+                name,
+                *(
+                    percent(float((now.scores[t][of].argmax(axis=1) == k).mean()), 0)
+                    for t in now.scores
+                ),
+            )
+        )
+    return scene | {
+        "by class": Table(
+            "Named rightly, by shape", ("shape", "as in training", "changed"), tuple(rows)
+        )
+    }
 
 
 def _field(now: Reconstructed, about: Looks) -> dict[str, Primitive]:
     field = now.field
     cover = (1 - np.exp(-field.density / 15))[:, :, None]
     image = (255 * (cover * field.color + 1 - cover)).astype(np.uint8).swapaxes(0, 1)[::-1]
-    places = np.column_stack([flatland.DISTANCE * np.cos(about.angles), flatland.DISTANCE * np.sin(about.angles)])
+    places = np.column_stack(
+        [flatland.DISTANCE * np.cos(about.angles), flatland.DISTANCE * np.sin(about.angles)]
+    )
     d = flatland.rays_of(NEW_VIEW, PIXELS)[1]
     line = places[-1] + 0.5 * d
     discs = np.concatenate([segments(r * circle() + [x, y]) for x, y, r in flatland.DISCS])
-    strips = np.repeat(np.stack([about.truth, np.ones_like(about.truth), about.image]), (STRIP, 1, STRIP), axis=0)
+    strips = np.repeat(
+        np.stack([about.truth, np.ones_like(about.truth), about.image]), (STRIP, 1, STRIP), axis=0
+    )
     return {
         "field": Picture(np.ascontiguousarray(image), "", 2.0, T_WORLD_FIELD),
         "discs": Segments(at_height(discs, 0.01), "truth", 2.0, name="true discs"),

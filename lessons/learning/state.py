@@ -6,13 +6,13 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.mesh_fitting import MeshFitted
-from workbench.algorithms.point_net import Classified, Pool
-from workbench.algorithms.radiance_field import Reconstructed
-from workbench.algorithms.rotation_regression import Compared, Regressed
-from workbench.algorithms.set_regression import SetLearned, SetLoss
+from lessons.learning.labelled_shapes import Turned
+from workbench.algorithms.learning.mesh_fitting import MeshFitted
+from workbench.algorithms.learning.point_net import Classified, Pool
+from workbench.algorithms.learning.radiance_field import Reconstructed
+from workbench.algorithms.learning.rotation_regression import Compared, Regressed
+from workbench.algorithms.learning.set_regression import SetLearned, SetLoss
 from workbench.data.framing import Upward
-from workbench.data.labelled_shapes import Turned
 from workbench.geometry.meshes import euler_characteristic
 from workbench.knobs import Gizmo, Knob, Pick
 
@@ -32,29 +32,75 @@ class Params:
     """What is learned, how it is written as numbers, and what the loss compares."""
 
     task: Annotated[Task, Knob("What is learned")] = "angle"
-    angle: Annotated[Angle, Knob("The numbers put out for an angle", needs=on("angle"))] = "cosine and sine"
-    rotation: Annotated[Rotation, Knob("The numbers put out for a rotation", needs=on("rotation"))] = "6D"
-    loss: Annotated[Compared, Knob("What the loss compares: those numbers, or the matrices that they mean",
-                                   needs=on("angle", "rotation"))] = "numbers"  # fmt: skip
-    largest: Annotated[float, Knob("The largest turn, in training and in the test", 45, 180, step=5, unit="deg",
-                                   needs=on("angle", "rotation"))] = 180.0  # fmt: skip
-    set_loss: Annotated[SetLoss, Knob("How two sets of points are compared", needs=on("sets"))] = "Chamfer"
-    laplacian: Annotated[float, Knob("Weight of the Laplacian energy", 0, 100, step=0.5, needs=on("mesh"))] = 10.0
-    normal: Annotated[float, Knob("Weight of the energy of normals", 0, 1, step=0.01, needs=on("mesh"))] = 0.0
-    edge: Annotated[float, Knob("Weight of the energy of edges", 0, 1, step=0.01, needs=on("mesh"))] = 0.0
-    noise: Annotated[float, Knob("Standard deviation of the given points", 0, 0.1, step=0.005, unit="m",
-                                 needs=on("mesh"))] = 0.04  # fmt: skip
-    pool: Annotated[Pool, Knob("How the points of a cloud become one row", needs=on("classify"))] = "max"
-    trained: Annotated[Turned, Knob("How shapes are turned in training", needs=on("classify"))] = "about z"
-    turned: Annotated[Turned, Knob("How shapes are turned in the test", needs=on("classify"))] = "about z"
-    shuffled: Annotated[bool, Knob("Test clouds are listed in any order", needs=on("classify"))] = False
+    angle: Annotated[Angle, Knob("The numbers put out for an angle", needs=on("angle"))] = (
+        "cosine and sine"
+    )
+    rotation: Annotated[
+        Rotation, Knob("The numbers put out for a rotation", needs=on("rotation"))
+    ] = "6D"
+    loss: Annotated[
+        Compared,
+        Knob(
+            "What the loss compares: those numbers, or the matrices that they mean",
+            needs=on("angle", "rotation"),
+        ),
+    ] = "numbers"
+    largest: Annotated[
+        float,
+        Knob(
+            "The largest turn, in training and in the test",
+            45,
+            180,
+            step=5,
+            unit="deg",
+            needs=on("angle", "rotation"),
+        ),
+    ] = 180.0
+    set_loss: Annotated[SetLoss, Knob("How two sets of points are compared", needs=on("sets"))] = (
+        "Chamfer"
+    )
+    laplacian: Annotated[
+        float, Knob("Weight of the Laplacian energy", 0, 100, step=0.5, needs=on("mesh"))
+    ] = 10.0
+    normal: Annotated[
+        float, Knob("Weight of the energy of normals", 0, 1, step=0.01, needs=on("mesh"))
+    ] = 0.0
+    edge: Annotated[
+        float, Knob("Weight of the energy of edges", 0, 1, step=0.01, needs=on("mesh"))
+    ] = 0.0
+    noise: Annotated[
+        float,
+        Knob(
+            "Standard deviation of the given points", 0, 0.1, step=0.005, unit="m", needs=on("mesh")
+        ),
+    ] = 0.04
+    pool: Annotated[
+        Pool, Knob("How the points of a cloud become one row", needs=on("classify"))
+    ] = "max"
+    trained: Annotated[Turned, Knob("How shapes are turned in training", needs=on("classify"))] = (
+        "about z"
+    )
+    turned: Annotated[Turned, Knob("How shapes are turned in the test", needs=on("classify"))] = (
+        "about z"
+    )
+    shuffled: Annotated[bool, Knob("Test clouds are listed in any order", needs=on("classify"))] = (
+        False
+    )
     stray: Annotated[
         tuple[float, float, float],
-        Knob("Where the first point of every test cloud is put; at the origin: left alone", -3, 3, unit="m",
-             by=Gizmo(0.5), needs=on("classify")),
-    ] = (0.0, 0.0, 0.0)  # fmt: skip
+        Knob(
+            "Where the first point of every test cloud is put; at the origin: left alone",
+            -3,
+            3,
+            unit="m",
+            by=Gizmo(0.5),
+            needs=on("classify"),
+        ),
+    ] = (0.0, 0.0, 0.0)
     views: Annotated[int, Knob("Photographs it is learned from", 2, 24, needs=on("field"))] = 12
-    updates: Annotated[int, Knob("Steps of Adam; 0 takes what suits the task", 0, 2000, step=50)] = 0
+    updates: Annotated[
+        int, Knob("Steps of Adam; 0 takes what suits the task", 0, 2000, step=50)
+    ] = 0
     picked: Annotated[
         int,
         Knob(
@@ -65,8 +111,12 @@ class Params:
             needs=on("angle", "rotation", "field"),
         ),
     ] = 20
-    scan: Annotated[Path | None, Knob("Own mesh to fit: off, obj, ply, stl, glb", needs=on("mesh"))] = None
-    up: Annotated[Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)] = "auto"
+    scan: Annotated[
+        Path | None, Knob("Own mesh to fit: off, obj, ply, stl, glb", needs=on("mesh"))
+    ] = None
+    up: Annotated[
+        Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)
+    ] = "auto"
     seed: Annotated[int, Knob("What chance draws: data, first weights, batches", 0, 99)] = 0
 
 
@@ -75,7 +125,8 @@ class Turns:
     """Test inputs of `angle` and `rotation`.
 
     Attributes:
-        places: Where each is shown: on the unit circle, or its rotation vector with half a turn at 1 m.
+        places: Where each is shown: on the unit circle, or its rotation vector with half a turn at
+            1 m.
         degrees: By how much each is turned; signed in the plane.
     """
 

@@ -7,30 +7,50 @@ from pathlib import Path
 
 import numpy as np
 
+from lessons.learning import flatland
+from lessons.learning.labelled_shapes import NAMES, labelled_clouds
 from lessons.learning.state import Clouds, Looks, Now, Params, State, Target, Task, Turns
-from workbench.algorithms.mesh_fitting import Term, fit_mesh
-from workbench.algorithms.point_net import train_classifier
-from workbench.algorithms.radiance_field import CELLS, SAMPLES, RadianceField, reconstruct
-from workbench.algorithms.rotation_regression import regress
-from workbench.algorithms.set_regression import ChamferGradient, learn_set
-from workbench.data import flatland, surfaces
+from workbench.algorithms.learning.mesh_fitting import Term, fit_mesh
+from workbench.algorithms.learning.point_net import train_classifier
+from workbench.algorithms.learning.radiance_field import CELLS, SAMPLES, RadianceField, reconstruct
+from workbench.algorithms.learning.rotation_regression import regress
+from workbench.algorithms.learning.set_regression import ChamferGradient, learn_set
 from workbench.data.files import stamp
 from workbench.data.framing import Upward, own_points
-from workbench.data.labelled_shapes import NAMES, labelled_clouds
 from workbench.data.own_meshes import read_welded
-from workbench.data.rabbit import rabbit, rabbit_mesh
-from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, Decode, random_rotations
-from workbench.geometry.sampling import points_on_faces
-from workbench.geometry.volume_rendering import RayWeights, samples_on
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit, rabbit_mesh
+from workbench.geometry.cameras.volume_rendering import RayWeights, samples_on
+from workbench.geometry.motions.rotation_outputs import IN_PLANE, IN_SPACE, Decode, random_rotations
+from workbench.geometry.points.sampling import points_on_faces
 
-UPDATES: Mapping[Task, int] = {"angle": 600, "rotation": 1500, "sets": 150, "mesh": 80, "classify": 300, "field": 225}
+UPDATES: Mapping[Task, int] = {
+    "angle": 600,
+    "rotation": 1500,
+    "sets": 150,
+    "mesh": 80,
+    "classify": 300,
+    "field": 225,
+}
 STEPS = 16
-NETWORKS = {"angle": (32, 4e-3), "rotation": (64, 1.2e-2)}  # numbers in a hidden layer, first step of Adam
+NETWORKS = {
+    "angle": (32, 4e-3),
+    "rotation": (64, 1.2e-2),
+}  # numbers in a hidden layer, first step of Adam
 TURNS, SET, CLOUD, TESTS, PIXELS = 181, 48, 32, 20, 64
 RADII = (0.5, 1.5)  # of the circles that a set of points is shown, m
-VERTICES, GIVEN, TRUE, START = 642, 1200, 3000, 0.6  # of meshes: vertices, points given and of the truth, radius (m)
+VERTICES, GIVEN, TRUE, START = (
+    642,
+    1200,
+    3000,
+    0.6,
+)  # of meshes: vertices, points given and of the truth, radius (m)
 MOST_OWN, OWN_SIZE = 200_000, 1.2
-NEW_VIEW, NEW_VIEWS, DENSE = 0.13, 12, 5.0  # radians off the cameras; how many; density that counts as matter, 1/m
+NEW_VIEW, NEW_VIEWS, DENSE = (
+    0.13,
+    12,
+    5.0,
+)  # radians off the cameras; how many; density that counts as matter, 1/m
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +65,9 @@ class Functions:
 def counts_of(params: Params) -> tuple[int, ...]:
     """Return after how many updates there is a step: closer together at the start."""
     updates = params.updates or UPDATES[params.task]
-    return tuple(np.unique(np.rint(updates * np.linspace(0, 1, STEPS + 1) ** 1.5).astype(int)).tolist())
+    return tuple(
+        np.unique(np.rint(updates * np.linspace(0, 1, STEPS + 1) ** 1.5).astype(int)).tolist()
+    )
 
 
 def steps(params: Params, functions: Functions) -> Iterator[State]:
@@ -56,7 +78,9 @@ def steps(params: Params, functions: Functions) -> Iterator[State]:
         yield State(params=params, about=about, now=now, last=now.updates == end)
 
 
-def _turns(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Turns, Now]]:
+def _turns(
+    params: Params, functions: Functions, rng: np.random.Generator
+) -> Iterator[tuple[Turns, Now]]:
     largest = np.radians(params.largest)
     if params.task == "angle":
         representation = IN_PLANE[params.angle]
@@ -67,7 +91,9 @@ def _turns(params: Params, functions: Functions, rng: np.random.Generator) -> It
         representation = IN_SPACE[params.rotation]
         if params.rotation == "6D":
             representation = replace(representation, decode=functions.rotation_from_six)
-        R_test, w = random_rotations(3 * TURNS, 3, largest, np.random.default_rng(1000 + params.seed))
+        R_test, w = random_rotations(
+            3 * TURNS, 3, largest, rng=np.random.default_rng(1000 + params.seed)
+        )
         about = Turns(w / np.pi, np.degrees(np.linalg.norm(w, axis=1)))
     width, rate = NETWORKS[params.task]
     for now in regress(
@@ -89,7 +115,9 @@ def circle_of(radius: float, turn: float) -> np.ndarray:
     return radius * np.column_stack([np.cos(a), np.sin(a), 0 * a])
 
 
-def _sets(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[None, Now]]:
+def _sets(
+    params: Params, functions: Functions, rng: np.random.Generator
+) -> Iterator[tuple[None, Now]]:
     start = circle_of(1.0, 0.0) * (1 + 0.1 * rng.normal(size=(SET, 1)))
     for now in learn_set(
         start,
@@ -101,18 +129,26 @@ def _sets(params: Params, functions: Functions, rng: np.random.Generator) -> Ite
         yield None, now
 
 
-def _mesh(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Target, Now]]:
+def _mesh(
+    params: Params, functions: Functions, rng: np.random.Generator
+) -> Iterator[tuple[Target, Now]]:
     ball = surfaces.sphere(VERTICES)
     name = "the rabbit" if params.scan is None else params.scan.name
-    given, truth, p_true, faces_true = _surface(params.scan, params.scan and stamp(params.scan), params.up, params.seed)
+    given, truth, p_true, faces_true = _surface(
+        params.scan, params.scan and stamp(params.scan), params.up, params.seed
+    )
     given = given + params.noise * rng.normal(size=given.shape)
     target = Target(ball.faces, given, p_true, faces_true, name)
-    weights: dict[Term, float] = {"laplacian": params.laplacian, "normal": params.normal, "edge": params.edge}
+    weights: dict[Term, float] = {
+        "laplacian": params.laplacian,
+        "normal": params.normal,
+        "edge": params.edge,
+    }
     for now in fit_mesh(
         START * ball.p,
         ball.faces,
         given,
-        truth,
+        truth=truth,
         weights=weights,
         counts=counts_of(params),
         rng=rng,
@@ -122,8 +158,12 @@ def _mesh(params: Params, functions: Functions, rng: np.random.Generator) -> Ite
 
 
 @functools.lru_cache(maxsize=4)
-def _surface(scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int) -> tuple[np.ndarray, ...]:
-    """Return points of the surface to be fitted, more of them, and its mesh: cached, as most knobs leave them alone."""
+def _surface(
+    scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed: int
+) -> tuple[np.ndarray, ...]:
+    """Return points of the surface to be fitted, more of them, and its mesh: cached, as most knobs
+    leave them alone.
+    """
     rng = np.random.default_rng(1000 + seed)
     if scan is None:
         return rabbit(GIVEN, rng), rabbit(TRUE, rng), *rabbit_mesh()
@@ -133,7 +173,9 @@ def _surface(scan: Path | None, _stamp: tuple[int, int] | None, up: Upward, seed
     return given, truth, p, faces
 
 
-def _classify(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Clouds, Now]]:
+def _classify(
+    params: Params, functions: Functions, rng: np.random.Generator
+) -> Iterator[tuple[Clouds, Now]]:
     def draw(count: int) -> tuple[np.ndarray, np.ndarray]:
         of = rng.integers(len(NAMES), size=count)
         return labelled_clouds(of, CLOUD, params.trained, rng), of
@@ -141,7 +183,11 @@ def _classify(params: Params, functions: Functions, rng: np.random.Generator) ->
     chance = np.random.default_rng(1000 + params.seed)
     of = np.tile(np.arange(len(NAMES)), TESTS)
     plain = labelled_clouds(of, CLOUD, params.trained, chance)
-    changed = plain if params.turned == params.trained else labelled_clouds(of, CLOUD, params.turned, chance)
+    changed = (
+        plain
+        if params.turned == params.trained
+        else labelled_clouds(of, CLOUD, params.turned, chance)
+    )
     changed = changed.copy()
     if any(params.stray):
         changed[:, 0] = params.stray
@@ -149,16 +195,26 @@ def _classify(params: Params, functions: Functions, rng: np.random.Generator) ->
         changed = np.stack([one[chance.permutation(CLOUD)] for one in changed])
     tests = {"plain": plain, "changed": changed}
     about = Clouds(plain, changed, of)
-    for now in train_classifier(params.pool, draw, tests, classes=len(NAMES), counts=counts_of(params), rng=rng):
+    for now in train_classifier(
+        params.pool, draw, tests, classes=len(NAMES), counts=counts_of(params), rng=rng
+    ):
         yield about, now
 
 
-def _field(params: Params, functions: Functions, rng: np.random.Generator) -> Iterator[tuple[Looks, Now]]:
+def _field(
+    params: Params, functions: Functions, rng: np.random.Generator
+) -> Iterator[tuple[Looks, Now]]:
     angles = np.linspace(0, 2 * np.pi, params.views, endpoint=False)
     p, d, colors = photographs(angles)
     new = np.linspace(0, 2 * np.pi, NEW_VIEWS, endpoint=False) + NEW_VIEW
     for now in reconstruct(
-        p, d, colors, reach=flatland.REACH, counts=counts_of(params), rng=rng, ray_weights=functions.ray_weights
+        p,
+        d,
+        colors,
+        reach=flatland.REACH,
+        counts=counts_of(params),
+        rng=rng,
+        ray_weights=functions.ray_weights,
     ):
         yield _looks(params, functions, now.field, (p, d, colors), angles, new), now
 
@@ -167,11 +223,20 @@ def photographs(angles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     """Return where the rays of cameras begin, their directions, and what they see."""
     rays = [flatland.rays_of(float(angle), PIXELS) for angle in angles]
     seen = [flatland.photograph(float(angle), PIXELS) for angle in angles]
-    return np.concatenate([p for p, _ in rays]), np.concatenate([d for _, d in rays]), np.concatenate(seen)
+    return (
+        np.concatenate([p for p, _ in rays]),
+        np.concatenate([d for _, d in rays]),
+        np.concatenate(seen),
+    )
 
 
 def _looks(
-    params: Params, functions: Functions, field: RadianceField, trained: tuple, angles: np.ndarray, new: np.ndarray
+    params: Params,
+    functions: Functions,
+    field: RadianceField,
+    trained: tuple,
+    angles: np.ndarray,
+    new: np.ndarray,
 ) -> Looks:
     p, d, colors = photographs(new)
     _, found = field.along(p, d, functions.ray_weights)

@@ -5,8 +5,8 @@ import numpy as np
 from lessons.measures.captions import area, off, volume
 from lessons.measures.state import State, Study
 from lessons.measures.study import SURE
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Estimates, Lines, Sampled, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Estimates, Lines, Sampled, Throws
 from workbench.numerals import percent
 from workbench.scene import Chart, Primitive, Role, Table
 
@@ -38,7 +38,10 @@ def beside(state: State) -> dict[str, Primitive]:
 
 def _running(state: State, volume: float, area: float) -> dict[str, Primitive]:
     subject, scene = state.subject, dict[str, Primitive]()
-    volumes, areas = Chart("Volume", unit=f"{subject.unit}³"), Chart("Area", unit=f"{subject.unit}²")
+    volumes, areas = (
+        Chart("Volume", unit=f"{subject.unit}³"),
+        Chart("Area", unit=f"{subject.unit}²"),
+    )
     if np.isfinite(subject.volume):
         scene["volume"] = volumes.scalar(volume, "volume")
         scene["true volume"] = volumes.scalar(subject.volume, "truth", "truth")
@@ -78,9 +81,13 @@ def _finer(study: Study, lantern: bool) -> dict[str, Primitive]:
 def _cells(state: State, now: Cells) -> dict[str, Primitive]:
     subject, x = state.subject, np.log2(now.across)
     return {
-        "volume errors": CELLS.dots(x, _log(np.abs(np.array(now.volumes) / subject.volume - 1)), "volume"),
+        "volume errors": CELLS.dots(
+            x, _log(np.abs(np.array(now.volumes) / subject.volume - 1)), "volume"
+        ),
         "wall areas": AREAS.curve(x, np.array(now.areas) / subject.area, "walls of cells"),
-        "marched areas": AREAS.curve(x, np.array(now.marched) / subject.area, "marching cubes", "other"),
+        "marched areas": AREAS.curve(
+            x, np.array(now.marched) / subject.area, "marching cubes", "other"
+        ),
         "true areas": AREAS.curve(x, np.ones(len(x)), "truth", "truth"),
     }
 
@@ -89,10 +96,16 @@ def _log(error: np.ndarray) -> np.ndarray:
     return np.log10(np.maximum(100 * error, FLOOR))
 
 
-def _by_chance(estimates: Estimates, true: float, what: str, unit: str, drawn: str) -> dict[str, Primitive]:
+def _by_chance(
+    estimates: Estimates, true: float, what: str, unit: str, drawn: str
+) -> dict[str, Primitive]:
     sums = Chart(f"{what} by {drawn}", f"log₁₀ {drawn}", unit)
     off_by = Chart(f"Error by {drawn}", f"log₁₀ {drawn}", "log₁₀ error (%)")
-    x, values, errors = np.log10(estimates.counts), np.array(estimates.values), np.array(estimates.errors)
+    x, values, errors = (
+        np.log10(estimates.counts),
+        np.array(estimates.values),
+        np.array(estimates.errors),
+    )
     expected = np.where(errors > 0, errors, np.nan) / true
     return {
         "estimate": sums.curve(x, values, "estimate"),
@@ -107,8 +120,13 @@ def _by_chance(estimates: Estimates, true: float, what: str, unit: str, drawn: s
 def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
     if state.in_triangle:
         names = ("corner a", "corner b", "corner c", "middle")
-        rows = tuple((name, percent(share, 1), "25 %") for name, share in zip(names, state.quarters, strict=True))
-        return {"quarters table": Table("Points in the quarters", ("", "share", "of the area"), rows)}
+        rows = tuple(
+            (name, percent(share, 1), "25 %")
+            for name, share in zip(names, state.quarters, strict=True)
+        )
+        return {
+            "quarters table": Table("Points in the quarters", ("", "share", "of the area"), rows)
+        }
     gap = 100 * float(np.linalg.norm(now.mean - state.middle)) / state.subject.diagonal
     return {
         "gap": GAP.scalar(gap, "mean of the points", "wrong"),
@@ -120,6 +138,8 @@ def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
 def _balls(now: Balls) -> dict[str, Primitive]:
     x, hits = np.array(now.dimensions, float), np.array(now.hits, float)
     return {
-        "expected hits": HITS.curve(x, np.log10(now.throws * np.array(now.shares)), "expected", "truth"),
+        "expected hits": HITS.curve(
+            x, np.log10(now.throws * np.array(now.shares)), "expected", "truth"
+        ),
         "hits": HITS.dots(x, np.log10(np.where(hits > 0, hits, np.nan)), "hits"),
     }

@@ -1,4 +1,6 @@
-"""What one step looks like: the shape, what was counted of it so far, and the charts of its errors."""
+"""What one step looks like: the shape, what was counted of it so far, and the charts of its
+errors.
+"""
 
 import functools
 
@@ -8,12 +10,12 @@ from lessons.measures.captions import caption
 from lessons.measures.charts import beside
 from lessons.measures.samples import TRIANGLE, at_corners
 from lessons.measures.state import State, Subject
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Lines, Sampled, Throws
 from workbench.data.thinning import every
+from workbench.geometry.fields.voxels import counted_surface
 from workbench.geometry.meshes import boundary_edges, edges
 from workbench.geometry.polylines import between
-from workbench.geometry.voxels import counted_surface
 from workbench.scene import Classes, Label, Mesh, Points, Primitive, Scene, Segments
 
 MOST_RAYS, MOST_EDGES, MOST_POINTS, MOST_LINES, MOST_SHOWN = 120, 4500, 6000, 120, 96
@@ -62,7 +64,11 @@ def _faces(state: State, now: Sums) -> dict[str, Primitive]:
     added = np.zeros(len(faces), dtype=np.uint8)
     done = now.order[: now.count]
     added[done] = np.where(now.parts[done] < 0, 2, 1)
-    color = Classes(np.repeat(added, 3), ("neutral", "target", "wrong"), ("not yet", "counts plus", "counts minus"))
+    color = Classes(
+        np.repeat(added, 3),
+        ("neutral", "target", "wrong"),
+        ("not yet", "counts plus", "counts minus"),
+    )
     scene: dict[str, Primitive] = {
         "surface": Mesh(p, faces, color, flat=True, name=subject.name),
         "origin": Points(origin[None], "highlight", 0.04, name="origin"),
@@ -76,7 +82,9 @@ def _faces(state: State, now: Sums) -> dict[str, Primitive]:
         few = new[every(3 * len(new), MOST_RAYS)]
         corners = p.reshape(-1, 3, 3)[few].reshape(-1, 3)
         sign = Classes(
-            np.repeat(added[few] == 2, 3).astype(np.uint8), ("target", "wrong"), ("counts plus", "counts minus")
+            np.repeat(added[few] == 2, 3).astype(np.uint8),
+            ("target", "wrong"),
+            ("counts plus", "counts minus"),
         )
         scene["tetrahedra"] = Segments(between(origin, corners), sign, 1.5, name="tetrahedra")
     return scene
@@ -120,7 +128,10 @@ def _throws(state: State, now: Throws) -> dict[str, Primitive]:
 def _thrown(q: np.ndarray, inside: np.ndarray) -> Points:
     radius = 0.03 if len(q) < 300 else 0.02 if len(q) < 1200 else 0.014
     return Points(
-        q, Classes(inside.astype(np.uint8), ("correspondence", "source"), ("miss", "hit")), radius, name="throws"
+        q,
+        Classes(inside.astype(np.uint8), ("correspondence", "source"), ("miss", "hit")),
+        radius,
+        name="throws",
     )
 
 
@@ -141,16 +152,28 @@ def _triangle(now: Sampled) -> dict[str, Primitive]:
     a, b, c = TRIANGLE
     inner, corner = np.array([a + b, b + c, c + a]) / 2, at_corners(now.q)
     which = np.where(corner.any(axis=1), corner.argmax(axis=1), 3).astype(np.uint8)
-    color = Classes(which, ("source", "other", "highlight", "neutral"), ("at a", "at b", "at c", "in the middle"))
+    color = Classes(
+        which,
+        ("source", "other", "highlight", "neutral"),
+        ("at a", "at b", "at c", "in the middle"),
+    )
     back, middle = np.array([0.0, 0.01, 0.0]), TRIANGLE.mean(axis=0)
     names = {
-        f"corner {name}": Label(name, middle + 1.1 * (p - middle)) for name, p in zip("abc", TRIANGLE, strict=True)
+        f"corner {name}": Label(name, middle + 1.1 * (p - middle))
+        for name, p in zip("abc", TRIANGLE, strict=True)
     }
     return names | {
-        "surface": Mesh(TRIANGLE + back, np.array([[0, 1, 2]]), "target", opacity=0.25, name="one triangle"),
-        "quarters": Segments(np.stack([inner, np.roll(inner, 1, axis=0)], axis=1), "target", 2, name="its quarters"),
+        "surface": Mesh(
+            TRIANGLE + back, np.array([[0, 1, 2]]), "target", opacity=0.25, name="one triangle"
+        ),
+        "quarters": Segments(
+            np.stack([inner, np.roll(inner, 1, axis=0)], axis=1), "target", 2, name="its quarters"
+        ),
         "points": Points(
-            now.q, color, 0.035 if len(now.q) < 300 else 0.02 if len(now.q) < 1000 else 0.011, name="points"
+            now.q,
+            color,
+            0.035 if len(now.q) < 300 else 0.02 if len(now.q) < 1000 else 0.011,
+            name="points",
         ),
     }
 
@@ -159,12 +182,16 @@ def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
     subject = state.subject
     q = now.q[-MOST_POINTS:]
     half = Classes(
-        (subject.p[:, 0] > 0).astype(np.uint8), ("neutral", "other"), ("faces as they are", "faces cut in four")
+        (subject.p[:, 0] > 0).astype(np.uint8),
+        ("neutral", "other"),
+        ("faces as they are", "faces cut in four"),
     )
     two = subject.scale * np.stack([now.mean, state.middle])
     return {
         "surface": Mesh(_shown(subject), subject.faces, half, opacity=0.3, name=subject.name),
-        "points": Points(subject.scale * q, "source", 0.022 if len(q) < 1200 else 0.012, name="points"),
+        "points": Points(
+            subject.scale * q, "source", 0.022 if len(q) < 1200 else 0.012, name="points"
+        ),
         "mean": Points(two[:1], "wrong", 0.06, name="mean of the points"),
         "middle": Points(two[1:], "truth", 0.06, name="middle of the surface"),
         "miss": Segments(two[None], "wrong", 3, name="how far apart"),

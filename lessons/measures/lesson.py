@@ -1,7 +1,8 @@
 """Area and volume: how large a shape is, as a sum over faces, over cells, or over throws of dice.
 
-What it teaches: each sum has an error with a law of its own: h², h, 1/√n, or one that never shrinks; and what a sum takes
-for granted (closed, consistently turned, not overlapping, evenly drawn) is where it goes wrong without a word.
+What it teaches: each sum has an error with a law of its own: h², h, 1/√n, or one that never
+shrinks; and what a sum takes for granted (closed, consistently turned, not overlapping, evenly
+drawn) is where it goes wrong without a word.
 """
 
 from collections.abc import Iterator
@@ -19,10 +20,17 @@ from lessons.measures.samples import samples
 from lessons.measures.state import Params, State, Subject
 from lessons.measures.study import peeked, study_of
 from lessons.measures.subjects import subject_of
-from workbench.algorithms.measures import SignedVolume, count_cells, sum_faces
-from workbench.algorithms.monte_carlo import ByChance, OnFaces, Throws, raise_dimension, shoot_lines, throw_points
+from workbench.algorithms.surfaces.measures import SignedVolume, count_cells, sum_faces
+from workbench.algorithms.surfaces.monte_carlo import (
+    ByChance,
+    OnFaces,
+    Throws,
+    raise_dimension,
+    shoot_lines,
+    throw_points,
+)
 from workbench.data.thinning import growing
-from workbench.geometry.sampling import Draw
+from workbench.geometry.points.sampling import Draw
 from workbench.lesson import Lesson, Sweep
 
 BANDS = 20  # steps in which faces are added
@@ -62,20 +70,33 @@ def run(
             subject.inside,
             subject.low,
             subject.high,
-            counts,
+            counts=counts,
             draw=params.draw,
             rng=rng,
             volume_by_chance=volume_by_chance,
         )
     elif params.method == "lines":
-        found = shoot_lines(subject.p, subject.faces, _ball(subject), counts_to(min(params.throws, MOST_LINES)), rng)
+        found = shoot_lines(
+            subject.p,
+            subject.faces,
+            _ball(subject),
+            counts=counts_to(min(params.throws, MOST_LINES)),
+            rng=rng,
+        )
     else:
         found = raise_dimension(params.dimension, params.throws, rng)
     state = None
     for now in found:
         state = State(params=params, subject=subject, now=now)
-        if isinstance(now, Throws) and params.draw == "random" and now.estimates.counts[-1] == counts[-1]:
-            state = replace(state, peeked=peeked(subject.volume / float(np.prod(subject.high - subject.low)), counts))
+        if (
+            isinstance(now, Throws)
+            and params.draw == "random"
+            and now.estimates.counts[-1] == counts[-1]
+        ):
+            state = replace(
+                state,
+                peeked=peeked(subject.volume / float(np.prod(subject.high - subject.low)), counts),
+            )
         yield state
     study = study_of(params)
     if state is not None and study is not None:
@@ -96,7 +117,9 @@ def counts_to(most: int, draw: Draw = "random") -> tuple[int, ...]:
 
 def _bands(faces: int) -> tuple[int, ...]:
     """Return no face, one, and ever more until all are there."""
-    return tuple(np.unique([0, 1, *np.rint(np.linspace(0, faces, BANDS + 1)[1:]).astype(int)]).tolist())
+    return tuple(
+        np.unique([0, 1, *np.rint(np.linspace(0, faces, BANDS + 1)[1:]).astype(int)]).tolist()
+    )
 
 
 def _ball(subject: Subject) -> tuple[np.ndarray, float]:
@@ -107,12 +130,15 @@ def _ball(subject: Subject) -> tuple[np.ndarray, float]:
 lesson = Lesson(
     name="measures",
     title="Area and volume",
-    summary="Sums over faces, over cells, over throws of dice: each has an error with a law of its own.",
+    summary="Add up faces, cells or random throws to get an area or a volume, and see how large "
+    "the error of each sum is.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1300,
+    order=1500,
+    chapter="Measure",
+    minutes=20,
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from lessons.measures.state import Params, State
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Throws
 from workbench.certain import as_a
 from workbench.lesson import Choice, Preset, Question, View
 from workbench.numerals import brief, fixed, percent
@@ -26,98 +26,157 @@ LINES = Params(method="lines", throws=4000)
 
 PRESETS: tuple[Preset[Params], ...] = (
     Preset(
-        "origin", "The origin far away",
-        "The origin is seven diagonals away: all plus together are 12 times the rabbit, all minus 11 times. What is left?",
-        Params(origin=(-12.0, -16.0, -8.0)), 15, MIDDLE,
+        "origin",
+        "The origin far away",
+        "The origin is seven diagonals away: all plus together are 12 times the rabbit, all minus"
+        " 11 times. What is left?",
+        Params(origin=(-12.0, -16.0, -8.0)),
+        15,
+        MIDDLE,
     ),
     Preset(
-        "hole", "A hole",
-        "1 % of the triangles is cut out, on the side you see. From an origin one diagonal behind, 6.6 % of the volume go"
-        " with them. Every origin has its own number.",
-        HOLE, 15, BEHIND, breaks=True,
+        "hole",
+        "A hole",
+        "1 % of the triangles is cut out, on the side you see. From an origin one diagonal behind,"
+        " 6.6 % of the volume go with them. Every origin has its own number.",
+        HOLE,
+        15,
+        BEHIND,
+        breaks=True,
     ),
     Preset(
-        "flipped", "Faces turned round",
-        "5 % of the triangles are turned round, and each counts with the other sign: 10 % of the volume are gone, 6 to"
-        " 13 % with other seeds, and of the area nothing.",
-        Params(flipped=0.05), -1, breaks=True,
+        "flipped",
+        "Faces turned round",
+        "5 % of the triangles are turned round, and each counts with the other sign: 10 % of the"
+        " volume are gone, 6 to 13 % with other seeds, and of the area nothing.",
+        Params(flipped=0.05),
+        -1,
+        breaks=True,
     ),
     Preset(
-        "overlap", "Two spheres that overlap",
-        "Two closed meshes as one: every tetrahedron is right, and what lies in both spheres is counted twice.",
-        Params(shape="two spheres", origin=(0.0, -2.0, -0.6)), 12, WIDE, breaks=True,
+        "overlap",
+        "Two spheres that overlap",
+        "Two closed meshes as one: every tetrahedron is right, and what lies in both spheres is"
+        " counted twice.",
+        Params(shape="two spheres", origin=(0.0, -2.0, -0.6)),
+        12,
+        WIDE,
+        breaks=True,
     ),
     Preset(
-        "union", "The same in voxels",
-        "A cell is full when its middle lies in either sphere, so nothing is counted twice: 0.1 % off with 32"
-        " cells, where the meshes were 17.5 %.",
-        Params(method="voxels", shape="two spheres"), -3, WIDE,
+        "union",
+        "The same in voxels",
+        "A cell is full when its middle lies in either sphere, so nothing is counted twice: 0.1 %"
+        " off with 32 cells, where the meshes were 17.5 %.",
+        Params(method="voxels", shape="two spheres"),
+        -3,
+        WIDE,
     ),
     Preset(
-        "inscribed", "A sphere of triangles",
-        "All vertices lie on the sphere, and the triangles cut below it. In the last step the edges are halved again and"
-        " again: read the slope.",
-        INSCRIBED, 15, MIDDLE,
+        "inscribed",
+        "A sphere of triangles",
+        "All vertices lie on the sphere, and the triangles cut below it. In the last step the edges"
+        " are halved again and again: read the slope.",
+        INSCRIBED,
+        15,
+        MIDDLE,
     ),
     Preset(
-        "staircase", "Ever smaller cells",
-        "From 4 to 64 cells across: the volume comes ever closer. Compare it with the area of the walls, and with that by"
-        " marching cubes.",
-        STAIRCASE, 0, MIDDLE,
+        "staircase",
+        "Ever smaller cells",
+        "From 4 to 64 cells across: the volume comes ever closer. Compare it with the area of the"
+        " walls, and with that by marching cubes.",
+        STAIRCASE,
+        0,
+        MIDDLE,
     ),
     Preset(
-        "lantern", "Schwarz's lantern",
-        "All vertices lie on the cylinder, 11 in a ring, in 121 bands. Then ever more sectors, and three ways to choose the"
-        " number of rings.",
-        LANTERN, 0, MIDDLE, breaks=True,
+        "lantern",
+        "Schwarz's lantern",
+        "All vertices lie on the cylinder, 11 in a ring, in 121 bands. Then ever more sectors, and"
+        " three ways to choose the number of rings.",
+        LANTERN,
+        0,
+        MIDDLE,
+        breaks=True,
     ),
     Preset(
-        "throws", "Throws of dice",
-        "Up to 100,000 points in a cube: count those in the ball. Watch the interval close, how slowly,"
-        " and how often it misses the truth if you look at every step.",
-        THROWS, 12, WIDE,
+        "throws",
+        "Throws of dice",
+        "Up to 100,000 points in a cube: count those in the ball. Watch the interval close, how"
+        " slowly, and how often it misses the truth if you look at every step.",
+        THROWS,
+        12,
+        WIDE,
     ),
     Preset(
-        "stratified", "One throw in each small cube",
-        "The same, but the box is cut into equal cubes with one throw in each: no clumps, no gaps, and an error that falls"
-        " faster.",
-        Params(method="chance", shape="sphere", throws=100_000, draw="stratified"), 12, WIDE,
+        "stratified",
+        "One throw in each small cube",
+        "The same, but the box is cut into equal cubes with one throw in each: no clumps, no gaps,"
+        " and an error that falls faster.",
+        Params(method="chance", shape="sphere", throws=100_000, draw="stratified"),
+        12,
+        WIDE,
     ),
     Preset(
-        "sobol", "Sobol's sequence",
-        "Every power of two of these points is spread evenly however the box is halved. Compare the error with that of"
-        " random throws.",
-        Params(method="chance", shape="sphere", throws=100_000, draw="Sobol"), 6, WIDE,
+        "sobol",
+        "Sobol's sequence",
+        "Every power of two of these points is spread evenly however the box is halved. Compare the"
+        " error with that of random throws.",
+        Params(method="chance", shape="sphere", throws=100_000, draw="Sobol"),
+        6,
+        WIDE,
     ),
     Preset(
-        "dimensions", "The ball in many dimensions",
-        "100,000 throws into a cube of 2 to 20 dimensions. The picture has the first three coordinates: look for what still"
-        " hits.",
-        Params(method="dimensions", throws=100_000), 1, WIDE, breaks=True,
+        "dimensions",
+        "The ball in many dimensions",
+        "100,000 throws into a cube of 2 to 20 dimensions. The picture has the first three"
+        " coordinates: look for what still hits.",
+        Params(method="dimensions", throws=100_000),
+        1,
+        WIDE,
+        breaks=True,
     ),
     Preset(
-        "alike", "Every face as likely",
-        "The faces of one half were cut in four. Whoever picks all faces alike puts 86 % of the points there, for"
-        " 60 % of the area.",
-        Params(method="samples", throws=5000, pick="all alike"), -1, MIDDLE, breaks=True,
+        "alike",
+        "Every face as likely",
+        "The faces of one half were cut in four. Whoever picks all faces alike puts 86 % of the"
+        " points there, for 60 % of the area.",
+        Params(method="samples", throws=5000, pick="all alike"),
+        -1,
+        MIDDLE,
+        breaks=True,
     ),
     Preset(
-        "no-root", "The forgotten root",
-        "Two random numbers make a point of a triangle. Without the square root half of all points crowd at corner a.",
-        Params(method="samples", throws=5000, place="without the root"), 3, FRONT, breaks=True,
+        "no-root",
+        "The forgotten root",
+        "Two random numbers make a point of a triangle. Without the square root half of all points"
+        " crowd at corner a.",
+        Params(method="samples", throws=5000, place="without the root"),
+        3,
+        FRONT,
+        breaks=True,
     ),
     Preset(
-        "normalised", "Three numbers, normalised",
-        "Three random weights divided by their sum: half of all points crowd in the middle quarter, and the corners starve.",
-        Params(method="samples", throws=5000, place="normalised"), 3, FRONT, breaks=True,
+        "normalised",
+        "Three numbers, normalised",
+        "Three random weights divided by their sum: half of all points crowd in the middle quarter,"
+        " and the corners starve.",
+        Params(method="samples", throws=5000, place="normalised"),
+        3,
+        FRONT,
+        breaks=True,
     ),
     Preset(
-        "lines", "An area from lines alone",
-        "Random lines through a ball around the rabbit, and how often each crosses its surface: nothing else tells the area,"
-        " 0.4 % off with 4,000 lines.",
-        LINES, -1, MIDDLE,
+        "lines",
+        "An area from lines alone",
+        "Random lines through a ball around the rabbit, and how often each crosses its surface:"
+        " nothing else tells the area, 0.4 % off with 4,000 lines.",
+        LINES,
+        -1,
+        MIDDLE,
     ),
-)  # fmt: skip
+)
 
 
 def sums_of(states: Sequence[State]) -> Sums:
@@ -139,8 +198,9 @@ def _walls_answer(states: Sequence[State]) -> float:
 def _walls_why(states: Sequence[State]) -> str:
     shares = _walls(states)
     return (
-        f"With 16 cells {fixed(shares[4], 2)} times, with 64 cells {fixed(shares[-1], 2)} times. Steps stay steps: each wall"
-        " is seen along an axis, and a slanted piece of surface is replaced by its three shadows, however small the cells."
+        f"With 16 cells {fixed(shares[4], 2)} times, with 64 cells {fixed(shares[-1], 2)} times."
+        " Steps stay steps: each wall is seen along an axis, and a slanted piece of surface is"
+        " replaced by its three shadows, however small the cells."
     )
 
 
@@ -155,10 +215,17 @@ def _tenth(states: Sequence[State]) -> float:
 
 def _tenth_why(states: Sequence[State]) -> str:
     now = as_a(Throws, states[-1].now)
-    share = dict(zip(now.estimates.counts, np.array(now.estimates.errors) / states[-1].subject.volume, strict=True))
+    share = dict(
+        zip(
+            now.estimates.counts,
+            np.array(now.estimates.errors) / states[-1].subject.volume,
+            strict=True,
+        )
+    )
     return (
-        f"{brief(_tenth(states), 2)} times: the standard error falls from {percent(share[1000])} at 1,000 throws to"
-        f" {percent(share[100_000])} at 100,000, with one over the root of their number."
+        f"{brief(_tenth(states), 2)} times: the standard error falls from {percent(share[1000])} at"
+        f" 1,000 throws to {percent(share[100_000])} at 100,000, with one over the root of their"
+        " number."
     )
 
 
@@ -186,90 +253,136 @@ QUESTIONS: tuple[Question[Params, State], ...] = (
         choices=(
             Choice(
                 "It tends to the sphere's area",
-                why="The cubes do come as near to the sphere as you like. Their walls do not turn: a staircase is no ramp.",
+                why=(
+                    "The cubes do come as near to the sphere as you like. Their walls do not turn:"
+                    " a staircase is no ramp."
+                ),
             ),
             "It stays too large by a fixed share",
             Choice(
                 "It grows without end",
-                why="There are ever more walls, four times as many for half the edge. Each has a quarter of the area.",
+                why=(
+                    "There are ever more walls, four times as many for half the edge. Each has a"
+                    " quarter of the area."
+                ),
             ),
         ),
     ),
     Question(
         "predict-tenth",
-        "1,000 throws leave a standard error of some 3 %. How many times as many bring it to a tenth of that?",
+        "1,000 throws leave a standard error of some 3 %. How many times as many bring it to a"
+        " tenth of that?",
         answer=_tenth,
         why=_tenth_why,
         params=THROWS,
         unit="times",
         tolerance=20.0,
         wrong=(
-            (9.0, 11.0, "That would hold if the error fell with the number of throws. It falls with the root of it."),
+            (
+                9.0,
+                11.0,
+                (
+                    "That would hold if the error fell with the number of throws. It falls with the"
+                    " root of it."
+                ),
+            ),
             (
                 900.0,
                 1100.0,
-                "Three dimensions do not enter: a throw is in or out, and only the number of throws counts.",
+                (
+                    "Three dimensions do not enter: a throw is in or out, and only the number of"
+                    " throws counts."
+                ),
             ),
-            (3.0, 3.5, "The root of ten is what ten times as many throws gain. You need the square."),
+            (
+                3.0,
+                3.5,
+                "The root of ten is what ten times as many throws gain. You need the square.",
+            ),
         ),
     ),
     Question(
         "predict-hits",
-        "100,000 points are thrown into a cube of ten dimensions. How many land in the ball that touches all its sides?",
-        answer=lambda states: float(np.argmin(np.abs(np.log10([25_000, 2_500, 250, 2.5]) - np.log10(_hits(states))))),
+        "100,000 points are thrown into a cube of ten dimensions. How many land in the ball that"
+        " touches all its sides?",
+        answer=lambda states: float(
+            np.argmin(np.abs(np.log10([25_000, 2_500, 250, 2.5]) - np.log10(_hits(states))))
+        ),
         why=lambda states: (
-            f"{_hits(states):,}. The corners take over: at ten dimensions the ball fills a quarter of a per cent of its"
-            " cube, and at twenty no throw finds it."
+            f"{_hits(states):,}. The corners take over: at ten dimensions the ball fills a quarter"
+            " of a per cent of its cube, and at twenty no throw finds it."
         ),
         params=Params(method="dimensions", throws=100_000, dimension=10),
         choices=(
             Choice(
                 "some 25,000",
-                why="In five dimensions it is 16,000 already. With every dimension more of the cube lies in its corners.",
+                why=(
+                    "In five dimensions it is 16,000 already. With every dimension more of the cube"
+                    " lies in its corners."
+                ),
             ),
-            Choice("some 2,500", why="That is about seven or eight dimensions. Each further one takes more than half."),
+            Choice(
+                "some 2,500",
+                why=(
+                    "That is about seven or eight dimensions. Each further one takes more than"
+                    " half."
+                ),
+            ),
             "some 250",
-            Choice("two or three", why="That is about fifteen dimensions. π⁵ / 120 / 2¹⁰ is what a ball of ten fills."),
+            Choice(
+                "two or three",
+                why="That is about fifteen dimensions. π⁵ / 120 / 2¹⁰ is what a ball of ten fills.",
+            ),
         ),
     ),
     Question(
         "predict-inscribed",
-        "642 vertices on a unit sphere, joined by triangles: which of the two loses the larger share?",
+        "642 vertices on a unit sphere, joined by triangles: which of the two loses the larger"
+        " share?",
         answer=lambda states: 0.0 if _shrinks(states)[0] > _shrinks(states)[1] else 1.0,
         why=lambda states: (
-            f"The area is {percent(_shrinks(states)[0])} too small, the volume {percent(_shrinks(states)[1])}. Both fall"
-            " with the square of the edges."
+            f"The area is {percent(_shrinks(states)[0])} too small, the volume"
+            f" {percent(_shrinks(states)[1])}. Both fall with the square of the edges."
         ),
         params=INSCRIBED,
         choices=(
             Choice(
                 "the area",
-                why="Triangles are smaller than their piece of the sphere. They are also nearer to the middle, which counts"
-                " for the volume only.",
+                why=(
+                    "Triangles are smaller than their piece of the sphere. They are also nearer to"
+                    " the middle, which counts for the volume only."
+                ),
             ),
             "the volume",
         ),
     ),
     Question(
         "predict-lantern",
-        "A cylinder is made of 2,662 triangles: 11 vertices in a ring, 121 bands, every vertex on the cylinder. How large is"
-        " their area?",
-        answer=lambda states: float(np.argmin(np.abs(np.array([0.97, 1.03, 4.93]) - _lantern_share(states)))),
+        "A cylinder is made of 2,662 triangles: 11 vertices in a ring, 121 bands, every vertex on"
+        " the cylinder. How large is their area?",
+        answer=lambda states: float(
+            np.argmin(np.abs(np.array([0.97, 1.03, 4.93]) - _lantern_share(states)))
+        ),
         why=lambda states: (
-            f"{fixed(_lantern_share(states), 2)} times that of the cylinder. The bands are so low that their triangles lie"
-            " almost level: points on a surface do not make triangles along it."
+            f"{fixed(_lantern_share(states), 2)} times that of the cylinder. The bands are so low"
+            " that their triangles lie almost level: points on a surface do not make triangles"
+            " along it."
         ),
         params=LANTERN,
         choices=(
             Choice(
                 "a little smaller than the cylinder's",
-                why="That holds for a polygon in a circle. In space a triangle with corners on the surface may stand across"
-                " it.",
+                why=(
+                    "That holds for a polygon in a circle. In space a triangle with corners on the"
+                    " surface may stand across it."
+                ),
             ),
             Choice(
                 "a little larger",
-                why="The triangles do stand out of the wall, but by 78°, not a little: bands are far lower than sectors are"
-                " wide.",
+                why=(
+                    "The triangles do stand out of the wall, but by 78°, not a little: bands are"
+                    " far lower than sectors are wide."
+                ),
             ),
             "about five times as large",
         ),

@@ -7,11 +7,11 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Lines, Sampled, Throws
 from workbench.data.framing import Unit, Upward
-from workbench.geometry.sampling import Draw
-from workbench.geometry.voxels import Grid
+from workbench.geometry.fields.voxels import Grid
+from workbench.geometry.points.sampling import Draw
 from workbench.knobs import Gizmo, Knob
 
 Shape = Literal["rabbit", "sphere", "box", "torus", "lantern", "two spheres"]
@@ -27,24 +27,54 @@ class Params:
 
     method: Annotated[Method, Knob("What is added up or counted")] = "faces"
     shape: Annotated[
-        Shape, Knob("What is measured", needs={"method": ("faces", "voxels", "chance", "lines", "samples")})
+        Shape,
+        Knob(
+            "What is measured", needs={"method": ("faces", "voxels", "chance", "lines", "samples")}
+        ),
     ] = "rabbit"
     subdivisions: Annotated[
         int, Knob("How often the edges of a round mesh were halved", 0, 5, needs={"shape": ROUND})
     ] = 3
-    sectors: Annotated[int, Knob("Of the lantern: vertices in a ring", 4, 128, needs={"shape": ("lantern",)})] = 11
-    rings: Annotated[int, Knob("Of the lantern: bands of triangles", 4, 128, needs={"shape": ("lantern",)})] = 121
+    sectors: Annotated[
+        int, Knob("Of the lantern: vertices in a ring", 4, 128, needs={"shape": ("lantern",)})
+    ] = 11
+    rings: Annotated[
+        int, Knob("Of the lantern: bands of triangles", 4, 128, needs={"shape": ("lantern",)})
+    ] = 121
     origin: Annotated[
         tuple[float, float, float],
-        Knob("The tip of all tetrahedra", -20, 20, unit="m", by=Gizmo(0.4), needs={"method": ("faces",)}),
+        Knob(
+            "The tip of all tetrahedra",
+            -20,
+            20,
+            unit="m",
+            by=Gizmo(0.4),
+            needs={"method": ("faces",)},
+        ),
     ] = (-0.6, -1.5, -0.4)
     hole: Annotated[
-        float, Knob("Share of the faces that is cut out in one place", 0, 0.1, step=0.005, needs={"method": ("faces",)})
+        float,
+        Knob(
+            "Share of the faces that is cut out in one place",
+            0,
+            0.1,
+            step=0.005,
+            needs={"method": ("faces",)},
+        ),
     ] = 0.0
     flipped: Annotated[
-        float, Knob("Share of the faces that is turned round", 0, 0.2, step=0.01, needs={"method": ("faces",)})
+        float,
+        Knob(
+            "Share of the faces that is turned round",
+            0,
+            0.2,
+            step=0.01,
+            needs={"method": ("faces",)},
+        ),
     ] = 0.0
-    cells: Annotated[int, Knob("Cells along the longest side at the end", 8, 64, needs={"method": ("voxels",)})] = 32
+    cells: Annotated[
+        int, Knob("Cells along the longest side at the end", 8, 64, needs={"method": ("voxels",)})
+    ] = 32
     throws: Annotated[
         int,
         Knob(
@@ -55,26 +85,40 @@ class Params:
             needs={"method": ("chance", "lines", "samples", "dimensions")},
         ),
     ] = 1000
-    draw: Annotated[Draw, Knob("How points are thrown into the box", needs={"method": ("chance",)})] = "random"
-    pick: Annotated[Pick, Knob("How often each face is picked", needs={"method": ("samples",)})] = "by area"
-    place: Annotated[Place, Knob("How two numbers become a place in a face", needs={"method": ("samples",)})] = (
-        "with the root"
+    draw: Annotated[
+        Draw, Knob("How points are thrown into the box", needs={"method": ("chance",)})
+    ] = "random"
+    pick: Annotated[Pick, Knob("How often each face is picked", needs={"method": ("samples",)})] = (
+        "by area"
     )
-    dimension: Annotated[int, Knob("The highest dimension of the ball", 3, 20, needs={"method": ("dimensions",)})] = 20
+    place: Annotated[
+        Place, Knob("How two numbers become a place in a face", needs={"method": ("samples",)})
+    ] = "with the root"
+    dimension: Annotated[
+        int, Knob("The highest dimension of the ball", 3, 20, needs={"method": ("dimensions",)})
+    ] = 20
     mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
-    up: Annotated[Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)] = "auto"
-    voxels: Annotated[Path | None, Knob("Own voxels instead: npy or npz, (x, y, z) of bits or labels")] = None
+    up: Annotated[
+        Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)
+    ] = "auto"
+    voxels: Annotated[
+        Path | None, Knob("Own voxels instead: npy or npz, (x, y, z) of bits or labels")
+    ] = None
     spacing: Annotated[
-        tuple[float, float, float], Knob("Edges of an own voxel along x, y, z", 0.001, 1000, of_files=True)
+        tuple[float, float, float],
+        Knob("Edges of an own voxel along x, y, z", 0.001, 1000, of_files=True),
     ] = (1.0, 1.0, 1.0)
-    label: Annotated[int, Knob("Which label of own voxels; 0 takes all that are not 0", 0, 65_535, of_files=True)] = 0
+    label: Annotated[
+        int, Knob("Which label of own voxels; 0 takes all that are not 0", 0, 65_535, of_files=True)
+    ] = 0
     unit: Annotated[Unit, Knob("Unit of the numbers in own files", of_files=True)] = "m"
     seed: Annotated[int, Knob("What chance draws, and where the grid falls", 0, 99)] = 0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Subject:
-    """What is measured. Lengths are in its `unit`; the picture is `scale` times as large, in metres.
+    """What is measured. Lengths are in its `unit`; the picture is `scale` times as large, in
+    metres.
 
     Attributes:
         name: What it is called in sentences.
@@ -121,7 +165,8 @@ class Study:
 
     Attributes:
         faces: How many faces the meshes have.
-        errors: By name, one for each mesh; areas as shares of the true one where the mesh is a lantern.
+        errors: By name, one for each mesh; areas as shares of the true one where the mesh is a
+            lantern.
     """
 
     faces: np.ndarray
@@ -142,8 +187,8 @@ class State:
         half_hits: The share of the points there.
         middle: The middle of the surface.
         study: Errors on ever finer meshes, in the last step.
-        peeked: Of many more runs like this one, in the last step: the share whose interval misses the truth there, and the
-            share where it did so at one step or more.
+        peeked: Of many more runs like this one, in the last step: the share whose interval misses
+            the truth there, and the share where it did so at one step or more.
     """
 
     params: Params
@@ -159,7 +204,9 @@ class State:
 
     @property
     def volume_error(self) -> float:
-        """The relative error of a volume that was just measured; NaN where none was or the truth is not known."""
+        """The relative error of a volume that was just measured; NaN where none was or the truth is
+        not known.
+        """
         now, true = self.now, self.subject.volume
         if isinstance(now, Sums):
             return now.volume / true - 1 if now.count == len(self.subject.faces) else float("nan")

@@ -6,7 +6,7 @@ import numpy as np
 
 from lessons.measures.state import Params, Study
 from lessons.measures.subjects import built_in
-from workbench.geometry.measures import signed_volume, surface_area
+from workbench.geometry.meshes.measures import signed_volume, surface_area
 
 SURE = 1.96  # standard errors to either side that hold the truth in 95 of 100 runs
 RUNS = 4000
@@ -15,7 +15,9 @@ POWERS = {"rings = sectors": 1, "rings = sectors²": 2, "rings = sectors³": 3}
 
 
 def study_of(params: Params) -> Study | None:
-    """Return the errors on ever finer meshes of a smooth shape; None where a shape has none, or was spoilt."""
+    """Return the errors on ever finer meshes of a smooth shape; None where a shape has none, or was
+    spoilt.
+    """
     spoilt = params.method != "faces" or params.hole or params.flipped
     if spoilt or params.mesh is not None or params.voxels is not None:
         return None
@@ -26,7 +28,8 @@ def study_of(params: Params) -> Study | None:
 
 @functools.lru_cache(maxsize=4)
 def peeked(share: float, counts: tuple[int, ...]) -> tuple[float, float]:
-    """Return for how many runs of random throws the 95 % interval misses the truth at the end, and ever, as shares.
+    """Return for how many runs of random throws the 95 % interval misses the truth at the end, and
+    ever, as shares.
 
     Args:
         share: Of the box that is inside.

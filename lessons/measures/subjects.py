@@ -6,17 +6,23 @@ from pathlib import Path
 
 import numpy as np
 
+from lessons.measures import measurables
+from lessons.measures.measurables import Measurable
 from lessons.measures.state import Params, Subject
-from workbench.data import measurables
 from workbench.data.files import read_voxels, stamp
 from workbench.data.framing import UPRIGHT, Unit, Upward, box, extent, upward
-from workbench.data.measurables import Measurable
 from workbench.data.own_meshes import read_welded
-from workbench.data.rabbit import rabbit_mesh
+from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.errors import InputError
-from workbench.geometry.containment import columns, windings
-from workbench.geometry.measures import encloses, signed_volume, surface_area
-from workbench.geometry.voxels import Grid, counted_volume, grid_over, marched_surface, occupied
+from workbench.geometry.fields.voxels import (
+    Grid,
+    counted_volume,
+    grid_over,
+    marched_surface,
+    occupied,
+)
+from workbench.geometry.meshes.containment import columns, windings
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
 from workbench.knobs import called
 
 RABBIT, SPACING = 2.0, 0.04  # times as large as it is made, with edges of so many metres before
@@ -31,18 +37,25 @@ def subject_of(params: Params) -> Subject:
     """Return what the params describe.
 
     Raises:
-        InputError: If an own file cannot be used, or the shape has no volume where one is asked for.
+        InputError: If an own file cannot be used, or the shape has no volume where one is asked
+            for.
     """
     if params.mesh is not None and params.voxels is not None:
-        raise InputError(f"{called('mesh')} and {called('voxels')} are both given: one of them is measured")
+        raise InputError(
+            f"{called('mesh')} and {called('voxels')} are both given: one of them is measured"
+        )
     if params.voxels is not None:
-        subject = _voxels(params.voxels, stamp(params.voxels), params.spacing, params.label, params.unit)
+        subject = _voxels(
+            params.voxels, stamp(params.voxels), params.spacing, params.label, params.unit
+        )
     elif params.mesh is not None:
         subject = _own(params.mesh, stamp(params.mesh), params.up, params.unit)
     else:
         subject = built_in(params.shape, params.subdivisions, params.sectors, params.rings)
     if params.method in ("voxels", "chance") and subject.inside is None:
-        raise InputError(f"{subject.name} is open: it has an area and no volume, and no point is inside it")
+        raise InputError(
+            f"{subject.name} is open: it has an area and no volume, and no point is inside it"
+        )
     if params.method == "voxels" and not subject.grids:
         return replace(subject, grids=_grids(subject, params))
     if params.method == "faces" and (params.hole or params.flipped):
@@ -58,7 +71,11 @@ def built_in(shape: str, subdivisions: int, sectors: int, rings: int) -> Subject
         return _smooth("the lantern", measurables.lantern(sectors, rings))
     if shape == "box":
         return _smooth("the box", measurables.box())
-    make = {"sphere": measurables.sphere, "torus": measurables.torus, "two spheres": measurables.two_spheres}[shape]
+    make = {
+        "sphere": measurables.sphere,
+        "torus": measurables.torus,
+        "two spheres": measurables.two_spheres,
+    }[shape]
     name = "the pair of spheres" if shape == "two spheres" else f"the {shape}"
     return _smooth(name, make(subdivisions))
 
@@ -87,7 +104,9 @@ def _rabbit() -> Subject:
     return _of_mesh("the rabbit", RABBIT * (p - (p.min(axis=0) + p.max(axis=0)) / 2), faces)
 
 
-def _of_mesh(name: str, p: np.ndarray, faces: np.ndarray, unit: str = "m", scale: float = 1.0, note: str = ""):
+def _of_mesh(
+    name: str, p: np.ndarray, faces: np.ndarray, unit: str = "m", scale: float = 1.0, note: str = ""
+):
     """Return a mesh that is measured against itself: all its faces, as they are."""
     closed, mesh = encloses(faces), columns(p, faces)
     return Subject(
@@ -109,11 +128,13 @@ def _of_mesh(name: str, p: np.ndarray, faces: np.ndarray, unit: str = "m", scale
 
 
 def _grids(subject: Subject, params: Params) -> tuple[tuple[int, Grid], ...]:
-    """Return grids whose cells are halved every second step, each beginning at a place of its own."""
+    """Return grids whose cells are halved every second step, each beginning at a place of its
+    own.
+    """
     rng = np.random.default_rng(params.seed)
     steps = np.arange(4, 2 * np.log2(params.cells) - 1e-9)
     across = [*np.unique(np.rint(2 ** (steps / 2)).astype(int)).tolist(), params.cells]
-    return tuple((n, grid_over(subject.low, subject.high, n, rng.random(3))) for n in across)
+    return tuple((n, grid_over(subject.low, subject.high, n, shift=rng.random(3))) for n in across)
 
 
 def _spoilt(subject: Subject, params: Params) -> np.ndarray:
@@ -133,7 +154,11 @@ def _own(path: Path, _stamp: tuple[int, int], up: Upward, unit: Unit) -> Subject
     axis = upward(p, path, up)
     low, high = box(p)
     p = (p - (low + high) / 2) @ UPRIGHT[axis].T
-    note = "" if encloses(faces) else " It is open or its faces disagree which side is outside: no volume is its own."
+    note = (
+        ""
+        if encloses(faces)
+        else " It is open or its faces disagree which side is outside: no volume is its own."
+    )
     return _of_mesh(path.name, p, faces, unit, OWN_SIZE / extent(p), note)
 
 
@@ -141,7 +166,9 @@ def _own(path: Path, _stamp: tuple[int, int], up: Upward, unit: Unit) -> Subject
 def _voxels(
     path: Path, _stamp: tuple[int, int], spacing: tuple[float, float, float], label: int, unit: Unit
 ) -> Subject:
-    """Return labelled voxels: their surface for what needs one, the bits themselves for counting."""
+    """Return labelled voxels: their surface for what needs one, the bits themselves for
+    counting.
+    """
     labels = read_voxels(path)
     bits = labels == label if label else labels != 0
     if not bits.any():
@@ -149,12 +176,17 @@ def _voxels(
         raise InputError(f"{path.name}: no voxel has the label {label}; there are {known}")
     bits = bits[np.ix_(*(_used(bits.any(axis=tuple({0, 1, 2} - {axis}))) for axis in range(3)))]
     if bits.size > MOST_VOXELS:
-        raise InputError(f"{path.name}: {bits.size:,} voxels around the label; at most {MOST_VOXELS:,} are measured")
+        raise InputError(
+            f"{path.name}: {bits.size:,} voxels around the label; at most {MOST_VOXELS:,} are"
+            " measured"
+        )
     edges = np.array(spacing)
     low = -edges * np.array(bits.shape) / 2
     finest = max(1, -(-max(bits.shape) // FINE))
     p, faces = marched_surface(*_every(bits, low, edges, finest))
-    grids = tuple(_every(bits, low, edges, every)[1] for every in (8, 4, 2, 1) if min(bits.shape) >= every)
+    grids = tuple(
+        _every(bits, low, edges, every)[1] for every in (8, 4, 2, 1) if min(bits.shape) >= every
+    )
 
     def full(grid: Grid) -> np.ndarray:
         return _every(bits, low, edges, round(float(grid.spacing[0] / edges[0])))[0]
@@ -164,7 +196,11 @@ def _voxels(
     return replace(
         subject,
         smooth=True,
-        area=surface_area(*marched_surface(*_every(bits, low, edges, 1))) if finest > 1 else subject.area,
+        area=(
+            surface_area(*marched_surface(*_every(bits, low, edges, 1)))
+            if finest > 1
+            else subject.area
+        ),
         volume=counted_volume(bits, edges),
         full=full,
         grids=tuple((max(grid.shape), grid) for grid in grids),

@@ -1,17 +1,19 @@
-"""What one stage looks like: the street, the camera with its picture, the points, and the followed one's numbers."""
+"""What one stage looks like: the street, the camera with its picture, the points, and the followed
+one's numbers.
+"""
 
 import functools
 import math
 
 import numpy as np
 
+from lessons.pinhole import following as pinhole
 from lessons.pinhole.captions import caption, depth
 from lessons.pinhole.shot import FACTORS
 from lessons.pinhole.state import State, name_of
-from workbench.algorithms import pinhole
-from workbench.data.street import street
+from workbench.data.views.street import street
 from workbench.geometry.cameras import camera_center, depths
-from workbench.geometry.distortion import Distortion, distort, invertible_radius
+from workbench.geometry.cameras.distortion import Distortion, distort, invertible_radius
 from workbench.geometry.motions import apply, inverse
 from workbench.geometry.polylines import between, segments
 from workbench.lesson import View
@@ -37,7 +39,12 @@ from workbench.scene import (
 )
 
 VIEW = View(
-    eye=(-28.12, -7.88, 10.98), target=(0.995, 5.7, 7.6), fov_degrees=30.0, grid=None, grid_height=-0.02, axes=False
+    eye=(-28.12, -7.88, 10.98),
+    target=(0.995, 5.7, 7.6),
+    fov_degrees=30.0,
+    grid=None,
+    grid_height=-0.02,
+    axes=False,
 )
 SCREEN = (VIEW.facing(4.7, 2.9, -10.0), 20.4)
 """Where the photograph stands, enlarged, behind the street, and its width in metres."""
@@ -61,7 +68,9 @@ def draw(state: State) -> Scene:
         "picture": photograph,
         "points": Points(now.p_world, _point_color(state), 0.07, name="points of the street"),
         "followed": Points(now.p_world[k : k + 1], "highlight", 0.16, name="followed"),
-        "followed label": Label(name_of(k), now.p_world[k] + np.array([0.0, 0.0, 0.4]), "highlight"),
+        "followed label": Label(
+            name_of(k), now.p_world[k] + np.array([0.0, 0.0, 0.4]), "highlight"
+        ),
         "error": Scalar(state.error, "median of all points", "Error of this stage", "px", "truth"),
         "caption": caption(state),
         **_tables(state),
@@ -69,8 +78,16 @@ def draw(state: State) -> Scene:
     }
     if state.params.dolly != 1:
         dolly, gaps = np.log10(FACTORS), np.log10(shot.gaps)
-        scene["gap"] = GAP.curve(dolly, gaps, "largest gap", "truth", marks=(float(np.log10(state.params.dolly)),))
-    stage = {"camera": _camera, "divide": _divide, "distort": _distort, "pixels": _pixels, "back": _back}
+        scene["gap"] = GAP.curve(
+            dolly, gaps, "largest gap", "truth", marks=(float(np.log10(state.params.dolly)),)
+        )
+    stage = {
+        "camera": _camera,
+        "divide": _divide,
+        "distort": _distort,
+        "pixels": _pixels,
+        "back": _back,
+    }
     if now.stage in stage:
         scene["camera frame"] = Axes(T_world_camera, 1.2)
         scene |= stage[now.stage](state, photograph, T_world_camera)
@@ -82,8 +99,13 @@ def scenery() -> dict[str, Primitive]:
     """Return what stands in the street, the same objects at each step."""
     scene = street()
     meshes = {}
-    for path, names in {"ground": ["ground"], "street": [name for name in scene.solids if name != "ground"]}.items():
-        p = np.concatenate([scene.solids[name].p_world[scene.solids[name].faces].reshape(-1, 3) for name in names])
+    for path, names in {
+        "ground": ["ground"],
+        "street": [name for name in scene.solids if name != "ground"],
+    }.items():
+        p = np.concatenate(
+            [scene.solids[name].p_world[scene.solids[name].faces].reshape(-1, 3) for name in names]
+        )
         colors = np.concatenate([np.repeat(scene.solids[name].colors, 3, axis=0) for name in names])
         meshes[path] = Mesh(p, np.arange(len(p)).reshape(-1, 3), colors, flat=True, name=path)
     return {**meshes, "rails": Segments(scene.rails, color_rows("neutral", 2), 3, name="rails")}
@@ -98,7 +120,9 @@ def _point_color(state: State):
 
 
 def _camera(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
-    """Lead from the camera to the followed point along its own axes, and where the calculation says it is, if elsewhere."""
+    """Lead from the camera to the followed point along its own axes, and where the calculation says
+    it is, if elsewhere.
+    """
     true = apply(state.shot.T_camera_world, state.now.p_world[state.params.point])
     got = state.now.p_camera[state.params.point]
     if np.allclose(got, true):
@@ -109,13 +133,19 @@ def _camera(state: State, photograph: Picture, T_world_camera: np.ndarray) -> di
 
 
 def _ways(
-    path: str, p_camera: np.ndarray, roles: tuple[Role, Role, Role], name: str, T_world_camera: np.ndarray
+    path: str,
+    p_camera: np.ndarray,
+    roles: tuple[Role, Role, Role],
+    name: str,
+    T_world_camera: np.ndarray,
 ) -> dict[str, Primitive]:
     """Lead from the camera to a point along the camera's axes: Z first, then X, then Y."""
     x, y, z = p_camera
     corners = np.array([[0.0, 0, 0], [0, 0, z], [x, 0, z], [x, y, z]])
     colors = np.array([PALETTE[role] for role in roles], np.uint8)
-    parts: dict[str, Primitive] = {path: Segments(segments(corners), colors, 4, T_world_camera, name=name)}
+    parts: dict[str, Primitive] = {
+        path: Segments(segments(corners), colors, 4, T_world_camera, name=name)
+    }
     for i, (role, axis, way) in enumerate(zip(roles, "ZXY", (z, x, y), strict=True)):
         at = corners[i : i + 2].mean(axis=0)
         if axis == "Z" and z < 0:  # far behind the camera nobody sees it
@@ -127,14 +157,20 @@ def _ways(
 def _divide(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     """Show all rays, and where they cross the picture."""
     uv = pinhole.onto_pixels(state.now.xy, state.shot.K)
-    return _rays(state, state.now.xy, T_world_camera) | _landed(state, photograph, uv, "source", "calculated")
+    return _rays(state, state.now.xy, T_world_camera) | _landed(
+        state, photograph, uv, "source", "calculated"
+    )
 
 
 def _distort(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict[str, Primitive]:
     """Show how far the lens moves each point of the picture."""
-    ideal, bent = (pinhole.onto_pixels(xy, state.shot.K) for xy in (state.now.xy, state.now.xy_bent))
+    ideal, bent = (
+        pinhole.onto_pixels(xy, state.shot.K) for xy in (state.now.xy, state.now.xy_bent)
+    )
     both = _near(photograph, ideal) & _near(photograph, bent)
-    parts = _rays(state, state.now.xy, T_world_camera) | _landed(state, photograph, bent, "source", "calculated")
+    parts = _rays(state, state.now.xy, T_world_camera) | _landed(
+        state, photograph, bent, "source", "calculated"
+    )
     if both.any():
         ends = photograph.places(between(ideal[both], bent[both]), LAYER)
         parts["moves"] = Segments(ends, "other", 3, name="moved by the lens")
@@ -145,11 +181,15 @@ def _pixels(state: State, photograph: Picture, T_world_camera: np.ndarray) -> di
     """Show which points are in the picture, and the pixel of the followed one."""
     uv, (h, w) = state.now.uv, state.shot.picture.shape[:2]
     inside = np.all((uv > -0.5) & (uv < np.array([w, h]) - 0.5), axis=1)
-    color = Classes.marking(~inside, "correspondence", "outside it", others=("source", "in the picture"))
+    color = Classes.marking(
+        ~inside, "correspondence", "outside it", others=("source", "in the picture")
+    )
     parts = _rays(state, state.now.xy, T_world_camera) | _landed(state, photograph, uv, color, "")
     if "landed" in parts:
         k, place = state.params.point, photograph.places(uv[state.params.point], LAYER)
-        parts["pixel"] = Label(f"(u, v) = {coordinates(uv[k], 0)}", place + np.array([0.0, 0.0, 0.35]), "highlight")
+        parts["pixel"] = Label(
+            f"(u, v) = {coordinates(uv[k], 0)}", place + np.array([0.0, 0.0, 0.35]), "highlight"
+        )
     vanishing = state.shot.vanishing
     if state.params.point in (3, 4) and _near(photograph, vanishing[None])[0]:
         place = photograph.places(vanishing[None], LAYER)
@@ -176,13 +216,17 @@ def _back(state: State, photograph: Picture, T_world_camera: np.ndarray) -> dict
         z = depths(now.p_world[k : k + 1], state.shot.T_camera_world)[0]
         v = (now.p_back[k] - now.p_center) / z  # one metre of depth
         reach = max(FAR, 1.2 * z)
-        parts["followed ray"] = Segments(between(now.p_center, now.p_center + reach * v), "highlight", 4)
+        parts["followed ray"] = Segments(
+            between(now.p_center, now.p_center + reach * v), "highlight", 4
+        )
         marks = now.p_center + CANDIDATES[:, None] * v
         parts["candidates"] = Points(marks, "other", 0.13)
         for i, mark in enumerate(marks):
             if abs(CANDIDATES[i] / z - 1) < 0.1:  # the followed point's name stands there
                 continue
-            parts[f"candidates/{i}"] = Label(f"{CANDIDATES[i]:g} m", mark + np.array([0.0, 0.0, 0.25]), "other")
+            parts[f"candidates/{i}"] = Label(
+                f"{CANDIDATES[i]:g} m", mark + np.array([0.0, 0.0, 0.25]), "other"
+            )
     return parts | _landed(state, photograph, now.uv[[k]], "source", "")
 
 
@@ -190,7 +234,9 @@ def _rays(state: State, xy: np.ndarray, T_world_camera: np.ndarray) -> dict[str,
     seen, k = np.isfinite(xy).all(axis=1), state.params.point
     rays = between(T_world_camera[:3, 3], state.now.p_world)
     z = state.now.p_camera[k, 2]
-    if z < 0 and np.isfinite(xy[k]).all():  # divided all the same: on through the camera, to the plane in front of it
+    if (
+        z < 0 and np.isfinite(xy[k]).all()
+    ):  # divided all the same: on through the camera, to the plane in front of it
         rays[k, 0] += (rays[k, 1] - rays[k, 0]) / z
     parts: dict[str, Primitive] = {"followed ray": Segments(rays[k : k + 1], "highlight", 4)}
     if seen.any():
@@ -198,12 +244,16 @@ def _rays(state: State, xy: np.ndarray, T_world_camera: np.ndarray) -> dict[str,
     return parts
 
 
-def _landed(state: State, photograph: Picture, uv: np.ndarray, color, name: str) -> dict[str, Primitive]:
+def _landed(
+    state: State, photograph: Picture, uv: np.ndarray, color, name: str
+) -> dict[str, Primitive]:
     """Show pixels on the photograph, the followed one larger."""
     near, k = _near(photograph, uv), state.params.point if len(uv) > 1 else 0
     if isinstance(color, Classes):
         color = Classes(color.ids[near], color.roles, color.names)
-    parts: dict[str, Primitive] = {"plane": Points(photograph.places(uv[near], LAYER), color, 0.11, name=name)}
+    parts: dict[str, Primitive] = {
+        "plane": Points(photograph.places(uv[near], LAYER), color, 0.11, name=name)
+    }
     if near[k]:
         parts["landed"] = Points(photograph.places(uv[[k]], 2 * LAYER), "highlight", 0.2)
     return parts
@@ -229,7 +279,9 @@ def _lens_curves(lens: Distortion, r_chosen: float) -> dict[str, Primitive]:
 
 
 def _tables(state: State) -> dict[str, Primitive]:
-    """Return the followed point's journey so far, and what can be measured of the camera and in its picture."""
+    """Return the followed point's journey so far, and what can be measured of the camera and in its
+    picture.
+    """
     shot, now, k = state.shot, state.now, state.params.point
     rows = [("in the world", f"{coordinates(now.p_world[k], 2)} m")]
     if now.reached("camera"):
@@ -243,10 +295,16 @@ def _tables(state: State) -> dict[str, Primitive]:
     if now.reached("distort"):
         rows.append(("after the lens", coordinates(now.xy_bent[k], 4)))
     if now.reached("pixels"):
-        rows += [("pixel (u, v)", coordinates(now.uv[k], 1)), ("true pixel", coordinates(shot.uv[k], 1))]
+        rows += [
+            ("pixel (u, v)", coordinates(now.uv[k], 1)),
+            ("true pixel", coordinates(shot.uv[k], 1)),
+        ]
     if now.reached("back"):
         rows.append(
-            ("back in the world", coordinates(now.p_back[k], 2) + " m" * bool(np.isfinite(now.p_back[k]).all()))
+            (
+                "back in the world",
+                coordinates(now.p_back[k], 2) + " m" * bool(np.isfinite(now.p_back[k]).all()),
+            )
         )
     h, w = shot.picture.shape[:2]
     ball = "the ball's outline" + ", without the lens" * any(shot.lens)

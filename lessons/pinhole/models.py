@@ -1,4 +1,6 @@
-"""The camera as it is calculated: the given functions, or one of them replaced by a classic mistake."""
+"""The camera as it is calculated: the given functions, or one of them replaced by a classic
+mistake.
+"""
 
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -6,13 +8,22 @@ from itertools import islice
 
 import numpy as np
 
+from lessons.pinhole.following import (
+    STAGES,
+    Center,
+    Distort,
+    Project,
+    Stage,
+    State,
+    follow,
+    onto_pixels,
+)
 from lessons.pinhole.shot import wires
 from lessons.pinhole.state import Params, Shot
-from workbench.algorithms.pinhole import STAGES, Center, Distort, Project, Stage, State, follow, onto_pixels
-from workbench.data.street import street
+from workbench.data.views.street import street
 from workbench.geometry.cameras import OPENGL_FROM_OPENCV
+from workbench.geometry.cameras.raster import Image, PointItem, SegmentItem, render
 from workbench.geometry.motions import apply, inverse
-from workbench.geometry.raster import Image, PointItem, SegmentItem, render
 from workbench.scene import Role, color_rows
 
 SWAP = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -22,7 +33,9 @@ Model = Callable[[np.ndarray], Iterator[State]]
 
 
 def laid_out(model: Model) -> Model:
-    """Return the model up to its pixels, which calculates the same points once only: others may own its functions."""
+    """Return the model up to its pixels, which calculates the same points once only: others may own
+    its functions.
+    """
     known: dict[bytes, tuple[State, ...]] = {}
 
     def stages(p_world: np.ndarray) -> Iterator[State]:
@@ -35,20 +48,34 @@ def laid_out(model: Model) -> Model:
 
 
 def pixels(model: Model, stage: Stage, K: np.ndarray, p_world: np.ndarray) -> np.ndarray:
-    """Return where the calculation puts these points in the picture at a stage from the division on.
+    """Return where the calculation puts these points in the picture at a stage from the division
+    on.
 
-    Before it has pixels itself, the true K makes them of the places on the plane one metre in front.
+    Before it has pixels itself, the true K makes them of the places on the plane one metre in
+    front.
     """
     now = next(state for state in model(p_world) if state.stage in (stage, "pixels"))
-    return now.uv if now.reached("pixels") else onto_pixels(now.xy_bent if now.reached("distort") else now.xy, K)
+    return (
+        now.uv
+        if now.reached("pixels")
+        else onto_pixels(now.xy_bent if now.reached("distort") else now.xy, K)
+    )
 
 
-def model_of(params: Params, shot: Shot, project: Project, distort: Distort, camera_center: Center) -> Model:
+def model_of(
+    params: Params, shot: Shot, project: Project, distort: Distort, camera_center: Center
+) -> Model:
     """Return the calculation with the given functions, changed by the mistake that is asked for."""
     K = shot.K if params.k_follows else shot.K_first
     T, f = shot.T_camera_world, K[0, 0]
     model = partial(
-        follow, T_camera_world=T, K=K, lens=shot.lens, project=project, distort=distort, camera_center=camera_center
+        follow,
+        T_camera_world=T,
+        K=K,
+        lens=shot.lens,
+        project=project,
+        distort=distort,
+        camera_center=camera_center,
     )
     match params.mistake:
         case "pose inverted":
@@ -60,7 +87,9 @@ def model_of(params: Params, shot: Shot, project: Project, distort: Distort, cam
         case "row before column":
             return partial(model, K=SWAP @ K)
         case "lens on pixels":
-            return partial(model, distort=lambda xy, k1, k2, p1, p2: distort(f * xy, k1, k2, p1, p2) / f)
+            return partial(
+                model, distort=lambda xy, k1, k2, p1, p2: distort(f * xy, k1, k2, p1, p2) / f
+            )
         case "t for the centre":
             return partial(model, camera_center=lambda T_camera_world: T_camera_world[:3, 3].copy())
         case "ray length for depth":
@@ -76,7 +105,8 @@ def divide_anyway(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
 
 
 def overlaid(shot: Shot, model: Model, stage: Stage, point: int) -> np.ndarray:
-    """Return the photograph with the outlines and points that a stage has calculated laid over it, whatever hides them.
+    """Return the photograph with the outlines and points that a stage has calculated laid over it,
+    whatever hides them.
 
     From the division on; before it, only the followed point's true pixel.
     """
@@ -88,11 +118,18 @@ def overlaid(shot: Shot, model: Model, stage: Stage, point: int) -> np.ndarray:
     lines = wires(shot.T_camera_world)
     drawn = render(
         [SegmentItem(lines, color_rows("source", len(lines)))],
-        shot.T_camera_world, shot.K, w, h, shot.lens, to_pixels=to_pixels,
-    )  # fmt: skip
+        shot.T_camera_world,
+        shot.K,
+        w,
+        h,
+        shot.lens,
+        to_pixels=to_pixels,
+    )
     uv = to_pixels(street().points)
     spots = [_flat(uv, "source", 3), true, _flat(uv[[point]], "highlight", 7)]
-    return _over(shot.picture, drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots))
+    return _over(
+        shot.picture, drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots)
+    )
 
 
 def _over(picture: np.ndarray, *layers: Image) -> np.ndarray:

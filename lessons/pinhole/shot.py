@@ -1,11 +1,13 @@
-"""The true camera and its photograph: everything that holds whatever the functions under test do."""
+"""The true camera and its photograph: everything that holds whatever the functions under test
+do.
+"""
 
 import functools
 
 import numpy as np
 
 from lessons.pinhole.state import Edit, Params, Shot
-from workbench.data.street import BALL_CENTER, BALL_RADIUS, street, street_items
+from workbench.data.views.street import BALL_CENTER, BALL_RADIUS, street, street_items
 from workbench.errors import InputError
 from workbench.geometry.cameras import (
     camera_center,
@@ -21,9 +23,9 @@ from workbench.geometry.cameras import (
     sphere_outline,
     vanishing_points,
 )
-from workbench.geometry.distortion import Distortion
+from workbench.geometry.cameras.distortion import Distortion
+from workbench.geometry.cameras.raster import render
 from workbench.geometry.polylines import segments
-from workbench.geometry.raster import render
 from workbench.knobs import only
 
 WIDTH, HEIGHT = 320, 240
@@ -48,7 +50,9 @@ def _shot(params: Params) -> Shot:
     T_near = look_at(p_world_eye, p_world_target)
     K_near = intrinsics(params.f, (WIDTH - 1) / 2, (HEIGHT - 1) / 2)
     T_camera_world, K_first = dolly(T_near, K_near, distance, params.dolly)
-    photo = render(street_items(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248))
+    photo = render(
+        street_items(), T_camera_world, K_first, WIDTH, HEIGHT, lens, background=(238, 243, 248)
+    )
     picture = _edited(photo.colors, edit)
     K, K_before = _edited_intrinsics(K_first, edit), _edited_intrinsics(K_near, edit)
     points = street().points
@@ -65,18 +69,24 @@ def _shot(params: Params) -> Shot:
         crate_before=_height(CRATE_EDGE, T_near, K_before, lens),
         tower_before=_height(TOWER_EDGE, T_near, K_before, lens),
         ball_ratio=_ball_ratio(T_camera_world, K_first),
-        vanishing=vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, lens)[0],
-        gaps=np.array([_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]),
+        vanishing=vanishing_points(np.array([[0.0, 1.0, 0.0]]), T_camera_world, K, distortion=lens)[
+            0
+        ],
+        gaps=np.array(
+            [_gap(*dolly(T_near, K_near, distance, by), distance * by) for by in FACTORS]
+        ),
         gap=_gap(T_camera_world, K_first, distance * params.dolly),
     )
 
 
 def wires(T_camera_world: np.ndarray) -> np.ndarray:
-    """Return the outlines (n, 2, 3) of boxes, house, rails and ball, the last as this camera sees it."""
+    """Return the outlines (n, 2, 3) of boxes, house, rails and ball, the last as this camera sees
+    it.
+    """
     scene = street()
     ball = np.zeros((0, 2, 3))
     if np.linalg.norm(camera_center(T_camera_world) - BALL_CENTER) > 1.01 * BALL_RADIUS:
-        ball = segments(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 48), closed=True)
+        ball = segments(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, n=48), closed=True)
     return np.concatenate([scene.edges, scene.rails, ball])
 
 
@@ -103,22 +113,32 @@ def _height(ends: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray, lens: D
 
 
 def _ball_ratio(T_camera_world: np.ndarray, K: np.ndarray) -> float:
-    """Measure the outline's longest and shortest radius; NaN where the ball's middle is not in the picture."""
+    """Measure the outline's longest and shortest radius; NaN where the ball's middle is not in the
+    picture.
+    """
     u, v = project(BALL_CENTER[None], T_camera_world, K)[0]
-    inside = depths(BALL_CENTER[None], T_camera_world)[0] > 1.01 * BALL_RADIUS and 0 < u < WIDTH and 0 < v < HEIGHT
+    inside = (
+        depths(BALL_CENTER[None], T_camera_world)[0] > 1.01 * BALL_RADIUS
+        and 0 < u < WIDTH
+        and 0 < v < HEIGHT
+    )
     if not inside:
         return float("nan")
-    uv = project(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, 720), T_camera_world, K)
+    uv = project(sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, n=720), T_camera_world, K)
     middle = 0.5 * (uv.max(axis=0) + uv.min(axis=0))  # of an ellipse: its centre
     reach = np.linalg.norm(uv - middle, axis=1)
     return float(reach.max() / reach.min())
 
 
 def _gap(T_camera_world: np.ndarray, K: np.ndarray, subject_depth: float) -> float:
-    """Return the largest distance in pixels between the corners' pixels and their orthographic ones."""
+    """Return the largest distance in pixels between the corners' pixels and their orthographic
+    ones.
+    """
     K_flat = K.copy()
     K_flat[:2, :2] /= subject_depth
     corners = street().edges.reshape(-1, 3)
-    miss = project(corners, T_camera_world, K) - project_orthographic(corners, T_camera_world, K_flat)
+    miss = project(corners, T_camera_world, K) - project_orthographic(
+        corners, T_camera_world, K_flat
+    )
     far = np.linalg.norm(miss, axis=1)
     return float(np.nanmax(far)) if np.isfinite(far).any() else float("nan")

@@ -1,4 +1,6 @@
-"""What one step looks like: the target, the cameras that could have seen it, the picture, and the errors."""
+"""What one step looks like: the target, the cameras that could have seen it, the picture, and the
+errors.
+"""
 
 import functools
 from dataclasses import dataclass
@@ -7,12 +9,12 @@ import numpy as np
 
 from lessons.pose.captions import caption
 from lessons.pose.state import Repeated, State, Subject, Target
-from workbench.algorithms import ransac
-from workbench.algorithms.camera_search import Searched
+from workbench.algorithms.cameras.camera_search import Searched
+from workbench.algorithms.robust import ransac
 from workbench.certain import as_a
 from workbench.geometry.cameras import camera_center, project
-from workbench.geometry.metrics import rms
 from workbench.geometry.motions import apply, inverse
+from workbench.geometry.points.metrics import rms
 from workbench.geometry.polylines import between
 from workbench.lesson import View
 from workbench.numerals import angle, coordinates, length, pixels
@@ -40,7 +42,9 @@ ALONG = View(eye=(7.5, -14.0, 8.5), target=(5.2, 5.0, 1.8), grid=None, axes=Fals
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """How a kind of target is drawn: seen from where, the photograph where and how wide, points and cameras how large."""
+    """How a kind of target is drawn: seen from where, the photograph where and how wide, points and
+    cameras how large.
+    """
 
     view: View
     screen: np.ndarray
@@ -55,9 +59,15 @@ LOOKS: dict[Target, Look] = {
     "street": Look(ALONG, ALONG.facing(5.8, -1.5), 8.2, 0.08, 1.2),
     "triangle": Look(ABOVE, ABOVE.facing(2.6, 0.3), 2.8, 0.02, 0.45),
 }
-ENLARGED, SMALL = 10, 4.0  # residuals are drawn so many times as long while their RMS is below so many pixels
+ENLARGED, SMALL = (
+    10,
+    4.0,
+)  # residuals are drawn so many times as long while their RMS is below so many pixels
 QUARTIC = Chart("Quartic", "v = s₃ / s₁", "scaled")
-PICTURE_ERROR, TURN_ERROR = Chart("RMS error in the picture", unit="px"), Chart("Rotation error", unit="°")
+PICTURE_ERROR, TURN_ERROR = (
+    Chart("RMS error in the picture", unit="px"),
+    Chart("Rotation error", unit="°"),
+)
 CENTRE_ERROR = Chart("Error of the centre", unit="m")
 TURNS = Chart("Rotation errors in other pictures", "degrees", "pictures")
 ANEW = Chart("Random cameras, as many points", "degrees", "% within")
@@ -76,7 +86,10 @@ def draw(state: State) -> Scene:
         scene |= _three(state, now) | _candidates(state, now)
     elif isinstance(now, ransac.State) and len(now.sample) and now.phase not in ("refit", "stop"):
         scene["sample"] = Points(
-            subject.p_shown[now.sample], "highlight", 2.0 * LOOKS[subject.kind].radius, name="sample"
+            subject.p_shown[now.sample],
+            "highlight",
+            2.0 * LOOKS[subject.kind].radius,
+            name="sample",
         )
     if isinstance(now, Repeated):
         return scene | _repeated(subject, now)
@@ -91,7 +104,9 @@ def draw(state: State) -> Scene:
 
 @functools.lru_cache(maxsize=64)
 def _still(subject: Subject) -> dict[str, Primitive]:
-    """Return what is the same in all steps: the target, its points, the photograph and where points were seen in it."""
+    """Return what is the same in all steps: the target, its points, the photograph and where points
+    were seen in it.
+    """
     look = LOOKS[subject.kind]
     photograph = Picture(subject.photograph, "What the camera saw", look.width, look.screen)
     scene: dict[str, Primitive] = {
@@ -119,7 +134,9 @@ def _pixels(state: State, photograph: Picture) -> dict[str, Primitive]:
     subject, T, now = state.subject, state.T, state.now
     assert photograph.width is not None
     radius, color = 0.012 * photograph.width, _votes(now)
-    scene: dict[str, Primitive] = {"picture/seen": Points(_on(photograph, subject, subject.given.uv), color, radius)}
+    scene: dict[str, Primitive] = {
+        "picture/seen": Points(_on(photograph, subject, subject.given.uv), color, radius)
+    }
     if T is None:
         return scene
     uv = project(subject.given.p_world, T, subject.K)
@@ -129,16 +146,24 @@ def _pixels(state: State, photograph: Picture) -> dict[str, Primitive]:
     errors = subject.pixel_errors(T)[front]
     factor = ENLARGED if rms(errors) < SMALL else 1
     start, end = subject.given.uv[front], uv[front]
-    ends = between(*(_on(photograph, subject, at) for at in (start, start + factor * (end - start))))
+    ends = between(
+        *(_on(photograph, subject, at) for at in (start, start + factor * (end - start)))
+    )
     times = f", drawn {factor} times as long" if factor > 1 else ""
     scene["picture/residuals"] = Segments(ends, "wrong", 2.5, name=f"error in the picture{times}")
-    scene["picture/calculated"] = Points(_on(photograph, subject, uv[front]), "source", 0.7 * radius)
+    scene["picture/calculated"] = Points(
+        _on(photograph, subject, uv[front]), "source", 0.7 * radius
+    )
     return scene
 
 
 def _votes(now: object) -> Color:
     fit = (now.trial or now.best) if isinstance(now, ransac.State) else None
-    return "target" if fit is None else Classes.marking(~fit.inliers, "wrong", "outlier", others=("target", "inlier"))
+    return (
+        "target"
+        if fit is None
+        else Classes.marking(~fit.inliers, "wrong", "outlier", others=("target", "inlier"))
+    )
 
 
 def _camera(subject: Subject, T: np.ndarray, color: Role, name: str) -> Camera:
@@ -152,7 +177,9 @@ def _three(state: State, now: Searched) -> dict[str, Primitive]:
     if state.params.method != "P3P" or now.phase in ("step", "stop"):
         return {}
     scene: dict[str, Primitive] = {
-        "three": Points(subject.p_shown[:3], "highlight", 1.6 * LOOKS[subject.kind].radius, name="three points"),
+        "three": Points(
+            subject.p_shown[:3], "highlight", 1.6 * LOOKS[subject.kind].radius, name="three points"
+        ),
     }
     if now.phase == "choose":
         scene["fourth"] = Points(
@@ -160,7 +187,9 @@ def _three(state: State, now: Searched) -> dict[str, Primitive]:
         )
     if subject.T_true is not None and now.phase in ("rays", "quartic"):
         eye = subject.frame.shown(camera_center(subject.T_true))
-        scene["rays"] = Segments(between(eye, subject.p_shown[:3]), "highlight", 2.0, name="three rays")
+        scene["rays"] = Segments(
+            between(eye, subject.p_shown[:3]), "highlight", 2.0, name="three rays"
+        )
     if len(now.quartic):
         scene |= _curve(now)
     return scene
@@ -185,7 +214,9 @@ def _curve(now: Searched) -> dict[str, Primitive]:
 
 
 def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
-    """Return the motions to choose from, as cameras with the rays to their points, and for planes as planes."""
+    """Return the motions to choose from, as cameras with the rays to their points, and for planes
+    as planes.
+    """
     subject, scene = state.subject, dict[str, Primitive]()
     if now.phase not in ("root", "both", "choose"):
         return scene
@@ -197,23 +228,38 @@ def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
             scene[f"candidates/{k}"] = _camera(subject, T, "other", "possible camera")
         if now.phase == "both" and subject.T_true is not None and subject.body is not None:
             seen = _as_seen(subject, T)
-            scene[f"candidates/{k}/seen"] = Segments(seen, "other", 2.5, name="what it would see" if k == 1 else "")
+            scene[f"candidates/{k}/seen"] = Segments(
+                seen, "other", 2.5, name="what it would see" if k == 1 else ""
+            )
         elif state.params.method == "P3P":
-            eye, last = subject.frame.shown(camera_center(T)), k == len(now.candidates) and now.phase == "root"
+            eye, last = (
+                subject.frame.shown(camera_center(T)),
+                k == len(now.candidates) and now.phase == "root",
+            )
             ends = between(eye, subject.p_shown[:3])
             scene[f"candidates/{k}/rays"] = Segments(
                 ends, "highlight" if last else "correspondence", 2.0 if last else 1.0
             )
-        (degrees, _), miss, where = subject.off(T), state.judged(T), subject.frame.shown(camera_center(T))
+        (degrees, _), miss, where = (
+            subject.off(T),
+            state.judged(T),
+            subject.frame.shown(camera_center(T)),
+        )
         off = "" if np.isnan(degrees) else angle(degrees)
-        rows.append((f"{k}", coordinates(where, 2), pixels(miss) if np.isfinite(miss) else "behind", off))
+        rows.append(
+            (f"{k}", coordinates(where, 2), pixels(miss) if np.isfinite(miss) else "behind", off)
+        )
     judged = "4th point" if state.params.method == "P3P" else "RMS error"
-    scene["numbers/candidates"] = Table("Possible cameras", ("", "centre (m)", judged, "off"), tuple(rows))
+    scene["numbers/candidates"] = Table(
+        "Possible cameras", ("", "centre (m)", judged, "off"), tuple(rows)
+    )
     return scene
 
 
 def _as_seen(subject: Subject, T: np.ndarray) -> np.ndarray:
-    """Return the lines of the target where the true camera would have to see them, were this its pose."""
+    """Return the lines of the target where the true camera would have to see them, were this its
+    pose.
+    """
     assert subject.T_true is not None
     assert subject.body is not None
     ends = subject.body.lines.reshape(-1, 3) + subject.frame.centre
@@ -230,17 +276,25 @@ def _repeated(subject: Subject, now: Repeated) -> dict[str, Primitive]:
     if subject.kind == "marker":
         assert subject.T_true is not None
         tips = np.stack([(inverse(subject.T_true) @ T)[:3, :3] @ [0.0, 0.0, 0.12] for T in now.Ts])
-        scene["normals"] = Segments(between(np.zeros(3), tips), color, 1.5, name="normals of the marker")
+        scene["normals"] = Segments(
+            between(np.zeros(3), tips), color, 1.5, name="normals of the marker"
+        )
     else:
         near = np.linalg.norm(centres, axis=1) < 20.0
         if near.any():
             kept = Classes(color.ids[near], color.roles, color.names)
-            scene["centres"] = Points(centres[near], kept, 1.5 * LOOKS[subject.kind].radius, name="cameras found")
+            scene["centres"] = Points(
+                centres[near], kept, 1.5 * LOOKS[subject.kind].radius, name="cameras found"
+            )
     scene["turns"] = TURNS.histogram(now.degrees, 30, "pictures", "source")
     if now.anew is not None:
         x = np.linspace(0.0, 30.0, 121)
-        for name, color, degrees in zip(("EPnP", "SQPnP"), ("source", "target"), now.anew, strict=True):
-            scene[f"anew/{name}"] = ANEW.curve(x, 100.0 * (degrees <= x[:, None]).mean(axis=1), name, color)
+        for name, color, degrees in zip(
+            ("EPnP", "SQPnP"), ("source", "target"), now.anew, strict=True
+        ):
+            scene[f"anew/{name}"] = ANEW.curve(
+                x, 100.0 * (degrees <= x[:, None]).mean(axis=1), name, color
+            )
     if now.counts is not None:
         scene["solutions"] = SOLUTIONS.histogram(
             np.repeat(np.arange(5), now.counts), np.arange(6) - 0.5, "triples", "target"
@@ -261,6 +315,9 @@ def _numbers(state: State) -> dict[str, Primitive]:
         scene["error/centre"] = CENTRE_ERROR.scalar(metres, "to the truth", "truth", log=True)
     rows = [("t", coordinates(T[:3, 3], 3)), ("C = −Rᵀt", coordinates(camera_center(T), 3))]
     if subject.T_true is not None:
-        rows += [("true C", coordinates(camera_center(subject.T_true), 3)), ("C is off by", length(metres))]
+        rows += [
+            ("true C", coordinates(camera_center(subject.T_true), 3)),
+            ("C is off by", length(metres)),
+        ]
     scene["numbers"] = Table("The pose, metres", ("", "value"), tuple(rows))
     return scene

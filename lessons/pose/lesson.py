@@ -1,8 +1,10 @@
-"""Where was the camera: three points, four places; a fourth point, all of them, and a plane that has two answers.
+"""Where was the camera: three points, four places; a fourth point, all of them, and a plane that
+has two answers.
 
-What it teaches: three known points leave up to four cameras and mostly two, one more chooses; all together average the
-noise, linear methods first and Gauss-Newton after them. Flat targets have two explanations wherever perspective is
-weak, and no solver can know which is true. A small reprojection error is no proof of a pose.
+What it teaches: three known points leave up to four cameras and mostly two, one more chooses; all
+together average the noise, linear methods first and Gauss-Newton after them. Flat targets have two
+explanations wherever perspective is weak, and no solver can know which is true. A small
+reprojection error is no proof of a pose.
 """
 
 from collections.abc import Iterator
@@ -18,8 +20,7 @@ from lessons.pose.presets import PRESETS, QUESTIONS
 from lessons.pose.scenes import subject_of
 from lessons.pose.state import Params, State, Subject
 from lessons.pose.trials import repeated
-from workbench.algorithms.camera_model import camera_model
-from workbench.algorithms.camera_search import (
+from workbench.algorithms.cameras.camera_search import (
     ChoosePose,
     PoseFromDistances,
     PoseStep,
@@ -28,13 +29,14 @@ from workbench.algorithms.camera_search import (
     by_three_points,
     downhill,
 )
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.ransac import State as Sampled
-from workbench.algorithms.samplers import uniform_samples
+from workbench.algorithms.robust.camera_model import camera_model
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.ransac import State as Sampled
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.errors import InputError
-from workbench.geometry.camera_motions import dlt_motion, rms_reprojection, sqpnp
-from workbench.geometry.control_points import epnp
-from workbench.geometry.planar_motions import is_flat
+from workbench.geometry.cameras.camera_motions import dlt_motion, rms_reprojection, sqpnp
+from workbench.geometry.cameras.control_points import epnp
+from workbench.geometry.cameras.planar_motions import is_flat
 from workbench.lesson import Lesson, Sweep
 
 MOST_SAMPLES = 500
@@ -47,7 +49,9 @@ def run(
     choose_pose: ChoosePose = choose_pose,
     pose_step: PoseStep = pose_step,
 ) -> Iterator[State]:
-    """Yield the steps of one method, those downhill from its answer, and what it finds in other pictures."""
+    """Yield the steps of one method, those downhill from its answer, and what it finds in other
+    pictures.
+    """
     subject = subject_of(params)
     yield State(params=params, subject=subject)
     if params.method == "RANSAC":
@@ -59,14 +63,17 @@ def run(
         T = now.T if now.phase in ("choose", "solved") else None
         yield State(params=params, subject=subject, now=now)
     if params.refine:
-        for now in downhill(T, p, xy, pose_step):
+        for now in downhill(T, p, xy, pose_step=pose_step):
             yield State(params=params, subject=subject, now=now)
     if subject.T_true is not None:
         yield State(params=params, subject=subject, now=repeated(params, subject))
 
 
 def first_pose(
-    params: Params, subject: Subject, pose_from_distances: PoseFromDistances, choose_pose: ChoosePose
+    params: Params,
+    subject: Subject,
+    pose_from_distances: PoseFromDistances,
+    choose_pose: ChoosePose,
 ) -> Iterator[Searched]:
     """Return the steps to a first pose by the method of the params.
 
@@ -75,10 +82,12 @@ def first_pose(
     """
     p, xy = subject.given.p_world, subject.xy
     if params.method == "P3P":
-        return by_three_points(p, xy, pose_from_distances, choose_pose)
+        return by_three_points(p, xy, pose_from_distances, choose_pose=choose_pose)
     if params.method == "IPPE":
         if not is_flat(p):
-            raise InputError("IPPE is for points of one plane: take the marker, or a box of thickness 0")
+            raise InputError(
+                "IPPE is for points of one plane: take the marker, or a box of thickness 0"
+            )
         return by_plane(p, xy, choose_pose)
     if params.method == "DLT" and len(p) < 6:
         raise InputError(f"the direct linear transform needs 6 points, and there are only {len(p)}")
@@ -105,12 +114,15 @@ def sampled(params: Params, subject: Subject) -> Iterator[Sampled]:
 lesson = Lesson(
     name="pose",
     title="Pose from points",
-    summary="Three known points leave up to four places for the camera, one more chooses, and all together average.",
+    summary="Three known points in a picture leave up to four places for the camera. Find the "
+    "one where it stood.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=1700,
+    order=1000,
+    chapter="See",
+    minutes=25,
     needs=("pinhole", "ransac"),
     view=VIEW,
     view_for=lambda params: LOOKS["box" if params.sightings else params.target].view,

@@ -7,9 +7,9 @@ import numpy as np
 
 from lessons.pose.state import Params, Subject
 from workbench.data.framing import Frame, frame
-from workbench.data.sightings import Sightings, points_on_box, read_sightings, seen, some_of
-from workbench.data.solids import Solid, box, outlined
-from workbench.data.street import MAPPED, SUN, standing, street, street_items, street_map
+from workbench.data.shapes.solids import Solid, box, outlined
+from workbench.data.views.sightings import Sightings, points_on_box, read_sightings, seen, some_of
+from workbench.data.views.street import MAPPED, SUN, standing, street, street_items, street_map
 from workbench.errors import InputError
 from workbench.geometry.cameras import (
     camera_center,
@@ -20,9 +20,9 @@ from workbench.geometry.cameras import (
     project,
     resize_intrinsics,
 )
+from workbench.geometry.cameras.raster import Image, Item, MeshItem, SegmentItem, in_sight, render
 from workbench.geometry.meshes import face_normals
 from workbench.geometry.polylines import circle
-from workbench.geometry.raster import Image, Item, MeshItem, SegmentItem, in_sight, render
 from workbench.knobs import only
 from workbench.scene import color_rows
 
@@ -41,14 +41,28 @@ def subject_of(params: Params) -> Subject:
     """Return what the params look at; knobs of the method find it made already."""
     if params.sightings is not None:
         return _own(params)
-    names = ("target", "points", "thickness", "camera", "distance", "tilt", "f", "noise", "outliers", "origin", "seed")
+    names = (
+        "target",
+        "points",
+        "thickness",
+        "camera",
+        "distance",
+        "tilt",
+        "f",
+        "noise",
+        "outliers",
+        "origin",
+        "seed",
+    )
     return _made(only(params, *names))
 
 
 @lru_cache(maxsize=64)
 def _made(params: Params) -> Subject:
     rng = np.random.default_rng(params.seed)
-    outliers, far = (params.outliers, params.origin) if params.target in ("box", "street") else (0.0, 0.0)
+    outliers, far = (
+        (params.outliers, params.origin) if params.target in ("box", "street") else (0.0, 0.0)
+    )
     K = intrinsics(params.f, *PRINCIPAL)
     if params.target == "street":
         if params.camera[2] <= 0.0:
@@ -60,7 +74,9 @@ def _made(params: Params) -> Subject:
         p, body = _target(params, rng)
         T_near = _stood(params)
         if not depths(np.vstack([p, body.p]), T_near).min() > 0.05:
-            raise InputError("the camera is too near: part of what it looks at is beside it or behind it")
+            raise InputError(
+                "the camera is too near: part of what it looks at is beside it or behind it"
+            )
         window = _window(project(np.vstack([p, body.p]), T_near, K))
         photograph = _photograph(_lit(body, SHADES[params.target]), T_near, K, window)
     origin = 1000.0 * far * FAR_OFF
@@ -90,7 +106,9 @@ def _target(params: Params, rng: np.random.Generator) -> tuple[np.ndarray, Solid
     size = np.array(SIZE) * [1.0, 1.0, params.thickness]
     shape = box((size[0], size[1], max(float(size[2]), 1e-4)))
     down = np.array([0.0, 0.0, size[2] / 2])
-    return points_on_box(size, params.points, rng), Solid(shape.p - down, shape.faces, shape.lines - down)
+    return points_on_box(size, params.points, rng), Solid(
+        shape.p - down, shape.faces, shape.lines - down
+    )
 
 
 def _stood(params: Params) -> np.ndarray:
@@ -98,7 +116,9 @@ def _stood(params: Params) -> np.ndarray:
     eye = np.array(params.camera)
     if params.target == "marker":
         tilt, turn = np.radians(params.tilt), 0.3
-        eye = params.distance * np.array([np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)])
+        eye = params.distance * np.array(
+            [np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)]
+        )
     if not np.linalg.norm(eye) > 0.0:
         raise InputError("the camera is at the middle of what it looks at: move it")
     return look_at(eye, np.zeros(3))
@@ -109,19 +129,27 @@ def _street() -> Solid:
     return Solid(*standing(), np.concatenate([street().edges, street().rails]))
 
 
-def _mapped(T: np.ndarray, K: np.ndarray, photograph: Image, most: int, rng: np.random.Generator) -> np.ndarray:
-    """Return points of the street's map that its photograph shows: the same ones as far as the camera sees them."""
+def _mapped(
+    T: np.ndarray, K: np.ndarray, photograph: Image, most: int, rng: np.random.Generator
+) -> np.ndarray:
+    """Return points of the street's map that its photograph shows: the same ones as far as the
+    camera sees them.
+    """
     order = rng.permutation(MAPPED)
     p, n = (one[order] for one in street_map())
     ahead = ((camera_center(T) - p) * n).sum(axis=1) > 0.0
-    p = p[ahead & in_sight(p, T, _windowed(K, WHOLE), photograph.depth)][:most]
+    p = p[ahead & in_sight(p, T, _windowed(K, WHOLE), depth=photograph.depth)][:most]
     if len(p) < 4:
-        raise InputError(f"the camera sees {len(p)} points of the map: move it, or make its focal length shorter")
+        raise InputError(
+            f"the camera sees {len(p)} points of the map: move it, or make its focal length shorter"
+        )
     return p
 
 
 def _window(uv: np.ndarray) -> np.ndarray:
-    """Return the part of the picture around some pixels, with a margin, as wide to high as the photograph."""
+    """Return the part of the picture around some pixels, with a margin, as wide to high as the
+    photograph.
+    """
     low, high = uv.min(axis=0), uv.max(axis=0)
     middle, size = (low + high) / 2, 1.5 * np.maximum(high - low, 8.0)
     w, h = PHOTOGRAPH
@@ -132,12 +160,18 @@ def _window(uv: np.ndarray) -> np.ndarray:
 def _windowed(K: np.ndarray, window: np.ndarray) -> np.ndarray:
     """Return the intrinsics of the photograph, which is a window of the picture, resized."""
     enlarged = PHOTOGRAPH[0] / (window[2] - window[0])
-    return resize_intrinsics(crop_intrinsics(K, window[0] + 0.5, window[1] + 0.5), enlarged, enlarged)
+    return resize_intrinsics(
+        crop_intrinsics(K, window[0] + 0.5, window[1] + 0.5), enlarged, enlarged
+    )
 
 
-def _photograph(items: Sequence[Item], T_camera_world: np.ndarray, K: np.ndarray, window: np.ndarray) -> Image:
+def _photograph(
+    items: Sequence[Item], T_camera_world: np.ndarray, K: np.ndarray, window: np.ndarray
+) -> Image:
     """Return the window of what the camera sees."""
-    return render(items, T_camera_world, _windowed(K, window), *PHOTOGRAPH, background=(246, 248, 250))
+    return render(
+        items, T_camera_world, _windowed(K, window), *PHOTOGRAPH, background=(246, 248, 250)
+    )
 
 
 def _lit(body: Solid, shade: tuple[int, int, int]) -> Sequence[Item]:

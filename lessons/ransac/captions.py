@@ -3,14 +3,16 @@
 import numpy as np
 
 from lessons.ransac.state import State
-from workbench.algorithms.ransac import Stop
+from workbench.algorithms.robust.ransac import Stop
 from workbench.certain import sure
 from workbench.numerals import counted, length, percent, pixels
 from workbench.scene import Caption
 
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven")
 
-BY_CHANCE = " So few of the most trusted vote for it that chance can explain it: it cannot end the run."
+BY_CHANCE = (
+    " So few of the most trusted vote for it that chance can explain it: it cannot end the run."
+)
 
 
 def caption(state: State) -> Caption:
@@ -28,9 +30,18 @@ def caption(state: State) -> Caption:
 
 def _sample(state: State) -> Caption:
     now, noun = state.now, state.subject.noun
-    how = "you picked" if state.chosen else "drawn by chance" if state.params.sampler == "uniform" else "drawn by trust"
+    how = (
+        "you picked"
+        if state.chosen
+        else "drawn by chance"
+        if state.params.sampler == "uniform"
+        else "drawn by trust"
+    )
     proportion = _proportion(state) if now.iteration == 1 else ""
-    return Caption(f"Sample {now.iteration}: {COUNTS[len(now.sample)]} {noun}, {how}.{_in_truth(state)}{proportion}")
+    return Caption(
+        f"Sample {now.iteration}: {COUNTS[len(now.sample)]} {noun},"
+        f" {how}.{_in_truth(state)}{proportion}"
+    )
 
 
 def _in_truth(state: State) -> str:
@@ -46,22 +57,28 @@ def _in_truth(state: State) -> str:
 
 def _degenerate(state: State) -> Caption:
     model = state.subject.model
-    text = f"Sample {state.now.iteration} is degenerate: {model.degenerate_when}, so it gives no {model.name}."
+    text = (
+        f"Sample {state.now.iteration} is degenerate: {model.degenerate_when}, so it gives no"
+        f" {model.name}."
+    )
     return Caption(f"{text} It counts as drawn.")
 
 
 def _model(state: State) -> Caption:
     now, model, noun = state.now, state.subject.model, state.subject.noun
     return Caption(
-        f"Sample {now.iteration} gives a {model.name} through its {COUNTS[len(now.sample)]} {noun} (purple). Now all"
-        f" {len(state.subject.p):,} {noun} vote: yes from those within {_limit(state)} of it."
+        f"Sample {now.iteration} gives a {model.name} through its {COUNTS[len(now.sample)]} {noun}"
+        f" (purple). Now all {len(state.subject.p):,} {noun} vote: yes from those within"
+        f" {_limit(state)} of it."
     )
 
 
 def _inliers(state: State) -> Caption:
     now, trial, noun = state.now, sure(state.now.trial), state.subject.noun
     who = "Your sample" if state.chosen else f"Sample {now.iteration}"
-    text = f"{who}: {trial.count:,} of {len(trial.inliers):,} {noun} lie within {_limit(state)} of its"
+    text = (
+        f"{who}: {trial.count:,} of {len(trial.inliers):,} {noun} lie within {_limit(state)} of its"
+    )
     text += f" {state.subject.model.name}{_score(state, trial.score)}."
     if now.best is not None and trial.score <= now.best.score:
         text += f" The best so far has {_points(state, now.best)}: it stays."
@@ -71,7 +88,10 @@ def _inliers(state: State) -> Caption:
 def _best(state: State) -> Caption:
     now, best = state.now, sure(state.now.best)
     share = best.count / len(best.inliers)
-    text = f"New best after {counted(now.iteration, 'sample')}: {_points(state, best)}, {percent(share, 0)} of all"
+    text = (
+        f"New best after {counted(now.iteration, 'sample')}: {_points(state, best)},"
+        f" {percent(share, 0)} of all"
+    )
     text += f" {state.subject.noun}.{_trusted(state)}"
     if text.endswith(BY_CHANCE):
         return Caption(text + _to_the_truth(state))
@@ -80,7 +100,10 @@ def _best(state: State) -> Caption:
         allowed = counted(state.params.most_samples, "sample")
         text += f" If that is the share of inliers, the {allowed} allowed give no {asked}."
     else:
-        text += f" If that is the share of inliers, {counted(round(now.needed), 'sample')} give {asked}."
+        text += (
+            f" If that is the share of inliers, {counted(round(now.needed), 'sample')} give"
+            f" {asked}."
+        )
     return Caption(text + _to_the_truth(state))
 
 
@@ -98,7 +121,10 @@ def _refit(state: State) -> Caption:
         text += f" {before.count:,} → {best.count:,} votes"
         if len(state.subject.p_true):
             old = state.subject.error(before.estimate)
-            text += f"; RMS error to the truth {_distance(state, old)} → {_distance(state, state.best_error)}"
+            text += (
+                f"; RMS error to the truth {_distance(state, old)} →"
+                f" {_distance(state, state.best_error)}"
+            )
     return Caption(text + ".")
 
 
@@ -108,19 +134,29 @@ def _stop(state: State) -> Caption:
     text = f"Stop after {counted(now.iteration, 'sample')}: {now.stop.message}. "
     if now.best is None:
         return Caption(text + _why_none(state), "wrong")
-    text += f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are within {_limit(state)}"
+    text += (
+        f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are within"
+        f" {_limit(state)}"
+    )
     text += f" of the {state.subject.model.name}"
     if not np.isfinite(state.best_error):
-        return Caption(f"{text}, RMS distance {_distance(state, now.best.rms)}.{_proportion(state)}")
+        return Caption(
+            f"{text}, RMS distance {_distance(state, now.best.rms)}.{_proportion(state)}"
+        )
     text += f". RMS error to the truth: RANSAC {_distance(state, state.best_error)}"
-    text += "".join(f", {rival.name} {_distance(state, rival.error)}" for rival in state.rivals) + "."
+    text += (
+        "".join(f", {rival.name} {_distance(state, rival.error)}" for rival in state.rivals) + "."
+    )
     return Caption.verdict(text, right=is_right(state), settled=now.stop is Stop.ENOUGH)
 
 
 def _why_none(state: State) -> str:
     model = state.subject.model
     if state.degenerate == state.now.iteration:
-        return f"Every sample was degenerate ({model.degenerate_when}): such {state.subject.noun} determine no {model.name}."
+        return (
+            f"Every sample was degenerate ({model.degenerate_when}): such {state.subject.noun}"
+            f" determine no {model.name}."
+        )
     return "A larger inlier distance or more samples may help."
 
 
@@ -128,18 +164,28 @@ def _proportion(state: State) -> str:
     """Warn where the inlier distance and the size of somebody's own rows hardly belong together."""
     params, limit, unit = state.params, state.inlier_distance, state.subject.model.unit
     size = float(np.linalg.norm(np.ptp(state.subject.p, axis=0)))
-    if (params.cloud is None and params.matches is None) or size == 0.0 or size / 5000.0 <= limit <= size / 10.0:
+    if (
+        (params.cloud is None and params.matches is None)
+        or size == 0.0
+        or size / 5000.0 <= limit <= size / 10.0
+    ):
         return ""
     few = "few" if limit < size / 10.0 else "nearly all"
-    unsure = "Are the matches in pixels?" if unit == "px" else f"Is the cloud in {params.cloud_unit} (cloud_unit)?"
+    unsure = (
+        "Are the matches in pixels?"
+        if unit == "px"
+        else f"Is the cloud in {params.cloud_unit} (cloud_unit)?"
+    )
     return (
-        f" Mind: the {state.subject.noun} extend over {_distance(state, size)}, so {few} of them can be expected within"
-        f" {_limit(state)} of any {state.subject.model.name}. {unsure}"
+        f" Mind: the {state.subject.noun} extend over {_distance(state, size)}, so {few} of them"
+        f" can be expected within {_limit(state)} of any {state.subject.model.name}. {unsure}"
     )
 
 
 def is_right(state: State) -> bool:
-    """Tell whether the best is the true model, but for noise: nearer than the noise allows single rows to be."""
+    """Tell whether the best is the true model, but for noise: nearer than the noise allows single
+    rows to be.
+    """
     in_pixels = state.subject.model.unit == "px"
     sigma = state.params.noise_pixels if in_pixels else state.params.noise
     return bool(state.best_error < max(sigma, 0.5 if in_pixels else 0.005))

@@ -1,8 +1,9 @@
 """RANSAC: guess a model from the fewest points, count who agrees, keep the best guess, refit it.
 
-What it teaches: a fit to all points is dragged off by those that do not belong; a guess from few points is right
-whenever the few are, and a formula says how often one must guess. What wins is the model with the most points near it:
-mind the distance that counts as near, the noise in the sample, and models one did not mean.
+What it teaches: a fit to all points is dragged off by those that do not belong; a guess from few
+points is right whenever the few are, and a formula says how often one must guess. What wins is the
+model with the most points near it: mind the distance that counts as near, the noise in the sample,
+and models one did not mean.
 """
 
 from collections.abc import Callable, Iterator
@@ -17,13 +18,19 @@ from lessons.ransac.draw import draw
 from lessons.ransac.presets import PRESETS, QUESTIONS, VIEW
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params, Rival, State, Subject
-from workbench.algorithms.models import PLANE, from_points
-from workbench.algorithms.ransac import Fit, Judge, iterations_needed, ransac
 from workbench.algorithms.robust import HUBER, reweighted_fit
-from workbench.algorithms.samplers import prosac_samples, uniform_samples
-from workbench.algorithms.scores import Score, count_inliers, count_score, mlesac_score, msac_score
+from workbench.algorithms.robust.models import PLANE, from_points
+from workbench.algorithms.robust.ransac import Fit, Judge, iterations_needed, ransac
+from workbench.algorithms.robust.samplers import prosac_samples, uniform_samples
+from workbench.algorithms.robust.scores import (
+    Score,
+    count_inliers,
+    count_score,
+    mlesac_score,
+    msac_score,
+)
 from workbench.errors import InputError
-from workbench.geometry.lines_planes import plane_from_points
+from workbench.geometry.shapes.lines_planes import plane_from_points
 from workbench.lesson import Lesson, Sweep
 
 SHOWN_IN_PARTS = 3  # samples
@@ -36,16 +43,19 @@ def run(
     count_inliers: Callable[[np.ndarray, np.ndarray, float], float] = count_inliers,
     iterations_needed: Callable[[float, int, float], float] = iterations_needed,
 ) -> Iterator[State]:
-    """Yield the steps of RANSAC. With the plane, its minimal fit and the count are the functions given here.
+    """Yield the steps of RANSAC. With the plane, its minimal fit and the count are the functions
+    given here.
 
-    The count gives the share of inliers for which the number of samples is asked, and is the score if that is "count".
-    PROSAC asks for the largest share among the most trusted, whoever counts.
+    The count gives the share of inliers for which the number of samples is asked, and is the score
+    if that is "count". PROSAC asks for the largest share among the most trusted, whoever counts.
     """
     subject = subject_of(params)
     rng = np.random.default_rng(params.seed)
     distance = params.inlier_pixels if subject.model.unit == "px" else params.inlier_distance
     model = subject.model
-    judge = Judge(p=subject.p, model=model, inlier_distance=distance, score=score_of(params, subject))
+    judge = Judge(
+        p=subject.p, model=model, inlier_distance=distance, score=score_of(params, subject)
+    )
     if model is PLANE:
         model = replace(PLANE, solve=from_points(checked(plane_from_points)))
         judge = counting(judge, count_inliers, decides=params.score == "count")
@@ -80,24 +90,37 @@ def run(
 
 def shown(params: Params, phase: str, iteration: int) -> bool:
     """Tell whether a part of a sample becomes a step."""
-    if params.steps == "every part" or iteration <= SHOWN_IN_PARTS or phase in ("best", "refit", "stop"):
+    if (
+        params.steps == "every part"
+        or iteration <= SHOWN_IN_PARTS
+        or phase in ("best", "refit", "stop")
+    ):
         return True
     return params.steps == "every sample" and phase in ("inliers", "degenerate")
 
 
 def score_of(params: Params, subject: Subject) -> Score:
-    """Return the score that the params name. An outlier may be anywhere in the window of the model."""
+    """Return the score that the params name. An outlier may be anywhere in the window of the
+    model.
+    """
     span = float(np.linalg.norm(subject.high - subject.low))
-    return {"count": count_score, "MSAC": msac_score, "MLESAC": partial(mlesac_score, span=span)}[params.score]
+    return {"count": count_score, "MSAC": msac_score, "MLESAC": partial(mlesac_score, span=span)}[
+        params.score
+    ]
 
 
-def checked(plane_from_points: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
+def checked(
+    plane_from_points: Callable[[np.ndarray], np.ndarray],
+) -> Callable[[np.ndarray], np.ndarray]:
     """Return the function, made to say so when it does not give a plane."""
 
     def plane(p: np.ndarray) -> np.ndarray:
         found = np.asarray(plane_from_points(p), dtype=float)
         if found.shape != (4,):
-            raise InputError(f"plane_from_points returned {found.shape} numbers; a plane is 4 numbers: a, b, c, d")
+            raise InputError(
+                f"plane_from_points returned {found.shape} numbers; a plane is 4 numbers: a, b,"
+                " c, d"
+            )
         return found
 
     return plane
@@ -123,7 +146,9 @@ def counting(
     def counted(plane: np.ndarray) -> Fit:
         fit, votes = judge(plane), int(count_inliers(plane, judge.p, judge.inlier_distance))
         score = float(votes) if decides else fit.score
-        return Counted(estimate=plane, distances=fit.distances, inliers=fit.inliers, score=score, votes=votes)
+        return Counted(
+            estimate=plane, distances=fit.distances, inliers=fit.inliers, score=score, votes=votes
+        )
 
     return counted
 
@@ -135,7 +160,8 @@ def samples_of(params: Params, subject: Subject, rng: np.random.Generator) -> It
         return uniform_samples(n, size, rng)
     if subject.quality is None:
         raise InputError(
-            "PROSAC draws the most trusted first, and this file does not say whom to trust: set sampler to uniform"
+            "PROSAC draws the most trusted first, and this file does not say whom to trust: set"
+            " sampler to uniform"
         )
     return prosac_samples(subject.quality, size, rng)
 
@@ -148,28 +174,39 @@ def chosen_sample(params: Params, subject: Subject) -> list[np.ndarray]:
 
 
 def rivals_of(subject: Subject, corner: float) -> tuple[Rival, ...]:
-    """Return least squares over all rows, and Huber's fit with its corner at the inlier distance."""
+    """Return least squares over all rows, and Huber's fit with its corner at the inlier
+    distance.
+    """
     if len(subject.p) < subject.model.fewest:
         return ()
     with np.errstate(
         over="ignore", invalid="ignore"
     ):  # rows that determine nothing: what is not finite is left out below
-        first, *_, last = reweighted_fit(subject.p, subject.model, HUBER, corner=corner, max_iterations=30)
+        first, *_, last = reweighted_fit(
+            subject.p, subject.model, HUBER, corner=corner, max_iterations=30
+        )
     found = (("least squares", first.estimate), ("Huber", last.estimate))
     return tuple(
-        Rival(name, estimate, subject.error(estimate)) for name, estimate in found if np.isfinite(estimate).all()
+        Rival(name, estimate, subject.error(estimate))
+        for name, estimate in found
+        if np.isfinite(estimate).all()
     )
 
 
 lesson = Lesson(
     name="ransac",
     title="RANSAC",
-    summary="Guess from few points, count who agrees, keep the best: fits that outliers cannot drag off.",
+    summary=(
+        "Guess a shape from a few points, count how many others agree, and keep the best guess."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=400,
+    order=700,
+    chapter="Estimate",
+    minutes=20,
+    needs=("fitting",),
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

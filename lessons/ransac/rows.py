@@ -1,4 +1,6 @@
-"""Where the rows of a run come from, built-in scenes or the person's own files, and where they stand in the picture."""
+"""Where the rows of a run come from, built-in scenes or the person's own files, and where they
+stand in the picture.
+"""
 
 from collections.abc import Callable
 from functools import lru_cache
@@ -6,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from lessons.ransac import robust_scenes as robust
+from lessons.ransac.robust_scenes import RobustScene
 from lessons.ransac.state import MOST_POINTS, Params, Subject
-from workbench.algorithms.models import MODELS, Model
-from workbench.data import robust
+from workbench.algorithms.robust.models import MODELS, Model
 from workbench.data.files import read_cloud, read_image
+from workbench.data.files.matches import read_matches
 from workbench.data.framing import METRES, extent, frame
-from workbench.data.matches import read_matches
-from workbench.data.robust import RobustScene
 from workbench.errors import InputError
 from workbench.knobs import called, only
 
@@ -35,7 +37,8 @@ def subject_of(params: Params) -> Subject:
     ):
         if given is not None and (model.unit != unit or model.columns == 2):
             raise InputError(
-                f"{name} {given.name} cannot be fitted with a {model.name}: set {called('model')} to {others}"
+                f"{name} {given.name} cannot be fitted with a {model.name}: set {called('model')}"
+                f" to {others}"
             )
     if params.cloud is not None:
         return _own_cloud(params, model)
@@ -43,7 +46,9 @@ def subject_of(params: Params) -> Subject:
         return _own_matches(params, model)
     if params.first_image is not None or params.second_image is not None:
         raise InputError(f"own images are shown under own matches: give {called('matches')} too")
-    return _built_in(only(params, "model", "table", "points", "outliers", "noise", "noise_pixels", "scene_seed"))
+    return _built_in(
+        only(params, "model", "table", "points", "outliers", "noise", "noise_pixels", "scene_seed")
+    )
 
 
 @lru_cache(maxsize=64)
@@ -62,7 +67,9 @@ def _built_in(params: Params) -> Subject:
         "homography": lambda rng, **options: robust.match_scene(rng, flat=True, **options),
         "fundamental matrix": robust.match_scene,
     }
-    made = makers[params.model](rng, count=params.points, outlier_ratio=params.outliers, sigma=sigma)
+    made = makers[params.model](
+        rng, count=params.points, outlier_ratio=params.outliers, sigma=sigma
+    )
     known: dict[str, Any] = {
         "truth": made.truth,
         "p_true": made.p_true,
@@ -103,20 +110,43 @@ def _own_matches(params: Params, model: Model) -> Subject:
         rows = np.random.default_rng(params.scene_seed).choice(len(p), MOST_POINTS, replace=False)
         p, quality = p[rows], None if quality is None else quality[rows]
     truth = found.H if model.name == "homography" else found.F
-    near = np.zeros(len(p), bool) if truth is None else model.distances(truth, p) <= params.inlier_pixels
-    images = tuple(None if file is None else read_image(file) for file in (params.first_image, params.second_image))
+    near = (
+        np.zeros(len(p), bool)
+        if truth is None
+        else model.distances(truth, p) <= params.inlier_pixels
+    )
+    images = tuple(
+        None if file is None else read_image(file)
+        for file in (params.first_image, params.second_image)
+    )
     sizes = tuple(
-        1.05 * p[:, 2 * k : 2 * k + 2].max(axis=0) if image is None else np.array(image.shape[1::-1], float)
+        (
+            1.05 * p[:, 2 * k : 2 * k + 2].max(axis=0)
+            if image is None
+            else np.array(image.shape[1::-1], float)
+        )
         for k, image in enumerate(images)
     )
     return _of_matches(
-        model, p, sizes, 1.28 / max(float(np.max(sizes)), 1.0), images,
-        truth=truth, p_true=p[near], is_inlier=None if truth is None else near, quality=quality,
-    )  # fmt: skip
+        model,
+        p,
+        sizes,
+        1.28 / max(float(np.max(sizes)), 1.0),
+        images,
+        truth=truth,
+        p_true=p[near],
+        is_inlier=None if truth is None else near,
+        quality=quality,
+    )
 
 
 def _of_matches(
-    model: Model, p: np.ndarray, sizes: tuple[np.ndarray, ...], pixel: float, images=(None, None), **known
+    model: Model,
+    p: np.ndarray,
+    sizes: tuple[np.ndarray, ...],
+    pixel: float,
+    images=(None, None),
+    **known,
 ) -> Subject:
     """Stand the two images up side by side, facing the viewer."""
     width_first, height = sizes[0][0] * pixel, max(size[1] for size in sizes) * pixel

@@ -16,7 +16,7 @@ from lessons.representations.state import (
     Subject,
     Surface,
 )
-from workbench.algorithms.octree import Level
+from workbench.algorithms.spatial.octree import Level
 from workbench.certain import sure
 from workbench.numerals import angle, brief, counted, fixed, length, percent
 from workbench.scene import Caption
@@ -35,8 +35,9 @@ def caption(state: State) -> Caption:
     if isinstance(now, Cloud):
         surface = "The surface is" if state.params.cloud is None else "The points of the file are"
         return Caption(
-            f"{len(now.p):,} points, {size(state.bytes)}. {surface} {length(now.mean, 2)} from the nearest of them on"
-            f" average, {length(now.worst, 2)} in the largest hole. What lies between points, nobody knows."
+            f"{len(now.p):,} points, {size(state.bytes)}. {surface} {length(now.mean, 2)} from the"
+            f" nearest of them on average, {length(now.worst, 2)} in the largest hole. What lies"
+            " between points, nobody knows."
         )
     if isinstance(now, Joined):
         return _joined(state, now)
@@ -67,7 +68,11 @@ def size(count: float) -> str:
 
 def lost(state: State) -> bool:
     """Tell whether a part of the surface did not come back at all."""
-    return state.surface is not None and np.isfinite(state.surface.area) and state.surface.area < MOSTLY
+    return (
+        state.surface is not None
+        and np.isfinite(state.surface.area)
+        and state.surface.area < MOSTLY
+    )
 
 
 def _errors(surface: Surface) -> str:
@@ -87,20 +92,25 @@ def _sizes(surface: Surface) -> str:
     text = f". Area: {more(surface.area)}"
     if np.isfinite(surface.volume):
         text += f"; volume: {more(surface.volume)}"
-    return f"{text}; normals {angle(surface.tilt, 2)} off." if np.isfinite(surface.tilt) else f"{text}."
+    return (
+        f"{text}; normals {angle(surface.tilt, 2)} off."
+        if np.isfinite(surface.tilt)
+        else f"{text}."
+    )
 
 
 def _joined(state: State, now: Joined) -> Caption:
     if not now.k:
         return Caption(
-            f"{counted(len(now.p), 'point')}, {size(state.bytes)}. They do not say who is whose neighbour on the surface."
+            f"{counted(len(now.p), 'point')}, {size(state.bytes)}. They do not say who is whose"
+            " neighbour on the surface."
         )
     whom = "its nearest one" if now.k == 1 else f"its {now.k} nearest"
     off = "off the surface" if state.params.cloud is None else "from the nearest point of the file"
     return Caption(
-        f"Each point joined to {whom}: {counted(len(now.edges), 'edge')}, {counted(now.pieces, 'piece')},"
-        f" {size(state.bytes)}. Middles of edges are {length(now.mean, 2)} {off} on average,"
-        f" {length(now.worst, 2)} at worst."
+        f"Each point joined to {whom}: {counted(len(now.edges), 'edge')},"
+        f" {counted(now.pieces, 'piece')}, {size(state.bytes)}. Middles of edges are"
+        f" {length(now.mean, 2)} {off} on average, {length(now.worst, 2)} at worst."
     )
 
 
@@ -109,14 +119,20 @@ def _cells(state: State, now: Cells) -> Caption:
     if now.values.dtype == bool:
         full = int(np.count_nonzero(now.values))
         return Caption(
-            f"{n} cells along each edge, one bit each: {size(state.bytes)}. {full:,} have their middle inside: volume"
-            f" {more(full * now.grid.cell_volume / subject.volume)}. The walls around them have"
-            f" {fixed(now.walls / subject.area, 2)} times the area."
+            f"{n} cells along each edge, one bit each: {size(state.bytes)}. {full:,} have their"
+            f" middle inside: volume {more(full * now.grid.cell_volume / subject.volume)}. The"
+            f" walls around them have {fixed(now.walls / subject.area, 2)} times the area."
         )
-    text = f"{n} cells along each edge, a distance in each: {size(state.bytes)}. The picture is a slice, blue inside."
+    text = (
+        f"{n} cells along each edge, a distance in each: {size(state.bytes)}. The picture is a"
+        " slice, blue inside."
+    )
     off = field_error(state)
     if off is not None:
-        text += f" The smaller of both distances: in the middle {length(off[0], 2)} where {length(off[1], 2)} is true."
+        text += (
+            f" The smaller of both distances: in the middle {length(off[0], 2)} where"
+            f" {length(off[1], 2)} is true."
+        )
     return Caption(text)
 
 
@@ -133,14 +149,20 @@ def _came_back(state: State, surface: Surface) -> str:
     if not len(surface.p):
         return f"{size(state.bytes)}, and no surface comes back: all cells are on one side."
     bits = isinstance(state.now, Cells) and state.now.values.dtype == bool
-    how = "half-way between full and empty middles" if bits else "where the line between two distances is zero"
+    how = (
+        "half-way between full and empty middles"
+        if bits
+        else "where the line between two distances is zero"
+    )
     return f"Marching cubes, {len(surface.p):,} vertices {how}: {_errors(surface)}{_sizes(surface)}"
 
 
 def _level(now: Level) -> Caption:
     cells, mixed = len(now.cells), int(now.mixed.sum())
     text = f"Level {now.depth}, edges of {length(float(now.grid.spacing[0]), 2)}: {mixed:,} of"
-    text += f" {counted(cells, 'cell')} may be crossed by the surface, as far as their middle knows."
+    text += (
+        f" {counted(cells, 'cell')} may be crossed by the surface, as far as their middle knows."
+    )
     if now.depth:
         text += f" Packed {size(now.packed_bytes)}, with pointers {size(now.pointer_bytes)};"
         text += f" dense bits {size(now.dense_bytes)}."
@@ -152,14 +174,14 @@ def _built(now: Built) -> Caption:
     n, d = tree.p.shape
     if not now.depth:
         return Caption(
-            f"{n:,} points with {d} coordinates, in no order. Which one is nearest to the purple query? Without a tree all"
-            f" {n:,} have to be looked at."
+            f"{n:,} points with {d} coordinates, in no order. Which one is nearest to the purple"
+            f" query? Without a tree all {n:,} have to be looked at."
         )
     cells = int(((tree.depth == now.depth) | ((tree.axis < 0) & (tree.depth < now.depth))).sum())
     most = int((tree.last - tree.first)[tree.depth == now.depth].max())
     return Caption(
-        f"{counted(now.depth, 'cut')} deep: each cell is cut at the median of its longest side. {cells:,} cells with at most"
-        f" {counted(most, 'point')} each."
+        f"{counted(now.depth, 'cut')} deep: each cell is cut at the median of its longest side."
+        f" {cells:,} cells with at most {counted(most, 'point')} each."
     )
 
 
@@ -170,7 +192,10 @@ def _searched(now: Searched) -> Caption:
     if len(now.visits) == 1:
         text += " Straight down to the query's own cell; now back up."
     if visit.passed:
-        text += f" {counted(len(visit.passed), 'branch', 'branches')} passed over: no point of theirs can be nearer."
+        text += (
+            f" {counted(len(visit.passed), 'branch', 'branches')} passed over: no point of theirs"
+            " can be nearer."
+        )
     if now.done:
         text += " Nothing is left to look at."
     return Caption(text)
@@ -180,36 +205,40 @@ def _growth(growth: Growth) -> Caption:
     first, last = growth.counts[[1, -1]]
     at = dict(zip(growth.dimensions.tolist(), growth.shares, strict=True))
     return Caption(
-        f"In 3 dimensions a search looks at {growth.looked[1]:.0f} of {first:,} points on average, and at"
-        f" {growth.looked[-1]:.0f} of {last:,}. Of 4,000 points: {percent(at[3])} in 3 dimensions, {percent(at[10])} in 10,"
-        f" {percent(at[20])} in 20."
+        f"In 3 dimensions a search looks at {growth.looked[1]:.0f} of {first:,} points on average,"
+        f" and at {growth.looked[-1]:.0f} of {last:,}. Of 4,000 points: {percent(at[3])} in 3"
+        f" dimensions, {percent(at[10])} in 10, {percent(at[20])} in 20."
     )
 
 
 def _patches(state: State, now: Patches) -> Caption:
     kind = "weighted " if state.params.rational else ""
     if state.surface is not None:
-        text = f"{counted(now.count, 'patch', 'patches')} of 16: {_errors(state.surface)}. {len(now.net)} {kind}control"
+        text = (
+            f"{counted(now.count, 'patch', 'patches')} of 16: {_errors(state.surface)}."
+            f" {len(now.net)} {kind}control"
+        )
         return Caption(f"{text} points{f', {size(state.bytes)}' if now.count == 16 else ''}.")
     u, v = (brief(value, 2) for value in state.params.place)
     n = now.control.shape[1]
     if not now.levels:
         return Caption(
-            f"{len(now.net)} {kind}control points make 16 patches of {n} × {n}, {size(state.bytes)}. Those at a patch's"
-            " corners lie on it, the others pull."
+            f"{len(now.net)} {kind}control points make 16 patches of {n} × {n},"
+            f" {size(state.bytes)}. Those at a patch's corners lie on it, the others pull."
         )
     if now.point is None:
         left = n - len(now.levels)
         return Caption(
-            f"De Casteljau along v in the first patch: every leg is divided at v = {v}. Of {left + 1} points in each row"
-            f" {counted(left, 'point')} {'is' if left == 1 else 'are'} left."
+            f"De Casteljau along v in the first patch: every leg is divided at v = {v}. Of"
+            f" {left + 1} points in each row {counted(left, 'point')}"
+            f" {'is' if left == 1 else 'are'} left."
         )
     at = now.levels[-1][0, :3] / now.levels[-1][0, 3]
     gap = float(np.linalg.norm(now.point - at))
     said = "agrees" if gap < ROUND_OFF else f"gives a point {length(gap, 2)} away"
     return Caption(
-        f"The column of {n} is divided at u = {u} in the same way: the last point lies on the patch. The sum of Bernstein"
-        f" polynomials {said}."
+        f"The column of {n} is divided at u = {u} in the same way: the last point lies on the"
+        f" patch. The sum of Bernstein polynomials {said}."
     )
 
 
@@ -219,9 +248,12 @@ def _fitted(state: State, now: Fitted) -> Caption:
     if not len(surface.p):
         low, high = float(now.values.min()), float(now.values.max())
         return Caption(
-            f"{text}. No surface: the field is nowhere zero, from {brief(low, 2)} to {brief(high, 2)}.",
+            f"{text}. No surface: the field is nowhere zero, from {brief(low, 2)} to"
+            f" {brief(high, 2)}.",
         )
-    return Caption(f"{text}; {size(state.bytes)}. Where the field is zero: {_errors(surface)}{_sizes(surface)}")
+    return Caption(
+        f"{text}; {size(state.bytes)}. Where the field is zero: {_errors(surface)}{_sizes(surface)}"
+    )
 
 
 def loss(value: float) -> str:
@@ -233,9 +265,14 @@ def _others(state: State) -> Caption:
     subject, now, surface = sure(state.subject), state.now, state.surface
     names = ", ".join(_NAMES[name] for name in state.others)
     if surface is not None and not len(surface.p):
-        return Caption(f"{size(state.bytes)}, and no surface came back. Beside it in the chart: {names}.", "wrong")
+        return Caption(
+            f"{size(state.bytes)}, and no surface came back. Beside it in the chart: {names}.",
+            "wrong",
+        )
     error = now.mean if isinstance(now, Cloud | Joined) else state.errors[-1]
-    off = "off by nothing but rounding" if error < ROUND_OFF else f"{length(error, 2)} off on average"
+    off = (
+        "off by nothing but rounding" if error < ROUND_OFF else f"{length(error, 2)} off on average"
+    )
     text = f"{capital(subject.name)} in {size(state.bytes)}, {off}"
     if lost(state) and surface is not None:
         return Caption(

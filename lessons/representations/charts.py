@@ -1,10 +1,12 @@
-"""What stands beside the picture: error for bytes, errors by step, tables, and how searches grow."""
+"""What stands beside the picture: error for bytes, errors by step, tables, and how searches
+grow.
+"""
 
 import numpy as np
 
 from lessons.representations.captions import field_error, form_of, size
 from lessons.representations.state import Built, Cells, Fitted, Growth, Joined, Searched, State
-from workbench.algorithms.octree import Level
+from workbench.algorithms.spatial.octree import Level
 from workbench.certain import sure
 from workbench.numerals import angle, length, percent
 from workbench.scene import Chart, Primitive, Role, Table
@@ -20,8 +22,12 @@ LOOKED = Chart("Points looked at, 3 dimensions", "log₁₀ points", "points loo
 SHARE = Chart("Share looked at, of 4,000 points", "dimensions", "%")
 FIELD = Chart("Along x through the middle", "x (m)", "m")
 ROLES: dict[str, Role] = {
-    "cloud": "correspondence", "mesh": "target", "voxels": "neutral", "distances": "other", "patches": "highlight",
-}  # fmt: skip
+    "cloud": "correspondence",
+    "mesh": "target",
+    "voxels": "neutral",
+    "distances": "other",
+    "patches": "highlight",
+}
 
 
 def beside(state: State) -> dict[str, Primitive]:
@@ -54,7 +60,12 @@ def beside(state: State) -> dict[str, Primitive]:
     return scene
 
 
-_NAMED = {"voxels": "marching cubes", "distances": "marching cubes", "octree": "marching cubes", "neural": "zero level"}
+_NAMED = {
+    "voxels": "marching cubes",
+    "distances": "marching cubes",
+    "octree": "marching cubes",
+    "neural": "zero level",
+}
 
 
 def _mm(metres: float) -> float:
@@ -69,7 +80,9 @@ def _memory(state: State) -> dict[str, Primitive]:
     if state.sizes:
         x, y = np.log10(np.array(state.sizes, float)), _log(np.array(state.errors))
         dots = len(x) == 1 or state.params.form == "neural"
-        scene["memory/now"] = (MEMORY.dots if dots else MEMORY.curve)(x, y, form_of(state.params), "source")
+        scene["memory/now"] = (MEMORY.dots if dots else MEMORY.curve)(
+            x, y, form_of(state.params), "source"
+        )
     return scene
 
 
@@ -107,7 +120,9 @@ def _levels(state: State, now: Level) -> dict[str, Primitive]:
     mixed = np.array([*state.mixed, float(now.mixed.sum())])
     return {
         "all cells": CELLS.curve(depth, depth * np.log10(8.0), "a dense grid", "neutral"),
-        "mixed cells": CELLS.curve(depth, np.log10(np.maximum(mixed, 1.0)), "mixed, cut again", "source"),
+        "mixed cells": CELLS.curve(
+            depth, np.log10(np.maximum(mixed, 1.0)), "mixed, cut again", "source"
+        ),
     }
 
 
@@ -128,6 +143,10 @@ def _growth(growth: Growth) -> dict[str, Primitive]:
     x = np.log10(growth.counts)
     return {
         "looked by count": LOOKED.curve(x, growth.looked, "by a k-d tree", "source"),
-        "looked by dimension": SHARE.curve(growth.dimensions.astype(float), 100 * growth.shares, "looked at", "source"),
-        "all by dimension": SHARE.curve(growth.dimensions.astype(float), 0 * growth.shares + 100, "all", "neutral"),
+        "looked by dimension": SHARE.curve(
+            growth.dimensions.astype(float), 100 * growth.shares, "looked at", "source"
+        ),
+        "all by dimension": SHARE.curve(
+            growth.dimensions.astype(float), 0 * growth.shares + 100, "all", "neutral"
+        ),
     }

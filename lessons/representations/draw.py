@@ -1,4 +1,6 @@
-"""What one step looks like: the true shape, what is stored of it, and the surface that comes back."""
+"""What one step looks like: the true shape, what is stored of it, and the surface that comes
+back.
+"""
 
 import functools
 
@@ -6,13 +8,23 @@ import numpy as np
 
 from lessons.representations.captions import caption, subject_name
 from lessons.representations.charts import beside
-from lessons.representations.state import Built, Cells, Cloud, Fitted, Joined, Patches, Searched, State, Subject
-from workbench.algorithms.kd_tree import Tree
-from workbench.algorithms.octree import Level
+from lessons.representations.state import (
+    Built,
+    Cells,
+    Cloud,
+    Fitted,
+    Joined,
+    Patches,
+    Searched,
+    State,
+    Subject,
+)
+from workbench.algorithms.spatial.kd_tree import Tree
+from workbench.algorithms.spatial.octree import Level
 from workbench.data.thinning import every
+from workbench.geometry.fields.voxels import Grid, counted_surface
 from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import at_height, segments, sphere_rings
-from workbench.geometry.voxels import Grid, counted_surface
 from workbench.scene import Field, Mesh, Picture, Points, Primitive, Scene, Segments
 
 MOST_POINTS, MOST_BOXES, MOST_EDGES = 8000, 260, 12_000
@@ -42,7 +54,9 @@ def draw(state: State) -> Scene:
         scene |= _tree(now)
     if surface is not None and len(surface.faces) and not isinstance(now, Level):
         facets = not isinstance(now, Patches | Fitted)
-        scene["surface"] = Mesh(surface.p, surface.faces, "source", flat=facets, name="what comes back")
+        scene["surface"] = Mesh(
+            surface.p, surface.faces, "source", flat=facets, name="what comes back"
+        )
     return scene | beside(state)
 
 
@@ -57,7 +71,9 @@ def _truth(subject: Subject) -> Mesh | Points:
 def _cloud(now: Cloud) -> dict[str, Primitive]:
     p = now.p[every(len(now.p), MOST_POINTS)]
     return {
-        "points": Points(p, "source", float(np.clip(0.5 / np.sqrt(len(p)), 0.006, 0.025)), name="points"),
+        "points": Points(
+            p, "source", float(np.clip(0.5 / np.sqrt(len(p)), 0.006, 0.025)), name="points"
+        ),
         "hole": Segments(sphere_rings(now.hole, now.worst), "wrong", 2, name="the largest hole"),
     }
 
@@ -69,7 +85,9 @@ def _joined(now: Joined) -> dict[str, Primitive]:
     if now.k:
         shown = now.edges[every(len(now.edges), MOST_EDGES)]
         scene["edges"] = Segments(now.p[shown], "correspondence", 1, name="edges to the nearest")
-        scene["bridge"] = Segments(now.p[now.edges[[now.bridge]]], "wrong", 4, name="the edge that is farthest off")
+        scene["bridge"] = Segments(
+            now.p[now.edges[[now.bridge]]], "wrong", 4, name="the edge that is farthest off"
+        )
     return scene
 
 
@@ -77,14 +95,22 @@ def _cells(state: State, now: Cells | Fitted) -> dict[str, Primitive]:
     if now.values.dtype == bool:
         if state.surface is not None or not now.values.any():
             return {}
-        return {"cells": Mesh(*counted_surface(now.values, now.grid), "source", flat=True, name="full cells")}
+        return {
+            "cells": Mesh(
+                *counted_surface(now.values, now.grid), "source", flat=True, name="full cells"
+            )
+        }
     return {"slice": _slice(now.values, now.grid, aside=state.surface is not None)}
 
 
 def _slice(values: np.ndarray, grid: Grid, *, aside: bool) -> Picture:
-    """Return the distances in the layer of cells behind y = 0, as an upright picture there, or out of the way."""
+    """Return the distances in the layer of cells behind y = 0, as an upright picture there, or out
+    of the way.
+    """
     layer = grid.shape[1] // 2
-    shown = Field(values[:, layer, ::-1].T.astype(float), -REACH, REACH, "Stored distance", "m", "diverging")
+    shown = Field(
+        values[:, layer, ::-1].T.astype(float), -REACH, REACH, "Stored distance", "m", "diverging"
+    )
     place = ASIDE if aside else np.array([0.0, grid.low[1] + grid.spacing[1] * (layer + 0.5), 0.0])
     width = float(grid.spacing[0] * grid.shape[0])
     return Picture(shown, "Slice through the middle", width, motion(R_UPRIGHT, place))
@@ -92,22 +118,33 @@ def _slice(values: np.ndarray, grid: Grid, *, aside: bool) -> Picture:
 
 def _level(now: Level) -> dict[str, Primitive]:
     mixed, h = now.cells[now.mixed], float(now.grid.spacing[0])
-    scene: dict[str, Primitive] = {"cube": Segments(2.0 * RIMS - 1.0, "neutral", 2, name="the whole cube")}
+    scene: dict[str, Primitive] = {
+        "cube": Segments(2.0 * RIMS - 1.0, "neutral", 2, name="the whole cube")
+    }
     if now.depth < 5:
         edges = now.grid.low + h * (mixed[:, None, None] + RIMS)
         scene["cells"] = Segments(edges.reshape(-1, 2, 3), "source", 1.5, name="mixed cells")
     else:
         mixed = mixed[every(len(mixed), MOST_POINTS)]
-        scene["middles"] = Points(now.grid.low + h * (mixed + 0.5), "source", 0.4 * h, name="middles of mixed cells")
+        scene["middles"] = Points(
+            now.grid.low + h * (mixed + 0.5), "source", 0.4 * h, name="middles of mixed cells"
+        )
     return scene
 
 
 def _patches(now: Patches) -> dict[str, Primitive]:
     dividing = bool(now.levels) and not now.count
     shown = (now.control[..., :3] / now.control[..., 3:])[: 1 if dividing else None]
-    rows = np.concatenate([segments(line) for net in shown for line in (*net, *net.transpose(1, 0, 2))])
+    rows = np.concatenate(
+        [segments(line) for net in shown for line in (*net, *net.transpose(1, 0, 2))]
+    )
     scene: dict[str, Primitive] = {
-        "net": Points(shown.reshape(-1, 3) if dividing else now.net[:, :3], "target", 0.016, name="control points"),
+        "net": Points(
+            shown.reshape(-1, 3) if dividing else now.net[:, :3],
+            "target",
+            0.016,
+            name="control points",
+        ),
         "legs": Segments(rows, "correspondence", 1, opacity=0.6, name="control net"),
     }
     for k, level in enumerate(now.levels if dividing else ()):
@@ -129,7 +166,9 @@ def _tree(now: Built | Searched) -> dict[str, Primitive]:
         depth = min(now.depth, 6)
         cells = np.flatnonzero((tree.depth == depth) | ((tree.axis < 0) & (tree.depth < depth)))
         scene["points"] = Points(p[every(len(p), MOST_POINTS)], "target", 0.012, name="points")
-        scene["cells"] = Segments(_boxes(tree, cells[every(len(cells), MOST_BOXES)]), "neutral", 1, name="cells")
+        scene["cells"] = Segments(
+            _boxes(tree, cells[every(len(cells), MOST_BOXES)]), "neutral", 1, name="cells"
+        )
         return scene
     visit = now.visits[-1]
     seen = np.zeros(len(p), dtype=bool)
@@ -142,11 +181,15 @@ def _tree(now: Built | Searched) -> dict[str, Primitive]:
         scene["points"] = Points(
             rest[every(len(rest), MOST_POINTS)], "target", 0.01, opacity=0.35, name="not looked at"
         )
-    scene["looked"] = Points(p[seen][every(int(seen.sum()), MOST_POINTS)], "source", 0.016, name="looked at")
+    scene["looked"] = Points(
+        p[seen][every(int(seen.sum()), MOST_POINTS)], "source", 0.016, name="looked at"
+    )
     boxes = _boxes(tree, looked_into[-MOST_BOXES:])
     scene["cells"] = Segments(boxes, "source", 2, name="cells looked into")
     scene["query"] = Points(query, "highlight", 0.03, name="query")
-    scene["nearest"] = Points(p[[visit.nearest]], "truth" if now.done else "source", 0.03, name="nearest so far")
+    scene["nearest"] = Points(
+        p[[visit.nearest]], "truth" if now.done else "source", 0.03, name="nearest so far"
+    )
     if tree.p.shape[1] <= 3:
         scene["ball"] = Segments(
             sphere_rings(query[0], visit.distance), "highlight", 1.5, name="nothing nearer outside"

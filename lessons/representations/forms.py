@@ -1,4 +1,6 @@
-"""The forms: each is refined step by step, and what comes back of it is measured against the true shape."""
+"""The forms: each is refined step by step, and what comes back of it is measured against the true
+shape.
+"""
 
 import functools
 from collections.abc import Callable, Iterator
@@ -22,17 +24,17 @@ from lessons.representations.state import (
     Surface,
 )
 from lessons.representations.subjects import RING, TUBE, covered, measured
-from workbench.algorithms.kd_tree import build_tree, looked_at, search
-from workbench.algorithms.neural_field import new_network, train_field
-from workbench.algorithms.octree import grow_octree
-from workbench.data import surfaces
-from workbench.geometry.bezier import bezier_patch, de_casteljau, raised_patch, torus_patches
+from workbench.algorithms.learning.neural_field import new_network, train_field
+from workbench.algorithms.spatial.kd_tree import build_tree, looked_at, search
+from workbench.algorithms.spatial.octree import grow_octree
+from workbench.data.shapes import surfaces
+from workbench.geometry.fields.voxels import Grid, counted_area, marched_surface
 from workbench.geometry.graphs import components, directed_graph, edges_of, joined
 from workbench.geometry.graphs import neighbours as nearest
 from workbench.geometry.level_sets import EdgeCrossings, edge_crossings, level_surface
-from workbench.geometry.sampling import points_on_faces
-from workbench.geometry.simplification import clustered, halved
-from workbench.geometry.voxels import Grid, counted_area, marched_surface
+from workbench.geometry.meshes.simplification import clustered, halved
+from workbench.geometry.points.sampling import points_on_faces
+from workbench.geometry.shapes.bezier import bezier_patch, de_casteljau, raised_patch, torus_patches
 from workbench.knobs import only
 
 BezierPatch = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -106,9 +108,14 @@ def neighbours(params: Params, subject: Subject, functions: Functions) -> Steps:
         edges = edges_of(graph)
         away = np.abs(subject.distance(p[edges].mean(axis=1)))
         now = Joined(
-            p=p, k=k, edges=edges, pieces=int(components(graph).max()) + 1,
-            mean=float(away.mean()), worst=float(away.max()), bridge=int(away.argmax()),
-        )  # fmt: skip
+            p=p,
+            k=k,
+            edges=edges,
+            pieces=int(components(graph).max()) + 1,
+            mean=float(away.mean()),
+            worst=float(away.max()),
+            bridge=int(away.argmax()),
+        )
         state = grown(replace(state, now=now), 12 * len(p) + 4 * k * len(p), now.mean)
         yield state
 
@@ -123,7 +130,9 @@ def mesh(params: Params, subject: Subject, functions: Functions) -> Steps:
 
 
 def meshes(params: Params, subject: Subject) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield ever finer meshes: vertices on a torus, boxes cut finer, others with vertices made one in ever smaller cells."""
+    """Yield ever finer meshes: vertices on a torus, boxes cut finer, others with vertices made one
+    in ever smaller cells.
+    """
     made = params.mesh is None
     if made and params.shape not in ("torus", "rabbit"):
         p, faces = subject.p, subject.faces
@@ -162,7 +171,11 @@ def voxels(params: Params, subject: Subject, functions: Functions) -> Steps:
 
 def _marched(bits: np.ndarray, grid: Grid) -> tuple[np.ndarray, np.ndarray]:
     """Return the surface around full cells, which has no faces where none is full."""
-    return marched_surface(bits, grid) if bits.any() else (np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+    return (
+        marched_surface(bits, grid)
+        if bits.any()
+        else (np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+    )
 
 
 def distances(params: Params, subject: Subject, functions: Functions) -> Steps:
@@ -171,7 +184,9 @@ def distances(params: Params, subject: Subject, functions: Functions) -> Steps:
     for n in resolutions(params.resolution):
         grid = cube(n)
         values = (_sampled if subject.quick else _stored)(subject, n)
-        state = replace(state, now=Cells(grid=grid, values=values), surface=None, bytes=values.nbytes)
+        state = replace(
+            state, now=Cells(grid=grid, values=values), surface=None, bytes=values.nbytes
+        )
         yield state
         surface = measured(subject, *level_surface(values, grid, functions.edge_crossings))
         state = grown(replace(state, surface=surface), values.nbytes, surface.mean)
@@ -190,7 +205,7 @@ _stored = functools.lru_cache(maxsize=16)(_sampled)  # of a mesh they cost most 
 def octree(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield the levels of the tree, and with each the surface of cells of that size."""
     state = State(params=params, subject=subject)
-    for now in grow_octree(subject.field, LOW, EDGE, params.depth):
+    for now in grow_octree(subject.field, LOW, EDGE, depth=params.depth):
         state = replace(state, now=now, surface=None, bytes=now.packed_bytes)
         if now.depth >= 3:
             surface = measured(subject, *_marched(now.bits, now.grid))
@@ -201,10 +216,19 @@ def octree(params: Params, subject: Subject, functions: Functions) -> Steps:
 
 def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield a network while it learns the distance, and where its field is zero."""
-    rng, state, grid = np.random.default_rng(params.seed), State(params=params, subject=subject), cube(NEURAL_CELLS)
+    rng, state, grid = (
+        np.random.default_rng(params.seed),
+        State(params=params, subject=subject),
+        cube(NEURAL_CELLS),
+    )
     near = points_on_faces(subject.p, subject.faces, rng.random((NEAR, 3)))
-    p = np.concatenate([near + NEAR_SPREAD * rng.standard_normal(near.shape), rng.uniform(-1, 1, (FAR, 3))])
-    network, corners = new_network(params.width, params.features, params.activation, rng), grid.centres()
+    p = np.concatenate(
+        [near + NEAR_SPREAD * rng.standard_normal(near.shape), rng.uniform(-1, 1, (FAR, 3))]
+    )
+    network, corners = (
+        new_network(params.width, params.features, params.activation, rng=rng),
+        grid.centres(),
+    )
     counts = iteration_counts(params.iterations)
     field = subject.field(p) if subject.quick else _known(subject, p.tobytes())
     found = train_field(network, p, field, counts=counts, target=params.target, rng=rng)
@@ -232,9 +256,13 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield the control net, one point by de Casteljau, and then patch after patch."""
     control = torus_patches(RING, TUBE, params.rational)
     shown = control[..., :3] / control[..., 3:]
-    net = np.unique(np.round(np.concatenate([shown, control[..., 3:]], axis=-1).reshape(-1, 4), 9) + 0.0, axis=0)
+    net = np.unique(
+        np.round(np.concatenate([shown, control[..., 3:]], axis=-1).reshape(-1, 4), 9) + 0.0, axis=0
+    )
     now = Patches(control=control, net=net)
-    state = State(params=params, subject=subject, now=now, bytes=(16 if params.rational else 12) * len(net))
+    state = State(
+        params=params, subject=subject, now=now, bytes=(16 if params.rational else 12) * len(net)
+    )
     yield state
     u, v = params.place
     rows = [de_casteljau(row, v) for row in control[0]]
@@ -253,9 +281,14 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
         faces = np.concatenate([quads + len(uv) * k for k in range(n)])
         away = np.abs(subject.distance(at))
         surface = Surface(
-            p=at, faces=faces, mean=float(away.mean()), worst=float(away.max()), area=float("nan"),
-            volume=float("nan"), tilt=float("nan"),
-        )  # fmt: skip
+            p=at,
+            faces=faces,
+            mean=float(away.mean()),
+            worst=float(away.max()),
+            area=float("nan"),
+            volume=float("nan"),
+            tilt=float("nan"),
+        )
         state = replace(state, now=replace(now, count=n), surface=surface)
         if n == 16:
             state = grown(state, state.bytes, surface.mean)
@@ -265,7 +298,9 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
 def _square(n: int) -> tuple[np.ndarray, np.ndarray]:
     """Return n x n places of the unit square, and the triangles between them."""
     ends = np.linspace(0, 1, n)
-    i, j = (index.ravel() for index in np.meshgrid(np.arange(n - 1), np.arange(n - 1), indexing="ij"))
+    i, j = (
+        index.ravel() for index in np.meshgrid(np.arange(n - 1), np.arange(n - 1), indexing="ij")
+    )
     a, b, c, d = n * i + j, n * (i + 1) + j, n * (i + 1) + j + 1, n * i + j + 1
     faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
     return np.stack(np.meshgrid(ends, ends, indexing="ij"), axis=-1).reshape(-1, 2), faces
@@ -275,7 +310,9 @@ def evaluated(bezier_patch: BezierPatch, control: np.ndarray, uv: np.ndarray) ->
     """Return points of a rational patch: numerator and denominator are patches too."""
     control = raised_patch(control) if len(control) == 3 else control
     weights = np.asarray(bezier_patch(np.repeat(control[..., 3:], 3, axis=-1), uv), float)
-    return np.asarray(bezier_patch(control[..., :3], uv), float) / np.where(weights == 0, 1.0, weights)
+    return np.asarray(bezier_patch(control[..., :3], uv), float) / np.where(
+        weights == 0, 1.0, weights
+    )
 
 
 def kd_tree(params: Params, subject: Subject | None, functions: Functions) -> Steps:
@@ -290,7 +327,9 @@ def kd_tree(params: Params, subject: Subject | None, functions: Functions) -> St
         if depth <= deepest:
             yield replace(state, now=Built(tree=tree, depth=depth))
     visits = tuple(search(tree, query))
-    ends = np.unique(np.rint(np.geomspace(1, len(visits), min(len(visits), MOST_VISITS))).astype(int))
+    ends = np.unique(
+        np.rint(np.geomspace(1, len(visits), min(len(visits), MOST_VISITS))).astype(int)
+    )
     for end in ends.tolist():
         now = Searched(tree=tree, query=query, visits=visits[:end], done=end == len(visits))
         state = replace(state, now=now)

@@ -1,7 +1,9 @@
-"""One object, many forms: each answers one question at once and pays elsewhere, all on one scale of errors over bytes.
+"""One object, many forms: each answers one question at once and pays elsewhere, all on one scale of
+errors over bytes.
 
-What it teaches: how a cloud, a mesh, bits, distances, an octree, a k-d tree, patches and a network store a shape, what
-comes back of it, and by which law the error falls with the bytes; where each form fails without a word.
+What it teaches: how a cloud, a mesh, bits, distances, an octree, a k-d tree, patches and a network
+store a shape, what comes back of it, and by which law the error falls with the bytes; where each
+form fails without a word.
 """
 
 from collections.abc import Iterator
@@ -13,8 +15,10 @@ from lessons.representations.forms import FORMS, BezierPatch, Functions, others
 from lessons.representations.presets import PRESETS, QUESTIONS, VIEW
 from lessons.representations.state import Params, State
 from lessons.representations.subjects import BoxSdf, subject_of
-from workbench.geometry import bezier, level_sets, signed_distances
+from workbench.geometry import level_sets
+from workbench.geometry.fields import signed_distances
 from workbench.geometry.level_sets import EdgeCrossings
+from workbench.geometry.shapes import bezier
 from workbench.lesson import Lesson, Sweep
 
 
@@ -31,7 +35,11 @@ def run(
         own = subject_of(params, box_sdf) if params.cloud else None
         yield from FORMS[params.form](params, own, functions)
         return
-    shaped = replace(params, shape="torus", mesh=None, cloud=None) if params.form == "patches" else params
+    shaped = (
+        replace(params, shape="torus", mesh=None, cloud=None)
+        if params.form == "patches"
+        else params
+    )
     subject = subject_of(shaped, box_sdf)
     state = None
     for state in FORMS[params.form](params, subject, functions):
@@ -43,12 +51,15 @@ def run(
 lesson = Lesson(
     name="representations",
     title="One object, many forms",
-    summary="Points, triangles, bits, distances, patches, a network: each answers one question at once and pays elsewhere.",
+    summary="Points, triangles, voxels, a network: each way to store an object answers some "
+    "questions at once.",
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,
     draw=draw,
-    order=900,
+    order=1400,
+    chapter="Measure",
+    minutes=25,
     view=VIEW,
     presets=PRESETS,
     questions=QUESTIONS,

@@ -7,14 +7,16 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.kd_tree import Tree, Visit
-from workbench.algorithms.neural_field import Activation, Target, Trained
-from workbench.algorithms.octree import Level
+from workbench.algorithms.learning.neural_field import Activation, Target, Trained
+from workbench.algorithms.spatial.kd_tree import Tree, Visit
+from workbench.algorithms.spatial.octree import Level
 from workbench.data.framing import Upward
-from workbench.geometry.voxels import Grid
+from workbench.geometry.fields.voxels import Grid
 from workbench.knobs import Gizmo, Knob
 
-Form = Literal["cloud", "neighbours", "mesh", "voxels", "distances", "octree", "k-d tree", "patches", "neural"]
+Form = Literal[
+    "cloud", "neighbours", "mesh", "voxels", "distances", "octree", "k-d tree", "patches", "neural"
+]
 Shape = Literal["torus", "box", "rabbit", "plate", "two boxes"]
 SHAPED = {"form": ("cloud", "neighbours", "mesh", "voxels", "distances", "octree", "neural")}
 NEURAL = {"form": ("neural",)}
@@ -28,39 +30,77 @@ class Params:
     form: Annotated[Form, Knob("How the shape is stored")] = "distances"
     shape: Annotated[Shape, Knob("What is stored", needs=SHAPED)] = "torus"
     resolution: Annotated[
-        int, Knob("Cells along an edge of the cube at the end", 8, 64, needs={"form": ("voxels", "distances")})
+        int,
+        Knob(
+            "Cells along an edge of the cube at the end",
+            8,
+            64,
+            needs={"form": ("voxels", "distances")},
+        ),
     ] = 32
-    depth: Annotated[int, Knob("How often cells of the octree are cut", 3, 7, needs={"form": ("octree",)})] = 5
+    depth: Annotated[
+        int, Knob("How often cells of the octree are cut", 3, 7, needs={"form": ("octree",)})
+    ] = 5
     points: Annotated[
         int,
-        Knob("Points at the end, of a mesh vertices at most", 100, 100_000, step=100,
-             needs={"form": ("cloud", "neighbours", "mesh", "k-d tree")}),
-    ] = 4000  # fmt: skip
-    neighbours: Annotated[int, Knob("How many each point is joined to", 1, 16, needs={"form": ("neighbours",)})] = 8
+        Knob(
+            "Points at the end, of a mesh vertices at most",
+            100,
+            100_000,
+            step=100,
+            needs={"form": ("cloud", "neighbours", "mesh", "k-d tree")},
+        ),
+    ] = 4000
+    neighbours: Annotated[
+        int, Knob("How many each point is joined to", 1, 16, needs={"form": ("neighbours",)})
+    ] = 8
     thickness: Annotated[
         float,
-        Knob("Of the plate, in cells of the last grid", 0.2, 2, unit="cells", step=0.1, needs={"shape": ("plate",)}),
+        Knob(
+            "Of the plate, in cells of the last grid",
+            0.2,
+            2,
+            unit="cells",
+            step=0.1,
+            needs={"shape": ("plate",)},
+        ),
     ] = 0.5
     iterations: Annotated[int, Knob("Steps of Adam", 100, 1500, step=25, needs=NEURAL)] = 300
     width: Annotated[int, Knob("Numbers in each of two hidden layers", 8, 64, needs=NEURAL)] = 32
     features: Annotated[
-        int, Knob("Octaves of sine and cosine of each coordinate that go in too", 0, 5, needs=NEURAL)
+        int,
+        Knob("Octaves of sine and cosine of each coordinate that go in too", 0, 5, needs=NEURAL),
     ] = 2
     target: Annotated[Target, Knob("What the network is asked for", needs=NEURAL)] = "sdf"
     activation: Annotated[Activation, Knob("What follows each hidden layer", needs=NEURAL)] = "tanh"
-    rational: Annotated[bool, Knob("Control points have weights", needs={"form": ("patches",)})] = False
+    rational: Annotated[bool, Knob("Control points have weights", needs={"form": ("patches",)})] = (
+        False
+    )
     place: Annotated[
         tuple[float, float],
         Knob("Where on the first patch", 0, 1, parts=("u", "v"), needs={"form": ("patches",)}),
-    ] = (0.4, 0.6)  # fmt: skip
-    dimensions: Annotated[int, Knob("Coordinates of each point", 2, 20, needs={"form": ("k-d tree",)})] = 3
+    ] = (0.4, 0.6)
+    dimensions: Annotated[
+        int, Knob("Coordinates of each point", 2, 20, needs={"form": ("k-d tree",)})
+    ] = 3
     query: Annotated[
         tuple[float, float, float],
-        Knob("Whose nearest point is looked for", -1, 1, unit="m", by=Gizmo(0.3), needs={"form": ("k-d tree",)}),
-    ] = (0.35, -0.6, 0.25)  # fmt: skip
+        Knob(
+            "Whose nearest point is looked for",
+            -1,
+            1,
+            unit="m",
+            by=Gizmo(0.3),
+            needs={"form": ("k-d tree",)},
+        ),
+    ] = (0.35, -0.6, 0.25)
     mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
-    cloud: Annotated[Path | None, Knob("Own points instead: ply, pcd, obj, xyz, csv, npz", needs=OF_CLOUDS)] = None
-    up: Annotated[Upward, Knob("Which axis of an own file points up; auto guesses", of_files=True)] = "auto"
+    cloud: Annotated[
+        Path | None, Knob("Own points instead: ply, pcd, obj, xyz, csv, npz", needs=OF_CLOUDS)
+    ] = None
+    up: Annotated[
+        Upward, Knob("Which axis of an own file points up; auto guesses", of_files=True)
+    ] = "auto"
     seed: Annotated[int, Knob("What chance draws, and how the plate lies", 0, 99)] = 0
 
 
@@ -72,7 +112,8 @@ class Subject:
         name: What it is called in sentences.
         p: Vertices of a fine mesh of it; of an own cloud its points.
         faces: Counterclockwise seen from outside; none of a cloud.
-        distance: The true distance of points to it, negative inside; nowhere negative where it is open.
+        distance: The true distance of points to it, negative inside; nowhere negative where it is
+            open.
         field: What is stored as its distance.
         inside: Which points it encloses.
         area: The true area.
@@ -133,7 +174,9 @@ class Cloud:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Joined:
-    """Points, each joined to its k nearest: edges (e, 2), pieces, how far middles of edges are off, m, whose is worst."""
+    """Points, each joined to its k nearest: edges (e, 2), pieces, how far middles of edges are off,
+    m, whose is worst.
+    """
 
     p: np.ndarray
     k: int
@@ -146,7 +189,9 @@ class Joined:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Cells:
-    """One number for each cell of a grid: bits, or distances. `walls` is the area of the walls of full cells, m^2."""
+    """One number for each cell of a grid: bits, or distances. `walls` is the area of the walls of
+    full cells, m^2.
+    """
 
     grid: Grid
     values: np.ndarray
@@ -155,12 +200,14 @@ class Cells:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Patches:
-    """Patches of a torus: their control points (w x, w y, w z, w), and which of them were evaluated.
+    """Patches of a torus: their control points (w x, w y, w z, w), and which of them were
+    evaluated.
 
     Attributes:
         control: The control points.
         net: The different ones.
-        levels: De Casteljau's points so far: those of the four rows, and then of the column that they give.
+        levels: De Casteljau's points so far: those of the four rows, and then of the column that
+            they give.
         point: Where the student's function says that the place is.
         count: How many patches were evaluated.
     """
@@ -201,7 +248,9 @@ class Fitted:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Growth:
-    """How many points a search looks at on average: of ever more points in 3 dimensions, of 4,000 in ever more of them."""
+    """How many points a search looks at on average: of ever more points in 3 dimensions, of 4,000
+    in ever more of them.
+    """
 
     counts: np.ndarray
     looked: np.ndarray

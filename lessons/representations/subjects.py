@@ -1,4 +1,6 @@
-"""What is stored: a shape whose distance is known in closed form, the rabbit, or a person's own mesh."""
+"""What is stored: a shape whose distance is known in closed form, the rabbit, or a person's own
+mesh.
+"""
 
 import functools
 from collections.abc import Callable
@@ -8,20 +10,20 @@ import numpy as np
 import scipy
 
 from lessons.representations.state import OF_CLOUDS, Params, Shape, Subject, Surface
-from workbench.data import solids, surfaces
 from workbench.data.files import read_cloud, stamp
 from workbench.data.framing import Upward, own_points
 from workbench.data.own_meshes import read_welded
-from workbench.data.rabbit import rabbit_mesh
+from workbench.data.shapes import solids, surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
-from workbench.geometry import signed_distances
-from workbench.geometry.containment import windings
-from workbench.geometry.measures import encloses, signed_volume, surface_area
+from workbench.geometry.fields import signed_distances
+from workbench.geometry.fields.signed_distances import face_tree, mesh_sdf, torus_sdf
 from workbench.geometry.meshes import face_normals
+from workbench.geometry.meshes.containment import windings
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.sampling import places_on_faces, points_on_faces, unit_points
-from workbench.geometry.signed_distances import face_tree, mesh_sdf, torus_sdf
+from workbench.geometry.points.sampling import places_on_faces, points_on_faces, unit_points
 from workbench.knobs import called
 
 BoxSdf = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -46,18 +48,22 @@ def subject_of(params: Params, box_sdf: BoxSdf) -> Subject:
     """
     if params.cloud is not None:
         if params.mesh is not None:
-            raise InputError(f"{called('mesh')} and {called('cloud')} are both given: one of them is stored")
+            raise InputError(
+                f"{called('mesh')} and {called('cloud')} are both given: one of them is stored"
+            )
         if params.form not in OF_CLOUDS["form"]:
             forms = ", ".join(OF_CLOUDS["form"])
             raise InputError(
-                f"{params.cloud.name} is points, which have no faces and no inside; {called('form')} is one of {forms}"
+                f"{params.cloud.name} is points, which have no faces and no inside;"
+                f" {called('form')} is one of {forms}"
             )
         return _own_cloud(params.cloud, stamp(params.cloud), params.up)
     if params.mesh is not None:
         subject = _own(params.mesh, stamp(params.mesh), params.up)
         if not subject.closed and params.form not in ("cloud", "mesh"):
             raise InputError(
-                f"{subject.name} is open, or its faces disagree: inside has no meaning; store it as cloud or mesh"
+                f"{subject.name} is open, or its faces disagree: inside has no meaning; store it as"
+                " cloud or mesh"
             )
         return subject
     if params.shape == "rabbit":
@@ -77,7 +83,9 @@ def _boxed(shape: Shape, thin: float, seed: int, box_sdf: BoxSdf) -> Subject:
         return _box(
             "the two boxes",
             whole,
-            lambda q: np.minimum(box_sdf(q - PAIR_APART, PAIR_HALF), box_sdf(q + PAIR_APART, PAIR_HALF)),
+            lambda q: np.minimum(
+                box_sdf(q - PAIR_APART, PAIR_HALF), box_sdf(q + PAIR_APART, PAIR_HALF)
+            ),
         )
     half = np.array([PLATE, PLATE, thin])
     R = exp_so3(1.5 * np.random.default_rng(seed).normal(size=3))
@@ -88,7 +96,9 @@ def measured(subject: Subject, p: np.ndarray, faces: np.ndarray) -> Surface:
     """Return a surface with its errors."""
     if not len(faces) or not (area := surface_area(p, faces)) > 0:
         nan = float("nan")
-        return Surface(p=p[:0], faces=faces[:0], mean=nan, worst=nan, area=0.0, volume=0.0, tilt=nan)
+        return Surface(
+            p=p[:0], faces=faces[:0], mean=nan, worst=nan, area=0.0, volume=0.0, tilt=nan
+        )
     u = spread_numbers()
     q = points_on_faces(p, faces, u)
     away = np.abs(subject.distance(q))
@@ -104,7 +114,9 @@ def measured(subject: Subject, p: np.ndarray, faces: np.ndarray) -> Surface:
 
 
 def covered(subject: Subject, p: np.ndarray) -> tuple[float, float, np.ndarray]:
-    """Return how far the surface is from the nearest of some points, on average and at worst, and where it is worst."""
+    """Return how far the surface is from the nearest of some points, on average and at worst, and
+    where it is worst.
+    """
     away = np.asarray(scipy.spatial.cKDTree(p).query(subject.on)[0])
     return float(away.mean()), float(away.max()), subject.on[int(away.argmax())]
 
@@ -112,7 +124,7 @@ def covered(subject: Subject, p: np.ndarray) -> tuple[float, float, np.ndarray]:
 @functools.cache
 def spread_numbers() -> np.ndarray:
     """Return the numbers that spread points over any surface, the same for all."""
-    return unit_points(SPREAD, 3, "Sobol", np.random.default_rng(0))
+    return unit_points(SPREAD, 3, "Sobol", rng=np.random.default_rng(0))
 
 
 def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> float:
@@ -120,7 +132,9 @@ def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> 
     normals = face_normals(p, faces)
     k, _ = places_on_faces(p, faces, u)
     q = points_on_faces(p, faces, u)
-    steps = [subject.distance(q + STEP * axis) - subject.distance(q - STEP * axis) for axis in np.eye(3)]
+    steps = [
+        subject.distance(q + STEP * axis) - subject.distance(q - STEP * axis) for axis in np.eye(3)
+    ]
     gradient = np.stack(steps, axis=1)
     size = np.linalg.norm(gradient, axis=1)
     cosine = np.einsum("nx,nx->n", gradient, normals[k])[size > 0] / size[size > 0]
@@ -144,7 +158,10 @@ def _torus() -> Subject:
 
 
 def _box(
-    name: str, half: np.ndarray, field: Callable[[np.ndarray], np.ndarray], R: np.ndarray | None = None
+    name: str,
+    half: np.ndarray,
+    field: Callable[[np.ndarray], np.ndarray],
+    R: np.ndarray | None = None,
 ) -> Subject:
     """Return a box about the origin, turned, with what is stored as its distance."""
     R_box = np.eye(3) if R is None else R
@@ -180,7 +197,9 @@ def _of_mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
         faces=faces,
         distance=lambda q: mesh_sdf(mesh, q),
         field=lambda q: mesh_sdf(mesh, q),
-        inside=lambda q: windings(mesh.columns, q) != 0 if mesh.columns else np.zeros(len(q), dtype=bool),
+        inside=lambda q: (
+            windings(mesh.columns, q) != 0 if mesh.columns else np.zeros(len(q), dtype=bool)
+        ),
         area=surface_area(p, faces),
         volume=signed_volume(p, faces) if closed else float("nan"),
         on=points_on_faces(p, faces, spread_numbers()),
@@ -205,6 +224,14 @@ def _own_cloud(path: Path, _stamp: tuple[int, int], up: Upward) -> Subject:
         return np.asarray(tree.query(q)[0])
 
     return Subject(
-        name=path.name, p=p, faces=np.empty((0, 3), int), distance=distance, field=distance,
-        inside=lambda q: np.zeros(len(q), dtype=bool), area=float("nan"), volume=float("nan"), on=p, quick=False,
-    )  # fmt: skip
+        name=path.name,
+        p=p,
+        faces=np.empty((0, 3), int),
+        distance=distance,
+        field=distance,
+        inside=lambda q: np.zeros(len(q), dtype=bool),
+        area=float("nan"),
+        volume=float("nan"),
+        on=p,
+        quick=False,
+    )

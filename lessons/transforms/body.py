@@ -4,17 +4,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lessons.transforms.composition import Factor
 from lessons.transforms.state import Body, First, Params
-from workbench.algorithms.composition import Factor
 from workbench.algorithms.interpolation import FromEuler, Rodrigues
 from workbench.data.files import read_mesh
 from workbench.data.framing import frame
-from workbench.data.solids import outlined, solid
+from workbench.data.shapes.solids import outlined, solid
 from workbench.errors import InputError
-from workbench.geometry.affine import perspective, reflection, scaling, shear, translation
-from workbench.geometry.invariants import measure
+from workbench.geometry.meshes.invariants import measure
 from workbench.geometry.motions import exp_so3, motion
-from workbench.geometry.rotations import EulerOrder, euler_to_matrix
+from workbench.geometry.motions.affine import perspective, reflection, scaling, shear, translation
+from workbench.geometry.motions.rotations import EulerOrder, euler_to_matrix
 from workbench.numerals import brief
 
 MOST_FACES = 50_000
@@ -42,7 +42,9 @@ class Numbers:
     def swapped(self) -> "Numbers":
         """Return the same numbers with translation and rotation in the other order."""
         rotate_first = self.first == "rotate, then translate"
-        return replace(self, first="translate, then rotate" if rotate_first else "rotate, then translate")
+        return replace(
+            self, first="translate, then rotate" if rotate_first else "rotate, then translate"
+        )
 
 
 def body_of(params: Params) -> Body:
@@ -57,9 +59,16 @@ def body_of(params: Params) -> Body:
     else:
         p, faces = read_mesh(params.mesh)
         if len(faces) > MOST_FACES:
-            raise InputError(f"{params.mesh.name}: {len(faces):,} faces; this lesson takes up to {MOST_FACES:,}")
+            raise InputError(
+                f"{params.mesh.name}: {len(faces):,} faces; this lesson takes up to {MOST_FACES:,}"
+            )
         made, name = outlined(frame(p, 1.0).standing(p).shown(p), faces, angle=0.6), "mesh"
-    return Body(name=name, solid=made, measures=measure(made.p, made.faces), point=min(params.point, len(made.p) - 1))
+    return Body(
+        name=name,
+        solid=made,
+        measures=measure(made.p, made.faces),
+        point=min(params.point, len(made.p) - 1),
+    )
 
 
 def numbers_of(params: Params) -> Numbers:
@@ -86,28 +95,50 @@ def shape_factors(params: Params) -> list[Factor]:
             )
         )
     if params.shear:
-        factors.append(Factor("shear", f"x + {brief(params.shear, 6)} z", shear("x", "z", params.shear)))
+        factors.append(
+            Factor("shear", f"x + {brief(params.shear, 6)} z", shear("x", "z", params.shear))
+        )
     if params.perspective:
         slope = np.array([0.0, 0.0, params.perspective])
-        factors.append(Factor("perspective", f"w = 1 + {brief(params.perspective, 6)} z", perspective(slope)))
+        factors.append(
+            Factor("perspective", f"w = 1 + {brief(params.perspective, 6)} z", perspective(slope))
+        )
     if params.mirror != "none":
         normal = np.eye(3)["xyz".index(params.mirror)]
         factors.append(Factor("mirror", f"{params.mirror} → −{params.mirror}", reflection(normal)))
     return factors
 
 
-def motion_factors(params: Params, euler_to_matrix: FromEuler, rotation_from_axis_angle: Rodrigues) -> list[Factor]:
-    """Return the three turns, the handle's turn if there is one, and the translation, in the chosen order."""
+def motion_factors(
+    params: Params, euler_to_matrix: FromEuler, rotation_from_axis_angle: Rodrigues
+) -> list[Factor]:
+    """Return the three turns, the handle's turn if there is one, and the translation, in the chosen
+    order.
+    """
     numbers, turns, R_before = numbers_of(params), [], np.eye(3)
     for k, letter in enumerate(params.order):
         R = euler_to_matrix(np.where(np.arange(3) <= k, numbers.angles, 0.0), params.order)
         axis = f"the world's {letter}" if letter.islower() else f"the body's own {letter.lower()}"
-        turns.append(Factor("turn", f"{brief(params.angles[k], 6)}° about {axis}", motion(R @ R_before.T, np.zeros(3))))
+        turns.append(
+            Factor(
+                "turn",
+                f"{brief(params.angles[k], 6)}° about {axis}",
+                motion(R @ R_before.T, np.zeros(3)),
+            )
+        )
         R_before = R
     angle = np.linalg.norm(numbers.turn)
     if angle > 0:
         R = rotation_from_axis_angle(numbers.turn, float(angle))
-        turns.append(Factor("handle", f"{brief(np.degrees(angle))}° about the handle's axis", motion(R, np.zeros(3))))
+        turns.append(
+            Factor(
+                "handle",
+                f"{brief(np.degrees(angle))}° about the handle's axis",
+                motion(R, np.zeros(3)),
+            )
+        )
     x, y, z = params.pose[:3]
-    move = Factor("translate", f"({brief(x, 4)}, {brief(y, 4)}, {brief(z, 4)}) m", translation(numbers.offset))
+    move = Factor(
+        "translate", f"({brief(x, 4)}, {brief(y, 4)}, {brief(z, 4)}) m", translation(numbers.offset)
+    )
     return [*turns, move] if params.first == "rotate, then translate" else [move, *turns]

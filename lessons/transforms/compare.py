@@ -1,4 +1,6 @@
-"""Second readings of the same numbers: each the picture of one mistake, or of two names for one thing."""
+"""Second readings of the same numbers: each the picture of one mistake, or of two names for one
+thing.
+"""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,10 +9,10 @@ import numpy as np
 
 from lessons.transforms.body import Numbers
 from lessons.transforms.state import Body, Compare, Ghost, Params
-from workbench.geometry.affine import transform
-from workbench.geometry.alignment import align_rigid
 from workbench.geometry.motions import inverse, motion
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.affine import transform
+from workbench.geometry.motions.alignment import align_rigid
+from workbench.geometry.motions.rotations import (
     EulerOrder,
     gimbal_margin,
     locked_family,
@@ -20,12 +22,16 @@ from workbench.geometry.rotations import (
 )
 from workbench.numerals import brief
 
-BEHIND, ALONG = np.array([-1.6, 1.4, 0.0]), np.array([0.95, 0.58, 0.0])  # a row across the first view, metres
+BEHIND, ALONG = (
+    np.array([-1.6, 1.4, 0.0]),
+    np.array([0.95, 0.58, 0.0]),
+)  # a row across the first view, metres
 CONVENTIONS: tuple[EulerOrder, ...] = ("xyz", "XYZ", "ZYX", "ZXZ")
 
 
 def ghosts_of(params: Params, body: Body, numbers: Numbers, A: np.ndarray) -> tuple[Ghost, ...]:
-    """Return the second readings of the whole map, to be compared with the body before it is taken back.
+    """Return the second readings of the whole map, to be compared with the body before it is taken
+    back.
 
     Args:
         params: Which comparison is asked for.
@@ -45,7 +51,9 @@ def ghosts_of(params: Params, body: Body, numbers: Numbers, A: np.ndarray) -> tu
     return ghosts
 
 
-def undo_ghosts_of(params: Params, body: Body, T_world_body: np.ndarray, A: np.ndarray) -> tuple[Ghost, ...]:
+def undo_ghosts_of(
+    params: Params, body: Body, T_world_body: np.ndarray, A: np.ndarray
+) -> tuple[Ghost, ...]:
     """Return the body after a wrong inverse, to be compared with the body before the motion."""
     T = T_world_body @ A
     if params.compare == "undo by (Rᵀ, −t)":
@@ -80,20 +88,28 @@ def _fixed_and_own(numbers: Numbers) -> list[tuple[str, np.ndarray]]:
     backwards: EulerOrder = other[::-1]  # type: ignore[assignment]
     angles = numbers.angles[::-1]
     return [
-        (f"{backwards} {in_degrees(angles)}", replace(numbers, order=backwards, angles=angles).motion()),
+        (
+            f"{backwards} {in_degrees(angles)}",
+            replace(numbers, order=backwards, angles=angles).motion(),
+        ),
         (f"{other} {in_degrees(numbers.angles)}", replace(numbers, order=other).motion()),
     ]
 
 
 def other_triples(numbers: Numbers) -> np.ndarray:
-    """Return other angles for the same rotation: three of a family in gimbal lock, elsewhere the only other one."""
+    """Return other angles for the same rotation: three of a family in gimbal lock, elsewhere the
+    only other one.
+    """
     if gimbal_margin(numbers.angles, numbers.order) < 1e-12:
         return locked_family(numbers.angles, numbers.order, np.radians([40.0, 80.0, -60.0]))
     return other_triple(numbers.angles, numbers.order)[None]
 
 
 def _other_triples(numbers: Numbers) -> list[tuple[str, np.ndarray]]:
-    return [(in_degrees(triple), replace(numbers, angles=triple).motion()) for triple in other_triples(numbers)]
+    return [
+        (in_degrees(triple), replace(numbers, angles=triple).motion())
+        for triple in other_triples(numbers)
+    ]
 
 
 def _transpose(numbers: Numbers) -> list[tuple[str, np.ndarray]]:

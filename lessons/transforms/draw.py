@@ -1,4 +1,6 @@
-"""What one step looks like: the body and where it started, the numbers beside it, and what just happened in words."""
+"""What one step looks like: the body and where it started, the numbers beside it, and what just
+happened in words.
+"""
 
 import functools
 
@@ -7,11 +9,17 @@ import numpy as np
 from lessons.transforms.captions import caption_of_build, caption_of_move, times
 from lessons.transforms.state import FRONT, Body, Built, Ghost, Moved, State
 from workbench.data.framing import ground_grid
-from workbench.geometry.affine import decompose, is_affine, kind_of, transform, transform_directions, translation
-from workbench.geometry.invariants import Change
+from workbench.geometry.meshes.invariants import Change
 from workbench.geometry.motions import inverse
-from workbench.geometry.polylines import between, segments
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.affine import (
+    decompose,
+    is_affine,
+    kind_of,
+    transform,
+    transform_directions,
+    translation,
+)
+from workbench.geometry.motions.rotations import (
     EulerOrder,
     axis_angle_from_rotation,
     euler_axes,
@@ -19,8 +27,21 @@ from workbench.geometry.rotations import (
     matrix_to_euler,
     quaternion_from_matrix,
 )
+from workbench.geometry.polylines import between, segments
 from workbench.numerals import ROUND_OFF, angle, fixed, fixed_row, length, percent
-from workbench.scene import Axes, Chart, Curve, Label, Mesh, Primitive, Role, Scene, Segments, Table, is_rigid
+from workbench.scene import (
+    Axes,
+    Chart,
+    Curve,
+    Label,
+    Mesh,
+    Primitive,
+    Role,
+    Scene,
+    Segments,
+    Table,
+    is_rigid,
+)
 
 TURNED, SPEED = Chart("Turned so far", "t", "deg"), Chart("Turning speed", "t", "deg per unit of t")
 DET, MOVED = Chart("det T"), Chart("Distance", unit="m")
@@ -47,7 +68,8 @@ def _draw_build(state: Built) -> Scene:
         "vertex": Label(f"vertex {body.point}", state.trail[-1], "highlight"),
         "volume": DET.scalar(float(np.linalg.det(T[:3, :3])) if is_affine(T) else np.nan, "det T"),
         "moved": MOVED.scalar(
-            float(np.linalg.norm(state.trail[-1] - state.trail[0])), f"vertex {body.point} from its start"
+            float(np.linalg.norm(state.trail[-1] - state.trail[0])),
+            f"vertex {body.point} from its start",
         ),
         "matrix": _matrix(T, "T, all factors so far"),
         "measured": _invariants(state),
@@ -65,7 +87,9 @@ def _draw_build(state: Built) -> Scene:
     if state.params.compare == "direction with w = 1":
         wrong = transform(T, FRONT[None])[0]
         p_door = transform(T, body.p_door[None])[0]
-        scene["wrong front"] = Segments(between(p_door, p_door + 0.5 * wrong), "wrong", 3, name="with w = 1")
+        scene["wrong front"] = Segments(
+            between(p_door, p_door + 0.5 * wrong), "wrong", 3, name="with w = 1"
+        )
     if state.factor.kind == "turn" or (state.complete and _shows_lock(state)):
         scene |= _turning_axes(state)
     for i, ghost in enumerate(state.ghosts):
@@ -101,8 +125,12 @@ def _draw_move(state: Moved) -> Scene:
         "caption": caption_of_move(state),
     }
     if len(way.path) > 1:
-        scene["path"] = Segments(segments(way.path), "source", 3, name=f"path of vertex {body.point}")
-        scene["speed"] = SPEED.curve(way.times[1:], np.diff(way.turned) / np.diff(way.times), state.params.method)
+        scene["path"] = Segments(
+            segments(way.path), "source", 3, name=f"path of vertex {body.point}"
+        )
+        scene["speed"] = SPEED.curve(
+            way.times[1:], np.diff(way.turned) / np.diff(way.times), state.params.method
+        )
     return scene
 
 
@@ -112,32 +140,44 @@ def _above(word: str, body: Body, T: np.ndarray) -> Label:
 
 
 def _axes_of_turns(state: Moved) -> dict[str, Primitive]:
-    """Return the axis of the shortest turn, and the line about which the body turned to come here: for a screw, its own."""
+    """Return the axis of the shortest turn, and the line about which the body turned to come here:
+    for a screw, its own.
+    """
     axis, turn = axis_angle_from_rotation(state.T_world_end[:3, :3] @ state.T_world_start[:3, :3].T)
     scene: dict[str, Primitive] = {}
     if turn > ROUND_OFF:
-        scene |= _line("axis shortest", state.T_world_shortest[:3, 3], axis, "truth", "shortest turn")
+        scene |= _line(
+            "axis shortest", state.T_world_shortest[:3, 3], axis, "truth", "shortest turn"
+        )
     if not (is_rigid(state.T_world_body) and is_rigid(state.T_world_before)):
         return scene
     step = state.T_world_body @ inverse(state.T_world_before)
     axis, turn = axis_angle_from_rotation(step[:3, :3])
     if turn > ROUND_OFF:
         p = state.T_world_body[:3, 3]
-        if state.params.method == "screw":  # what stays on its line: (I - R) p is the shift across the axis
+        if (
+            state.params.method == "screw"
+        ):  # what stays on its line: (I - R) p is the shift across the axis
             across = step[:3, 3] - axis * (axis @ step[:3, 3])
             p = np.linalg.lstsq(np.eye(3) - step[:3, :3], across)[0] + axis * (axis @ p)
         scene |= _line("axis", p, axis, "source", "turning now")
     return scene
 
 
-def _line(path: str, p: np.ndarray, axis: np.ndarray, color: Role, name: str) -> dict[str, Primitive]:
+def _line(
+    path: str, p: np.ndarray, axis: np.ndarray, color: Role, name: str
+) -> dict[str, Primitive]:
     up = axis if axis[2] > -1e-9 else -axis
     ends = between(p - 0.6 * up, p + up)
     return {path: Segments(ends, color, 2.5), f"{path} name": Label(name, ends[0, 1], color)}
 
 
-def _shown(path: str, body: Body, T: np.ndarray, color: Role, opacity: float, name: str = "") -> dict[str, Primitive]:
-    """Return the body as a surface with its edges; the faces of a mirrored one go round the other way."""
+def _shown(
+    path: str, body: Body, T: np.ndarray, color: Role, opacity: float, name: str = ""
+) -> dict[str, Primitive]:
+    """Return the body as a surface with its edges; the faces of a mirrored one go round the other
+    way.
+    """
     p, faces, pose = body.solid.p, body.solid.faces, T
     if not is_affine(T):
         p, pose = transform(T, p), None
@@ -177,9 +217,13 @@ def _front(body: Body, T: np.ndarray) -> Segments:
 
 
 def _turning_axes(state: Built) -> dict[str, Primitive]:
-    """Return the directions about which the three angles now turn the body; the one turned last is thick."""
+    """Return the directions about which the three angles now turn the body; the one turned last is
+    thick.
+    """
     axes = euler_axes(state.angles, state.params.order)
-    last = state.params.first == "rotate, then translate"  # the turns came first and were carried along since
+    last = (
+        state.params.first == "rotate, then translate"
+    )  # the turns came first and were carried along since
     middle = state.T_world_body[:3, 3] if last else np.zeros(3)
     scene: dict[str, Primitive] = {}
     for k, (axis, letter) in enumerate(zip(axes, state.params.order, strict=True)):
@@ -192,7 +236,10 @@ def _turning_axes(state: Built) -> dict[str, Primitive]:
 
 
 def _shows_lock(state: Built) -> bool:
-    return state.params.compare == "other triples" or gimbal_margin(state.angles, state.params.order) < 0.1
+    return (
+        state.params.compare == "other triples"
+        or gimbal_margin(state.angles, state.params.order) < 0.1
+    )
 
 
 @functools.cache
@@ -226,17 +273,24 @@ def _invariants(state: State) -> Table:
     """Show which measures of the body survived, this factor and all of them."""
     if isinstance(state, Built):
         header = ("measured", "this factor", "all so far")
-        lines = [(a.name, _amount(a), _amount(b)) for a, b in zip(state.by_factor, state.by_all, strict=True)]
+        lines = [
+            (a.name, _amount(a), _amount(b))
+            for a, b in zip(state.by_factor, state.by_all, strict=True)
+        ]
         kinds = ("kind of map", kind_of(state.factor.matrix).value, kind_of(state.T).value)
         return Table("What survives", header, (kinds, *lines))
     lines = [(change.name, _amount(change)) for change in state.by_all]
     return Table(
-        "What survives", ("measured", "since the start"), (("kind of map", kind_of(state.T_world_body).value), *lines)
+        "What survives",
+        ("measured", "since the start"),
+        (("kind of map", kind_of(state.T_world_body).value), *lines),
     )
 
 
 def _one_point(state: Built) -> Table:
-    """Show the followed vertex (w = 1) and the direction to the front (w = 0) before and after the map."""
+    """Show the followed vertex (w = 1) and the direction to the front (w = 0) before and after the
+    map.
+    """
     columns = [np.append(state.body.p_point, 1.0), np.append(FRONT, 0.0)]
     p, v = columns
     after_p, after_v = state.T @ p, state.T @ v
@@ -249,7 +303,8 @@ def _one_point(state: Built) -> Table:
 
 
 def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder) -> Table:
-    """Show the rotation in a 4×4 under its other names; what stretches or mirrors is split off first.
+    """Show the rotation in a 4×4 under its other names; what stretches or mirrors is split off
+    first.
 
     A projective map has no such parts: then the rotation is that of its rigid factors alone.
     """
@@ -258,7 +313,10 @@ def _in_other_numbers(T: np.ndarray, T_world_body: np.ndarray, order: EulerOrder
     R = parts.rotation
     axis, radians = axis_angle_from_rotation(R)
     rows = [
-        (f"Euler {order}", ", ".join(f"{fixed(a, 1)}°" for a in np.degrees(matrix_to_euler(R, order)))),
+        (
+            f"Euler {order}",
+            ", ".join(f"{fixed(a, 1)}°" for a in np.degrees(matrix_to_euler(R, order))),
+        ),
         ("axis", fixed_row(axis, 2) if radians > ROUND_OFF else "any"),
         ("angle", f"{fixed(np.degrees(radians), 1)}°"),
         ("quaternion w, x, y, z", fixed_row(quaternion_from_matrix(R), 2)),

@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from workbench.algorithms.composition import Factor
-from workbench.data.solids import Shape, Solid
-from workbench.geometry.invariants import Change, Measures
-from workbench.geometry.rotations import EulerOrder
+from lessons.transforms.composition import Factor
+from workbench.data.shapes.solids import Shape, Solid
+from workbench.geometry.meshes.invariants import Change, Measures
+from workbench.geometry.motions.rotations import EulerOrder
 from workbench.knobs import Gizmo, Knob, Pick
 from workbench.scene import Role
 
@@ -41,19 +41,32 @@ Compare = Literal[
 class Params:
     """The factors of one map, or two poses and the way between them."""
 
-    half: Annotated[Half, Knob("Build one map factor by factor, or go from one pose to another")] = "build a map"
+    half: Annotated[
+        Half, Knob("Build one map factor by factor, or go from one pose to another")
+    ] = "build a map"
     angles: Annotated[
         tuple[float, float, float],
-        Knob("Three turns, in the order of the letters below; the start pose when moving", -180, 180, unit="deg", step=1,
-             label="Angle", parts=("1", "2", "3")),
-    ] = (30.0, 20.0, 60.0)  # fmt: skip
+        Knob(
+            "Three turns, in the order of the letters below; the start pose when moving",
+            -180,
+            180,
+            unit="deg",
+            step=1,
+            label="Angle",
+            parts=("1", "2", "3"),
+        ),
+    ] = (30.0, 20.0, 60.0)
     order: Annotated[
-        EulerOrder, Knob("Axes of the three turns: lower case fixed in the world, upper case carried by the body")
+        EulerOrder,
+        Knob(
+            "Axes of the three turns: lower case fixed in the world, upper case carried by the body"
+        ),
     ] = "xyz"
     pose: Annotated[
         tuple[float, float, float, float, float, float],
         Knob(
-            "Translation (m), and one more turn as a rotation vector (radians), by numbers or handle",
+            "Translation (m), and one more turn as a rotation vector (radians), by numbers or"
+            " handle",
             -4,
             4,
             by=Gizmo(0.5),
@@ -61,29 +74,51 @@ class Params:
     ] = (1.6, 0.6, 0.3, 0.0, 0.0, 0.0)
     first: Annotated[First, Knob("Which comes first", needs=BUILDING)] = "rotate, then translate"
     scale: Annotated[
-        tuple[float, float, float], Knob("Factors along x, y and z, before all else", 0.2, 2, step=0.05, needs=BUILDING)
+        tuple[float, float, float],
+        Knob("Factors along x, y and z, before all else", 0.2, 2, step=0.05, needs=BUILDING),
     ] = (1.0, 1.0, 1.4)
-    shear: Annotated[float, Knob("Shift x by so much per metre of height", -1.5, 1.5, step=0.05, needs=BUILDING)] = 0.0
+    shear: Annotated[
+        float, Knob("Shift x by so much per metre of height", -1.5, 1.5, step=0.05, needs=BUILDING)
+    ] = 0.0
     perspective: Annotated[
-        float, Knob("Divide by w = 1 + so much times z", 0, 0.6, unit="1/m", step=0.02, needs=BUILDING)
+        float,
+        Knob("Divide by w = 1 + so much times z", 0, 0.6, unit="1/m", step=0.02, needs=BUILDING),
     ] = 0.0
     mirror: Annotated[Mirror, Knob("The coordinate that changes its sign", needs=BUILDING)] = "none"
-    compare: Annotated[Compare, Knob("A second reading drawn beside, while building", needs=BUILDING)] = "nothing"
+    compare: Annotated[
+        Compare, Knob("A second reading drawn beside, while building", needs=BUILDING)
+    ] = "nothing"
     angles_end: Annotated[
         tuple[float, float, float],
-        Knob("The three turns of the end pose, when moving", -180, 180, unit="deg", step=1,
-             label="End angle", parts=("1", "2", "3"), needs=MOVING),
-    ] = (0.0, 0.0, -110.0)  # fmt: skip
-    method: Annotated[Method, Knob("What runs at constant speed between the two poses", needs=MOVING)] = "slerp + lerp"
+        Knob(
+            "The three turns of the end pose, when moving",
+            -180,
+            180,
+            unit="deg",
+            step=1,
+            label="End angle",
+            parts=("1", "2", "3"),
+            needs=MOVING,
+        ),
+    ] = (0.0, 0.0, -110.0)
+    method: Annotated[
+        Method, Knob("What runs at constant speed between the two poses", needs=MOVING)
+    ] = "slerp + lerp"
     steps: Annotated[int, Knob("Steps from one pose to the other", 2, 120, needs=MOVING)] = 30
     point: Annotated[int, Knob("The vertex that is followed", 0, 11, by=Pick("body"))] = 8
-    shape: Annotated[Shape, Knob("The body: only the house differs from its mirror image")] = "house"
-    mesh: Annotated[Path | None, Knob("Own mesh instead (off, obj, ply, stl, glb), shown 1 m large")] = None
+    shape: Annotated[Shape, Knob("The body: only the house differs from its mirror image")] = (
+        "house"
+    )
+    mesh: Annotated[
+        Path | None, Knob("Own mesh instead (off, obj, ply, stl, glb), shown 1 m large")
+    ] = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Body:
-    """What moves: its mesh and lines in its own frame, its measures, and the vertex that is followed."""
+    """What moves: its mesh and lines in its own frame, its measures, and the vertex that is
+    followed.
+    """
 
     name: str
     solid: Solid
@@ -145,7 +180,8 @@ class Built:
         trail: Where the followed vertex was after every factor so far, (k, 3).
         complete: Whether this was the last factor of the map.
         ghosts: The second readings of the complete map, once it is; after `undo`, of its inverse.
-        left: After `undo`: how far the farthest vertex is from where it was before the motion, metres.
+        left: After `undo`: how far the farthest vertex is from where it was before the motion,
+            metres.
     """
 
     params: Params

@@ -1,4 +1,6 @@
-"""Gradients that a training loop goes down, held against differences of the loss that it reports."""
+"""Gradients that a training loop goes down, held against differences of the loss that it
+reports.
+"""
 
 from collections.abc import Callable, Iterator
 from types import ModuleType
@@ -30,7 +32,8 @@ def assert_gradient(
     tolerance: float = 1e-6,
     h: float = 1e-6,
 ) -> None:
-    """Hold a gradient against differences along each of 30 numbers and of five directions of all; batches stay the same.
+    """Hold a gradient against differences along each of 30 numbers and of five directions of all;
+    batches stay the same.
 
     Args:
         values: What is learned; written to, and put back.
@@ -49,7 +52,9 @@ def assert_gradient(
     start, (_, slope) = values.copy(), at_the_same_batch()
     size = float(np.abs(slope).max())
     assert size > 0
-    one_by_one = chance.choice(np.flatnonzero(slope), min(30, np.count_nonzero(slope)), replace=False)
+    one_by_one = chance.choice(
+        np.flatnonzero(slope), min(30, np.count_nonzero(slope)), replace=False
+    )
     ways = [np.eye(1, slope.size, int(k)).reshape(slope.shape) for k in one_by_one]
     ways += [w / np.linalg.norm(w) for w in chance.normal(size=(5, *slope.shape))]
     for way in ways:
@@ -58,4 +63,6 @@ def assert_gradient(
             values[:] = start + sign * h * way
             losses.append(at_the_same_batch()[0])
         values[:] = start
-        assert (slope * way).sum() == pytest.approx((losses[0] - losses[1]) / (2 * h), abs=tolerance * size)
+        assert (slope * way).sum() == pytest.approx(
+            (losses[0] - losses[1]) / (2 * h), abs=tolerance * size
+        )

@@ -7,11 +7,18 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.algorithms.board_adjustment import SHARED, Adjustment, Stop, adjust, linearised, loss
-from workbench.algorithms.calibration import calibrate
-from workbench.data import boards
+from workbench.algorithms.cameras.calibration import calibrate
+from workbench.algorithms.least_squares.board_adjustment import (
+    SHARED,
+    Adjustment,
+    Stop,
+    adjust,
+    linearised,
+    loss,
+)
+from workbench.data.views import boards
 from workbench.geometry.cameras import intrinsics, project
-from workbench.geometry.distortion import NONE, Distortion
+from workbench.geometry.cameras.distortion import NONE, Distortion
 from workbench.geometry.motions import exp_so3, turns
 
 P = boards.board_points()
@@ -28,7 +35,7 @@ def views(seed: int = 0, count: int = 5, sigma: float = 0.2) -> tuple[np.ndarray
 
 
 def last_of(uv: np.ndarray, Ts: np.ndarray, **options) -> Adjustment:
-    *_, found = adjust(boards.K_TRUE, LENS, Ts, P, uv, **options)
+    *_, found = adjust(boards.K_TRUE, LENS, Ts, p_board=P, uv=uv, **options)
     return found
 
 
@@ -36,7 +43,9 @@ def test_residuals_are_projected_minus_measured():
     Ts, uv = views()
     block = linearised(TRUE, Ts[:, :3, :3], Ts[:, :3, 3], P, uv)
     expected = np.stack([project(P, T, boards.K_TRUE, LENS) for T in Ts]) - uv
-    np.testing.assert_allclose(block[:, 15], np.concatenate([expected[..., 0], expected[..., 1]], axis=1), atol=1e-9)
+    np.testing.assert_allclose(
+        block[:, 15], np.concatenate([expected[..., 0], expected[..., 1]], axis=1), atol=1e-9
+    )
 
 
 @pytest.mark.parametrize("row", range(15))
@@ -59,8 +68,17 @@ def test_it_comes_home_and_the_cost_never_rises(coefficients):
     lens = Distortion(*[value if i < coefficients else 0.0 for i, value in enumerate(LENS)])
     Ts, _ = views()
     uv = np.stack([project(P, T, boards.K_TRUE, lens) for T in Ts])
-    start = np.stack([T @ np.block([[exp_so3(np.full(3, 0.02)), np.zeros((3, 1))], [np.zeros(3), 1]]) for T in Ts])
-    states = list(adjust(intrinsics(560.0, 330, 240), NONE, start, P, uv, coefficients=coefficients))
+    start = np.stack(
+        [
+            T @ np.block([[exp_so3(np.full(3, 0.02)), np.zeros((3, 1))], [np.zeros(3), 1]])
+            for T in Ts
+        ]
+    )
+    states = list(
+        adjust(
+            intrinsics(560.0, 330, 240), NONE, start, p_board=P, uv=uv, coefficients=coefficients
+        )
+    )
     assert states[-1].stop in (Stop.CONVERGED, Stop.STUCK)
     np.testing.assert_allclose(states[-1].K, boards.K_TRUE, atol=1e-5)
     np.testing.assert_allclose(states[-1].lens, lens, atol=1e-6)
@@ -77,8 +95,11 @@ def test_the_covariance_is_that_of_all_unknowns_and_of_repetition():
     assert found.covariance is not None
     block = linearised(
         np.array([*found.K[[0, 1, 0, 1], [0, 1, 2, 2]], *found.lens]),
-        found.Ts_camera_board[:, :3, :3], found.Ts_camera_board[:, :3, 3], P, uv,
-    )  # fmt: skip
+        found.Ts_camera_board[:, :3, :3],
+        found.Ts_camera_board[:, :3, 3],
+        P,
+        uv,
+    )
     J = np.zeros((uv.size, 9 + 24))
     for k in range(4):
         rows = slice(108 * k, 108 * (k + 1))
@@ -88,7 +109,10 @@ def test_the_covariance_is_that_of_all_unknowns_and_of_repetition():
     np.testing.assert_allclose(found.deviations, np.sqrt(np.diag(dense)), rtol=1e-4)
     clean = np.stack([project(P, T, boards.K_TRUE, LENS) for T in Ts])
     rng = np.random.default_rng(0)
-    f = [last_of(clean + 0.2 * rng.standard_normal(clean.shape), Ts, tolerance=1e-6).K[0, 0] for _ in range(40)]
+    f = [
+        last_of(clean + 0.2 * rng.standard_normal(clean.shape), Ts, tolerance=1e-6).K[0, 0]
+        for _ in range(40)
+    ]
     assert np.std(f) == pytest.approx(found.deviations[0], rel=0.35)
 
 
@@ -102,7 +126,9 @@ def test_cauchy_is_scipys_loss_and_lets_far_corners_go():
     assert robust.weights[1, [0, 9, 18]].max() < 1e-3
     e2 = (robust.residuals**2).sum(axis=2)
     assert robust.cost == pytest.approx(0.25 * np.log1p(e2 / 0.25).sum())
-    slope = scipy.optimize.approx_fprime(e2.ravel()[:3], lambda x: 0.25 * np.log1p(x / 0.25).sum(), 1e-7)
+    slope = scipy.optimize.approx_fprime(
+        e2.ravel()[:3], lambda x: 0.25 * np.log1p(x / 0.25).sum(), 1e-7
+    )
     np.testing.assert_allclose(robust.weights.ravel()[:3], slope, atol=1e-5)
     block = linearised(TRUE, Ts[:, :3, :3], Ts[:, :3, 3], P, uv)
     cost, weights = loss(block, None)
@@ -112,7 +138,10 @@ def test_cauchy_is_scipys_loss_and_lets_far_corners_go():
 
 def test_what_the_views_do_not_determine_has_no_covariance_or_a_huge_one():
     T = np.stack([np.eye(4)] * 2)
-    T[:, :3, 3] = [[-0.1, -0.06, 0.4], [-0.1, -0.06, 0.6]]  # two boards, both frontal: f is anybody's guess
+    T[:, :3, 3] = [
+        [-0.1, -0.06, 0.4],
+        [-0.1, -0.06, 0.6],
+    ]  # two boards, both frontal: f is anybody's guess
     uv = np.stack([project(P, one, boards.K_TRUE) for one in T])
     uv += 0.2 * np.random.default_rng(0).standard_normal(uv.shape)
     found = last_of(uv, T, coefficients=0, max_iterations=30)
@@ -127,7 +156,7 @@ def test_a_start_from_which_nothing_can_be_projected_stops():
     assert not found.accepted
 
 
-# two real cameras ---------------------------------------------------------------------------------------------------------
+# two real cameras ---------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module", params=["left", "right"])
@@ -143,7 +172,11 @@ def test_equals_opencv_on_real_cameras(real):
     found = state.adjustment
     assert found is not None
     theirs = cv2.calibrateCameraExtended(
-        [p.astype(np.float32)] * len(uv), [one.astype(np.float32)[:, None] for one in uv], (640, 480), None, None
+        [p.astype(np.float32)] * len(uv),
+        [one.astype(np.float32)[:, None] for one in uv],
+        (640, 480),
+        None,
+        None,
     )
     assert np.sqrt(found.cost / (uv.size / 2)) == pytest.approx(theirs[0], abs=1e-4)
     np.testing.assert_allclose(found.K, theirs[1], atol=1e-3)
@@ -158,11 +191,18 @@ def test_what_is_known_of_the_real_cameras(real):
     states = [state for state in calibrate(p, uv, (640, 480)) if state.adjustment is not None]
     found = states[-1].adjustment
     assert found is not None
-    rms, rejected = np.sqrt(found.cost / (uv.size / 2)), sum(not s.adjustment.accepted for s in states if s.adjustment)
+    rms, rejected = (
+        np.sqrt(found.cost / (uv.size / 2)),
+        sum(not s.adjustment.accepted for s in states if s.adjustment),
+    )
     if name == "left":
         assert rms == pytest.approx(0.40877, abs=1e-5)
-        assert dict(zip(SHARED, found.deviations, strict=True))["fx"] == pytest.approx(0.93, abs=0.01)
-        assert found.K[0, 0] == pytest.approx(535.9, abs=0.5)  # left_intrinsics.yml, which has fx = fy
+        assert dict(zip(SHARED, found.deviations, strict=True))["fx"] == pytest.approx(
+            0.93, abs=0.01
+        )
+        assert found.K[0, 0] == pytest.approx(
+            535.9, abs=0.5
+        )  # left_intrinsics.yml, which has fx = fy
         np.testing.assert_allclose(found.K[:2, 2], [342.3, 235.6], atol=0.3)
     else:
         assert rms == pytest.approx(0.4587, abs=1e-4)

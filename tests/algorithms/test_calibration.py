@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.algorithms.calibration import State, calibrate, residuals_of
-from workbench.data import boards
-from workbench.geometry.calibration import reprojection_rms
+from workbench.algorithms.cameras.calibration import State, calibrate, residuals_of
+from workbench.data.views import boards
 from workbench.geometry.cameras import project
-from workbench.geometry.distortion import NONE
+from workbench.geometry.cameras.calibration import reprojection_rms
+from workbench.geometry.cameras.distortion import NONE
 
 P = boards.board_points()
 
@@ -49,7 +49,9 @@ def test_residuals_are_those_of_project():
     *_, last = states_of(uv)
     assert last.K is not None
     expected = np.stack([project(P, T, last.K, last.lens) for T in last.Ts_camera_board]) - uv
-    np.testing.assert_allclose(residuals_of(last.K, last.lens, last.Ts_camera_board, P, uv), expected, atol=1e-9)
+    np.testing.assert_allclose(
+        residuals_of(last.K, last.lens, last.Ts_camera_board, p_board=P, uv=uv), expected, atol=1e-9
+    )
 
 
 def test_frontal_boards_give_no_camera_and_f_is_guessed():
@@ -61,13 +63,16 @@ def test_frontal_boards_give_no_camera_and_f_is_guessed():
 
 
 @pytest.mark.parametrize(
-    ("f", "cx", "likely"), [(500.0, 330.0, True), (500.0, 700.0, False), (500.0, -20.0, False), (150.0, 330.0, False)]
+    ("f", "cx", "likely"),
+    [(500.0, 330.0, True), (500.0, 700.0, False), (500.0, -20.0, False), (150.0, 330.0, False)],
 )
 def test_an_unlikely_camera_is_not_begun_with(f, cx, likely):
     N = np.array([[1 / 640, 0, -0.5], [0, 1 / 640, -240 / 640], [0, 0, 1]])
     K = N @ np.array([[f, 0, cx], [0, f, 240], [0, 0, 1]])
     B = np.linalg.inv(K @ K.T)
-    four = scipy.linalg.null_space(B[[0, 1, 0, 1, 2], [0, 1, 2, 2, 2]][None]).T  # rows that this camera alone fulfils
+    four = scipy.linalg.null_space(
+        B[[0, 1, 0, 1, 2], [0, 1, 2, 2, 2]][None]
+    ).T  # rows that this camera alone fulfils
     rows = np.insert(four, 1, 0.0, axis=1)
     given = itertools.cycle([rows[:2], rows[2:]])
     states = states_of(views(), constraint_rows=lambda H: next(given), max_iterations=1)
@@ -81,7 +86,8 @@ def test_a_replaced_function_drives_the_steps():
     states = states_of(views(), constraint_rows=lambda H: np.zeros((2, 6)), max_iterations=2)
     assert next(state for state in states if state.phase == "poses").guessed
     behind = states_of(
-        views(), pose_from_homography=lambda K, H: np.diag([1.0, 1, 1, 1]) - np.eye(4, k=1)[[3, 0, 2, 1]]
+        views(),
+        pose_from_homography=lambda K, H: np.diag([1.0, 1, 1, 1]) - np.eye(4, k=1)[[3, 0, 2, 1]],
     )
     assert behind[-1].phase == "refine"
 
@@ -91,7 +97,7 @@ def test_too_few_views_are_refused():
         states_of(views()[:1])
 
 
-# real corners -------------------------------------------------------------------------------------------------------------
+# real corners -------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -129,8 +135,13 @@ def test_one_bad_view_of_thirteen(left):
 
 
 def test_views_have_errors_of_their_own(left):
-    """Over bootstrapped views f varies by half as much again as the covariance, which takes corners for independent."""
+    """Over bootstrapped views f varies by half as much again as the covariance, which takes corners
+    for independent.
+    """
     p, uv = left
     rng = np.random.default_rng(0)
-    f = [f_of(p, uv[rng.integers(0, 13, 13)], max_iterations=20, tolerance=1e-6)[0] for _ in range(25)]
+    f = [
+        f_of(p, uv[rng.integers(0, 13, 13)], max_iterations=20, tolerance=1e-6)[0]
+        for _ in range(25)
+    ]
     assert 1.1 < np.std(f) < 1.9  # the covariance says 0.93

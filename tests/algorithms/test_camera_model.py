@@ -6,12 +6,19 @@ import numpy as np
 import pytest
 
 from tests.geometry.views import view
-from workbench.algorithms.camera_model import camera_model
-from workbench.algorithms.ransac import TOGETHER, Judge, State, Stop, iterations_needed, ransac
-from workbench.algorithms.samplers import uniform_samples
-from workbench.geometry.alignment import degrees_between
+from workbench.algorithms.robust.camera_model import camera_model
+from workbench.algorithms.robust.ransac import (
+    TOGETHER,
+    Judge,
+    State,
+    Stop,
+    iterations_needed,
+    ransac,
+)
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import exp_se3
+from workbench.geometry.motions.alignment import degrees_between
 
 K = intrinsics(800.0, 320.0, 240.0)
 
@@ -52,7 +59,9 @@ def test_a_refit_goes_down_from_its_start_and_without_one_from_sqpnp():
     start = exp_se3(np.array([0.1, -0.1, 0.2, 0.05, 0.02, -0.03])) @ T
     np.testing.assert_allclose(model.refit(table), model.refit(table, start=start), atol=1e-5)
     weights = np.r_[np.zeros(10), np.ones(10)]
-    np.testing.assert_allclose(model.refit(table, weights, start), model.refit(table[10:], start=start), atol=1e-4)
+    np.testing.assert_allclose(
+        model.refit(table, weights, start), model.refit(table[10:], start=start), atol=1e-4
+    )
 
 
 def values(state: State) -> list[Any]:
@@ -68,11 +77,16 @@ def alike(state: State, other: State) -> bool:
 
 
 @pytest.mark.parametrize(
-    ("seed", "outliers", "most"), [(0, 0.5, 500), (1, 0.7, 500), (2, 0.7, TOGETHER + 5), (3, 0.8, 20)]
+    ("seed", "outliers", "most"),
+    [(0, 0.5, 500), (1, 0.7, 500), (2, 0.7, TOGETHER + 5), (3, 0.8, 20)],
 )
 def test_many_samples_solved_together_give_the_states_of_one_by_one(seed, outliers, most):
     _, table = rows(seed, outliers)
-    table[:6, :3] = np.arange(6)[:, None] * [0.1, 0.2, 0.3]  # samples of three of these are degenerate
+    table[:6, :3] = np.arange(6)[:, None] * [
+        0.1,
+        0.2,
+        0.3,
+    ]  # samples of three of these are degenerate
     model, found = camera_model(K), []
     for one in (model, replace(model, solve_each=None)):
         chosen = [np.array([0, 1, 2]), np.array([50, 60, 70]), np.array([50, 60, 70])]

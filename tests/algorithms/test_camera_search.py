@@ -2,8 +2,14 @@ import numpy as np
 import pytest
 
 from tests.geometry.views import view
-from workbench.algorithms.camera_search import Stop, by_plane, by_three_points, choose_pose, downhill
-from workbench.geometry.camera_motions import gauss_newton_step, rms_reprojection
+from workbench.algorithms.cameras.camera_search import (
+    Stop,
+    by_plane,
+    by_three_points,
+    choose_pose,
+    downhill,
+)
+from workbench.geometry.cameras.camera_motions import gauss_newton_step, rms_reprojection
 from workbench.geometry.motions import exp_se3
 
 
@@ -12,7 +18,12 @@ def test_three_points_and_a_fourth_give_the_pose():
         T, p_world, xy = view(seed, 6)
         states = list(by_three_points(p_world, xy))
         solutions = len(states[1].lengths)
-        assert [state.phase for state in states] == ["rays", "quartic", *["root"] * solutions, "choose"]
+        assert [state.phase for state in states] == [
+            "rays",
+            "quartic",
+            *["root"] * solutions,
+            "choose",
+        ]
         assert len(states[-1].candidates) == solutions
         assert states[-1].T is not None
         np.testing.assert_allclose(states[-1].T, T, atol=1e-5)
@@ -30,7 +41,7 @@ def test_of_a_plane_the_better_of_two_is_chosen():
 def test_downhill_every_step_lowers_the_error():
     T, p_world, xy = view(5, 10, sigma=2e-3)
     start = exp_se3(np.array([0.5, -0.4, 0.8, 0.3, 0.2, -0.3])) @ T
-    states = list(downhill(start, p_world, xy, gauss_newton_step))
+    states = list(downhill(start, p_world, xy, pose_step=gauss_newton_step))
     errors = [float(rms_reprojection(start, p_world, xy)), *(state.error for state in states[:-1])]
     assert (np.diff(errors) < 0).all()
     assert states[-1].stop is Stop.SETTLED
@@ -41,7 +52,9 @@ def test_a_step_too_long_is_halved():
     T, p_world, xy = view(6, 10)
     start = exp_se3(np.array([0.1, 0.0, 0.2, 0.0, 0.1, 0.0])) @ T
     whole = gauss_newton_step(start, p_world, xy) @ np.linalg.inv(start)
-    threefold = list(downhill(start, p_world, xy, lambda T, p, xy: whole @ whole @ whole @ T, most=1))
+    threefold = list(
+        downhill(start, p_world, xy, pose_step=lambda T, p, xy: whole @ whole @ whole @ T, most=1)
+    )
     assert threefold[0].phase == "step"
     assert threefold[0].share == 0.5
 
@@ -53,11 +66,19 @@ def test_the_way_ends_with_a_reason():
     def uphill(T, p, xy):
         return T @ np.linalg.inv(gauss_newton_step(T, p, xy)) @ T
 
-    assert list(downhill(away, p_world, xy, uphill))[-1].stop is Stop.NOT_LOWER
-    assert list(downhill(away, p_world, xy, gauss_newton_step, most=1))[-1].stop is Stop.MOST_STEPS
-    assert list(downhill(None, p_world, xy, gauss_newton_step))[-1].stop is Stop.NO_POSE
-    assert list(downhill(np.diag([-1.0, 1, -1, 1]) @ T, p_world, xy, gauss_newton_step))[-1].stop is Stop.BEHIND
-    nan = list(downhill(away, p_world, xy, lambda T, p, xy: np.full((4, 4), np.nan)))[-1]
+    assert list(downhill(away, p_world, xy, pose_step=uphill))[-1].stop is Stop.NOT_LOWER
+    assert (
+        list(downhill(away, p_world, xy, pose_step=gauss_newton_step, most=1))[-1].stop
+        is Stop.MOST_STEPS
+    )
+    assert list(downhill(None, p_world, xy, pose_step=gauss_newton_step))[-1].stop is Stop.NO_POSE
+    assert (
+        list(downhill(np.diag([-1.0, 1, -1, 1]) @ T, p_world, xy, pose_step=gauss_newton_step))[
+            -1
+        ].stop
+        is Stop.BEHIND
+    )
+    nan = list(downhill(away, p_world, xy, pose_step=lambda T, p, xy: np.full((4, 4), np.nan)))[-1]
     assert nan.stop is Stop.NOT_LOWER
     assert all(stop.message for stop in Stop)
 

@@ -6,8 +6,8 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms import cost_volume
-from workbench.algorithms.cost_volume import (
+from workbench.algorithms.stereo import cost_volume
+from workbench.algorithms.stereo.cost_volume import (
     box_sum,
     census,
     census_cost_volume,
@@ -19,7 +19,9 @@ from workbench.algorithms.cost_volume import (
 VOLUMES = [sad_cost_volume, ssd_cost_volume, census_cost_volume, ncc_cost_volume]
 
 
-def pair(seed: int = 0, shape: tuple[int, int] = (11, 17), dtype: type = np.uint8) -> tuple[np.ndarray, np.ndarray]:
+def pair(
+    seed: int = 0, shape: tuple[int, int] = (11, 17), dtype: type = np.uint8
+) -> tuple[np.ndarray, np.ndarray]:
     rng = np.random.default_rng(seed)
     return rng.integers(0, 256, shape).astype(dtype), rng.integers(0, 256, shape).astype(dtype)
 
@@ -44,7 +46,12 @@ def test_census_counts_the_bits_that_differ():
     cost = census_cost_volume(left, right, 3)
     offsets = [(dy, dx) for dy in range(-2, 3) for dx in range(-2, 3) if (dy, dx) != (0, 0)]
     bits = [
-        np.stack([np.pad(p, 2, mode="edge")[2 + dy : 13 + dy, 2 + dx : 19 + dx] < p for dy, dx in offsets])
+        np.stack(
+            [
+                np.pad(p, 2, mode="edge")[2 + dy : 13 + dy, 2 + dx : 19 + dx] < p
+                for dy, dx in offsets
+            ]
+        )
         for p in (left, right)
     ]
     for d in range(4):
@@ -65,7 +72,12 @@ def test_correlation_is_what_it_says(window):
 
 
 @settings(max_examples=30, deadline=None)
-@given(st.integers(0, 2**32 - 1), st.sampled_from([1, 3, 5, 7, 9, 15, 21]), st.integers(1, 12), st.integers(1, 12))
+@given(
+    st.integers(0, 2**32 - 1),
+    st.sampled_from([1, 3, 5, 7, 9, 15, 21]),
+    st.integers(1, 12),
+    st.integers(1, 12),
+)
 def test_box_sums_equal_scipys(seed, window, h, w):
     image = np.random.default_rng(seed).integers(0, 256, (h, w)).astype(float)
     expected = scipy.ndimage.convolve(image, np.ones((window, window)), mode="nearest")
@@ -91,7 +103,9 @@ def test_correlation_ignores_gain_and_offset_and_census_every_monotone_change(ga
     plain = ncc_cost_volume(left, right, 3, 5)
     assert np.allclose(ncc_cost_volume(left, gain * right + offset, 3, 5), plain, atol=1e-7)
     assert np.array_equal(census(gain * right**1.5 + offset), census(right))
-    assert not np.allclose(sad_cost_volume(left, 1.5 * right + 10, 3, 5), sad_cost_volume(left, right, 3, 5))
+    assert not np.allclose(
+        sad_cost_volume(left, 1.5 * right + 10, 3, 5), sad_cost_volume(left, right, 3, 5)
+    )
 
 
 def test_a_bare_window_correlates_with_nothing():
@@ -106,7 +120,9 @@ def test_a_bare_window_correlates_with_nothing():
 @pytest.mark.parametrize("volume", VOLUMES)
 def test_whole_numbers_and_floats_agree(volume):
     left, right = pair(5)
-    whole, exact = (volume(a, b, 5, 5) for a, b in ((left, right), (left.astype(float), right.astype(float))))
+    whole, exact = (
+        volume(a, b, 5, 5) for a, b in ((left, right), (left.astype(float), right.astype(float)))
+    )
     inside = np.isfinite(exact)
     assert np.allclose(whole[inside], exact[inside])
 
@@ -119,7 +135,8 @@ def test_large_windows_do_not_overflow():
 
 @pytest.mark.parametrize("volume", VOLUMES)
 @pytest.mark.parametrize(
-    ("max_disparity", "window", "message"), [(2, 4, "odd"), (2, -1, "odd"), (8, 3, "8 px wide"), (-1, 3, "8 px wide")]
+    ("max_disparity", "window", "message"),
+    [(2, 4, "odd"), (2, -1, "odd"), (8, 3, "8 px wide"), (-1, 3, "8 px wide")],
 )
 def test_misuse_is_said(volume, max_disparity, window, message):
     with pytest.raises(ValueError, match=message):

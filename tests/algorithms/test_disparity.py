@@ -1,4 +1,6 @@
-"""Disparity maps: the pieces against their definitions, the whole against exact scenes and real pictures."""
+"""Disparity maps: the pieces against their definitions, the whole against exact scenes and real
+pictures.
+"""
 
 import dataclasses
 from typing import Any
@@ -9,15 +11,15 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.cost_volume import (
+from workbench.algorithms.stereo.cost_volume import (
     CENSUS_BITS,
     census_cost_volume,
     ncc_cost_volume,
     sad_cost_volume,
     ssd_cost_volume,
 )
-from workbench.algorithms.disparity import Matching, Stage, match
-from workbench.algorithms.disparity_map import (
+from workbench.algorithms.stereo.disparity import Matching, Stage, match
+from workbench.algorithms.stereo.disparity_map import (
     agree,
     fill,
     median3,
@@ -26,27 +28,37 @@ from workbench.algorithms.disparity_map import (
     winner_takes_all,
 )
 from workbench.data.files import read_image
-from workbench.data.stereo import grey, motorcycle_pair, synthetic_pair
-from workbench.geometry.stereo import StereoCamera, depth_cloud, depth_from_disparity
+from workbench.data.views.stereo import grey, motorcycle_pair, synthetic_pair
+from workbench.geometry.cameras.stereo import StereoCamera, depth_cloud, depth_from_disparity
 
 CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 
 
 def made(scene, noise=2.0, camera=CAMERA, seed=0) -> tuple[Any, np.ndarray, np.ndarray]:
-    pair = synthetic_pair(scene, camera, (160, 120), noise, np.random.default_rng(seed))
+    pair = synthetic_pair(scene, camera, (160, 120), noise=noise, rng=np.random.default_rng(seed))
     assert pair.disparity is not None
     assert pair.visible is not None
-    return pair, np.rint(grey(pair.left)).astype(np.uint8), np.rint(grey(pair.right)).astype(np.uint8)
+    return (
+        pair,
+        np.rint(grey(pair.left)).astype(np.uint8),
+        np.rint(grey(pair.right)).astype(np.uint8),
+    )
 
 
 def disparity_map(left, right, max_disparity) -> tuple[np.ndarray, np.ndarray]:
-    """Return the last map of census and eight paths, and which pixels were matched; a jump costs the worst match."""
-    *_, last = match(left, right, max_disparity, 1, lambda _: (CENSUS_BITS // 3, CENSUS_BITS), census_cost_volume)
+    """Return the last map of census and eight paths, and which pixels were matched; a jump costs
+    the worst match.
+    """
+    *_, last = match(
+        left, right, max_disparity, 1, lambda _: (CENSUS_BITS // 3, CENSUS_BITS), census_cost_volume
+    )
     return filled(last), last.matched
 
 
 def filled(last: Matching) -> np.ndarray:
-    """Return the last map with the unmatched pixels given the background, as `match` has it before it leaves them out."""
+    """Return the last map with the unmatched pixels given the background, as `match` has it before
+    it leaves them out.
+    """
     everywhere = median3(fill(sub_pixel(last.cost, winner_takes_all(last.cost)), last.matched))
     assert np.array_equal(everywhere[last.matched], last.disparity[last.matched])
     return everywhere
@@ -109,8 +121,12 @@ def test_sub_pixel_stays_whole_where_there_is_no_valley():
     cost = np.array(list(curves.values()), float).T[:, None]
     refined = sub_pixel(cost, winner_takes_all(cost))[0]
     assert dict(zip(curves, refined, strict=True)) == {
-        "low end": 0, "high end": 3, "flat": 0, "beside infinity": 1, "plateau": 1.5,
-    }  # fmt: skip
+        "low end": 0,
+        "high end": 3,
+        "flat": 0,
+        "beside infinity": 1,
+        "plateau": 1.5,
+    }
     assert sub_pixel(cost[:2], np.ones((1, 5), int)).tolist() == [[1.0] * 5]
 
 
@@ -127,7 +143,9 @@ def test_the_median_equals_scipys(seed, h, w):
     assert np.array_equal(median3(values), scipy.ndimage.median_filter(values, 3, mode="nearest"))
 
 
-@pytest.mark.parametrize("compare", [sad_cost_volume, ssd_cost_volume, census_cost_volume, ncc_cost_volume])
+@pytest.mark.parametrize(
+    "compare", [sad_cost_volume, ssd_cost_volume, census_cost_volume, ncc_cost_volume]
+)
 @pytest.mark.parametrize("shift", [0, 3, 7])
 def test_a_shifted_picture_has_its_shift_as_disparity(compare, shift):
     scene = np.random.default_rng(1).random((24, 50)) * 255
@@ -142,10 +160,15 @@ def test_the_steps_are_all_there_and_in_order():
     states = list(match(left, right, 15, 5, lambda cost: (20.0, 60.0)))
     stages = [state.stage for state in states]
     assert stages == [Stage.COMPARE] * 16 + [Stage.AGGREGATE] + [Stage.PATHS] * 8 + [
-        Stage.CHECK, Stage.REFINE, Stage.SMOOTH,
-    ]  # fmt: skip
+        Stage.CHECK,
+        Stage.REFINE,
+        Stage.SMOOTH,
+    ]
     assert [state.done for state in states[:16]] == list(range(1, 17))
-    assert all(len(state.cost) == state.done and state.disparity.max() <= state.done - 1 for state in states[:16])
+    assert all(
+        len(state.cost) == state.done and state.disparity.max() <= state.done - 1
+        for state in states[:16]
+    )
     assert np.isnan(states[-1].disparity[~states[-1].matched]).all()
     assert Stage.PATHS not in {state.stage for state in match(left, right, 15, 5, None)}
 
@@ -191,7 +214,9 @@ def test_small_and_bare_pictures_end_quietly(shape):
         disparity, matched = disparity_map(bare, bare, max_disparity)
         assert disparity.shape == matched.shape == shape
         assert (disparity == 0).all()
-        states = list(match(bare.astype(float), bare.astype(float), max_disparity, 3, lambda cost: (1.0, 2.0)))
+        states = list(
+            match(bare.astype(float), bare.astype(float), max_disparity, 3, lambda cost: (1.0, 2.0))
+        )
         assert np.isfinite(states[-1].disparity).all()
 
 
@@ -199,14 +224,26 @@ def test_a_student_may_choose_in_floats():
     _, left, right = made("planes")
     ours = list(match(left, right, 15, 3, lambda cost: (20.0, 60.0)))
     theirs = list(
-        match(left, right, 15, 3, lambda cost: (20.0, 60.0), choose=lambda cost: np.argmin(cost, 0).astype(np.float32))
+        match(
+            left,
+            right,
+            15,
+            3,
+            lambda cost: (20.0, 60.0),
+            choose=lambda cost: np.argmin(cost, 0).astype(np.float32),
+        )
     )
-    assert all(np.array_equal(a.disparity, b.disparity, equal_nan=True) for a, b in zip(ours, theirs, strict=True))
+    assert all(
+        np.array_equal(a.disparity, b.disparity, equal_nan=True)
+        for a, b in zip(ours, theirs, strict=True)
+    )
 
 
 def test_cones(shared_data):
     folder = shared_data / "stereo" / "cones"
-    left, right = (np.rint(grey(read_image(folder / name))).astype(np.uint8) for name in ("im2.png", "im6.png"))
+    left, right = (
+        np.rint(grey(read_image(folder / name))).astype(np.uint8) for name in ("im2.png", "im6.png")
+    )
     d_left, d_right = (read_image(folder / name) / 4.0 for name in ("disp2.pgm", "disp6.pgm"))
     partner = np.rint(np.arange(450) - d_left).astype(int)
     there = np.take_along_axis(d_right, np.clip(partner, 0, 449), axis=1)
@@ -240,13 +277,17 @@ def angle(depth, camera, one, two):
 
 
 def true_depth(pair):
-    return depth_from_disparity(pair.disparity + pair.camera.doffs, pair.camera.f, pair.camera.baseline)
+    return depth_from_disparity(
+        pair.disparity + pair.camera.doffs, pair.camera.f, pair.camera.baseline
+    )
 
 
 def plane_normal(depth, camera, rows, columns) -> np.ndarray:
-    """Return the unit normal of the plane n . p = 1 that most points of a part of the picture lie on.
+    """Return the unit normal of the plane n . p = 1 that most points of a part of the picture lie
+    on.
 
-    Divided by its depth that reads n . (x, y, 1) = 1 / Z, in which an error of the disparity weighs the same everywhere.
+    Divided by its depth that reads n . (x, y, 1) = 1 / Z, in which an error of the disparity weighs
+    the same everywhere.
     """
     part = np.full_like(depth, np.nan)
     part[rows, columns] = depth[rows, columns]

@@ -1,35 +1,48 @@
-"""Fits put to the test: repetition that agrees with a covariance, starts that are counted, medians, angles."""
+"""Fits put to the test: repetition that agrees with a covariance, starts that are counted, medians,
+angles.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.algorithms.fit_studies import FATES, Basin, compare_circles, compare_lines, repeat_fit, try_starts
+from lessons.fitting.fit_scenes import arc_points, errors
+from lessons.fitting.fit_studies import (
+    FATES,
+    Basin,
+    compare_circles,
+    compare_lines,
+    repeat_fit,
+    try_starts,
+)
+from lessons.fitting.round_shapes import CIRCLE
 from workbench.algorithms.least_squares import Descents, damped_step, descend
-from workbench.algorithms.round_shapes import CIRCLE
-from workbench.data.fit_scenes import arc_points, errors
-from workbench.geometry.circles_spheres import linearise_sphere
+from workbench.geometry.shapes.circles_spheres import linearise_sphere
 
 
 def ended(p: np.ndarray):
-    *_, end = descend(lambda c: linearise_sphere(c, p), np.add, np.array([0.1, 0.1, 0.8]), damped_step)
+    *_, end = descend(
+        lambda c: linearise_sphere(c, p), np.add, np.array([0.1, 0.1, 0.8]), damped_step
+    )
     return end
 
 
-def test_repetition_agrees_with_the_covariance_where_errors_are_independent_and_not_where_they_are_alike():
+def test_repetition_agrees_with_the_covariance_where_errors_are_independent_and_not_where_they_are_alike():  # noqa: E501
     rng, places = np.random.default_rng(0), arc_points(np.pi, 60)
     end = ended(places + errors(rng, (60, 2), 0.02))
     ratios = []
     for kind in ("independent", "alike in neighbours"):
-        first, last = repeat_fit(CIRCLE, end, places + errors(rng, (400, 60, 2), 0.02, kind), (400,))
+        first, last = repeat_fit(
+            CIRCLE, end, places + errors(rng, (400, 60, 2), 0.02, kind), (400,)
+        )
         assert len(first.radii) == 0
         assert first.sigma == pytest.approx(0.02, rel=0.25)
         ratios.append(last.radii.std() / np.sqrt(last.covariance[-1, -1]))
         assert last.wider == pytest.approx(ratios[-1], rel=0.12)
         assert np.ptp(last.predicted) == pytest.approx(2 * 1.645 * np.sqrt(last.covariance[-1, -1]))
         assert np.mean(last.predicted) == pytest.approx(abs(end.unknown[-1]))
-        assert ((last.repeated[0] < last.radii) & (last.radii < last.repeated[1])).mean() == pytest.approx(
-            0.9, abs=0.01
-        )
+        assert (
+            (last.repeated[0] < last.radii) & (last.radii < last.repeated[1])
+        ).mean() == pytest.approx(0.9, abs=0.01)
     assert ratios[0] == pytest.approx(1.0, abs=0.25)
     assert ratios[1] > 2
 
@@ -54,7 +67,12 @@ def test_fates_are_told_by_the_circle_and_not_by_the_sign_of_its_radius():
     ends = np.array([[0, 0, -1], [0, 0, 1.5], [300, 0, 299], [2, 0, 1.0]])
     now = Descents(5, ends, np.zeros(4), np.array([True, True, False, False]))
     found = Basin(ends, np.array([0, 0, 1.0]), now)
-    assert [FATES[k] for k in found.fates] == ["comes home", "away or lost", "away or lost", "under way"]
+    assert [FATES[k] for k in found.fates] == [
+        "comes home",
+        "away or lost",
+        "away or lost",
+        "under way",
+    ]
     assert found.share("away or lost") == 0.5
 
 
@@ -74,6 +92,8 @@ def test_regression_is_too_flat_by_the_formula_and_perpendicular_distances_are_n
     *_, last = compare_lines(places, places + 0.1 * rng.normal(size=(200, 400, 2)))
     v = along.var() * np.cos(turn) ** 2
     medians = {name: float(np.median(angles)) for name, angles in last.angles.items()}
-    assert medians["upright"] == pytest.approx(np.degrees(np.arctan(np.tan(turn) * v / (v + 0.01))), abs=0.2)
+    assert medians["upright"] == pytest.approx(
+        np.degrees(np.arctan(np.tan(turn) * v / (v + 0.01))), abs=0.2
+    )
     assert medians["perpendicular"] == pytest.approx(60, abs=0.2)
     assert medians["level"] > 60.2

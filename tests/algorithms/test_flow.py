@@ -6,9 +6,9 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.flow import Stop, flow, numeric_gradient, polyak_length, rms
 from workbench.algorithms.transport import best_matching, earth_movers, earth_movers_gradient
-from workbench.geometry.shape_distances import chamfer, chamfer_gradient
+from workbench.algorithms.transport.flow import Stop, flow, numeric_gradient, polyak_length, rms
+from workbench.geometry.points.shape_distances import chamfer, chamfer_gradient
 
 few = settings(max_examples=10, deadline=None)
 seeds = st.integers(0, 10_000)
@@ -26,7 +26,9 @@ def clouds(seed, n, m):
 
 @pytest.mark.parametrize("name", BOTH)
 @few
-@example(2800, 13)  # beyond the kink Chamfer is steeper: a step along the mean would be longer than the longest
+@example(
+    2800, 13
+)  # beyond the kink Chamfer is steeper: a step along the mean would be longer than the longest
 @given(seeds, st.integers(1, 15))
 def test_the_distance_falls_at_every_step(name, seed, n):
     p_a, p_b = clouds(seed, n, n)
@@ -45,23 +47,30 @@ def test_the_distance_falls_at_every_step(name, seed, n):
 
 
 def nearly_home(seed, n):
-    """Targets four metres apart, each with a point at up to a metre, most of them much nearer; rows shuffled.
+    """Targets four metres apart, each with a point at up to a metre, most of them much nearer; rows
+    shuffled.
 
-    The best matching is the one to the own target, and stays it while no point is farther than a metre from there.
+    The best matching is the one to the own target, and stays it while no point is farther than a
+    metre from there.
     """
     rng = np.random.default_rng(seed)
-    p_b = 4.0 * rng.permutation(np.stack(np.meshgrid(*3 * [np.arange(3.0)]), axis=-1).reshape(-1, 3))[:n]
+    p_b = (
+        4.0
+        * rng.permutation(np.stack(np.meshgrid(*3 * [np.arange(3.0)]), axis=-1).reshape(-1, 3))[:n]
+    )
     ways = rng.normal(size=(n, 3))
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
     return rng.permutation(p_b + 10 ** rng.uniform(-6, 0, (n, 1)) * ways), p_b
 
 
 def settled_value(n):
-    """The largest mean distance D at which an earth mover's flow of n points may settle: it goes on where 0.6 D is a step.
+    """The largest mean distance D at which an earth mover's flow of n points may settle: it goes on
+    where 0.6 D is a step.
 
-    A step takes every point that is not home the same way s: 0.6 times their mean distance, so that one of them at least
-    has s to go. It is lowered in full, or by half of it with those that overshoot left out: then a root mean square of
-    s / 2 over the root of n, at the least. That is no step where it is below 1e-5 m.
+    A step takes every point that is not home the same way s: 0.6 times their mean distance, so that
+    one of them at least has s to go. It is lowered in full, or by half of it with those that
+    overshoot left out: then a root mean square of s / 2 over the root of n, at the least. That is
+    no step where it is below 1e-5 m.
     """
     return 2e-5 * np.sqrt(n) / 0.6
 
@@ -69,7 +78,8 @@ def settled_value(n):
 @few
 @given(seeds, st.integers(1, 12))
 def test_earth_movers_brings_every_point_home(seed, n):
-    # the largest distance falls by s / 2 in each step, or to s: by 3 cm, or a share of 0.3 / n, at the least
+    # the largest distance falls by s / 2 in each step, or to s: by 3 cm, or a share of 0.3 / n, at
+    # the least
     p_a, p_b = nearly_home(seed, n)
     distance, gradient = BOTH["earth mover's"]
     most_steps = 1 / 0.03 + np.log(settled_value(n) / (2 * n)) / np.log(1 - 0.3 / n)
@@ -80,7 +90,8 @@ def test_earth_movers_brings_every_point_home(seed, n):
 
 @pytest.mark.parametrize(("seed", "n"), [(995, 9), (20_046, 12), (20_450, 12)])
 def test_earth_movers_brings_a_straggler_home(seed, n):
-    # all points but one are home early on, and a plain step that is short enough for them takes the last one nowhere
+    # all points but one are home early on, and a plain step that is short enough for them takes the
+    # last one nowhere
     p_a, p_b = clouds(seed, n, n)
     distance, gradient = BOTH["earth mover's"]
     *_, last = flow(p_a, p_b, distance, gradient, max_steps=300)
@@ -91,7 +102,8 @@ def test_earth_movers_brings_a_straggler_home(seed, n):
 @few
 @given(seeds, st.integers(1, 12))
 def test_earth_movers_has_no_minimum_but_home(seed, n):
-    # as far as the nearest point is from home, the distance falls along its slope in a straight line
+    # as far as the nearest point is from home, the distance falls along its slope in a straight
+    # line
     p_a, p_b = clouds(seed, n, n)
     distance, gradient = BOTH["earth mover's"]
     for state in flow(p_a, p_b, distance, gradient, max_steps=25):
@@ -102,7 +114,8 @@ def test_earth_movers_has_no_minimum_but_home(seed, n):
 
 
 def test_chamfer_settles_with_points_left_over():
-    # two moving points are at the right target, so that one must serve both on the left: no point may change sides
+    # two moving points are at the right target, so that one must serve both on the left: no point
+    # may change sides
     p_b = np.array([[-1.0, 0, 0], [1, 0, 0], [10, 0, 0]])
     p_a = np.array([[0.1, 0, 0], [9.9, 0, 0], [10.2, 0, 0]])
     distance, gradient = BOTH["chamfer"]
@@ -130,7 +143,10 @@ def test_a_distance_without_gradient_flows_the_same_way(name):
     p_a[:, 1] = p_b[:, 1] = 0.7  # in a plane
     distance, gradient = BOTH[name]
     ours = [state.p_moving for state in flow(p_a, p_b, distance, gradient, max_steps=8)]
-    numeric = [state.p_moving for state in flow(p_a, p_b, distance, partial(numeric_gradient, distance), max_steps=8)]
+    numeric = [
+        state.p_moving
+        for state in flow(p_a, p_b, distance, partial(numeric_gradient, distance), max_steps=8)
+    ]
     np.testing.assert_allclose(np.array(numeric), np.array(ours), atol=1e-5)
 
 

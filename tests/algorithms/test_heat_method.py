@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.heat_method import HeatMethod, heat_method, mean_edge_length
-from workbench.data import surfaces
-from workbench.geometry.laplacian import mixed_areas
+from workbench.algorithms.surfaces.heat_method import HeatMethod, heat_method, mean_edge_length
+from workbench.data.shapes import surfaces
 from workbench.geometry.meshes import corners
+from workbench.geometry.meshes.laplacian import mixed_areas
 
 
 def last(p, faces, source=0, times=1.0):

@@ -6,13 +6,18 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms import icp as module
-from workbench.algorithms.icp import Gate, State, Stop, bounding_corners, icp, nearest
-from workbench.data.clouds import pair
+from workbench.algorithms.registration import icp as module
+from workbench.algorithms.registration.icp import Gate, State, Stop, bounding_corners, icp, nearest
 from workbench.data.files import read_cloud, read_pose
-from workbench.geometry.alignment import align_affine, align_rigid, align_similarity, nearest_rotation
+from workbench.data.shapes.clouds import pair
 from workbench.geometry.motions import apply, exp_so3, inverse, motion, rotation_angle
-from workbench.geometry.normals import point_normals
+from workbench.geometry.motions.alignment import (
+    align_affine,
+    align_rigid,
+    align_similarity,
+    nearest_rotation,
+)
+from workbench.geometry.points.normals import point_normals
 from workbench.tracing import listening
 
 SEEDS = st.integers(0, 1000)
@@ -44,7 +49,10 @@ class TestNearest:
             np.testing.assert_array_equal(nearest(p_target, p_source), expected)
 
     def test_it_is_not_symmetric(self):
-        p_target, p_source = np.array([[0.0, 0, 0], [1.0, 0, 0]]), np.array([[0.4, 0, 0], [0.45, 0, 0]])
+        p_target, p_source = (
+            np.array([[0.0, 0, 0], [1.0, 0, 0]]),
+            np.array([[0.4, 0, 0], [0.45, 0, 0]]),
+        )
         assert nearest(p_target, p_source).tolist() == [0, 0]
         assert nearest(p_source, p_target).tolist() == [0, 1]
 
@@ -91,7 +99,9 @@ class TestGate:
         distances = np.zeros(10)
         assert np.all(distances <= Gate(medians=3.0).limit(distances))
 
-    @pytest.mark.parametrize("values", [{"keep": 0.0}, {"keep": 1.5}, {"max_distance": 0.0}, {"medians": 0.5}])
+    @pytest.mark.parametrize(
+        "values", [{"keep": 0.0}, {"keep": 1.5}, {"max_distance": 0.0}, {"medians": 0.5}]
+    )
     def test_misuse_is_refused(self, values):
         with pytest.raises(ValueError, match="needed"):
             Gate(**values)
@@ -99,10 +109,19 @@ class TestGate:
 
 class TestLaws:
     @settings(max_examples=15, deadline=None)
-    @given(SEEDS, st.floats(0, 180), st.floats(0.4, 1), st.sampled_from([align_rigid, align_similarity, align_affine]))
+    @given(
+        SEEDS,
+        st.floats(0, 180),
+        st.floats(0.4, 1),
+        st.sampled_from([align_rigid, align_similarity, align_affine]),
+    )
     def test_the_cost_never_rises_from_anywhere(self, seed, angle, keep, align):
         scans = rabbits(angle, 150, seed, noise=0.01, outliers=0.1)
-        states = list(icp(scans.p_target, scans.p_source, gate=Gate(keep=keep), align=align, max_iterations=25))
+        states = list(
+            icp(
+                scans.p_target, scans.p_source, gate=Gate(keep=keep), align=align, max_iterations=25
+            )
+        )
         rmses = np.array([state.rmse for state in states])  # match, fit, match, fit, ...
         assert np.all(np.diff(rmses) <= 1e-12)
 
@@ -128,7 +147,9 @@ class TestLaws:
         for a, b in zip(one, two, strict=True):
             np.testing.assert_array_equal(a.indices, b.indices)
             np.testing.assert_allclose(
-                T_new_target @ a.T_target_source @ inverse(T_new_source), b.T_target_source, atol=1e-8
+                T_new_target @ a.T_target_source @ inverse(T_new_source),
+                b.T_target_source,
+                atol=1e-8,
             )
 
     @pytest.mark.parametrize("plane", [False, True], ids=["point-to-point", "point-to-plane"])
@@ -147,18 +168,29 @@ class TestLaws:
         scans = rabbits(15, 400)
         near = last(icp(scans.p_target, scans.p_source))
         shift = motion(np.eye(3), np.array([1e6, -1e6, 1e6]))
-        far = last(icp(apply(shift, scans.p_target), apply(shift, scans.p_source), shift @ inverse(shift)))
+        far = last(
+            icp(apply(shift, scans.p_target), apply(shift, scans.p_source), shift @ inverse(shift))
+        )
         end = inverse(shift) @ far.T_target_source @ shift
         assert degrees_off(end, near.T_target_source) < 0.1
 
     def test_similarity_and_affine_are_found(self):
         p_target = rabbits(n=500).p_target
         S = turned(5) @ np.diag([1.05, 1.05, 1.05, 1.0])
-        end = last(icp(p_target, apply(np.linalg.inv(S), p_target), align=align_similarity, max_iterations=200))
+        end = last(
+            icp(
+                p_target,
+                apply(np.linalg.inv(S), p_target),
+                align=align_similarity,
+                max_iterations=200,
+            )
+        )
         np.testing.assert_allclose(end.T_target_source, S, atol=1e-8)
         A = np.eye(4)
         A[0, 1], A[2, 2] = 0.05, 0.95
-        end = last(icp(p_target, apply(np.linalg.inv(A), p_target), align=align_affine, max_iterations=200))
+        end = last(
+            icp(p_target, apply(np.linalg.inv(A), p_target), align=align_affine, max_iterations=200)
+        )
         np.testing.assert_allclose(end.T_target_source, A, atol=1e-8)
 
 
@@ -187,7 +219,9 @@ class TestStates:
         n = point_normals(scans.p_target)
         end = last(icp(scans.p_target, scans.p_source, n_target=n))
         gap = scans.p_target[end.indices] - apply(end.T_target_source, scans.p_source)
-        assert end.residual == pytest.approx(np.sqrt(np.mean(np.sum(gap * n[end.indices], axis=1) ** 2)))
+        assert end.residual == pytest.approx(
+            np.sqrt(np.mean(np.sum(gap * n[end.indices], axis=1) ** 2))
+        )
         assert end.residual < end.rmse
 
     def test_its_line_and_locals_can_be_watched(self):
@@ -212,14 +246,22 @@ class TestStops:
     def test_when_too_few_matches_are_left(self, plane):
         scans = rabbits()
         n = point_normals(scans.p_target) if plane else None
-        states = list(icp(scans.p_target, scans.p_source + 100.0, n_target=n, gate=Gate(max_distance=1.0)))
+        states = list(
+            icp(scans.p_target, scans.p_source + 100.0, n_target=n, gate=Gate(max_distance=1.0))
+        )
         assert [s.stop for s in states] == [Stop.TOO_FEW_MATCHES]
         assert np.isnan(states[0].rmse)
         assert states[0].overlap == 0.0
 
     def test_when_a_fit_is_not_finite(self):
         scans = rabbits()
-        end = last(icp(scans.p_target, scans.p_source, align=lambda p_target, p_source: np.full((4, 4), np.nan)))
+        end = last(
+            icp(
+                scans.p_target,
+                scans.p_source,
+                align=lambda p_target, p_source: np.full((4, 4), np.nan),
+            )
+        )
         assert end.stop is Stop.NOT_FINITE
         assert np.isfinite(end.T_target_source).all()
 
@@ -299,13 +341,21 @@ class TestRealScans:
     def bunny(self, shared_data):
         folder = shared_data / "icp"
         target, source = folder / "bun000.ply", folder / "bun045.ply"
-        return read_cloud(target), read_cloud(source)[::8], read_pose(folder / "bun.conf", target, source)
+        return (
+            read_cloud(target),
+            read_cloud(source)[::8],
+            read_pose(folder / "bun.conf", target, source),
+        )
 
     @pytest.fixture(scope="class")
     def lidar(self, shared_data):
         folder = shared_data / "icp"
         target, source = folder / "car_cloud400.csv", folder / "car_cloud401.csv"
-        return read_cloud(target), read_cloud(source)[::2], read_pose(folder / "carCloudList.csv", target, source)
+        return (
+            read_cloud(target),
+            read_cloud(source)[::2],
+            read_pose(folder / "carCloudList.csv", target, source),
+        )
 
     @pytest.mark.parametrize("plane", [False, True], ids=["point-to-point", "point-to-plane"])
     @pytest.mark.parametrize("scans", ["bunny", "lidar"])

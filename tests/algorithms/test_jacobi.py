@@ -1,4 +1,6 @@
-"""Jacobi's rotations: laws of every step, eigenvalues against numpy, and matrices that need none or never end."""
+"""Jacobi's rotations: laws of every step, eigenvalues against numpy, and matrices that need none or
+never end.
+"""
 
 import itertools
 
@@ -7,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.jacobi import TOLERANCE, jacobi
+from workbench.algorithms.registration.jacobi import TOLERANCE, jacobi
 
 MATRICES = st.tuples(st.integers(0, 10_000), st.integers(2, 6))
 
@@ -42,7 +44,9 @@ def test_the_end_is_the_eigenvalues(drawn):
     C = symmetric(*drawn)
     *_, last = jacobi(C)
     assert last.off < 10 * TOLERANCE
-    np.testing.assert_allclose(np.sort(np.diag(last.A)), np.linalg.eigvalsh(C), atol=1e-10 * float(np.linalg.norm(C)))
+    np.testing.assert_allclose(
+        np.sort(np.diag(last.A)), np.linalg.eigvalsh(C), atol=1e-10 * float(np.linalg.norm(C))
+    )
 
 
 def test_three_by_three_takes_five_to_ten_rotations():
@@ -52,7 +56,9 @@ def test_three_by_three_takes_five_to_ten_rotations():
     assert 6 <= np.median(counts) <= 8
 
 
-@pytest.mark.parametrize("C", [np.diag([3.0, 2, 1]), np.eye(3), np.zeros((3, 3)), np.diag([1.0, 1, 2]), np.eye(1)])
+@pytest.mark.parametrize(
+    "C", [np.diag([3.0, 2, 1]), np.eye(3), np.zeros((3, 3)), np.diag([1.0, 1, 2]), np.eye(1)]
+)
 def test_a_diagonal_matrix_is_left_as_it_is(C):
     (only,) = jacobi(C)
     assert only.off == 0

@@ -1,4 +1,6 @@
-"""The k-d tree: as near as scipy's, whatever the points; what is passed over is farther; few are looked at."""
+"""The k-d tree: as near as scipy's, whatever the points; what is passed over is farther; few are
+looked at.
+"""
 
 import numpy as np
 import pytest
@@ -6,7 +8,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.kd_tree import LEAF, build_tree, looked_at, search
+from workbench.algorithms.spatial.kd_tree import LEAF, build_tree, looked_at, search
 
 
 def tree_of(p: np.ndarray):
@@ -56,7 +58,9 @@ def test_what_was_passed_over_is_farther_and_the_rest_was_looked_at():
 
 def test_few_points_are_looked_at_in_three_dimensions_and_nearly_all_in_twenty():
     rng = np.random.default_rng(2)
-    looked = {d: looked_at(tree_of(rng.random((2000, d))), rng.random((10, d))).mean() for d in (3, 20)}
+    looked = {
+        d: looked_at(tree_of(rng.random((2000, d))), rng.random((10, d))).mean() for d in (3, 20)
+    }
     assert looked[3] < 60
     assert looked[20] > 1700
 

@@ -1,4 +1,6 @@
-"""Descents: what each step promises, that damping never lets the sum rise, scipy's answers, and ends that say why."""
+"""Descents: what each step promises, that damping never lets the sum rise, scipy's answers, and
+ends that say why.
+"""
 
 import numpy as np
 import pytest
@@ -6,6 +8,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from lessons.fitting.fit_scenes import arc_points
 from tests.truths.fitting import straight
 from workbench.algorithms.least_squares import (
     Stop,
@@ -16,26 +19,31 @@ from workbench.algorithms.least_squares import (
     descend_many,
     with_its_way,
 )
-from workbench.data.fit_scenes import arc_points
-from workbench.geometry.circles_spheres import linearise_sphere
+from workbench.geometry.shapes.circles_spheres import linearise_sphere
 
 seeds = st.integers(0, 2**32 - 1)
 HOME, BEYOND = np.array([0.5, 0.4, 0.7]), np.array([2.5, 0.0, 1.0])
 
 
 def an_arc(seed: int, arc: float = 90.0, sigma: float = 0.02) -> np.ndarray:
-    return arc_points(np.radians(arc), 60) + sigma * np.random.default_rng(seed).normal(size=(60, 2))
+    return arc_points(np.radians(arc), 60) + sigma * np.random.default_rng(seed).normal(
+        size=(60, 2)
+    )
 
 
 def moments(p: np.ndarray, start: np.ndarray, damping: float = 1e-3, **more):
-    return list(descend(lambda c: linearise_sphere(c, p), np.add, start, damped_step, damping, **more))
+    return list(
+        descend(lambda c: linearise_sphere(c, p), np.add, start, damped_step, damping, **more)
+    )
 
 
 @settings(max_examples=25, deadline=None)
 @given(seed=seeds)
 def test_damped_the_sum_never_rises_and_every_ending_says_why(seed):
     rng = np.random.default_rng(seed)
-    found = moments(an_arc(seed, rng.uniform(20, 360)), np.append(rng.uniform(-4, 4, 2), rng.uniform(0.1, 3)))
+    found = moments(
+        an_arc(seed, rng.uniform(20, 360)), np.append(rng.uniform(-4, 4, 2), rng.uniform(0.1, 3))
+    )
     assert (np.diff([now.cost for now in found]) <= 0).all()
     assert found[-1].stop is not None
     assert found[-1].stop.message
@@ -53,7 +61,9 @@ def test_a_step_solves_the_damped_system_by_longer_rows(seed):
 
 
 def test_a_step_keeps_its_digits_where_the_normal_matrix_would_lose_half_of_them():
-    """Columns that differ by a millionth have JᵀJ with a condition of 10¹²; the step is exact here to nine digits."""
+    """Columns that differ by a millionth have JᵀJ with a condition of 10¹²; the step is exact here
+    to nine digits.
+    """
     rng = np.random.default_rng(0)
     a, b = rng.normal(size=20), rng.normal(size=20)
     J, right = np.stack([a, a + 1e-6 * b], axis=1), np.array([3.0, -2.0])
@@ -69,7 +79,9 @@ def test_the_step_does_not_depend_on_units():
 def test_it_ends_where_scipy_ends():
     for seed in range(5):
         p = an_arc(seed)
-        oracle = scipy.optimize.least_squares(lambda c, p=p: linearise_sphere(c, p)[0], HOME, xtol=1e-12, ftol=1e-12)
+        oracle = scipy.optimize.least_squares(
+            lambda c, p=p: linearise_sphere(c, p)[0], HOME, xtol=1e-12, ftol=1e-12
+        )
         end = moments(p, HOME, tolerance=1e-12)[-1]
         assert end.stop is Stop.CONVERGED
         np.testing.assert_allclose(end.unknown, oracle.x, atol=1e-6)
@@ -95,12 +107,14 @@ def test_what_was_promised_is_the_linear_problems_sum():
     p = an_arc(3)
     tried = next(now for now in moments(p, HOME) if now.phase == "tried")
     assert tried.step is not None
-    along = along_step(tried, lambda c: linearise_sphere(c, p), np.add, np.array([0.0, 1.0]))
+    along = along_step(tried, lambda c: linearise_sphere(c, p), np.add, shares=np.array([0.0, 1.0]))
     np.testing.assert_allclose(along.costs, [tried.before, tried.trial_cost])
     np.testing.assert_allclose(along.promised, [tried.before, tried.before - tried.predicted])
     assert tried.gain == pytest.approx((tried.before - tried.trial_cost) / tried.predicted)
     with pytest.raises(ValueError, match="no step"):
-        along_step(moments(p, HOME)[0], lambda c: linearise_sphere(c, p), np.add, np.array([1.0]))
+        along_step(
+            moments(p, HOME)[0], lambda c: linearise_sphere(c, p), np.add, shares=np.array([1.0])
+        )
 
 
 def test_a_way_has_every_step_kept_and_every_one_taken_back():
@@ -110,7 +124,7 @@ def test_a_way_has_every_step_kept_and_every_one_taken_back():
         return linearise_sphere(c, p)
 
     found = moments(p, np.array([0.9, 0.6, 0.3]))
-    walked = list(with_its_way(iter(found), linearise, np.add, np.linspace(0, 1, 3)))
+    walked = list(with_its_way(iter(found), linearise, np.add, shares=np.linspace(0, 1, 3)))
     assert [one.now for one in walked] == found
     kept = [now.unknown for now in found if now.phase in ("start", "accepted")]
     back = [now.trial for now in found if now.phase == "rejected"]
@@ -124,9 +138,15 @@ def test_a_way_has_every_step_kept_and_every_one_taken_back():
 def test_singular_and_infinite_ends_are_told():
     constant = lambda x: (np.ones(3), np.zeros((3, 1)))  # noqa: E731
     assert list(descend(constant, np.add, np.zeros(1), damped_step))[-1].stop is Stop.SINGULAR
-    steep = lambda x: (np.exp(np.minimum(x, 800) ** 2) * np.ones(2), np.full((2, 1), 1e-3))  # noqa: E731
+
+    def steep(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return np.exp(np.minimum(x, 800) ** 2) * np.ones(2), np.full((2, 1), 1e-3)
+
     assert (
-        list(descend(steep, np.add, np.array([1.0]), lambda r, J, d: np.array([900.0]), 0.0))[-1].stop is Stop.DIVERGED
+        list(descend(steep, np.add, np.array([1.0]), lambda r, J, d: np.array([900.0]), 0.0))[
+            -1
+        ].stop
+        is Stop.DIVERGED
     )
     assert moments(an_arc(0), HOME, iterations=1)[-1].stop is Stop.MAX_ITERATIONS
 
@@ -162,7 +182,9 @@ def test_the_covariance_is_scipys():
 def test_the_covariance_is_that_of_repetition_where_all_it_takes_for_granted_holds():
     rng, places = np.random.default_rng(0), arc_points(2 * np.pi, 60)
     p = places + 0.02 * rng.normal(size=(2000, 60, 2))
-    *_, fits = descend_many(lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1)))
+    *_, fits = descend_many(
+        lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1))
+    )
     _, jacobian = linearise_sphere(np.array([0.0, 0.0, 1.0]), places)
     found = 0.02**2 * np.linalg.inv(jacobian.T @ jacobian)
     np.testing.assert_allclose(np.cov(fits.unknowns.T), found, atol=0.08 * found.max())
@@ -172,7 +194,9 @@ def test_n_less_k_and_not_n():
     """12 points of half a circle, σ = 0.02: the mean of r·r / 9 is σ², that of r·r / 12 is not."""
     rng = np.random.default_rng(1)
     p = arc_points(np.pi, 12) + 0.02 * rng.normal(size=(2000, 12, 2))
-    *_, fits = descend_many(lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1)))
+    *_, fits = descend_many(
+        lambda c: linearise_sphere(c, p), np.add, np.tile([0.0, 0.0, 1.0], (2000, 1))
+    )
     assert np.sqrt(fits.costs.mean() / 9) == pytest.approx(0.02, abs=3e-4)
     assert np.sqrt(fits.costs.mean() / 12) == pytest.approx(0.0173, abs=3e-4)
 

@@ -1,15 +1,23 @@
-"""A mesh pulled to points: gradients by differences through points drawn on it, and what its terms do."""
+"""A mesh pulled to points: gradients by differences through points drawn on it, and what its terms
+do.
+"""
 
 import numpy as np
 import pytest
 
 from tests.algorithms.gradients import assert_gradient, descended
-from workbench.algorithms import mesh_fitting
-from workbench.algorithms.mesh_fitting import Term, fit_mesh
-from workbench.data.surfaces import sphere
-from workbench.geometry.mesh_energies import edge_energy, face_pairs, laplacian_energy, normal_energy, umbrella
+from workbench.algorithms.learning import mesh_fitting
+from workbench.algorithms.learning.mesh_fitting import Term, fit_mesh
+from workbench.data.shapes.surfaces import sphere
 from workbench.geometry.meshes import edges as edges_of
-from workbench.geometry.sampling import places_on_faces, points_on_faces
+from workbench.geometry.meshes.mesh_energies import (
+    edge_energy,
+    face_pairs,
+    laplacian_energy,
+    normal_energy,
+    umbrella,
+)
+from workbench.geometry.points.sampling import places_on_faces, points_on_faces
 
 NOTHING: dict[Term, float] = {"laplacian": 0.0, "normal": 0.0, "edge": 0.0}
 BALL = sphere(42)
@@ -17,11 +25,17 @@ GIVEN = sphere(162).p * [1.0, 0.7, 0.5]
 NONE = np.empty((0, 3))
 
 
-@pytest.mark.parametrize("weights", [NOTHING, {"laplacian": 2.0, "normal": 0.3, "edge": 0.5}], ids=["data", "all"])
+@pytest.mark.parametrize(
+    "weights", [NOTHING, {"laplacian": 2.0, "normal": 0.3, "edge": 0.5}], ids=["data", "all"]
+)
 def test_gradients_are_those_of_differences_where_points_stay_in_their_faces(monkeypatch, weights):
-    """Which face a point is drawn on jumps with the areas; the gradient is that of points that move with their corners."""
+    """Which face a point is drawn on jumps with the areas; the gradient is that of points that move
+    with their corners.
+    """
     rng = np.random.default_rng(1)
-    training = fit_mesh(0.8 * BALL.p, BALL.faces, GIVEN, NONE, weights=weights, counts=(0, 1), rng=rng)
+    training = fit_mesh(
+        0.8 * BALL.p, BALL.faces, GIVEN, truth=NONE, weights=weights, counts=(0, 1), rng=rng
+    )
     values, gradient = descended(monkeypatch, mesh_fitting, lambda: training)
     places = places_on_faces(values, BALL.faces, np.random.default_rng(2).random((150, 3)))
     monkeypatch.setattr(mesh_fitting, "places_on_faces", lambda *_: places)
@@ -53,7 +67,7 @@ def test_a_ball_becomes_an_ellipsoid_and_a_laplacian_shrinks_it():
                 BALL.p,
                 BALL.faces,
                 GIVEN,
-                GIVEN,
+                truth=GIVEN,
                 weights={**NOTHING, "laplacian": laplacian},
                 counts=(0, 30),
                 rng=np.random.default_rng(4),
@@ -70,6 +84,14 @@ def test_a_ball_becomes_an_ellipsoid_and_a_laplacian_shrinks_it():
 
 def test_without_a_truth_the_distance_to_it_is_nan():
     first = next(
-        fit_mesh(BALL.p, BALL.faces, GIVEN, NONE, weights=NOTHING, counts=(0, 1), rng=np.random.default_rng(5))
+        fit_mesh(
+            BALL.p,
+            BALL.faces,
+            GIVEN,
+            truth=NONE,
+            weights=NOTHING,
+            counts=(0, 1),
+            rng=np.random.default_rng(5),
+        )
     )
     assert np.isnan(first.to_truth)

@@ -1,11 +1,20 @@
-"""The network: gradients against finite differences, Adam against its definition, and what it learns."""
+"""The network: gradients against finite differences, Adam against its definition, and what it
+learns.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.algorithms import neural_field, perceptron
-from workbench.algorithms.neural_field import BATCH, CLAMP, Network, encoded, new_network, train_field
-from workbench.geometry.signed_distances import torus_sdf
+from workbench.algorithms.learning import neural_field, perceptron
+from workbench.algorithms.learning.neural_field import (
+    BATCH,
+    CLAMP,
+    Network,
+    encoded,
+    new_network,
+    train_field,
+)
+from workbench.geometry.fields.signed_distances import torus_sdf
 
 TARGETS = ("sdf", "clamped", "occupancy")
 
@@ -17,14 +26,16 @@ def samples(n: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
 
 def loss_of(network: Network, values: np.ndarray, x: np.ndarray, y: np.ndarray, target) -> float:
     layers = perceptron.layers_of(values, network.sizes)
-    return neural_field._loss(perceptron.forward(layers, x, network.activation)[-1][:, 0], y, target)[0]
+    return neural_field._loss(
+        perceptron.forward(layers, x, network.activation)[-1][:, 0], y, target
+    )[0]
 
 
 @pytest.mark.parametrize("target", TARGETS)
 @pytest.mark.parametrize("activation", ["tanh", "relu"])
 def test_gradients_are_those_of_finite_differences(target, activation):
     rng = np.random.default_rng(1)
-    network = new_network(6, 1, activation, rng)
+    network = new_network(6, 1, activation, rng=rng)
     values, (p, y) = network.values.astype(float) / 3, samples(40)
     x, y = encoded(p, 1).astype(float), y.astype(np.float32)
     layers, gradient = perceptron.layers_of(values, network.sizes), np.zeros(len(values))
@@ -40,8 +51,10 @@ def test_gradients_are_those_of_finite_differences(target, activation):
 
 
 def test_a_layer_is_its_formula_and_the_input_has_its_waves():
-    network, (p, _) = new_network(5, 2, "tanh", np.random.default_rng(2)), samples(7)
-    x = np.concatenate([p] + [f(np.pi * 2**k * p) for k in (0, 1) for f in (np.sin, np.cos)], axis=1)
+    network, (p, _) = new_network(5, 2, "tanh", rng=np.random.default_rng(2)), samples(7)
+    x = np.concatenate(
+        [p] + [f(np.pi * 2**k * p) for k in (0, 1) for f in (np.sin, np.cos)], axis=1
+    )
     np.testing.assert_allclose(encoded(p, 2), x, atol=1e-6)
     (a, b), (c, d), (e, f) = perceptron.layers_of(network.values, network.sizes)
     expected = np.tanh(np.tanh(x @ a + b) @ c + d) @ e + f
@@ -52,7 +65,16 @@ def test_a_layer_is_its_formula_and_the_input_has_its_waves():
 def test_the_loss_falls_and_states_stay_as_they_were():
     p, y = samples(3000)
     rng = np.random.default_rng(3)
-    found = list(train_field(new_network(16, 1, "tanh", rng), p, y, counts=(0, 20, 100, 300), target="sdf", rng=rng))
+    found = list(
+        train_field(
+            new_network(16, 1, "tanh", rng=rng),
+            p,
+            y,
+            counts=(0, 20, 100, 300),
+            target="sdf",
+            rng=rng,
+        )
+    )
     losses = [one.loss for one in found]
     assert losses == sorted(losses, reverse=True)
     assert losses[-1] < 0.05 * losses[0]
@@ -65,14 +87,16 @@ def test_the_loss_falls_and_states_stay_as_they_were():
 def test_what_is_learned_is_negative_inside(target):
     p, y = samples(2000, 4)
     rng = np.random.default_rng(5)
-    *_, last = train_field(new_network(12, 1, "tanh", rng), p, y, counts=(300,), target=target, rng=rng)
+    *_, last = train_field(
+        new_network(12, 1, "tanh", rng=rng), p, y, counts=(300,), target=target, rng=rng
+    )
     value = last.network(p)
     far = np.abs(y) > 0.05
     assert ((value < 0) == (y < 0))[far].mean() > 0.93
 
 
 def test_outputs_beyond_the_clamp_learn_nothing():
-    network = new_network(8, 1, "tanh", np.random.default_rng(6))
+    network = new_network(8, 1, "tanh", rng=np.random.default_rng(6))
     values = network.values.copy()
     values[-1] = 50 * CLAMP  # the last bias
     dead = Network(values=values, sizes=network.sizes, frequencies=1, activation="tanh")

@@ -1,11 +1,13 @@
-"""The octree: its cells cover the surface, its bits are those of a dense grid, and its bytes grow with the surface."""
+"""The octree: its cells cover the surface, its bits are those of a dense grid, and its bytes grow
+with the surface.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.algorithms.octree import POINTER_BYTES, grow_octree
-from workbench.geometry.signed_distances import box_sdf, torus_sdf
-from workbench.geometry.voxels import Grid
+from workbench.algorithms.spatial.octree import POINTER_BYTES, grow_octree
+from workbench.geometry.fields.signed_distances import box_sdf, torus_sdf
+from workbench.geometry.fields.voxels import Grid
 
 LOW = np.full(3, -1.0)
 
@@ -15,7 +17,7 @@ def torus(q: np.ndarray) -> np.ndarray:
 
 
 def levels(depth: int = 6):
-    return list(grow_octree(torus, LOW, 2.0, depth))
+    return list(grow_octree(torus, LOW, 2.0, depth=depth))
 
 
 def test_bits_are_those_of_all_cells():
@@ -26,10 +28,12 @@ def test_bits_are_those_of_all_cells():
 
 def test_no_cell_that_the_surface_crosses_is_left_out():
     box = lambda q: box_sdf(q, np.array([0.52, 0.33, 0.21]))  # noqa: E731
-    *_, last = grow_octree(box, LOW, 2.0, 4)
+    *_, last = grow_octree(box, LOW, 2.0, depth=4)
     corners = np.stack(np.meshgrid(*[np.linspace(-1, 1, 17)] * 3, indexing="ij"), axis=-1)
     inside = (box(corners.reshape(-1, 3)) < 0).reshape(17, 17, 17)
-    cells = np.stack([inside[i : 16 + i, j : 16 + j, k : 16 + k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    cells = np.stack(
+        [inside[i : 16 + i, j : 16 + j, k : 16 + k] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+    )
     crossed = cells.any(axis=0) & ~cells.all(axis=0)
     mixed = np.zeros_like(crossed)
     mixed[tuple(last.cells[last.mixed].T)] = True
@@ -48,9 +52,13 @@ def test_bytes():
     found = levels(7)
     assert [level.packed_bytes for level in found[3:]] == [82, 402, 1746, 7122, 28_610]
     assert [level.dense_bytes for level in found[3:]] == [64, 512, 4096, 32_768, 262_144]
-    assert found[5].pointer_bytes == POINTER_BYTES * 873 == pytest.approx(15 * found[5].dense_bytes, rel=0.03)
+    assert (
+        found[5].pointer_bytes
+        == POINTER_BYTES * 873
+        == pytest.approx(15 * found[5].dense_bytes, rel=0.03)
+    )
 
 
 def test_nothing_near_is_a_tree_of_one_cell():
-    *_, last = grow_octree(lambda q: np.full(len(q), 9.0), LOW, 2.0, 3)
+    *_, last = grow_octree(lambda q: np.full(len(q), 9.0), LOW, 2.0, depth=3)
     assert (len(last.cells), last.parents, bool(last.bits.any())) == (0, 0, False)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.pan_tilt import follow
-from workbench.geometry.curvilinear import spherical_from_cartesian
+from lessons.coordinates.pan_tilt import follow
+from workbench.geometry.shapes.curvilinear import spherical_from_cartesian
 
 V = np.array([10.0, 0.0, 0.0])
 
@@ -12,7 +12,9 @@ V = np.array([10.0, 0.0, 0.0])
 @pytest.mark.parametrize(("miss", "pan"), [(30.0, 99.2), (10.0, 325), (1.0, 3282), (0.1, 32_828)])
 def test_the_pan_rate_is_speed_over_the_distance_from_the_axis(miss, pan):
     beside = 10 * np.tan(np.radians(miss))
-    *_, last = follow(np.array([0, beside, 10.0]), V, np.linspace(-1, 1, 9), spherical_from_cartesian)
+    *_, last = follow(
+        np.array([0, beside, 10.0]), V, np.linspace(-1, 1, 9), spherical_from_cartesian
+    )
     assert np.degrees(last.pan_peak) == pytest.approx(pan, rel=1e-3)
     assert np.degrees(last.sight_peak) == pytest.approx(np.degrees(10 / np.hypot(10, beside)))
     assert np.degrees(last.sight_peak) < 57.3
@@ -20,7 +22,10 @@ def test_the_pan_rate_is_speed_over_the_distance_from_the_axis(miss, pan):
 
 def test_both_axes_together_turn_the_line_of_sight():
     for now in follow(
-        np.array([1.0, 3.0, 8.0]), np.array([4.0, -2.0, 1.0]), np.linspace(-1, 1, 7), spherical_from_cartesian
+        np.array([1.0, 3.0, 8.0]),
+        np.array([4.0, -2.0, 1.0]),
+        np.linspace(-1, 1, 7),
+        spherical_from_cartesian,
     ):
         both = np.hypot(now.pan_rate * np.cos(now.tilt), now.tilt_rate)
         assert both == pytest.approx(now.sight_rate, rel=1e-6)
@@ -30,7 +35,10 @@ def test_both_axes_together_turn_the_line_of_sight():
 def test_a_pan_across_half_a_turn_is_no_jump():
     found = list(
         follow(
-            np.array([-5.0, 0.0, 3.0]), np.array([0.0, 1.0, 0.0]), np.array([-0.1, 0.0, 0.1]), spherical_from_cartesian
+            np.array([-5.0, 0.0, 3.0]),
+            np.array([0.0, 1.0, 0.0]),
+            np.array([-0.1, 0.0, 0.1]),
+            spherical_from_cartesian,
         )
     )
     assert np.ptp([now.pan for now in found]) > 6

@@ -3,16 +3,20 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.parallels import scale_last, step_back, turn_parallel
-from workbench.geometry.projective import meet
+from lessons.coordinates.parallels import scale_last, step_back, turn_parallel
+from workbench.geometry.shapes.projective import meet
 
 
 def test_any_factor_names_the_same_point_and_means_need_w_one():
-    found = list(scale_last(np.array([1.0, 2.0, 3.0]), (1.0, 0.5, 0.0), 3 * np.array([0.0, 0.0, 0.0, 1.0])))
+    found = list(
+        scale_last(np.array([1.0, 2.0, 3.0]), (1.0, 0.5, 0.0), 3 * np.array([0.0, 0.0, 0.0, 1.0]))
+    )
     assert [now.p_h[3] for now in found[:-1]] == [1, 0.5, 0]
     mean = found[-1].mean_h
     assert mean is not None
-    np.testing.assert_allclose(mean[:3] / mean[3], [0.25, 0.5, 0.75])  # a quarter of the way, not half
+    np.testing.assert_allclose(
+        mean[:3] / mean[3], [0.25, 0.5, 0.75]
+    )  # a quarter of the way, not half
 
 
 def test_the_mean_of_vectors_of_the_page():
@@ -23,7 +27,9 @@ def test_the_mean_of_vectors_of_the_page():
 def test_the_meeting_runs_away_comes_to_infinity_and_back():
     angles, tilts = np.radians([10.0, 1.0, 1e-6, 0.0]), (0.1, 0.4)
     found = list(turn_parallel(angles, tilts, 1.0, np.array([0.0, 1, 3, 7]), meet))
-    np.testing.assert_allclose([now.x_h[0] / now.x_h[2] for now in found[:3]], 1 / np.tan(angles[:3]))
+    np.testing.assert_allclose(
+        [now.x_h[0] / now.x_h[2] for now in found[:3]], 1 / np.tan(angles[:3])
+    )
     np.testing.assert_array_equal(found[3].x_h, [-1, 0, 0])
     for now, tilt in zip(found[4:], tilts, strict=True):
         np.testing.assert_allclose(now.x_h[:2] / now.x_h[2], [1 / tilt, 0], atol=1e-12)

@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from workbench.algorithms.placing import measure, place, scatter, walk
-from workbench.geometry.curvilinear import SYSTEMS
+from lessons.coordinates.placing import measure, place, scatter, walk
+from workbench.geometry.shapes.curvilinear import SYSTEMS
 
 
 @pytest.mark.parametrize("name", sorted(SYSTEMS))

@@ -1,4 +1,6 @@
-"""PointNet: gradients by differences, the order of points, critical points, and a first training."""
+"""PointNet: gradients by differences, the order of points, critical points, and a first
+training.
+"""
 
 import numpy as np
 import pytest
@@ -7,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.algorithms.gradients import assert_gradient, descended
-from workbench.algorithms import point_net
-from workbench.algorithms.perceptron import count_values
-from workbench.algorithms.point_net import PointNet, Pool, train_classifier
+from workbench.algorithms.learning import point_net
+from workbench.algorithms.learning.perceptron import count_values
+from workbench.algorithms.learning.point_net import PointNet, Pool, train_classifier
 
 
 def network_of(pool: Pool, n: int = 7, seed: int = 0) -> PointNet:
@@ -28,7 +30,9 @@ def test_gradients_are_those_of_differences(pool):
         done = network.run(clouds)
         score = done.head[-1]
         loss = -scipy.special.log_softmax(score, axis=1)[np.arange(6), of].sum()
-        return float(loss), network.slopes(done, scipy.special.softmax(score, axis=1) - np.eye(4)[of])
+        return float(loss), network.slopes(
+            done, scipy.special.softmax(score, axis=1) - np.eye(4)[of]
+        )
 
     assert_gradient(network.values, gradient, rng, tolerance=1e-5)
 
@@ -37,7 +41,9 @@ def test_gradients_are_those_of_differences(pool):
 def test_training_goes_down_the_cross_entropy_of_its_batch(monkeypatch, pool):
     rng = np.random.default_rng(2)
     clouds, of = rng.normal(size=(5, 32, 3)), np.array([0, 1, 2, 1, 0])
-    training = train_classifier(pool, lambda _: (clouds, of), {"a": clouds}, classes=3, counts=(0, 1), rng=rng)
+    training = train_classifier(
+        pool, lambda _: (clouds, of), {"a": clouds}, classes=3, counts=(0, 1), rng=rng
+    )
     values, gradient = descended(monkeypatch, point_net, lambda: training)
     loss, slope = gradient()
     n = 3 * 32
@@ -49,7 +55,9 @@ def test_training_goes_down_the_cross_entropy_of_its_batch(monkeypatch, pool):
     exact = PointNet(values=values.astype(float), pointwise=pointwise, head=head, pool=pool)
     done = exact.run(clouds)
     score = done.head[-1]
-    assert loss == pytest.approx(-scipy.special.log_softmax(score, axis=1)[np.arange(5), of].mean(), rel=1e-4)
+    assert loss == pytest.approx(
+        -scipy.special.log_softmax(score, axis=1)[np.arange(5), of].mean(), rel=1e-4
+    )
     expected = exact.slopes(done, (scipy.special.softmax(score, axis=1) - np.eye(3)[of]) / 5)
     np.testing.assert_allclose(slope, expected, atol=1e-4 * np.abs(expected).max())
 
@@ -68,7 +76,9 @@ def test_critical_points_alone_say_the_same_and_without_one_it_may_differ():
     np.testing.assert_array_equal(network(cloud[:, kept]), network(cloud))
     np.testing.assert_array_equal(network(np.repeat(cloud, 2, axis=1)), network(cloud))
     assert np.abs(network(np.delete(cloud, kept, axis=1)) - network(cloud)).max() > 1e-6
-    assert np.abs(network_of("none", 40)(cloud[:, ::-1]) - network_of("none", 40)(cloud)).max() > 1e-3
+    assert (
+        np.abs(network_of("none", 40)(cloud[:, ::-1]) - network_of("none", 40)(cloud)).max() > 1e-3
+    )
 
 
 def test_left_and_right_are_told_apart_and_states_stay_as_they_were():
@@ -76,10 +86,15 @@ def test_left_and_right_are_told_apart_and_states_stay_as_they_were():
 
     def draw(count: int) -> tuple[np.ndarray, np.ndarray]:
         of = rng.integers(2, size=count)
-        return rng.normal(size=(count, 8, 3)) + np.array([3.0, 0, 0]) * (2 * of - 1)[:, None, None], of
+        return (
+            rng.normal(size=(count, 8, 3)) + np.array([3.0, 0, 0]) * (2 * of - 1)[:, None, None],
+            of,
+        )
 
     clouds, of = draw(40)
-    found = list(train_classifier("max", draw, {"new": clouds}, classes=2, counts=(0, 10, 60), rng=rng))
+    found = list(
+        train_classifier("max", draw, {"new": clouds}, classes=2, counts=(0, 10, 60), rng=rng)
+    )
     assert (found[-1].scores["new"].argmax(axis=1) == of).mean() > 0.95
     assert found[-1].loss < 0.5 * found[0].loss
     np.testing.assert_array_equal(found[1].network(clouds), found[1].scores["new"])

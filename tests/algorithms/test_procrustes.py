@@ -1,4 +1,6 @@
-"""The steps of the least-squares similarity: their end, the cost of every flip, and libraries to distrust."""
+"""The steps of the least-squares similarity: their end, the cost of every flip, and libraries to
+distrust.
+"""
 
 import numpy as np
 import pytest
@@ -8,10 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_motions import motions
-from workbench.algorithms.procrustes import FLIPPED, Flip, procrustes
-from workbench.data.rabbit import rabbit
-from workbench.geometry.alignment import align_rigid, align_similarity, rmse, similarity_scale
-from workbench.geometry.principal_axes import principal_axes
+from workbench.algorithms.registration.procrustes import FLIPPED, Flip, procrustes
+from workbench.data.shapes.rabbit import rabbit
+from workbench.geometry.motions.alignment import (
+    align_rigid,
+    align_similarity,
+    rmse,
+    similarity_scale,
+)
+from workbench.geometry.motions.principal_axes import principal_axes
 
 SEEDS = st.integers(0, 10_000)
 
@@ -26,9 +33,15 @@ def steps(p, q, flip: Flip = "least"):
 
 @settings(max_examples=40, deadline=None)
 @given(SEEDS, motions(), st.floats(0.2, 5), st.floats(0, 0.3), st.booleans())
-def test_the_end_is_the_best_similarity_and_the_step_before_the_best_motion(seed, T, scale, noise, mirrored):
+def test_the_end_is_the_best_similarity_and_the_step_before_the_best_motion(
+    seed, T, scale, noise, mirrored
+):
     p = cloud(seed)
-    q = (p * [1, 1, -1 if mirrored else 1]) @ T[:3, :3].T * scale + T[:3, 3] + noise * cloud(seed + 1)
+    q = (
+        (p * [1, 1, -1 if mirrored else 1]) @ T[:3, :3].T * scale
+        + T[:3, 3]
+        + noise * cloud(seed + 1)
+    )
     found = steps(q, p)
     np.testing.assert_allclose(found["scale"].T_target_source, align_similarity(q, p), atol=1e-8)
     np.testing.assert_allclose(found["flip"].T_target_source, align_rigid(q, p), atol=1e-8)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tests.algorithms.gradients import assert_gradient, descended
-from workbench.algorithms import radiance_field
-from workbench.algorithms.radiance_field import CELLS, RadianceField, reconstruct
-from workbench.geometry.volume_rendering import seen
+from workbench.algorithms.learning import radiance_field
+from workbench.algorithms.learning.radiance_field import CELLS, RadianceField, reconstruct
+from workbench.geometry.cameras.volume_rendering import seen
 
 REACH = (0.5, 3.5)
 
@@ -57,7 +57,8 @@ def test_a_black_disc_is_found_from_its_photographs():
     colors = np.where(np.abs(across) < 0.4, 0.0, 1.0)[:, None] * np.ones(3)
     *_, last = reconstruct(p, d, colors, reach=REACH, counts=(0, 40), rng=np.random.default_rng(5))
     inside, outside = (
-        last.field.at(q[None])[0] for q in (np.array([[0.3, 0], [0, -0.3]]), np.array([[0.7, 0], [0, 0.7]]))
+        last.field.at(q[None])[0]
+        for q in (np.array([[0.3, 0], [0, -0.3]]), np.array([[0.7, 0], [0, 0.7]]))
     )
     assert inside.min() > 3 * outside.max()
     assert last.loss < 0.05

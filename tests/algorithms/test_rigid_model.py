@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.algorithms.models import RIGID
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.samplers import uniform_samples
-from workbench.geometry.alignment import align_rigid, motion_error
+from workbench.algorithms.robust.models import RIGID
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
+from workbench.geometry.motions.alignment import align_rigid, motion_error
 
 
 def a_motion(rng: np.random.Generator) -> np.ndarray:
@@ -28,7 +28,9 @@ def test_three_exact_matches_give_the_motion(seed):
     several = RIGID.solve(noisy)
     assert len(several) <= len(noisy)
     if len(several) == len(noisy):
-        np.testing.assert_allclose(several, [align_rigid(one[:, 3:], one[:, :3]) for one in noisy], atol=1e-7)
+        np.testing.assert_allclose(
+            several, [align_rigid(one[:, 3:], one[:, :3]) for one in noisy], atol=1e-7
+        )
 
 
 @given(seed=st.integers(0, 200))
@@ -45,7 +47,11 @@ def test_triangles_of_different_sides_are_dropped():
     p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
     samples = np.stack([np.hstack([p, q]) for q in (p, 1.2 * p, p[:, ::-1], 0 * p, p * [1, -1, 1])])
     found = RIGID.solve(samples)
-    assert found.shape == (3, 4, 4)  # as it is, exchanged axes, and mirrored, which three points do not tell
+    assert found.shape == (
+        3,
+        4,
+        4,
+    )  # as it is, exchanged axes, and mirrored, which three points do not tell
     assert RIGID.solve(np.zeros((1, 3, 6))).shape == (0, 4, 4)
 
 
@@ -55,7 +61,9 @@ def test_the_refit_is_that_of_all_inliers_and_weights_count():
     np.testing.assert_allclose(RIGID.refit(np.hstack([p, q]), w), align_rigid(q, p, w))
     several = np.stack([a_motion(rng) for _ in range(4)])
     rows = np.hstack([p, q])
-    np.testing.assert_allclose(RIGID.distances(several, rows), [RIGID.distances(T, rows) for T in several])
+    np.testing.assert_allclose(
+        RIGID.distances(several, rows), [RIGID.distances(T, rows) for T in several]
+    )
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -66,7 +74,9 @@ def test_ransac_finds_the_motion_among_three_quarters_of_outliers(seed):
     q[:90] = apply(T, rng.normal(size=(90, 3)))
     rows = np.hstack([p, q])
     samples = uniform_samples(len(rows), 3, np.random.default_rng(seed))
-    *_, last = ransac(rows, RIGID, samples, Judge(rows, RIGID, 0.05), confidence=0.999, max_iterations=4000)
+    *_, last = ransac(
+        rows, RIGID, samples, Judge(rows, RIGID, 0.05), confidence=0.999, max_iterations=4000
+    )
     assert last.best is not None
     assert last.best.inliers[90:].all()
     assert motion_error(last.best.estimate, T, p[90:]).rotation < 1.0

@@ -4,21 +4,41 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.models import LINE, PLANE, rms_distance
-from workbench.algorithms.robust import HUBER, LOSSES, Settled, cascade, huber_loss, huber_weights, reweighted_fit
-from workbench.data.robust import line_scene, plane_scene
+from lessons.ransac.robust_scenes import line_scene, plane_scene
+from workbench.algorithms.robust import (
+    HUBER,
+    LOSSES,
+    Settled,
+    cascade,
+    huber_loss,
+    huber_weights,
+    reweighted_fit,
+)
+from workbench.algorithms.robust.models import LINE, PLANE, rms_distance
 
 
 def test_a_cascade_goes_on_from_where_the_loss_before_ended():
     scene = plane_scene(np.random.default_rng(3), count=300, outlier_ratio=0.45, sigma=0.01)
     huber, tukey = LOSSES["Huber"], LOSSES["Tukey"]
-    found = list(cascade(scene.p, PLANE, [(huber, 0.02), (tukey, 0.05)], max_iterations=60, tolerance=1e-3))
-    alone = list(reweighted_fit(scene.p, PLANE, huber, corner=0.02, max_iterations=60, tolerance=1e-3))
+    found = list(
+        cascade(scene.p, PLANE, [(huber, 0.02), (tukey, 0.05)], max_iterations=60, tolerance=1e-3)
+    )
+    alone = list(
+        reweighted_fit(scene.p, PLANE, huber, corner=0.02, max_iterations=60, tolerance=1e-3)
+    )
     split = sum(now.loss is huber for now in found)
     assert split == len(alone)
     np.testing.assert_array_equal(found[split - 1].now.estimate, alone[-1].estimate)
     then = list(
-        reweighted_fit(scene.p, PLANE, tukey, corner=0.05, start=alone[-1].estimate, max_iterations=60, tolerance=1e-3)
+        reweighted_fit(
+            scene.p,
+            PLANE,
+            tukey,
+            corner=0.05,
+            start=alone[-1].estimate,
+            max_iterations=60,
+            tolerance=1e-3,
+        )
     )
     assert [now.now.iteration for now in found[split:]] == [state.iteration for state in then[1:]]
     np.testing.assert_array_equal(found[-1].now.estimate, then[-1].estimate)
@@ -56,7 +76,9 @@ def test_it_ends_at_the_minimum_of_hubers_loss():
         return huber_loss(LINE.distances(line, scene.p), 0.04).sum()
 
     start = [np.arctan2(end.estimate[1], end.estimate[0]), end.estimate[2]]
-    oracle = scipy.optimize.minimize(cost, start, method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-12})
+    oracle = scipy.optimize.minimize(
+        cost, start, method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-12}
+    )
     assert end.cost == pytest.approx(oracle.fun, rel=1e-6)
 
 
@@ -95,7 +117,9 @@ def test_all_weights_are_slopes_divided_by_distances(loss, distance, corner):
 
 @pytest.mark.parametrize("loss", LOSSES.values(), ids=LOSSES)
 def test_efficient_corners_cost_five_per_cent(loss):
-    """Asymptotic efficiency at normal errors, (E ψ')² / E ψ², by sums; Holland and Welsch 1977, table 1."""
+    """Asymptotic efficiency at normal errors, (E ψ')² / E ψ², by sums; Holland and Welsch 1977,
+    table 1.
+    """
     x = np.linspace(-8, 8, 20_001)
     density = np.exp(-(x**2) / 2) / np.sqrt(2 * np.pi) * (x[1] - x[0])
     corner = loss.efficient_corner if np.isfinite(loss.efficient_corner) else 1.0

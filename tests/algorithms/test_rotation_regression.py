@@ -1,12 +1,14 @@
-"""Networks that tell turns: the gradient of both losses through every representation, and what is learned."""
+"""Networks that tell turns: the gradient of both losses through every representation, and what is
+learned.
+"""
 
 import numpy as np
 import pytest
 
 from tests.algorithms.gradients import assert_gradient, descended
-from workbench.algorithms import rotation_regression
-from workbench.algorithms.rotation_regression import regress
-from workbench.geometry.rotation_outputs import IN_PLANE, IN_SPACE, random_rotations
+from workbench.algorithms.learning import rotation_regression
+from workbench.algorithms.learning.rotation_regression import regress
+from workbench.geometry.motions.rotation_outputs import IN_PLANE, IN_SPACE, random_rotations
 
 ALL = [(name, d) for d, table in ((2, IN_PLANE), (3, IN_SPACE)) for name in table]
 
@@ -15,7 +17,7 @@ ALL = [(name, d) for d, table in ((2, IN_PLANE), (3, IN_SPACE)) for name in tabl
 @pytest.mark.parametrize(("name", "d"), ALL)
 def test_gradients_are_those_of_differences(monkeypatch, name, d, compared):
     rng = np.random.default_rng(1)
-    R_test, _ = random_rotations(3, d, np.pi, np.random.default_rng(2))
+    R_test, _ = random_rotations(3, d, np.pi, rng=np.random.default_rng(2))
     values, gradient = descended(
         monkeypatch,
         rotation_regression,
@@ -36,7 +38,7 @@ def test_gradients_are_those_of_differences(monkeypatch, name, d, compared):
 
 @pytest.mark.parametrize("compared", ["numbers", "matrix"])
 def test_small_turns_are_learned_and_states_stay_as_they_were(compared):
-    R_test, _ = random_rotations(100, 2, 1.0, np.random.default_rng(3))
+    R_test, _ = random_rotations(100, 2, 1.0, rng=np.random.default_rng(3))
     found = list(
         regress(
             IN_PLANE["cosine and sine"],

@@ -1,11 +1,21 @@
-"""Circles, spheres and cylinders are found where scipy finds them, and exactly where the points are exact."""
+"""Circles, spheres and cylinders are found where scipy finds them, and exactly where the points are
+exact.
+"""
 
 import numpy as np
 import pytest
 
+from lessons.fitting.fit_scenes import arc_points, cap_points, pipe_points
+from lessons.fitting.round_shapes import (
+    CIRCLE,
+    CYLINDER,
+    ROUND_SHAPES,
+    SPHERE,
+    feet,
+    fit_round,
+    outline,
+)
 from tests.truths.fitting import distances
-from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, ROUND_SHAPES, SPHERE, feet, fit_round, outline
-from workbench.data.fit_scenes import arc_points, cap_points, pipe_points
 
 STARTS = {
     "circle": np.array([0.2, 0.1, 0.8]),
@@ -30,7 +40,9 @@ def test_feet_and_outlines_lie_on_the_shape(shape):
     p = np.random.default_rng(0).normal(size=(40, 2 if shape is CIRCLE else 3))
     found = feet(shape, unknown, p)
     np.testing.assert_allclose(distances(shape.name, unknown, found), 0, atol=1e-9)
-    np.testing.assert_allclose(np.linalg.norm(found - p, axis=1), np.abs(distances(shape.name, unknown, p)), atol=1e-9)
+    np.testing.assert_allclose(
+        np.linalg.norm(found - p, axis=1), np.abs(distances(shape.name, unknown, p)), atol=1e-9
+    )
     ends = outline(shape, unknown, 4.0)
     assert ends.shape[1:] == (2, 3)
     corners = ends.reshape(-1, 3)[:, : p.shape[1]]
@@ -50,12 +62,16 @@ def test_a_cylinder_is_scipys():
 
     oracle = scipy.optimize.least_squares(away, [0.1, 0.1, 0.1, 0.0, 0.9], xtol=1e-12, ftol=1e-12)
     found = fit_round(CYLINDER, p[None], STARTS["cylinder"][None], tolerance=1e-13)[0]
-    assert np.square(distances("cylinder", found, p)).sum() == pytest.approx(2 * oracle.cost, rel=1e-6)
+    assert np.square(distances("cylinder", found, p)).sum() == pytest.approx(
+        2 * oracle.cost, rel=1e-6
+    )
     assert found[6] == pytest.approx(oracle.x[4], abs=1e-5)
 
 
 def test_sets_are_fitted_each_alone():
     p = cap_points(2.0, 50) + 0.02 * np.random.default_rng(1).normal(size=(3, 50, 3))
     starts = np.tile(STARTS["sphere"], (3, 1))
-    np.testing.assert_allclose(fit_round(SPHERE, p, starts)[1], fit_round(SPHERE, p[1:2], starts[:1])[0], atol=1e-6)
+    np.testing.assert_allclose(
+        fit_round(SPHERE, p, starts)[1], fit_round(SPHERE, p[1:2], starts[:1])[0], atol=1e-6
+    )
     assert CIRCLE.names[-1] == "R"

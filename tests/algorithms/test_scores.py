@@ -4,7 +4,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.scores import count_score, mlesac_score, msac_score
+from workbench.algorithms.robust.scores import count_score, mlesac_score, msac_score
 
 distances = st.lists(st.floats(0, 10), min_size=1, max_size=30).map(np.array)
 

@@ -1,4 +1,6 @@
-"""Semi-global paths: against the recursion written pixel by pixel, and against every map there is."""
+"""Semi-global paths: against the recursion written pixel by pixel, and against every map there
+is.
+"""
 
 import itertools
 
@@ -7,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.disparity_map import winner_takes_all
-from workbench.algorithms.semiglobal import (
+from workbench.algorithms.stereo.disparity_map import winner_takes_all
+from workbench.algorithms.stereo.semiglobal import (
     DIRECTIONS,
     energy,
     path_costs,
@@ -48,12 +50,18 @@ def test_a_path_follows_the_recursion(direction, dtype):
     for seed, shape in enumerate([(5, 6, 7), (3, 1, 8), (4, 8, 1), (1, 3, 4), (2, 9, 3)]):
         cost = volume(seed, shape, dtype)
         prepared, jumps = prepare(cost, 3, 9)
-        assert np.array_equal(path_costs(prepared, direction, jumps), slowly(cost.astype(float), direction, 3, 9))
+        assert np.array_equal(
+            path_costs(prepared, direction, jumps), slowly(cost.astype(float), direction, 3, 9)
+        )
 
 
 @settings(max_examples=30, deadline=None)
 @given(
-    st.integers(0, 10**6), st.tuples(*[st.integers(1, 7)] * 3), st.integers(0, 10), st.integers(0, 60), st.booleans()
+    st.integers(0, 10**6),
+    st.tuples(*[st.integers(1, 7)] * 3),
+    st.integers(0, 10),
+    st.integers(0, 60),
+    st.booleans(),
 )
 def test_the_total_is_the_sum_of_the_steps(seed, shape, P1, more, whole):
     cost = volume(seed, shape, np.uint8 if whole else float)
@@ -67,7 +75,9 @@ def test_a_state_is_not_changed_by_the_next():
     for state in semi_global(volume(0), 2, 5):
         states.append(state)
         copies.append(state.total.copy())
-    assert all(np.array_equal(state.total, copy) for state, copy in zip(states, copies, strict=True))
+    assert all(
+        np.array_equal(state.total, copy) for state, copy in zip(states, copies, strict=True)
+    )
 
 
 @settings(max_examples=20, deadline=None)
@@ -82,12 +92,18 @@ def test_without_penalties_nothing_is_smoothed(seed):
 def test_turning_the_picture_turns_the_answer(seed):
     cost = volume(seed)
     total = total_of(cost, 4, 11)
-    for flip in (lambda a: a[:, ::-1], lambda a: a[:, :, ::-1], lambda a: a.transpose(0, 2, 1), lambda a: a[::-1]):
+    for flip in (
+        lambda a: a[:, ::-1],
+        lambda a: a[:, :, ::-1],
+        lambda a: a.transpose(0, 2, 1),
+        lambda a: a[::-1],
+    ):
         assert np.array_equal(total_of(np.ascontiguousarray(flip(cost)), 4, 11), flip(total))
 
 
 @pytest.mark.parametrize(
-    ("top", "P2", "dtype"), [(25, 60, np.uint8), (25, 230, np.uint8), (250, 250, np.uint8), (60000, 60000, np.uint16)]
+    ("top", "P2", "dtype"),
+    [(25, 60, np.uint8), (25, 230, np.uint8), (250, 250, np.uint8), (60000, 60000, np.uint16)],
 )
 def test_narrow_numbers_do_not_overflow(top, P2, dtype):
     cost = volume(1, (6, 9, 9), dtype, top)
@@ -103,9 +119,16 @@ def test_along_one_line_it_finds_the_best_of_all_maps(seed, P1, more):
     P2 = P1 + more
     cost = volume(seed, (3, 1, 5), float, 12) + np.random.default_rng(seed).random((3, 1, 5)) * 1e-3
     prepared, jumps = prepare(cost, P1, P2)
-    both = path_costs(prepared, (0, 1), jumps) + path_costs(prepared, (0, -1), jumps) - prepared  # C counted once
-    best = min(energy(cost, np.array([line], float), P1, P2) for line in itertools.product(range(3), repeat=5))
-    assert energy(cost, winner_takes_all(both).astype(float), P1, P2) == pytest.approx(best, rel=1e-5)
+    both = (
+        path_costs(prepared, (0, 1), jumps) + path_costs(prepared, (0, -1), jumps) - prepared
+    )  # C counted once
+    best = min(
+        energy(cost, np.array([line], float), P1, P2)
+        for line in itertools.product(range(3), repeat=5)
+    )
+    assert energy(cost, winner_takes_all(both).astype(float), P1, P2) == pytest.approx(
+        best, rel=1e-5
+    )
 
 
 def test_smoothing_lowers_the_energy_and_the_error_of_a_noisy_step():
@@ -120,14 +143,21 @@ def test_smoothing_lowers_the_energy_and_the_error_of_a_noisy_step():
 
 
 def test_energy_is_what_it_says():
-    cost = np.array([[[1.0, 2.0], [3.0, np.inf]], [[5.0, 6.0], [7.0, 8.0]], [[0.0, 0.0], [0.0, 9.0]]])
-    # four pixels: costs 1, 6, 0, 9; steps 1 (right), 2 (down), 2 (right), 1 (down), 0 and 2 ... on six pairs
+    cost = np.array(
+        [[[1.0, 2.0], [3.0, np.inf]], [[5.0, 6.0], [7.0, 8.0]], [[0.0, 0.0], [0.0, 9.0]]]
+    )
+    # four pixels: costs 1, 6, 0, 9; steps 1 (right), 2 (down), 2 (right), 1 (down), 0 and 2 ... on
+    # six pairs
     disparity = np.array([[0.0, 1.0], [2.0, 2.0]])
     steps = [abs(a - b) for a, b in [(0, 1), (2, 2), (0, 2), (1, 2), (0, 2), (1, 2)]]
     expected = 1 + 6 + 0 + 9 + 10 * steps.count(1) + 100 * steps.count(2)
     assert energy(cost, disparity, 10, 100) == pytest.approx(expected / 4)
-    assert energy(cost, np.array([[np.nan, 1.0], [2.0, np.nan]]), 10, 100) == pytest.approx((6 + 0 + 10) / 2)
-    assert energy(cost, np.array([[0.0, 0.0], [0.0, 0.0]]), 10, 100) == pytest.approx((1 + 2 + 3 + 9) / 4)
+    assert energy(cost, np.array([[np.nan, 1.0], [2.0, np.nan]]), 10, 100) == pytest.approx(
+        (6 + 0 + 10) / 2
+    )
+    assert energy(cost, np.array([[0.0, 0.0], [0.0, 0.0]]), 10, 100) == pytest.approx(
+        (1 + 2 + 3 + 9) / 4
+    )
     assert energy(cost, np.full((2, 2), np.nan), 10, 100) == 0.0
 
 

@@ -4,8 +4,8 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.sinkhorn import Stop, sinkhorn, sinkhorn_steps, tight_potentials
 from workbench.algorithms.transport import earth_movers
+from workbench.algorithms.transport.sinkhorn import Stop, sinkhorn, sinkhorn_steps, tight_potentials
 
 few = settings(max_examples=25, deadline=None)
 seeds = st.integers(0, 10_000)
@@ -17,12 +17,18 @@ def costs(seed, n, m, offset=0.5):
 
 
 def log_domain(cost, regularisation, g, sweeps):
-    """Sinkhorn's updates of the potentials themselves, Peyre and Cuturi 2019, equations 4.40 and 4.41."""
+    """Sinkhorn's updates of the potentials themselves, Peyre and Cuturi 2019, equations 4.40 and
+    4.41.
+    """
     n, m = cost.shape
     f = np.zeros(n)
     for _ in range(sweeps):
-        f = -regularisation * (scipy.special.logsumexp((g - cost) / regularisation, axis=1) + np.log(n))
-        g = -regularisation * (scipy.special.logsumexp((f[:, None] - cost) / regularisation, axis=0) + np.log(m))
+        f = -regularisation * (
+            scipy.special.logsumexp((g - cost) / regularisation, axis=1) + np.log(n)
+        )
+        g = -regularisation * (
+            scipy.special.logsumexp((f[:, None] - cost) / regularisation, axis=0) + np.log(m)
+        )
     return f, g
 
 
@@ -43,13 +49,15 @@ def test_every_sweep_is_that_of_the_log_domain(seed, n, m, regularisation):
 @few
 @given(seeds, st.integers(1, 20), st.integers(1, 20), st.floats(1, 5))
 def test_the_plan_does_not_depend_on_the_start(seed, n, m, blur):
-    # with as much blur as the largest cost a sweep shrinks Hilbert's distance of two scalings by tanh(1/2)^2, below 1/4:
-    # Peyre and Cuturi 2019, theorem 4.1
+    # with as much blur as the largest cost a sweep shrinks Hilbert's distance of two scalings by
+    # tanh(1/2)^2, below 1/4: Peyre and Cuturi 2019, theorem 4.1
     cost = costs(seed, n, m)
     regularisation = blur * cost.max()
     found = sinkhorn(cost, regularisation, tolerance=1e-13, max_sweeps=40)
     f, g = log_domain(cost, regularisation, np.random.default_rng(seed).normal(size=m), 40)
-    np.testing.assert_allclose(found.plan(cost), np.exp((f[:, None] + g - cost) / regularisation), atol=1e-12)
+    np.testing.assert_allclose(
+        found.plan(cost), np.exp((f[:, None] + g - cost) / regularisation), atol=1e-12
+    )
 
 
 @few
@@ -63,7 +71,9 @@ def test_sums_are_as_right_as_it_says_and_the_cost_is_above_the_optimum(seed, n,
     plan = found.plan(cost)
     assert np.abs(plan.sum(axis=1) - 1 / n).sum() == pytest.approx(found.marginal_error, abs=1e-12)
     np.testing.assert_allclose(plan.sum(axis=0), 1 / m, atol=1e-12)
-    missing = 2 * found.marginal_error * cost.max()  # what it costs at most to give all masses their place
+    missing = (
+        2 * found.marginal_error * cost.max()
+    )  # what it costs at most to give all masses their place
     assert found.cost(cost) >= earth_movers(p_a, p_b) - missing - 1e-12
 
 
@@ -72,7 +82,10 @@ def test_less_blur_is_nearer_to_the_optimum():
     p_a, p_b = rng.normal(size=(60, 3)), rng.normal(size=(60, 3)) + 0.5
     cost = scipy.spatial.distance.cdist(p_a, p_b)
     exact = earth_movers(p_a, p_b)
-    excess = [sinkhorn(cost, blur, tolerance=1e-6).cost(cost) / exact - 1 for blur in (1.0, 0.3, 0.1, 0.03, 0.01)]
+    excess = [
+        sinkhorn(cost, blur, tolerance=1e-6).cost(cost) / exact - 1
+        for blur in (1.0, 0.3, 0.1, 0.03, 0.01)
+    ]
     assert np.all(np.diff(excess) < 0)
     assert excess[0] > 0.2
     assert 0 < excess[-1] < 0.002
@@ -96,7 +109,8 @@ def test_scalings_that_would_overflow_are_absorbed():
 
 
 def test_a_gradual_climb_of_the_scalings_is_absorbed():
-    # a chain of points that must all shift by one: the potentials climb along it, beyond what exp can hold
+    # a chain of points that must all shift by one: the potentials climb along it, beyond what exp
+    # can hold
     cost = np.abs(np.arange(40.0)[:, None] - np.arange(40.0) - 0.9)
     found = sinkhorn(cost, 0.004, max_sweeps=3000, tolerance=1e-6)
     assert np.ptp(found.f) / found.regularisation > 1000

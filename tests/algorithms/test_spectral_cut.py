@@ -1,16 +1,20 @@
-"""Cuts, flows and networks on graphs, step by step, beside what must hold and what finite differences say."""
+"""Cuts, flows and networks on graphs, step by step, beside what must hold and what finite
+differences say.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.algorithms.diffusion import heat, smooth
-from workbench.algorithms.graph_network import softmax, spread, train
-from workbench.algorithms.spectral_cut import spectral_cut
-from workbench.data import networks, surfaces
+from workbench.algorithms.graphs.diffusion import heat, smooth
+from workbench.algorithms.graphs.spectral_cut import spectral_cut
+from workbench.algorithms.learning.graph_network import softmax, spread, train
+from workbench.data import networks
 from workbench.data.networks import dumbbell
-from workbench.geometry import graphs, meshes
-from workbench.geometry.invariants import signed_volume
-from workbench.geometry.spectra import Laplacian
+from workbench.data.shapes import surfaces
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.graphs.spectra import Laplacian
+from workbench.geometry.meshes import triangles as meshes
+from workbench.geometry.meshes.invariants import signed_volume
 
 CLUB = networks.karate()
 KARATE = graphs.graph_of(CLUB.edges, 34)
@@ -28,7 +32,7 @@ def test_the_club():
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_a_cut_finds_the_bridge(seed):
-    p, classes = dumbbell(200, 0.5, 14, np.random.default_rng(seed))
+    p, classes = dumbbell(200, 0.5, 14, rng=np.random.default_rng(seed))
     adjacency = graphs.joined(graphs.directed_graph(graphs.neighbours(p, 6)[0]), "union")
     steps = list(spectral_cut(adjacency, plain(adjacency)))
     assert [step.phase for step in steps] == ["graph", "fiedler", "sign", *["sweep"] * 6, "best"]
@@ -44,9 +48,11 @@ def test_heat_is_kept_and_tends_to_the_exact_one(kind):
     ball = surfaces.sphere(162)
     adjacency = meshes.adjacency(ball.faces, len(ball.p))
     if kind == "cotangent":
-        from workbench.geometry.laplacian import cotangent_laplacian, mixed_areas
+        from workbench.geometry.meshes.laplacian import cotangent_laplacian, mixed_areas
 
-        laplacian = Laplacian(cotangent_laplacian(ball.p, ball.faces), mixed_areas(ball.p, ball.faces))
+        laplacian = Laplacian(
+            cotangent_laplacian(ball.p, ball.faces), mixed_areas(ball.p, ball.faces)
+        )
     else:
         mass = np.ones(len(ball.p)) if kind == "plain" else graphs.degrees(adjacency)
         laplacian = Laplacian(graphs.laplacian(adjacency), mass)
@@ -72,7 +78,9 @@ def test_smoothing_shrinks_and_taubins_does_not():
     ball = surfaces.sphere(642)
     adjacency = meshes.adjacency(ball.faces, 642)
     shrunk, kept = (list(smooth(ball.p, adjacency, 50, outward=mu))[-1].p for mu in (0.0, 0.526))
-    volumes = [signed_volume(p, ball.faces) / signed_volume(ball.p, ball.faces) for p in (shrunk, kept)]
+    volumes = [
+        signed_volume(p, ball.faces) / signed_volume(ball.p, ball.faces) for p in (shrunk, kept)
+    ]
     assert volumes[0] < 0.7
     assert volumes[1] == pytest.approx(1, abs=0.05)  # the slow parts grow a little
 
@@ -81,7 +89,13 @@ def test_layers_are_powers_where_weights_are_the_identity():
     features = np.zeros((34, 2))
     features[[0, 33], [0, 1]] = 1
     steps = list(spread(KARATE.toarray(), features, [np.eye(2)] * 3))
-    assert [step.part for step in steps] == ["input", "loops", "normalised", "gathered", *["layer"] * 3]
+    assert [step.part for step in steps] == [
+        "input",
+        "loops",
+        "normalised",
+        "gathered",
+        *["layer"] * 3,
+    ]
     power = np.linalg.matrix_power(graphs.propagation(KARATE.toarray()), 3)
     np.testing.assert_allclose(steps[-1].features, power @ features)
     assert len(list(spread(KARATE.toarray(), features, []))) == 1
@@ -94,7 +108,9 @@ def test_training_goes_down_the_gradient():
     weights = [rng.normal(size=(4, 3)), rng.normal(size=(3, 3)), rng.normal(size=(3, 2))]
 
     def loss(changed):
-        return next(iter(train(dense, x, changed, labelled, classes, iterations=0))).loss
+        return next(
+            iter(train(dense, x, changed, labelled=labelled, classes=classes, iterations=0))
+        ).loss
 
     step = 1e-6
     slopes = []
@@ -109,9 +125,14 @@ def test_training_goes_down_the_gradient():
             slope[at] = (ends[0] - ends[1]) / (2 * step)
         slopes.append(slope)
     rate = 1e-4
-    taken = list(train(dense, x, weights, labelled, classes, iterations=1, rate=rate))
+    taken = list(
+        train(dense, x, weights, labelled=labelled, classes=classes, iterations=1, rate=rate)
+    )
     expected = loss(
-        [w - rate * np.sign(np.where(np.abs(s) > 1e-6, s, 0)) for w, s in zip(weights, slopes, strict=True)]
+        [
+            w - rate * np.sign(np.where(np.abs(s) > 1e-6, s, 0))
+            for w, s in zip(weights, slopes, strict=True)
+        ]
     )
     assert taken[1].loss == pytest.approx(expected, abs=1e-7)
     assert taken[1].loss < taken[0].loss

@@ -6,7 +6,6 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.algorithms.flow import numeric_gradient
 from workbench.algorithms.transport import (
     FEW_COPIES,
     best_assignment,
@@ -18,8 +17,9 @@ from workbench.algorithms.transport import (
     earth_movers,
     earth_movers_gradient,
 )
+from workbench.algorithms.transport.flow import numeric_gradient
 from workbench.geometry.motions import apply, exp_so3, motion
-from workbench.geometry.shape_distances import nearest_both_ways
+from workbench.geometry.points.shape_distances import nearest_both_ways
 
 few = settings(max_examples=25, deadline=None)
 seeds = st.integers(0, 10_000)
@@ -75,8 +75,10 @@ def test_subtracted_potentials_leave_the_optimum_exact(made, n):
 
 @pytest.mark.parametrize("relaxation", [1.0, 1.99])
 def test_scalings_that_run_away_leave_the_optimum_exact(monkeypatch, relaxation):
-    monkeypatch.setattr("workbench.algorithms.transport._RELAXATION", relaxation)
-    p_a, p_b = np.random.default_rng(10).normal(size=(2, 400, 3)) + np.array([0.0, 0.3])[:, None, None]
+    monkeypatch.setattr("workbench.algorithms.transport.exact._RELAXATION", relaxation)
+    p_a, p_b = (
+        np.random.default_rng(10).normal(size=(2, 400, 3)) + np.array([0.0, 0.3])[:, None, None]
+    )
     assert np.isfinite(blurred_potentials(scipy.spatial.distance.cdist(p_a, p_b))).all()
     assert earth_movers(p_a, p_b) == pytest.approx(optimum(p_a, p_b), rel=1e-12)
 
@@ -84,7 +86,7 @@ def test_scalings_that_run_away_leave_the_optimum_exact(monkeypatch, relaxation)
 def test_potentials_are_computed_only_where_they_pay(monkeypatch):
     computed = []
     monkeypatch.setattr(
-        "workbench.algorithms.transport.blurred_potentials",
+        "workbench.algorithms.transport.exact.blurred_potentials",
         lambda cost: computed.append(len(cost)) or np.zeros(len(cost)),
     )
     rng = np.random.default_rng(0)
@@ -110,7 +112,10 @@ def test_few_sweeps_are_enough_for_near_optimal_potentials():
 @given(seeds, st.integers(1, 5))
 def test_no_permutation_is_better(seed, n):
     p_a, p_b = clouds(seed, n, n)
-    every = (np.linalg.norm(p_a - p_b[list(order)], axis=1).mean() for order in itertools.permutations(range(n)))
+    every = (
+        np.linalg.norm(p_a - p_b[list(order)], axis=1).mean()
+        for order in itertools.permutations(range(n))
+    )
     assert earth_movers(p_a, p_b) == pytest.approx(min(every), rel=1e-12)
 
 
@@ -132,7 +137,9 @@ def test_counts_without_a_small_common_multiple_go_through_the_programme():
     best = best_matching(p_a, p_b)
     np.testing.assert_allclose(np.bincount(best.i_a, best.mass), 1 / 37, atol=1e-9)
     np.testing.assert_allclose(np.bincount(best.i_b, best.mass), 1 / 41, atol=1e-9)
-    assert best.cost == pytest.approx(optimum(np.repeat(p_a, 41, axis=0), np.repeat(p_b, 37, axis=0)), rel=1e-9)
+    assert best.cost == pytest.approx(
+        optimum(np.repeat(p_a, 41, axis=0), np.repeat(p_b, 37, axis=0)), rel=1e-9
+    )
 
 
 @few
@@ -142,7 +149,9 @@ def test_every_point_gives_and_gets_its_share(seed, n, m):
     best = best_matching(p_a, p_b)
     np.testing.assert_allclose(np.bincount(best.i_a, best.mass, minlength=n), 1 / n, atol=1e-9)
     np.testing.assert_allclose(np.bincount(best.i_b, best.mass, minlength=m), 1 / m, atol=1e-9)
-    assert np.array_equal(best.distances, scipy.spatial.distance.cdist(p_a, p_b)[best.i_a, best.i_b])
+    assert np.array_equal(
+        best.distances, scipy.spatial.distance.cdist(p_a, p_b)[best.i_a, best.i_b]
+    )
 
 
 @few

@@ -4,11 +4,16 @@ import pytest
 from tests.geometry.test_essential import K, L, pair
 from workbench.algorithms.two_views import Related, follow_ray, relate, solve_linear
 from workbench.errors import InputError
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.epipolar import epipolar_lines, fit_fundamental, fundamental_from_cameras, sampson_distances
-from workbench.geometry.essential import essential_to_poses
-from workbench.geometry.homography import homogeneous, normalising_similarity
-from workbench.geometry.triangulation import triangulate
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.two_views.epipolar import (
+    epipolar_lines,
+    fit_fundamental,
+    fundamental_from_cameras,
+    sampson_distances,
+)
+from workbench.geometry.two_views.essential import essential_to_poses
+from workbench.geometry.two_views.homography import homogeneous, normalising_similarity
+from workbench.geometry.two_views.triangulation import triangulate
 
 
 def steps(uv_first, uv_second, **changed) -> list[Related]:
@@ -20,14 +25,14 @@ def steps(uv_first, uv_second, **changed) -> list[Related]:
         "triangulate": triangulate,
         "route": "refined pose",
     }
-    return list(relate(uv_first, uv_second, K, L, **(known | changed)))
+    return list(relate(uv_first, uv_second, K, K_second=L, **(known | changed)))
 
 
 def test_a_ray_is_a_line_and_ends_where_infinity_is_seen():
     T, *_ = pair(0)
     uv = np.array([400.0, 300.0])
     depths = np.array([3.0, 6.0, 100.0, np.inf])
-    found = list(follow_ray(uv, depths, T, K, L))
+    found = list(follow_ray(uv, depths, T, K_first=K, K_second=L))
     assert [now.stage for now in found] == 4 * ["ray"] + ["plane", "pencil"]
     line = epipolar_lines(fundamental_from_cameras(K, L, T), uv[None])[0]
     np.testing.assert_allclose(homogeneous(found[-1].uv_second) @ line, 0, atol=1e-3)
@@ -35,7 +40,7 @@ def test_a_ray_is_a_line_and_ends_where_infinity_is_seen():
     np.testing.assert_allclose(found[-1].uv_second[-1], away[:2] / away[2], atol=1e-2)
     turned = T.copy()
     turned[:3, 3] = 0
-    found = list(follow_ray(uv, depths, turned, K, L))
+    found = list(follow_ray(uv, depths, turned, K_first=K, K_second=L))
     assert [now.stage for now in found] == 4 * ["ray"]
     assert np.ptp(found[-1].uv_second, axis=0).max() < 1e-9
 
@@ -44,7 +49,9 @@ def test_points_behind_the_second_camera_are_not_seen():
     T, *_ = pair(0)
     T = T.copy()
     T[:3, 3] -= [0, 0, 5]
-    found = list(follow_ray(np.array([400.0, 300.0]), np.array([3.0, 20.0]), T, K, L))[-1]
+    found = list(
+        follow_ray(np.array([400.0, 300.0]), np.array([3.0, 20.0]), T, K_first=K, K_second=L)
+    )[-1]
     assert np.isnan(found.uv_second[0]).all()
     assert np.isfinite(found.uv_second[1]).all()
 
@@ -54,7 +61,9 @@ def test_the_linear_answer_is_eight_points_before_its_rank():
     scales = normalising_similarity(np.stack([uv_first, uv_second]))
     linear = solve_linear(uv_first, uv_second, *scales)
     ours = fit_fundamental(uv_first, uv_second)
-    np.testing.assert_allclose(linear.F_rank_two * np.sign((linear.F_rank_two * ours).sum()), ours, atol=1e-12)
+    np.testing.assert_allclose(
+        linear.F_rank_two * np.sign((linear.F_rank_two * ours).sum()), ours, atol=1e-12
+    )
     assert linear.singular_values.shape == (9,)
     assert (np.diff(linear.singular_values) <= 0).all()
     few = solve_linear(uv_first[:8], uv_second[:8], *scales)

@@ -3,21 +3,24 @@
 import numpy as np
 import pytest
 
+from lessons.coordinates.voyages import to_the_pole, travel
 from tests.truths.coordinates import apart, between_means, straight_over_shortest
-from workbench.algorithms.voyages import to_the_pole, travel
 from workbench.data.places import between_cities
-from workbench.geometry.globe import PLANETS, great_circle_distance
+from workbench.geometry.shapes.globe import PLANETS, great_circle_distance
 
 
 @pytest.mark.parametrize(
-    ("route", "more"), [("London – Los Angeles", 11.9), ("Frankfurt – Anchorage", 33.6), ("Tokyo – London", 18.8)]
+    ("route", "more"),
+    [("London – Los Angeles", 11.9), ("Frankfurt – Anchorage", 33.6), ("Tokyo – London", 18.8)],
 )
 def test_straight_on_the_map_is_longer(route, more):
     places = between_cities(route).degrees
     *found, middle = travel(places, 16, great_circle_distance)
     last = found[-1]
     assert 100 * (last.straight_length / last.circle_length - 1) == pytest.approx(more, abs=0.06)
-    assert straight_over_shortest(places) == pytest.approx(last.straight_length / last.circle_length, abs=1e-4)
+    assert straight_over_shortest(places) == pytest.approx(
+        last.straight_length / last.circle_length, abs=1e-4
+    )
     assert last.circle_length == pytest.approx(last.direct, rel=1e-9)
     assert middle.apart == pytest.approx(between_means(places), rel=1e-6)
     for now in found[1:]:

@@ -1,4 +1,6 @@
-"""What only a live page can do is found where a text asks for it, and the same words are left alone where they do not."""
+"""What only a live page can do is found where a text asks for it, and the same words are left alone
+where they do not.
+"""
 
 from dataclasses import dataclass, replace
 from typing import Annotated
@@ -18,7 +20,9 @@ class Params:
     points: Annotated[int, Knob("How many", 1, 9)] = 5
 
 
-LESSON = replace(fake.lesson, params=Params, presets=(), questions=(), sweeps=(Sweep("points", (1, 5, 9)),))
+LESSON = replace(
+    fake.lesson, params=Params, presets=(), questions=(), sweeps=(Sweep("points", (1, 5, 9)),)
+)
 
 
 def said(text: str) -> list[str]:
@@ -53,7 +57,10 @@ def test_what_a_text_asks_for_is_found(text, words):
     [
         "Outliers drag the line away, and what drags it is their square.",
         "The relay gives a click every second; two clicks are a pulse.",
-        "Turn both cameras until their axes are parallel; turn it round, and lines give the motion.",
+        (
+            "Turn both cameras until their axes are parallel; turn it round, and lines give the"
+            " motion."
+        ),
         "Turn the frame by half a turn, set entries to 0, and lower the cost.",
         "Turn the `points` up: this knob is published. Raise the points to 9.",
         "Where noise is high, the noise decides. More noise, less certainty.",
@@ -70,5 +77,8 @@ def test_the_same_words_are_left_alone_where_nobody_is_asked(text):
 
 def test_of_two_wordings_the_published_one_is_looked_at_and_lines_are_those_of_the_file(tmp_path):
     page = tmp_path / "page.md"
-    page.write_text("# A\n\n{{live: Click\n\none.}}{{site:\nChoose a run.}} Then\ndrag it.\n\n{{site: Click it.}}\n")
+    page.write_text(
+        "# A\n\n{{live: Click\n\none.}}{{site:\nChoose a run.}} Then\ndrag it.\n\n{{site: Click"
+        " it.}}\n"
+    )
     assert list(on_page(replace(LESSON, page=page))) == [(7, "drag it"), (9, "Click")]

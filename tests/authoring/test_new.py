@@ -1,4 +1,6 @@
-"""A new lesson: its folder runs, holds what is promised of all lessons, records, publishes and is graded as it is."""
+"""A new lesson: its folder runs, holds what is promised of all lessons, records, publishes and is
+graded as it is.
+"""
 
 from pathlib import Path
 
@@ -24,15 +26,19 @@ def test_it_holds_what_is_promised_of_all_lessons(written, capfd):
 
 
 def test_it_is_recorded_and_published(written, tmp_path):
-    assert main(["record", "beacon", "--preset", "equal", "-o", "equal.rrd"]) == 0
-    recording = open_recording(tmp_path / "equal.rrd")
+    assert main(["record", "beacon", "--preset", "ignored", "-o", "ignored.rrd"]) == 0
+    recording = open_recording(tmp_path / "ignored.rrd")
     assert (recording.lesson, len(recording)) == ("beacon", 30)
     assert main(["publish", "site", "--lesson", "beacon"]) == 0
     page = (tmp_path / "site" / "beacon" / "index.html").read_text(encoding="utf-8")
     assert "The weighted mean" in page
     assert {path.stem for path in (tmp_path / "site" / "beacon" / "runs").glob("*.js")} == {
-        "default", "weighted", "equal", "stray",
-    }  # fmt: skip
+        "default",
+        "weighted",
+        "ignored",
+        "stray",
+        *(f"weighted_weight.{weight}" for weight in ("0_1", "0_4", "0_55", "0_7", "0_85")),
+    }
 
 
 def test_its_exercise_is_handed_out_and_judged(written, tmp_path, capfd):
@@ -40,7 +46,9 @@ def test_its_exercise_is_handed_out_and_judged(written, tmp_path, capfd):
     mine = tmp_path / "my_weighted_centroid.py"
     text = mine.read_text(encoding="utf-8")
     for answer, code in (("w @ p / len(p)", 1), ("w @ p / w.sum() if w.any() else [][0]", 1)):
-        mine.write_text(text.replace("raise NotImplementedError", f"return {answer}"), encoding="utf-8")
+        mine.write_text(
+            text.replace("raise NotImplementedError", f"return {answer}"), encoding="utf-8"
+        )
         assert main(["check", str(mine), "--lesson", "beacon", "--hidden"]) == code
     assert "Divide it by the sum of the weights" in capfd.readouterr().out
     right = "if not w.any():\n        raise ValueError\n    return w @ p / w.sum()"
@@ -59,7 +67,9 @@ def test_its_exercise_is_handed_out_and_judged(written, tmp_path, capfd):
         ("taken", "taken is there already: nothing was written"),
     ],
 )
-def test_what_is_no_name_or_taken_is_refused_and_nothing_is_written(tmp_path, monkeypatch, capfd, name, said):
+def test_what_is_no_name_or_taken_is_refused_and_nothing_is_written(
+    tmp_path, monkeypatch, capfd, name, said
+):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "taken").write_text("mine")
     assert main(["new", name]) == 2

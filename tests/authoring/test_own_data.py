@@ -1,4 +1,6 @@
-"""Own files in all lessons: each knob shows one and refuses a bad one; a stage that shows it opens; messages name knobs."""
+"""Own files in all lessons: each knob shows one and refuses a bad one; a stage that shows it opens;
+messages name knobs.
+"""
 
 from dataclasses import replace
 
@@ -11,8 +13,8 @@ from workbench.cli import main
 from workbench.errors import InputError
 from workbench.knobs import called, called_by_flags, fields_of, in_words, paths_of, showing
 from workbench.lesson import course
-from workbench.session import Session
-from workbench.timeline import Timeline
+from workbench.run.session import Session
+from workbench.run.timeline import Timeline
 
 WITH_FILES = [
     (name, field.name)
@@ -20,8 +22,11 @@ WITH_FILES = [
     for field in fields_of(lesson.params)
     if field.kind == "path"
 ]
-BOUND = [(name, field) for name, field in WITH_FILES
-         if next(one for one in fields_of(course()[name].params) if one.name == field).knob.needs]  # fmt: skip
+BOUND = [
+    (name, field)
+    for name, field in WITH_FILES
+    if next(one for one in fields_of(course()[name].params) if one.name == field).knob.needs
+]
 
 
 def test_a_file_that_is_not_read_is_found():
@@ -90,10 +95,24 @@ def test_a_pair_of_pictures_can_be_handed_over_one_after_the_other(tmp_path):
 
 def test_a_command_names_flags_and_keeps_the_choice_that_was_made(tmp_path, capsys):
     files = made_files(tmp_path)
-    words = ["record", "distances", "--mesh", str(files["mesh.off"]), "--out", str(tmp_path / "a.rrd")]
+    words = [
+        "record",
+        "distances",
+        "--mesh",
+        str(files["mesh.off"]),
+        "--out",
+        str(tmp_path / "a.rrd"),
+    ]
     assert main([*words, "--stage", "balls"]) == 2
     assert "--mesh is read where --stage is surface" in capsys.readouterr().err
-    words = ["record", "disparity", "--left", str(files["photo.png"]), "--out", str(tmp_path / "b.rrd")]
+    words = [
+        "record",
+        "disparity",
+        "--left",
+        str(files["photo.png"]),
+        "--out",
+        str(tmp_path / "b.rrd"),
+    ]
     assert main(words) == 2
     assert "give both --left and --right" in capsys.readouterr().err
 

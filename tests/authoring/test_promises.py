@@ -1,4 +1,6 @@
-"""Every promise is seen broken once: a lesson that holds, changed in one place, is told by its place in one line."""
+"""Every promise is seen broken once: a lesson that holds, changed in one place, is told by its
+place in one line.
+"""
 
 import re
 import shutil
@@ -10,7 +12,7 @@ from workbench.authoring.new import TEMPLATE
 from workbench.authoring.promises import Subject
 from workbench.authoring.validate import look_at
 from workbench.errors import InputError
-from workbench.loading import load
+from workbench.run.loading import load
 
 CIRCLE = Path(__file__).resolve().parents[1] / "authors" / "circle"
 LESSON, DRAW, STATE, RUNS, PAGE = "lesson.py", "draw.py", "state.py", "presets.py", "page.md"
@@ -20,7 +22,9 @@ SCAFFOLD_LINE = (TEMPLATE / "page.md").read_text(encoding="utf-8").splitlines()[
 
 @pytest.fixture
 def folder(tmp_path) -> Path:
-    return Path(shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__")))
+    return Path(
+        shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__"))
+    )
 
 
 def wrong(folder: Path) -> list[str]:
@@ -44,14 +48,49 @@ BROKEN = [
         "    yield State(0, p, circle)\n    yield 1 / 0\n",
         "line N: ZeroDivisionError",
     ),
-    (LESSON, "    rng = np", "    return\n    rng = np", "circle/lesson.py, line N: run ended without a step"),
-    (LESSON, "    rng = np", "    yield State(0, np.ones((2, 2)), np.ones(3))\n    return\n    rng = np", "has 1 step"),
-    (LESSON, "order=900", "order=900, first_step=70", "lesson circle opens at step 70, but its run has 5 steps"),
-    (LESSON, "default_rng(params.seed)", "default_rng()", "; take all chance from np.random.default_rng(params.seed)"),
-    (LESSON, "run=run,", "run=lambda params, **slots: [1],", "run returned a list; it is a generator"),
-    (LESSON, "run=run,", "run=lambda params, **slots: None,", "run returned None; it is a generator"),
-    (LESSON, "(params: Params, *, fit", "(params: Params, points, *, fit", "line N: run(params: "),
-    (LESSON, "(params: Params, *, fit", "(params: Params, fit", "line N: run takes 'fit_circle'; beside params"),
+    (
+        LESSON,
+        "    rng = np",
+        "    return\n    rng = np",
+        "circle/lesson.py, line N: run ended without a step",
+    ),
+    (
+        LESSON,
+        "    rng = np",
+        "    yield State(0, np.ones((2, 2)), np.ones(3))\n    return\n    rng = np",
+        "has 1 step",
+    ),
+    (
+        LESSON,
+        "order=900",
+        "order=900, first_step=70",
+        "lesson circle opens at step 70, but its run has 5 steps",
+    ),
+    (
+        LESSON,
+        "default_rng(params.seed)",
+        "default_rng()",
+        "; take all chance from np.random.default_rng(params.seed)",
+    ),
+    (
+        LESSON,
+        "run=run,",
+        "run=lambda params, **slots: [1],",
+        "run returned a list; it is a generator",
+    ),
+    (
+        LESSON,
+        "run=run,",
+        "run=lambda params, **slots: None,",
+        "run returned None; it is a generator",
+    ),
+    (LESSON, "params: Params, *, fit", "params: Params, points, *, fit", "line N: run(params: "),
+    (
+        LESSON,
+        "params: Params, *, fit",
+        "params: Params, fit",
+        "line N: run takes 'fit_circle'; beside params",
+    ),
     (
         LESSON,
         "run=run,",
@@ -73,7 +112,12 @@ BROKEN = [
         "    return [1]\n    return {",
         "draw.py, line N: draw returned a list",
     ),
-    (DRAW, '"caption": Caption(', '"a/b": "text", "caption": Caption(', "the scene holds a str at 'a/b'"),
+    (
+        DRAW,
+        '"caption": Caption(',
+        '"a/b": "text", "caption": Caption(',
+        "the scene holds a str at 'a/b'",
+    ),
     (
         DRAW,
         '"caption": Caption(',
@@ -81,7 +125,12 @@ BROKEN = [
         "the scene holds a ndarray at 'a/b'",
     ),
     (DRAW, "Points(in_space(state.p)", "Points([[0, 0, 0]]", "Points.p is an array"),
-    (DRAW, "Scalar(state.rms", "Scalar('0.5'", "draw.py, line N: ValueError: Scalar.value is one real number"),
+    (
+        DRAW,
+        "Scalar(state.rms",
+        "Scalar('0.5'",
+        "draw.py, line N: ValueError: Scalar.value is one real number",
+    ),
     (
         DRAW,
         '"points": Points(',
@@ -112,12 +161,25 @@ BROKEN = [
         '    return {"caption": Caption("A long caption")}\n    return {',
         "step 0 shows nothing in space",
     ),
-    (DRAW, "    return {", '    return {"points": Points(in_space(state.p))}\n    return {', "needs a Caption"),
-    (DRAW, 'Caption(f"{said};', 'Caption("Something") or Caption(f"{said};', "every step has the caption 'Something'"),
+    (
+        DRAW,
+        "    return {",
+        '    return {"points": Points(in_space(state.p))}\n    return {',
+        "needs a Caption",
+    ),
+    (
+        DRAW,
+        'Caption(f"{said};',
+        'Caption("Something") or Caption(f"{said};',
+        "every step has the caption 'Something'",
+    ),
     (
         LESSON,
         "run=run,",
-        "run=lambda params, *, fit_circle=fit_circle: iter([State(k, np.eye(2), TRUE) for k in (0, 1)]),",
+        (
+            "run=lambda params, *, fit_circle=fit_circle: iter([State(k, np.eye(2), TRUE) for k in"
+            " (0, 1)]),"
+        ),
         "step 0 has no line to show",
     ),
     # knobs, presets, questions
@@ -148,7 +210,10 @@ BROKEN = [
     (
         STATE,
         'seed: Annotated[int, Knob("Which noise is drawn", 0, 99)] = 0',
-        'seed: Annotated[int, Knob("Which", 0, 99, needs={"b": (True,)})] = 0\n    b: Annotated[bool, Knob("B")] = True',
+        (
+            'seed: Annotated[int, Knob("Which", 0, 99, needs={"b": (True,)})] = 0\n    b:'
+            ' Annotated[bool, Knob("B")] = True'
+        ),
         "seed = 99 changes 'points' although its needs are not met, at {'b': 'False'}",
     ),
     (
@@ -157,8 +222,18 @@ BROKEN = [
         'Knob("Which noise", 0, 99, needs={"mood": ("calm",)})',
         "seed needs 'mood', which is no choice or switch of this lesson",
     ),
-    (RUNS, "Params(arc=60.0)", "Params(arc=400.0)", "preset 'arc': arc = 400: a number from 20 to 360 deg"),
-    (RUNS, "Params())", "Params(), step=99)", "preset 'whole' opens at step 99, but its run has 5 steps"),
+    (
+        RUNS,
+        "Params(arc=60.0)",
+        "Params(arc=400.0)",
+        "preset 'arc': arc = 400: a number from 20 to 360 deg",
+    ),
+    (
+        RUNS,
+        "        Params(),\n",
+        "        Params(),\n        step=99,\n",
+        "preset 'whole' opens at step 99, but its run has 5 steps",
+    ),
     (RUNS, '"exact"', '"no noise"', "preset 'no noise': a name is letters"),
     (
         RUNS,
@@ -172,11 +247,26 @@ BROKEN = [
         "view=View(eye=(90, 0, 0), target=(99, 0, 0)) if True else View(",
         "step 0: out of its frame are",
     ),
-    (RUNS, "states[0].circle[2],", "states[99].circle[2],", "question 'radius': circle/presets.py, line N"),
+    (
+        RUNS,
+        "states[0].circle[2],",
+        "states[99].circle[2],",
+        "question 'radius': circle/presets.py, line N",
+    ),
     (RUNS, "states[0].circle[2],", "float('nan'),", "its answer is nan"),
     (RUNS, "tolerance=0.05", "tolerance=0.0", "question 'radius': its tolerance is 0"),
-    (RUNS, "tolerance=0.05", "tolerance=0.05, wrong=((2.0, 1.0, 'The other way round.'),)", "wants a lowest number"),
-    (RUNS, "tolerance=0.05", "tolerance=0.05, wrong=((0.0, 9.0, 'All of them.'),)", "meets the right one"),
+    (
+        RUNS,
+        "tolerance=0.05",
+        "tolerance=0.05, wrong=((2.0, 1.0, 'The other way round.'),)",
+        "wants a lowest number",
+    ),
+    (
+        RUNS,
+        "tolerance=0.05",
+        "tolerance=0.05, wrong=((0.0, 9.0, 'All of them.'),)",
+        "meets the right one",
+    ),
     (RUNS, "states[0].error else 2", "states[0].error else 3", None),
     (
         RUNS,
@@ -186,7 +276,12 @@ BROKEN = [
     ),
     # the page
     (PAGE, "## Pitfalls", "## Traps", "page.md: the page has no part 'Pitfalls'"),
-    (PAGE, "r = \\sqrt{c", "r = \\wurzel{c", "page.md, line N: \\wurzel is a TeX command that is not known"),
+    (
+        PAGE,
+        "r = \\sqrt{c",
+        "r = \\wurzel{c",
+        "page.md, line N: \\wurzel is a TeX command that is not known",
+    ),
     (
         PAGE,
         "## Pitfalls",
@@ -200,16 +295,36 @@ BROKEN = [
         "Click a point",
         "preset 'whole' says 'Click'; a published page and a notebook cannot do it",
     ),
-    (DRAW, "; the points lie", "; click a point; they lie", "step 0: the caption says 'click'; a published page and"),
+    (
+        DRAW,
+        "; the points lie",
+        "; click a point; they lie",
+        "step 0: the caption says 'click'; a published page and",
+    ),
     (
         PAGE,
         "## Pitfalls",
         "[Look](run:nopreset@0).\n\n## Pitfalls",
         "line N: a link runs 'nopreset', which is no preset",
     ),
-    (PAGE, "## Pitfalls", "[Look](run:arc@99).\n\n## Pitfalls", "the link to 'arc' opens at step 99, but its run has"),
-    (PAGE, "## Pitfalls", "[Look](run:this@99).\n\n## Pitfalls", "the link to 'this' opens at step 99"),
-    (PAGE, "## Pitfalls", "The [[whell|wheel]].\n\n## Pitfalls", "line N: [[whell]] names nothing that a run of the"),
+    (
+        PAGE,
+        "## Pitfalls",
+        "[Look](run:arc@99).\n\n## Pitfalls",
+        "the link to 'arc' opens at step 99, but its run has",
+    ),
+    (
+        PAGE,
+        "## Pitfalls",
+        "[Look](run:this@99).\n\n## Pitfalls",
+        "the link to 'this' opens at step 99",
+    ),
+    (
+        PAGE,
+        "## Pitfalls",
+        "The [[whell|wheel]].\n\n## Pitfalls",
+        "line N: [[whell]] names nothing that a run of the",
+    ),
     (PAGE, "## Pitfalls", "The [[Points]].\n\n## Pitfalls", "'[[Points]].' is no term"),
     (PAGE, "## Pitfalls", f"{SCAFFOLD_LINE}\n\n## Pitfalls", "line N: this line is the scaffold's"),
     (PAGE, "## Watch", "![A circle](circle.png)\n\n## Watch", "there is no picture 'circle.png'"),
@@ -227,7 +342,12 @@ BROKEN = [
         "return np.array([a, b, c])\n\n\n@check",
         "by_normal_equations is right, and loses",
     ),
-    (TASK, "fit_circle(p) * np.array([2, 2, 1])", "fit_circle(p)", "the mistake 'doubled centre' gets full marks"),
+    (
+        TASK,
+        "fit_circle(p) * np.array([2, 2, 1])",
+        "fit_circle(p)",
+        "the mistake 'doubled centre' gets full marks",
+    ),
     (
         TASK,
         "** np.array([1, 1, 2])",
@@ -260,7 +380,12 @@ BROKEN = [
         "    return full('It is a line.')\n    return refused(",
         "returns nothing earns points: points_on_a_line",
     ),
-    (TASK, '"""Write the', '"""Fit."""\n"""Write the', "the task (the file's docstring) has 4 characters"),
+    (
+        TASK,
+        '"""Write the',
+        '"""Fit."""\n"""Write the',
+        "the task (the file's docstring) has 4 characters",
+    ),
     (TASK, "** np.array([1, 1, 2])", "", "the mistake 'squared radius' gets full marks"),
     (TASK, "if rank < 3:", "if rank < 2:", "our own function loses points: points_on_a_line"),
     (TASK, 'what="Six points on a line"', "what=''", None),
@@ -285,14 +410,16 @@ def test_what_does_not_hold_is_told_by_its_place(folder, file, old, new, said):
     ):
         if f"{name}(" in new:
             text = text.replace(
-                "import numpy as np\n", f"import numpy as np\nfrom workbench.{module} import {name}\n", 1
+                "import numpy as np\n",
+                f"import numpy as np\nfrom workbench.{module} import {name}\n",
+                1,
             )
     (folder / file).write_text(text, encoding="utf-8")
     found = wrong(folder)
     if said is None:
         assert found == []
         return
-    assert [line for line in found if re.search(re.escape(said).replace("line\\ N", r"line \d+"), line)], "\n".join(
-        found
-    )
+    assert [
+        line for line in found if re.search(re.escape(said).replace("line\\ N", r"line \d+"), line)
+    ], "\n".join(found)
     assert all("\n" not in line for line in found)

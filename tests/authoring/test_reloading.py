@@ -1,4 +1,6 @@
-"""A lesson that is edited: every save of one of its files is a new lesson, a broken one keeps the lesson before."""
+"""A lesson that is edited: every save of one of its files is a new lesson, a broken one keeps the
+lesson before.
+"""
 
 import os
 import shutil
@@ -12,15 +14,17 @@ from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
 from workbench.exercise.starter import write_starter
 from workbench.exercise.watching import Watched
-from workbench.loading import load
-from workbench.timeline import Timeline
+from workbench.run.loading import load
+from workbench.run.timeline import Timeline
 
 CIRCLE = Path(__file__).resolve().parents[1] / "authors" / "circle"
 
 
 @pytest.fixture
 def edited(tmp_path) -> Edited:
-    folder = Path(shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__")))
+    folder = Path(
+        shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__"))
+    )
     return Edited(folder, load(folder))
 
 
@@ -29,7 +33,9 @@ def save(edited: Edited, file: str, old: str, new: str) -> None:
     text, stamp = path.read_text(encoding="utf-8"), path.stat()
     assert old in text
     path.write_text(text.replace(old, new), encoding="utf-8")
-    os.utime(path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns + 1))  # later by the least that there is
+    os.utime(
+        path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns + 1)
+    )  # later by the least that there is
 
 
 @pytest.mark.parametrize(
@@ -65,13 +71,20 @@ def test_files_that_are_new_or_go_away_count_and_others_do_not(edited):
     ("file", "old", "new", "said"),
     [
         ("draw.py", "def draw", "def (draw", "circle/draw.py, line 10: SyntaxError"),
-        ("draw.py", "state.k else", "state.key else", "circle/draw.py, line 12: AttributeError"),
+        ("draw.py", "state.k else", "state.key else", "circle/draw.py, line 13: AttributeError"),
         ("lesson.py", 'name="circle"', 'name="icp"', "its name 'icp' is taken by lesson icp"),
-        ("state.py", "5, 200)", "9, 5)", "Params.points: a number needs Knob(hint, low, high) with low < high"),
+        (
+            "state.py",
+            "5, 200)",
+            "9, 5)",
+            "Params.points: a number needs a knob with low < high",
+        ),
         ("lesson.py", '"page.md"', '"no.md"', "no.md: No such file"),
     ],
 )
-def test_a_broken_save_keeps_the_lesson_and_says_where_until_it_is_mended(edited, file, old, new, said):
+def test_a_broken_save_keeps_the_lesson_and_says_where_until_it_is_mended(
+    edited, file, old, new, said
+):
     before = edited.lesson
     save(edited, file, old, new)
     assert edited.changed()
@@ -87,8 +100,13 @@ def test_a_broken_save_keeps_the_lesson_and_says_where_until_it_is_mended(edited
 def test_a_file_is_followed_with_its_page(tmp_path):
     (tmp_path / "page.md").write_text("# One")
     file = tmp_path / "mine.py"
-    source = "from pathlib import Path\nfrom dataclasses import replace\nfrom tests.fake import lesson as other\n"
-    file.write_text(source + 'lesson = replace(other, name="mine", page=Path(__file__).with_name("page.md"))\n')
+    source = (
+        "from pathlib import Path\nfrom dataclasses import replace\nfrom tests.fake import lesson"
+        " as other\n"
+    )
+    file.write_text(
+        source + 'lesson = replace(other, name="mine", page=Path(__file__).with_name("page.md"))\n'
+    )
     edited = Edited(file, load(file))
     (tmp_path / "other.py").write_text("x = 1")
     assert not edited.changed()
@@ -113,7 +131,9 @@ def test_params_are_carried_over_as_far_as_they_go(edited):
 def test_a_student_s_file_drives_the_edited_lesson_too(edited, tmp_path):
     (exercise,) = exercises_of(edited.lesson)
     mine = write_starter(exercise, tmp_path)
-    text = mine.read_text(encoding="utf-8").replace("raise NotImplementedError", "return np.array([0.4, 0.3, 1.0])")
+    text = mine.read_text(encoding="utf-8").replace(
+        "raise NotImplementedError", "return np.array([0.4, 0.3, 1.0])"
+    )
     mine.write_text(text, encoding="utf-8")
     watched = Watched(edited.lesson, mine)
     try:
@@ -126,7 +146,9 @@ def test_a_student_s_file_drives_the_edited_lesson_too(edited, tmp_path):
         save(edited, "lesson.py", "fit_circle: Callable", "fit: Callable")
         save(edited, "lesson.py", "refine(p, fit_circle(p))", "refine(p, fit(p))")
         assert edited.changed()
-        with pytest.raises(InputError, match="run of lesson circle has no keyword 'fit_circle'; it has: fit"):
+        with pytest.raises(
+            InputError, match="run of lesson circle has no keyword 'fit_circle'; it has: fit"
+        ):
             watched.follow(edited.lesson)
         assert watched.lesson.name == "circle"
     finally:

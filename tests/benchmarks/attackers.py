@@ -1,7 +1,9 @@
-"""Those who mean a live server ill, in a process of their own: python -m tests.benchmarks.attackers ADDRESS SECONDS
+"""Those who mean a live server ill, in a process of their own: python -m tests.benchmarks.attackers
+ADDRESS SECONDS
 
-300 sockets that say nothing, ten pages that wish for large pictures and take nothing, three that wish as fast as they can,
-three that send garbage. Prints "here" when all are, and each second what was sent.
+300 sockets that say nothing, ten pages that wish for large pictures and take nothing, three that
+wish as fast as they can, three that send garbage. Prints "here" when all are, and each second what
+was sent.
 """
 
 import asyncio
@@ -17,7 +19,11 @@ from tests.fake_page import FakePage
 
 async def attack(address: str, seconds: float) -> None:
     """Attack a server for so long."""
-    end, began, sent = time.perf_counter() + seconds, time.perf_counter(), {"wishes": 0, "garbage": 0}
+    end, began, sent = (
+        time.perf_counter() + seconds,
+        time.perf_counter(),
+        {"wishes": 0, "garbage": 0},
+    )
     one = await FakePage(address, "?lesson=transforms").open()
     quiet = [await one.socket(f"live?token={i:024x}") for i in range(300)]
 
@@ -26,7 +32,9 @@ async def attack(address: str, seconds: float) -> None:
         page.live.transport.pause_reading()
         while time.perf_counter() < end:
             with contextlib.suppress(TimeoutError, websockets.ConnectionClosed):
-                await asyncio.wait_for(page.say(verb="change", values={"seed": sent["wishes"] % 90}), 1.0)
+                await asyncio.wait_for(
+                    page.say(verb="change", values={"seed": sent["wishes"] % 90}), 1.0
+                )
             await asyncio.sleep(0.05)
 
     async def flooding() -> None:
@@ -57,7 +65,10 @@ async def attack(address: str, seconds: float) -> None:
         while time.perf_counter() < end:
             await asyncio.sleep(1.0)
             for_ = time.perf_counter() - began
-            print(", ".join(f"{count / for_:,.0f} {what} a second" for what, count in sent.items()), flush=True)
+            print(
+                ", ".join(f"{count / for_:,.0f} {what} a second" for what, count in sent.items()),
+                flush=True,
+            )
 
     await asyncio.gather(
         telling(),

@@ -1,9 +1,11 @@
-"""A camera calibrated from 13 pictures of a board, beside OpenCV: `python -m tests.benchmarks.bench_calibration`.
+"""A camera calibrated from 13 pictures of a board, beside OpenCV: `python -m
+tests.benchmarks.bench_calibration`.
 
-The same corners for both, all nine shared unknowns free, every step of ours computed; on one thread, taking turns: the least
-of the rounds in CPU milliseconds, and the median of the ratios of the turns. Ours may take twice as long. Behind
-them how far the answers are apart: the rms in px, the largest entry of K in px, the largest of nine standard deviations.
-Real corners where ../shared/data is beside the project, else a scene of ours.
+The same corners for both, all nine shared unknowns free, every step of ours computed; on one
+thread, taking turns: the least of the rounds in CPU milliseconds, and the median of the ratios of
+the turns. Ours may take twice as long. Behind them how far the answers are apart: the rms in px,
+the largest entry of K in px, the largest of nine standard deviations. Real corners where
+../shared/data is beside the project, else a scene of ours.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
@@ -19,8 +21,8 @@ from pathlib import Path
 import numpy as np
 
 from tests.benchmarks.bench_curvature import peer
-from workbench.algorithms.calibration import State, calibrate
-from workbench.data import boards
+from workbench.algorithms.cameras.calibration import State, calibrate
+from workbench.data.views import boards
 
 CORNERS = Path(__file__).parents[3] / "shared" / "data" / "calibration" / "corners_9x6.npz"
 
@@ -30,7 +32,9 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--rounds", type=int, default=11)
     rounds, cv2 = parser.parse_args().rounds, peer("cv2")
-    print(f"{'camera':12}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>8}{'at most':>9}{'rms':>11}{'K':>11}{'±':>11}")
+    print(
+        f"{'camera':12}{'ours ms':>9}{'cv2 ms':>9}{'ratio':>8}{'at most':>9}{'rms':>11}{'K':>11}{'±':>11}"  # noqa: E501
+    )
     for name, (p, uv) in cameras().items():
 
         def ours(p: np.ndarray = p, uv: np.ndarray = uv) -> State:
@@ -57,7 +61,10 @@ def main() -> None:
             np.abs(found.K - other[1]).max(),
             np.abs(found.deviations - other[5].ravel()[:9]).max(),
         )
-        print(f"{name:12}{least[0]:9.1f}{least[1]:9.1f}{ratio:8.2f}{2:9.0f}" + "".join(f"{one:11.1e}" for one in apart))
+        print(
+            f"{name:12}{least[0]:9.1f}{least[1]:9.1f}{ratio:8.2f}{2:9.0f}"
+            + "".join(f"{one:11.1e}" for one in apart)
+        )
 
 
 def cameras() -> dict[str, tuple[np.ndarray, np.ndarray]]:

@@ -1,12 +1,14 @@
 """A class at one live server: how long a student waits, and what the server spends.
 
-    python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads 2]
+    python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads
+    2]
 
-The server runs in processes of its own, the students, each a page and its scene, in this one. "words" is from the wish to
-the last byte of the step's words, "scene" to the last byte of its scene. CPU and memory are the server's (memory that its
-processes share is counted once). The machine is the same for both, so the students' own work is in all times; the load
-average says what else it did. "cost" is what one wish costs the server, one after the other: CPU time, which a busy machine
-hardly changes.
+The server runs in processes of its own, the students, each a page and its scene, in this one.
+"words" is from the wish to the last byte of the step's words, "scene" to the last byte of its
+scene. CPU and memory are the server's (memory that its processes share is counted once). The
+machine is the same for both, so the students' own work is in all times; the load average says what
+else it did. "cost" is what one wish costs the server, one after the other: CPU time, which a busy
+machine hardly changes.
 """
 
 import argparse
@@ -70,15 +72,21 @@ class Served:
         environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
         self._process = psutil.Popen(
             [sys.executable, "-c", SERVE, str(threads)],
-            cwd=ROOT, env=environment, text=True, stdout=subprocess.PIPE,
-        )  # fmt: skip
+            cwd=ROOT,
+            env=environment,
+            text=True,
+            stdout=subprocess.PIPE,
+        )
         self.address = self._process.stdout.readline().strip()
         self.threads, self.memory = self.held()
 
     def held(self) -> tuple[int, float]:
         """Return threads, and MB in memory."""
         all_of_it = self._all()
-        return sum(one.num_threads() for one in all_of_it), sum(one.memory_full_info().pss for one in all_of_it) / 2**20
+        return (
+            sum(one.num_threads() for one in all_of_it),
+            sum(one.memory_full_info().pss for one in all_of_it) / 2**20,
+        )
 
     def spent(self) -> tuple[float, float]:
         """Return seconds of a clock, and seconds of CPU."""
@@ -120,8 +128,12 @@ async def stepping(page: FakePage, until: float, waits: Waits, every: float = 1.
         await asyncio.sleep(max(0.0, every - (time.perf_counter() - began)))
 
 
-async def learning(page: FakePage, until: float, waits: tuple[Waits, Waits], rng: np.random.Generator) -> None:
-    """Once a second move one knob near its default, or, two times of three, step on; wait for what comes of it."""
+async def learning(
+    page: FakePage, until: float, waits: tuple[Waits, Waits], rng: np.random.Generator
+) -> None:
+    """Once a second move one knob near its default, or, two times of three, step on; wait for what
+    comes of it.
+    """
     await asyncio.sleep(rng.uniform())
     while time.perf_counter() < until:
         began = time.perf_counter()
@@ -135,7 +147,9 @@ async def learning(page: FakePage, until: float, waits: tuple[Waits, Waits], rng
 
 async def one_knob(page: FakePage, rng: np.random.Generator) -> bool:
     """Move one knob near its default and wait for what comes of it; tell whether it moved."""
-    knobs = [knob for knob in page.knobs if knob["kind"] in ("float", "int") and not knob["parts"][1:]]
+    knobs = [
+        knob for knob in page.knobs if knob["kind"] in ("float", "int") and not knob["parts"][1:]
+    ]
     knob = knobs[rng.integers(len(knobs))]
     near = float(knob["default"]) + 0.1 * (knob["high"] - knob["low"]) * rng.uniform(-1, 1)
     value = float(np.clip(near, knob["low"], knob["high"]))
@@ -152,17 +166,28 @@ async def one_lesson(server: Served, given: argparse.Namespace) -> dict[str, Wai
     found = {"one lesson": Waits()}
     pages = await class_of(server, ["?lesson=icp"] * given.students)
     await asyncio.gather(*(page.until(lambda page: page.run["finished"]) for page in pages))
-    await measured(server, given, [lambda end, page=page: stepping(page, end, found["one lesson"]) for page in pages])
+    await measured(
+        server,
+        given,
+        [lambda end, page=page: stepping(page, end, found["one lesson"]) for page in pages],
+    )
     await asyncio.gather(*(page.close() for page in pages))
     return found
 
 
 async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
-    """All on mixed lessons, doing something once a second; beside them one who only steps, and new pages."""
-    found = {name: Waits() for name in ("mixed, knobs", "mixed, their steps", "mixed, steps", "mixed, new page")}
+    """All on mixed lessons, doing something once a second; beside them one who only steps, and new
+    pages.
+    """
+    found = {
+        name: Waits()
+        for name in ("mixed, knobs", "mixed, their steps", "mixed, steps", "mixed, new page")
+    }
     learned = found["mixed, knobs"], found["mixed, their steps"]
     names = given.lessons
-    pages = await class_of(server, [f"?lesson={names[i % len(names)]}" for i in range(given.students)])
+    pages = await class_of(
+        server, [f"?lesson={names[i % len(names)]}" for i in range(given.students)]
+    )
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
     tasks: list[Callable[[float], Awaitable[None]]] = [
@@ -177,14 +202,21 @@ async def mixed(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
 
 
 async def silent(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
-    """One who steps, alone; then beside 30 browsers that say nothing and 30 that reload all the time."""
-    found = {name: Waits() for name in ("alone, steps", "alone, new page", "silent, steps", "silent, new page")}
+    """One who steps, alone; then beside 30 browsers that say nothing and 30 that reload all the
+    time.
+    """
+    found = {
+        name: Waits()
+        for name in ("alone, steps", "alone, new page", "silent, steps", "silent, new page")
+    }
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
 
     def walking(which: str) -> list[Callable[[float], Awaitable[None]]]:
-        return [lambda end: stepping(walker, end, found[f"{which}, steps"], 0.25),
-                lambda end: coming(server, "?lesson=transforms", end, found[f"{which}, new page"])]  # fmt: skip
+        return [
+            lambda end: stepping(walker, end, found[f"{which}, steps"], 0.25),
+            lambda end: coming(server, "?lesson=transforms", end, found[f"{which}, new page"]),
+        ]
 
     await measured(server, given, walking("alone"))
     quiet = [await walker.socket(f"live?token={i:024x}") for i in range(30)]
@@ -206,7 +238,13 @@ async def attacked(server: Served, given: argparse.Namespace) -> dict[str, Waits
     walker = (await arrived(server, "?lesson=transforms"))[0]
     await walker.until(lambda page: page.run["finished"])
     await measured(server, given, [lambda end: stepping(walker, end, found["alone, steps"], 0.25)])
-    command = [sys.executable, "-m", "tests.benchmarks.attackers", server.address, str(given.seconds + 20)]
+    command = [
+        sys.executable,
+        "-m",
+        "tests.benchmarks.attackers",
+        server.address,
+        str(given.seconds + 20),
+    ]
     with psutil.Popen(command, cwd=ROOT, text=True, stdout=subprocess.PIPE) as attackers:
         while await asyncio.to_thread(attackers.stdout.readline) != "here\n":
             assert attackers.is_running()
@@ -230,14 +268,21 @@ async def coming(server: Served, query: str, end: float, waits: Waits) -> None:
         await asyncio.sleep(1.0)
 
 
-async def measured(server: Served, given: argparse.Namespace, tasks: list[Callable[[float], Awaitable[None]]]) -> None:
+async def measured(
+    server: Served, given: argparse.Namespace, tasks: list[Callable[[float], Awaitable[None]]]
+) -> None:
     """Let all do their work at once, and note what the server spent."""
     began, cpu = server.spent()
     own = time.process_time()
     await asyncio.gather(*(task(began + given.seconds) for task in tasks))
     ended, spent = server.spent()
     seconds = ended - began
-    given.spent = (spent - cpu) / seconds, (time.process_time() - own) / seconds, server.held()[1], seconds
+    given.spent = (
+        (spent - cpu) / seconds,
+        (time.process_time() - own) / seconds,
+        server.held()[1],
+        seconds,
+    )
 
 
 async def costs(server: Served, given: argparse.Namespace) -> None:
@@ -261,15 +306,24 @@ async def costs(server: Served, given: argparse.Namespace) -> None:
         await (await arrived(server, "?lesson=transforms"))[0].close()
     page_of = 100 * (server.spent()[1] - began)
     print(
-        f"{'mean':<18} step {np.mean(steps_of):6.1f} ms, moved knob {np.mean(knobs_of):6.1f} ms; a visit {page_of:.1f} ms\n"
+        f"{'mean':<18} step {np.mean(steps_of):6.1f} ms, moved knob {np.mean(knobs_of):6.1f} ms; a"
+        f" visit {page_of:.1f} ms\n"
     )
 
 
-SCENARIOS: dict[str, Any] = {"cost": costs, "one": one_lesson, "mixed": mixed, "silent": silent, "attacked": attacked}
+SCENARIOS: dict[str, Any] = {
+    "cost": costs,
+    "one": one_lesson,
+    "mixed": mixed,
+    "silent": silent,
+    "attacked": attacked,
+}
 
 
 def afterwards(server: Served, at_work: float) -> tuple[int, float]:
-    """Return threads and MB of the server when all have gone, and it has let go of what it held for them."""
+    """Return threads and MB of the server when all have gone, and it has let go of what it held for
+    them.
+    """
     held, until = server.held(), time.monotonic() + 3 * EMPTY
     while time.monotonic() < until and not (held[0] <= server.threads and held[1] < 0.9 * at_work):
         time.sleep(1.0)
@@ -279,13 +333,17 @@ def afterwards(server: Served, at_work: float) -> tuple[int, float]:
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--students", type=int, default=100)
     parser.add_argument("--seconds", type=float, default=15.0)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--only", nargs="+", choices=sorted(SCENARIOS), default=list(SCENARIOS))
     parser.add_argument(
-        "--lessons", nargs="+", default=["transforms", "pinhole", "icp", "ransac", "curvature", "disparity"]
+        "--lessons",
+        nargs="+",
+        default=["transforms", "pinhole", "icp", "ransac", "curvature", "disparity"],
     )
     given = parser.parse_args()
     parts = f"one process with {given.threads} threads that compute each"
@@ -302,18 +360,19 @@ def main() -> None:
         for who, waits in found.items():
             words, scene = np.array(waits.words or [np.nan]), np.array(waits.scene or [np.nan])
             print(
-                f"{who:<18} {len(waits.words):6d} {np.median(words):18.0f} {np.quantile(words, 0.95):6.0f}"
-                f" {words.max():6.0f} {np.quantile(scene, 0.95):11.0f}   {GOALS[who]}"
+                f"{who:<18} {len(waits.words):6d} {np.median(words):18.0f}"
+                f" {np.quantile(words, 0.95):6.0f} {words.max():6.0f}"
+                f" {np.quantile(scene, 0.95):11.0f}   {GOALS[who]}"
             )
         if not found:
             continue
         cores, ours, memory, seconds = given.spent
         each = 1000 * cores * seconds / max(1, sum(len(waits.words) for waits in found.values()))
         print(
-            f"  server: {cores:.2f} cores, {each:.1f} ms for each wish; students: {ours:.2f} cores; "
-            f"load before {before:.1f}, after {os.getloadavg()[0]:.1f}\n"
-            f"  memory: {server.memory:,.0f} MB at the start, {memory:,.0f} at work, {memory_after:,.0f} when all had gone; "
-            f"threads: {server.threads}, then {threads}\n",
+            f"  server: {cores:.2f} cores, {each:.1f} ms for each wish; students: {ours:.2f} cores;"
+            f" load before {before:.1f}, after {os.getloadavg()[0]:.1f}\n  memory:"
+            f" {server.memory:,.0f} MB at the start, {memory:,.0f} at work, {memory_after:,.0f}"
+            f" when all had gone; threads: {server.threads}, then {threads}\n",
             flush=True,
         )
 

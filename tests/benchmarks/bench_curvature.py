@@ -1,8 +1,10 @@
-"""Curvature of a mesh, and the spectrum of its Laplacian, beside their peers: `python -m tests.benchmarks.bench_curvature`.
+"""Curvature of a mesh, and the spectrum of its Laplacian, beside their peers: `python -m
+tests.benchmarks.bench_curvature`.
 
-All contenders of a task see the same mesh in one run and on one thread, taking turns; figures are medians of CPU
-milliseconds. K and H are followed by their relative L2 error in per cent on a regular torus, where formulas converge,
-and on a jittered one, where only fits do. Floors are ratios to the best peer that a prototype reached.
+All contenders of a task see the same mesh in one run and on one thread, taking turns; figures are
+medians of CPU milliseconds. K and H are followed by their relative L2 error in per cent on a
+regular torus, where formulas converge, and on a jittered one, where only fits do. Floors are ratios
+to the best peer that a prototype reached.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
@@ -20,10 +22,10 @@ from types import ModuleType
 import numpy as np
 import scipy
 
-from workbench.data.surfaces import Surface, sphere, torus
-from workbench.geometry.curvature import curvatures, gaussian_curvature
-from workbench.geometry.laplacian import cotangent_laplacian, eigenpairs, mixed_areas
-from workbench.geometry.quadric_fit import fit_quadrics
+from workbench.data.shapes.surfaces import Surface, sphere, torus
+from workbench.geometry.meshes.curvature import curvatures, gaussian_curvature
+from workbench.geometry.meshes.laplacian import cotangent_laplacian, eigenpairs, mixed_areas
+from workbench.geometry.meshes.quadric_fit import fit_quadrics
 
 Estimate = tuple[np.ndarray | None, np.ndarray | None]
 Contender = Callable[[], object]
@@ -43,8 +45,20 @@ def main() -> None:
         jittered = torus(count, jitter=0.2, rng=np.random.default_rng(0))
         for surface, kind in ((torus(count), "regular"), (jittered, "jittered")):
             title = f"K and H of a {kind} torus, {len(surface.p):,} vertices"
-            compare(title, both(surface, igl, pyvista), surface, FLOORS.get(("K and H", count)), repeats=7)
-        compare(f"K alone, {count:,} vertices", gaussian(torus(count), igl, pyvista), torus(count), None, repeats=7)
+            compare(
+                title,
+                both(surface, igl, pyvista),
+                surface,
+                FLOORS.get(("K and H", count)),
+                repeats=7,
+            )
+        compare(
+            f"K alone, {count:,} vertices",
+            gaussian(torus(count), igl, pyvista),
+            torus(count),
+            None,
+            repeats=7,
+        )
     for count in (20_000, 200_000):
         surface = torus(count, jitter=0.2, rng=np.random.default_rng(0))
         title = f"K, H and directions by quadrics on a jittered torus, {len(surface.p):,} vertices"
@@ -54,7 +68,9 @@ def main() -> None:
         compare(title, spectra(surface, igl, lapy), None, FLOORS["eigenpairs", name], repeats=2)
 
 
-def both(surface: Surface, igl: ModuleType | None, pyvista: ModuleType | None) -> dict[str, Contender]:
+def both(
+    surface: Surface, igl: ModuleType | None, pyvista: ModuleType | None
+) -> dict[str, Contender]:
     """Return who gives K and H: we give k1, k2, normals and areas too."""
     p, faces = surface.p, surface.faces
 
@@ -73,18 +89,24 @@ def both(surface: Surface, igl: ModuleType | None, pyvista: ModuleType | None) -
         contenders["igl"] = theirs
     if pyvista is not None:
         contenders["pyvista"] = lambda: tuple(
-            pyvista.PolyData.from_regular_faces(p, faces).curvature(kind) for kind in ("gaussian", "mean")
+            pyvista.PolyData.from_regular_faces(p, faces).curvature(kind)
+            for kind in ("gaussian", "mean")
         )
     return contenders
 
 
-def gaussian(surface: Surface, igl: ModuleType | None, pyvista: ModuleType | None) -> dict[str, Contender]:
-    """Return who gives K alone; pyvista divides by a third of the faces around, not by mixed areas."""
+def gaussian(
+    surface: Surface, igl: ModuleType | None, pyvista: ModuleType | None
+) -> dict[str, Contender]:
+    """Return who gives K alone; pyvista divides by a third of the faces around, not by mixed
+    areas.
+    """
     p, faces = surface.p, surface.faces
     contenders: dict[str, Contender] = {"ours": lambda: (gaussian_curvature(p, faces), None)}
     if igl is not None:
         contenders["igl"] = lambda: (
-            igl.gaussian_curvature(p, faces) / igl.massmatrix(p, faces, igl.MASSMATRIX_TYPE_VORONOI).diagonal(),
+            igl.gaussian_curvature(p, faces)
+            / igl.massmatrix(p, faces, igl.MASSMATRIX_TYPE_VORONOI).diagonal(),
             None,
         )
     if pyvista is not None:
@@ -96,7 +118,9 @@ def gaussian(surface: Surface, igl: ModuleType | None, pyvista: ModuleType | Non
 
 
 def fits(surface: Surface, igl: ModuleType | None) -> dict[str, Contender]:
-    """Return who fits quadrics: igl over all vertices within five mean edges unless told otherwise."""
+    """Return who fits quadrics: igl over all vertices within five mean edges unless told
+    otherwise.
+    """
     p, faces = surface.p, surface.faces
 
     def ours() -> Estimate:
@@ -115,15 +139,22 @@ def fits(surface: Surface, igl: ModuleType | None) -> dict[str, Contender]:
     return contenders
 
 
-def spectra(surface: Surface, igl: ModuleType | None, lapy: ModuleType | None) -> dict[str, Contender]:
-    """Return who finds the smallest eigenvalues of L u = lambda M u; what is returned is their sum, to compare."""
+def spectra(
+    surface: Surface, igl: ModuleType | None, lapy: ModuleType | None
+) -> dict[str, Contender]:
+    """Return who finds the smallest eigenvalues of L u = lambda M u; what is returned is their sum,
+    to compare.
+    """
     p, faces = surface.p, surface.faces
 
     def shifted(L: object, M: object) -> float:
         return float(scipy.sparse.linalg.eigsh(L, 50, M, sigma=-0.01)[0].sum())  # type: ignore[arg-type]
 
     def plain() -> float:
-        return shifted(cotangent_laplacian(p, faces).tocsc(), scipy.sparse.diags_array(mixed_areas(p, faces)).tocsc())
+        return shifted(
+            cotangent_laplacian(p, faces).tocsc(),
+            scipy.sparse.diags_array(mixed_areas(p, faces)).tocsc(),
+        )
 
     contenders: dict[str, Contender] = {"ours": lambda: float(eigenpairs(p, faces, 50)[0].sum())}
     contenders["our L, eigsh as it is"] = plain
@@ -132,12 +163,18 @@ def spectra(surface: Surface, igl: ModuleType | None, lapy: ModuleType | None) -
             -igl.cotmatrix(p, faces), igl.massmatrix(p, faces, igl.MASSMATRIX_TYPE_VORONOI)
         )
     if lapy is not None:
-        contenders["lapy"] = lambda: float(lapy.Solver(lapy.TriaMesh(p, faces), lump=True).eigs(50)[0].sum())
+        contenders["lapy"] = lambda: float(
+            lapy.Solver(lapy.TriaMesh(p, faces), lump=True).eigs(50)[0].sum()
+        )
     return contenders
 
 
 def compare(
-    title: str, contenders: dict[str, Contender], surface: Surface | None, floor: float | None, repeats: int
+    title: str,
+    contenders: dict[str, Contender],
+    surface: Surface | None,
+    floor: float | None,
+    repeats: int,
 ) -> None:
     """Run all contenders in turns and print their figures and our ratio to each."""
     times: dict[str, list[float]] = {name: [] for name in contenders}
@@ -153,11 +190,15 @@ def compare(
     heads = ("K error %", "H error %") if surface else ("what must agree", "")
     print(f"  {'':24}{'ms':>9}{'ours / it':>11}{heads[0]:>20}{heads[1]:>12}")
     for name, answer in answers.items():
-        print(f"  {name:24}{medians[name]:9.1f}{ours / medians[name]:11.2f}{describe(answer, surface)}")
+        print(
+            f"  {name:24}{medians[name]:9.1f}{ours / medians[name]:11.2f}{describe(answer, surface)}"  # noqa: E501
+        )
 
 
 def describe(answer: object, surface: Surface | None) -> str:
-    """Write down how far K and H are from the truth, in per cent; H without its sign, which not all peers give."""
+    """Write down how far K and H are from the truth, in per cent; H without its sign, which not all
+    peers give.
+    """
     if surface is None or not isinstance(answer, tuple):
         return f"{answer:20.4f}"
     cells = []

@@ -1,11 +1,14 @@
-"""Shortest ways, fast marching, heat and Mahalanobis beside their peers: `python -m tests.benchmarks.bench_distances`.
+"""Shortest ways, fast marching, heat and Mahalanobis beside their peers: `python -m
+tests.benchmarks.bench_distances`.
 
-All contenders of a task see the same grid, mesh or points in one run and on one thread, taking turns; figures are medians
-of CPU milliseconds. The number behind is what must agree: a distance, or a sum of distances. Floors are ratios to the best
-peer that a prototype reached. scikit-fmm marches node by node with a heap in C++; ours accepts bands of nodes with numpy and
-calls the student's update for all nodes of a band at once, which a heap could not. It stays slower.
-Scipy's graph is given once and asked often; ours is made at every call, as the exercise's contract has it. Exact geodesics
-by igl are faster than our graph of points on edges, which serves as the truth of surfaces without a formula.
+All contenders of a task see the same grid, mesh or points in one run and on one thread, taking
+turns; figures are medians of CPU milliseconds. The number behind is what must agree: a distance, or
+a sum of distances. Floors are ratios to the best peer that a prototype reached. scikit-fmm marches
+node by node with a heap in C++; ours accepts bands of nodes with numpy and calls the student's
+update for all nodes of a band at once, which a heap could not. It stays slower. Scipy's graph is
+given once and asked often; ours is made at every call, as the exercise's contract has it. Exact
+geodesics by igl are faster than our graph of points on edges, which serves as the truth of surfaces
+without a formula.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
@@ -20,11 +23,11 @@ import numpy as np
 import scipy
 
 from tests.benchmarks.bench_curvature import Contender, compare, peer
-from workbench.algorithms.fast_marching import march
-from workbench.algorithms.heat_method import HeatMethod, mean_edge_length
-from workbench.data import surfaces
-from workbench.geometry import geodesics, metrics
-from workbench.geometry.meshes import corners
+from workbench.algorithms.surfaces.fast_marching import march
+from workbench.algorithms.surfaces.heat_method import HeatMethod, mean_edge_length
+from workbench.data.shapes import surfaces
+from workbench.geometry.meshes import corners, geodesics
+from workbench.geometry.points import metrics
 
 FLOORS = {"dijkstra": 1.3, "heat": 1.3, "mahalanobis": 0.13}
 SIDE = 81
@@ -32,17 +35,40 @@ SIDE = 81
 
 def main() -> None:
     """Print one table per task."""
-    networkx, fmm, potpourri, igl = peer("networkx"), peer("skfmm"), peer("potpourri3d"), peer("igl")
+    networkx, fmm, potpourri, igl = (
+        peer("networkx"),
+        peer("skfmm"),
+        peer("potpourri3d"),
+        peer("igl"),
+    )
     x = np.linspace(0.0, 1.0, SIDE)
     p = np.stack(np.meshgrid(x, x, indexing="ij"), axis=-1).reshape(-1, 2)
-    compare("Dijkstra, 81 x 81 nodes, 8 neighbours", ways(p, networkx), None, FLOORS["dijkstra"], repeats=5)
+    compare(
+        "Dijkstra, 81 x 81 nodes, 8 neighbours",
+        ways(p, networkx),
+        None,
+        FLOORS["dijkstra"],
+        repeats=5,
+    )
     compare("Fast marching, 81 x 81, from an exact disc", marches(x, fmm), None, None, repeats=5)
     ball = surfaces.sphere(2562)
     compare(
-        "Distance by heat, 2,562 vertices", heats(ball.p, ball.faces, potpourri, igl), None, FLOORS["heat"], repeats=5
+        "Distance by heat, 2,562 vertices",
+        heats(ball.p, ball.faces, potpourri, igl),
+        None,
+        FLOORS["heat"],
+        repeats=5,
     )
-    compare("Exact geodesics beside points on edges, 642 vertices", exact(igl), None, None, repeats=3)
-    compare("Mahalanobis, 2,000 x 2,000 points in 10 dimensions", whitened(), None, FLOORS["mahalanobis"], repeats=3)
+    compare(
+        "Exact geodesics beside points on edges, 642 vertices", exact(igl), None, None, repeats=3
+    )
+    compare(
+        "Mahalanobis, 2,000 x 2,000 points in 10 dimensions",
+        whitened(),
+        None,
+        FLOORS["mahalanobis"],
+        repeats=3,
+    )
 
 
 def ways(p: np.ndarray, networkx: ModuleType | None) -> dict[str, Contender]:
@@ -51,7 +77,9 @@ def ways(p: np.ndarray, networkx: ModuleType | None) -> dict[str, Contender]:
     lengths = geodesics.edge_lengths(p, edges)
     graph = scipy.sparse.csr_array((lengths, tuple(edges.T)), shape=(len(p), len(p)))
     contenders: dict[str, Contender] = {
-        "ours, graph made": lambda: float(geodesics.shortest_distances(edges, lengths, len(p), 0).sum()),
+        "ours, graph made": lambda: float(
+            geodesics.shortest_distances(edges, lengths, len(p), 0).sum()
+        ),
         "scipy, graph made": lambda: float(
             scipy.sparse.csgraph.dijkstra(
                 scipy.sparse.csr_array((lengths, tuple(edges.T)), shape=(len(p), len(p))),
@@ -72,18 +100,24 @@ def ways(p: np.ndarray, networkx: ModuleType | None) -> dict[str, Contender]:
 
 
 def marches(x: np.ndarray, fmm: ModuleType | None) -> dict[str, Contender]:
-    """Return who marches from a disc of radius 0.1 about a corner; the distance of the far corner must be near."""
+    """Return who marches from a disc of radius 0.1 about a corner; the distance of the far corner
+    must be near.
+    """
     true, h = np.hypot(*np.meshgrid(x, x, indexing="ij")), float(x[1])
     start, free = np.where(true <= 0.1, true, np.inf), np.ones((SIDE, SIDE), bool)
 
     def ours() -> float:
-        *_, last = march(start, free, h, 0.1)
+        *_, last = march(start, free, h, band=0.1)
         return float(last.d[-1, -1])
 
     contenders: dict[str, Contender] = {"ours, first order": ours}
     if fmm is not None:
-        contenders["scikit-fmm, first order"] = lambda: float(fmm.distance(true - 0.1, dx=h, order=1)[-1, -1] + 0.1)
-        contenders["scikit-fmm, second order"] = lambda: float(fmm.distance(true - 0.1, dx=h)[-1, -1] + 0.1)
+        contenders["scikit-fmm, first order"] = lambda: float(
+            fmm.distance(true - 0.1, dx=h, order=1)[-1, -1] + 0.1
+        )
+        contenders["scikit-fmm, second order"] = lambda: float(
+            fmm.distance(true - 0.1, dx=h)[-1, -1] + 0.1
+        )
     return contenders
 
 
@@ -115,12 +149,16 @@ def heats(
 
 
 def exact(igl: ModuleType | None) -> dict[str, Contender]:
-    """Return who comes near the exact geodesics of a mesh; the sum of the distances must be near."""
+    """Return who comes near the exact geodesics of a mesh; the sum of the distances must be
+    near.
+    """
     ball = surfaces.sphere(642)
 
     def ours() -> float:
         nodes, edges, lengths = geodesics.with_points_on_edges(ball.p, ball.faces, 4)
-        return float(geodesics.shortest_distances(edges, lengths, len(nodes), 0)[: len(ball.p)].sum())
+        return float(
+            geodesics.shortest_distances(edges, lengths, len(nodes), 0)[: len(ball.p)].sum()
+        )
 
     contenders: dict[str, Contender] = {"ours, 4 points on each edge": ours}
     if igl is not None:

@@ -1,13 +1,15 @@
-"""Two views: eight points, triangulation, the motion between two cameras, beside OpenCV and PoseLib where installed.
+"""Two views: eight points, triangulation, the motion between two cameras, beside OpenCV and PoseLib
+where installed.
 
     python -m tests.benchmarks.bench_epipolar
 
-The least CPU time of some rounds, taking turns, one thread each. 1,365 matches of two made cameras with half a pixel of
-noise, 1024 x 683 pixels. Where ours are behind: eight points keep the digits that normal equations lose (a QR of all rows
-before the SVD), and the linear triangulation is numpy's SVD of one 4 x 4 at a time, for the same digits: eigenvectors of its
-products would take two thirds of the time. Its midpoints are as near here and an order quicker. Rectification is a dozen
-products of small matrices, each with numpy's call.
-OpenCV and PoseLib look for outliers too, of which there are none: their motions are for more than ours.
+The least CPU time of some rounds, taking turns, one thread each. 1,365 matches of two made cameras
+with half a pixel of noise, 1024 x 683 pixels. Where ours are behind: eight points keep the digits
+that normal equations lose (a QR of all rows before the SVD), and the linear triangulation is
+numpy's SVD of one 4 x 4 at a time, for the same digits: eigenvectors of its products would take two
+thirds of the time. Its midpoints are as near here and an order quicker. Rectification is a dozen
+products of small matrices, each with numpy's call. OpenCV and PoseLib look for outliers too, of
+which there are none: their motions are for more than ours.
 """
 
 import argparse
@@ -19,13 +21,22 @@ import numpy as np
 
 from lessons.epipolar.exercises import a_pair
 from tests.benchmarks.bench_icp import line, optional
-from workbench.geometry.alignment import degrees_between
 from workbench.geometry.cameras import normalize
-from workbench.geometry.epipolar import fit_fundamental, refine_fundamental
-from workbench.geometry.essential import essential_from_fundamental, essential_to_poses, refine_motion
 from workbench.geometry.motions import angle_between, motion
-from workbench.geometry.rectification import rectify
-from workbench.geometry.triangulation import before_both, camera_matrix, midpoints, triangulate
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.two_views.epipolar import fit_fundamental, refine_fundamental
+from workbench.geometry.two_views.essential import (
+    essential_from_fundamental,
+    essential_to_poses,
+    refine_motion,
+)
+from workbench.geometry.two_views.rectification import rectify
+from workbench.geometry.two_views.triangulation import (
+    before_both,
+    camera_matrix,
+    midpoints,
+    triangulate,
+)
 
 MATCHES, SIGMA = 1365, 0.5
 cv2, poselib = optional("cv2"), optional("poselib")
@@ -44,7 +55,11 @@ def best(*tasks: Callable[[], Any], repeat: int = 5) -> list[float]:
 
 
 def compared(
-    task: str, rounds: int, ours: Callable[[], Any], peers: dict[str, Callable[[], Any]], floor: str = ""
+    task: str,
+    rounds: int,
+    ours: Callable[[], Any],
+    peers: dict[str, Callable[[], Any]],
+    floor: str = "",
 ) -> None:
     mine, *theirs = best(ours, *peers.values(), repeat=rounds)
     line(task, mine, dict(zip(peers, theirs, strict=True)), floor)
@@ -63,8 +78,13 @@ def main() -> None:
     P, Q = camera_matrix(K, np.eye(4)), camera_matrix(L, T)
     xn, yn = normalize(x, K), normalize(y, L)
     print(f"{'task (ms), 1,365 matches':<44} {'ours':>8}   {'peers':<44} {'ratio':>6}   floor")
-    compared("eight points", rounds, lambda: fit_fundamental(x, y),
-             {"cv2": lambda: cv2.findFundamentalMat(x, y, cv2.FM_8POINT)} if cv2 else {}, "6")  # fmt: skip
+    compared(
+        "eight points",
+        rounds,
+        lambda: fit_fundamental(x, y),
+        {"cv2": lambda: cv2.findFundamentalMat(x, y, cv2.FM_8POINT)} if cv2 else {},
+        "6",
+    )
     triangulated = {"cv2": lambda: cv2.triangulatePoints(P, Q, x.T, y.T)} if cv2 else {}
     compared("triangulation, linear", rounds, lambda: triangulate(P, Q, x, y), triangulated, "3.2")
     compared("triangulation, midpoints", rounds, lambda: midpoints(T, xn, yn), triangulated, "0.25")
@@ -75,11 +95,16 @@ def main() -> None:
     def ours(refined: bool = True) -> np.ndarray:
         Ts = essential_to_poses(essential_from_fundamental(fit_fundamental(x, y), K, L))
         best = max(Ts, key=lambda one: before_both(midpoints(one, xn, yn), one).sum())
-        return refine_motion(best, x, y, K, L) if refined else best
+        return refine_motion(best, x, y, K_first=K, K_second=L) if refined else best
 
     def by_poselib() -> np.ndarray:
         cameras = [
-            {"model": "PINHOLE", "width": 1024, "height": 683, "params": [k[0, 0], k[1, 1], k[0, 2], k[1, 2]]}
+            {
+                "model": "PINHOLE",
+                "width": 1024,
+                "height": 683,
+                "params": [k[0, 0], k[1, 1], k[0, 2], k[1, 2]],
+            }
             for k in (K, L)
         ]
         found = poselib.estimate_relative_pose(x, y, *cameras, {"max_epipolar_error": 2.0}, {})[0]
@@ -90,15 +115,29 @@ def main() -> None:
         _, R, t, _ = cv2.recoverPose(E, xn, yn, np.eye(3), mask=mask)
         return motion(R, t.ravel())
 
-    peers = ({"cv2 five points": by_cv2} if cv2 else {}) | ({"poselib": by_poselib} if poselib else {})
+    peers = ({"cv2 five points": by_cv2} if cv2 else {}) | (
+        {"poselib": by_poselib} if poselib else {}
+    )
     compared("motion: eight points, refined", rounds, ours, peers)
     for name, made in {"ours": ours, "ours, not refined": lambda: ours(False), **peers}.items():
         found = made()
         direction = np.degrees(angle_between(found[:3, 3], T[:3, 3]))
-        print(f"    {name}: {degrees_between(found, T):.3f} degrees of rotation, {direction:.3f} of direction off")
-    compared("F refined over seven numbers", rounds, lambda: refine_fundamental(fit_fundamental(x, y), x, y), {})
+        print(
+            f"    {name}: {degrees_between(found, T):.3f} degrees of rotation, {direction:.3f} of"
+            " direction off"
+        )
+    compared(
+        "F refined over seven numbers",
+        rounds,
+        lambda: refine_fundamental(fit_fundamental(x, y), x, y),
+        {},
+    )
     none, t = np.zeros((5, 1)), T[:3, 3:].copy()
-    rectified = {"cv2": lambda: cv2.stereoRectify(K, none, L, none, (1024, 683), T[:3, :3].copy(), t)} if cv2 else {}
+    rectified = (
+        {"cv2": lambda: cv2.stereoRectify(K, none, L, none, (1024, 683), T[:3, :3].copy(), t)}
+        if cv2
+        else {}
+    )
     compared("rectification", rounds, lambda: rectify(T, K, L), rectified)
 
 

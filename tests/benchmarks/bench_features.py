@@ -1,12 +1,16 @@
-"""Features: descriptors, keypoints, corners and registration from any start, beside Open3D and OpenCV where installed.
+"""Features: descriptors, keypoints, corners and registration from any start, beside Open3D and
+OpenCV where installed.
 
     python -m tests.benchmarks.bench_features
 
-The least CPU time of some rounds, taking turns, one thread each. FPFH takes all neighbours within the radius on both sides:
-Open3D's usual limit of 100 is quicker for it, and gives other descriptors; shown too. Its ISS is another detector (it takes
-the spread about the neighbours' mean). OpenCV's corner response is of single precision, without our two Gaussians (most of
-our time), and compiled for vectors. The bunny scans are used where ../shared/data is beside the project.
+The least CPU time of some rounds, taking turns, one thread each. FPFH takes all neighbours within
+the radius on both sides: Open3D's usual limit of 100 is quicker for it, and gives other
+descriptors; shown too. Its ISS is another detector (it takes the spread about the neighbours'
+mean). OpenCV's corner response is of single precision, without our two Gaussians (most of our
+time), and compiled for vectors. The bunny scans are used where ../shared/data is beside the
+project.
 """
+
 # ruff: noqa: E402
 
 import argparse
@@ -25,16 +29,16 @@ import numpy as np
 
 from lessons.features.lesson import run
 from lessons.features.state import Params, Scanned
+from lessons.features.turned_pictures import motorcycle_levels
 from tests.benchmarks.bench_icp import line, optional
 from workbench.data.files import read_cloud, read_pose
-from workbench.data.rabbit import rabbit
+from workbench.data.shapes.rabbit import rabbit
 from workbench.data.thinning import voxel_means
-from workbench.data.turned_pictures import motorcycle_levels
-from workbench.geometry.fpfh import fpfh
-from workbench.geometry.keypoints import harris_response, iss_keypoints
-from workbench.geometry.matching import mutual_matches
+from workbench.geometry.features.fpfh import fpfh
+from workbench.geometry.features.keypoints import harris_response, iss_keypoints
+from workbench.geometry.features.matching import mutual_matches
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.geometry.normals import point_normals
+from workbench.geometry.points.normals import point_normals
 
 SCANS = Path(__file__).resolve().parents[3] / "shared" / "data" / "icp"
 RADIUS, STARTS = 0.15, 20
@@ -47,7 +51,9 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     rounds = parser.parse_args().rounds
     print(f"{'task (ms)':<44} {'ours':>8}   {'peers':<44} {'ratio':>6}   floor")
-    clouds = [(f"rabbit, {n:,} points", rabbit(n, np.random.default_rng(0)), RADIUS) for n in (2000, 3000)]
+    clouds = [
+        (f"rabbit, {n:,} points", rabbit(n, np.random.default_rng(0)), RADIUS) for n in (2000, 3000)
+    ]
     if SCANS.exists():
         bunny = voxel_means(read_cloud(SCANS / "bun000.ply"), 0.005)
         clouds.append((f"bunny, {len(bunny):,} points", bunny, 0.025))
@@ -57,13 +63,18 @@ def main() -> None:
     keypoints(rounds, p, clouds[-1][2])
     features = fpfh(p, point_normals(p), clouds[-1][2])
     compared(
-        "mutual matches of these with themselves", rounds, lambda: mutual_matches(features, features[::-1], 0.9), {}
+        "mutual matches of these with themselves",
+        rounds,
+        lambda: mutual_matches(features, features[::-1], 0.9),
+        {},
     )
     left, _, _ = motorcycle_levels()
     compared(
-        f"corner response, {left.shape[1]} x {left.shape[0]} pixels", rounds, lambda: harris_response(left),
+        f"corner response, {left.shape[1]} x {left.shape[0]} pixels",
+        rounds,
+        lambda: harris_response(left),
         {"cv2": lambda: cv2.cornerHarris(left.astype(np.float32), 3, 3, 0.04)} if cv2 else {},
-    )  # fmt: skip
+    )
     if SCANS.exists():
         from_any_start()
     else:
@@ -99,9 +110,16 @@ def keypoints(rounds: int, p: np.ndarray, radius: float) -> None:
     if open3d:
         cloud = cloud_of(p)
         peers["open3d"] = lambda: open3d.geometry.keypoint.compute_iss_keypoints(
-            cloud, salient_radius=radius, non_max_radius=radius / 2, gamma_21=0.975, gamma_32=0.975, min_neighbors=5
+            cloud,
+            salient_radius=radius,
+            non_max_radius=radius / 2,
+            gamma_21=0.975,
+            gamma_32=0.975,
+            min_neighbors=5,
         )
-    compared("ISS keypoints of the last", rounds, lambda: iss_keypoints(p, radius, radius / 2), peers)
+    compared(
+        "ISS keypoints of the last", rounds, lambda: iss_keypoints(p, radius, radius / 2), peers
+    )
 
 
 def from_any_start() -> None:
@@ -119,14 +137,24 @@ def from_any_start() -> None:
             *_, last = run(Params(target=files[0], source=source, truth=truth, up="y", seed=seed))
             took = time.process_time() - began
             assert isinstance(last.now, Scanned)
-            before = np.nan if last.now.T_before is None else last.now.scans.error(last.now.T_before).rotation
+            before = (
+                np.nan
+                if last.now.T_before is None
+                else last.now.scans.error(last.now.T_before).rotation
+            )
             rows.append((before, last.now.error.rotation, took))
     before, after, took = np.array(rows).T
     print(
-        f"\nbunny scans from {STARTS} random starts, every step of the lesson, files read: {np.median(took):.2f} s each"
+        f"\nbunny scans from {STARTS} random starts, every step of the lesson, files read:"
+        f" {np.median(took):.2f} s each"
     )
-    print(f"    before ICP within 0.5 degrees: {np.sum(before < 0.5)}, at most {np.nanmax(before):.3f}")
-    print(f"    after ICP within 0.1 degrees: {np.sum(after < 0.1)}, at most {np.nanmax(after):.3f}")
+    print(
+        f"    before ICP within 0.5 degrees: {np.sum(before < 0.5)}, at most"
+        f" {np.nanmax(before):.3f}"
+    )
+    print(
+        f"    after ICP within 0.1 degrees: {np.sum(after < 0.1)}, at most {np.nanmax(after):.3f}"
+    )
 
 
 def cloud_of(p: np.ndarray, n: np.ndarray | None = None) -> Any:
@@ -137,7 +165,9 @@ def cloud_of(p: np.ndarray, n: np.ndarray | None = None) -> Any:
     return cloud
 
 
-def compared(task: str, rounds: int, ours: Callable[[], Any], peers: dict[str, Callable[[], Any]]) -> None:
+def compared(
+    task: str, rounds: int, ours: Callable[[], Any], peers: dict[str, Callable[[], Any]]
+) -> None:
     """Print the least CPU times, taking turns, milliseconds."""
     ways = {"": ours} | peers
     least = dict.fromkeys(ways, np.inf)

@@ -1,11 +1,13 @@
-"""Fits of circles, cylinders and lines beside scipy, circle-fit and OpenCV, where they are installed.
+"""Fits of circles, cylinders and lines beside scipy, circle-fit and OpenCV, where they are
+installed.
 
     python -m tests.benchmarks.bench_fitting
 
-The least time of some rounds, taking turns, of 20 fits each. Ours is the lesson's descent with every moment of it, as the
-lesson draws it. cv2.fitLine iterates with Huber's weights, which let outliers pull (compare the angles), in a compiled loop
-over points.
+The least time of some rounds, taking turns, of 20 fits each. Ours is the lesson's descent with
+every moment of it, as the lesson draws it. cv2.fitLine iterates with Huber's weights, which let
+outliers pull (compare the angles), in a compiled loop over points.
 """
+
 # ruff: noqa: E402
 
 import argparse
@@ -17,22 +19,24 @@ for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 import numpy as np
 import scipy
 
+from lessons.fitting.fit_scenes import arc_points, pipe_points
+from lessons.fitting.round_shapes import CIRCLE, CYLINDER, RoundShape
 from tests.benchmarks.bench_icp import best, line, optional
 from tests.truths.fitting import distances
 from workbench.algorithms.least_squares import damped_step, descend
-from workbench.algorithms.models import LINE
 from workbench.algorithms.robust import HUBER, TUKEY, reweighted_fit
-from workbench.algorithms.round_shapes import CIRCLE, CYLINDER, RoundShape
-from workbench.data.fit_scenes import arc_points, pipe_points
-from workbench.geometry.algebraic_fits import fit_algebraic
-from workbench.geometry.lines_planes import line_angle
+from workbench.algorithms.robust.models import LINE
+from workbench.geometry.shapes.algebraic_fits import fit_algebraic
+from workbench.geometry.shapes.lines_planes import line_angle
 
 N, FITS = 1000, 20
 circle_fit, cv2 = optional("circle_fit"), optional("cv2")
 
 
 def descent(shape: RoundShape, p: np.ndarray, start: np.ndarray) -> np.ndarray:
-    *_, end = descend(lambda c: shape.linearise(c, p), shape.retract, start, damped_step, tolerance=1e-10)
+    *_, end = descend(
+        lambda c: shape.linearise(c, p), shape.retract, start, damped_step, tolerance=1e-10
+    )
     return end.unknown
 
 
@@ -52,8 +56,15 @@ def compare(task: str, ours, peers: dict, floor: str = "") -> None:
 def bench_circle() -> None:
     p = arc_points(np.radians(90), N) + 0.02 * np.random.default_rng(0).normal(size=(N, 2))
     start = np.array([0.5, 0.4, 0.7])
-    scipys = lambda: scipy.optimize.least_squares(lambda c: CIRCLE.linearise(c, p)[0], start, method="lm").x  # noqa: E731
-    compare("circle, 1,000 points, from afar", lambda: descent(CIRCLE, p, start), {"scipy lm": scipys})
+
+    def scipys() -> np.ndarray:
+        return scipy.optimize.least_squares(
+            lambda c: CIRCLE.linearise(c, p)[0], start, method="lm"
+        ).x
+
+    compare(
+        "circle, 1,000 points, from afar", lambda: descent(CIRCLE, p, start), {"scipy lm": scipys}
+    )
     print(f"    R: ours {descent(CIRCLE, p, start)[2]:.5f}, scipy {scipys()[2]:.5f}")
     peers = {"circle-fit": lambda: circle_fit.taubinSVD(p)} if circle_fit else {}
     compare("Taubin's circle, 1,000 points", lambda: fit_algebraic(p), peers)
@@ -87,7 +98,9 @@ def bench_line() -> None:
     def opencvs():
         return cv2.fitLine(p.astype(np.float32), cv2.DIST_HUBER, 0, 1e-4, 1e-4).ravel()
 
-    compare("line, 200 points, 40 off: Huber, then Tukey", ours, {"cv2 HUBER": opencvs} if cv2 else {})
+    compare(
+        "line, 200 points, 40 off: Huber, then Tukey", ours, {"cv2 HUBER": opencvs} if cv2 else {}
+    )
     true = np.degrees(np.arctan(0.5))
     print(f"    degrees off: ours {abs(np.degrees(line_angle(ours())) - true):.2f}", end="")
     if cv2:

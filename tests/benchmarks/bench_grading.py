@@ -1,4 +1,5 @@
-"""How long a call across the pipe takes beyond the student's own work, and how long a class of 200 takes to grade.
+"""How long a call across the pipe takes beyond the student's own work, and how long a class of 200
+takes to grade.
 
 `python -m tests.benchmarks.bench_grading`
 """
@@ -29,7 +30,10 @@ def main() -> None:
                 began = time.perf_counter()
                 student(p)
                 times.append(time.perf_counter() - began)
-        print(f"a call with 2,000 points there and back: median {1000 * np.median(times):.2f} ms (goal: below 2 ms)")
+        print(
+            f"a call with 2,000 points there and back: median {1000 * np.median(times):.2f} ms"
+            " (goal: below 2 ms)"
+        )
 
         finding.exercises = lambda: {"centroid": EXERCISE}
         kinds = write_class(Path(folder) / "in", 200)
@@ -37,7 +41,11 @@ def main() -> None:
         results = classroom.grade_class(Path(folder) / "in", Path(folder) / "out")
         points = Counter()
         for result in results:
-            said = "not graded" if result["error"] else f"{sum(r['points'] for r in result['reports']):g} points"
+            said = (
+                "not graded"
+                if result["error"]
+                else f"{sum(r['points'] for r in result['reports']):g} points"
+            )
             points[kinds[result["student"]], said] += 1
         print(f"a class of 200 in {time.perf_counter() - began:.0f} s:")
         for (kind, said), count in sorted(points.items()):

@@ -1,8 +1,10 @@
-"""Graphs of neighbours, Fiedler vectors and diffusion beside their peers: `python -m tests.benchmarks.bench_graphs`.
+"""Graphs of neighbours, Fiedler vectors and diffusion beside their peers: `python -m
+tests.benchmarks.bench_graphs`.
 
-All contenders of a task see the same points or graph in one run and on one thread, taking turns; figures are medians of CPU
-milliseconds. The number behind is what must agree: edges, an eigenvalue, the heat of one node. Floors are ratios to the best
-peer that a prototype reached. networkx' default way to a Fiedler vector (tracemin_pcg) takes seconds and is asked once.
+All contenders of a task see the same points or graph in one run and on one thread, taking turns;
+figures are medians of CPU milliseconds. The number behind is what must agree: edges, an eigenvalue,
+the heat of one node. Floors are ratios to the best peer that a prototype reached. networkx' default
+way to a Fiedler vector (tracemin_pcg) takes seconds and is asked once.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
@@ -17,8 +19,8 @@ import numpy as np
 import scipy
 
 from tests.benchmarks.bench_curvature import Contender, compare, peer
-from workbench.geometry import graphs
-from workbench.geometry.spectra import Laplacian
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.graphs.spectra import Laplacian
 
 FLOORS = {"neighbours": 0.8, "fiedler": 0.27}
 
@@ -28,11 +30,19 @@ def main() -> None:
     networkx, neighbors = peer("networkx"), peer("sklearn.neighbors")
     p = np.random.default_rng(0).random((20_000, 3))
     compare(
-        "Graph of 8 neighbours, either way, 20,000 points", joins(p, neighbors), None, FLOORS["neighbours"], repeats=5
+        "Graph of 8 neighbours, either way, 20,000 points",
+        joins(p, neighbors),
+        None,
+        FLOORS["neighbours"],
+        repeats=5,
     )
     few = graphs.joined(graphs.directed_graph(graphs.neighbours(p[:5000], 8)[0]), "union")
     compare(
-        "Second eigenvalue and vector of L, 5,000 nodes", fiedlers(few, networkx), None, FLOORS["fiedler"], repeats=3
+        "Second eigenvalue and vector of L, 5,000 nodes",
+        fiedlers(few, networkx),
+        None,
+        FLOORS["fiedler"],
+        repeats=3,
     )
     compare("The same, networkx as it is", slow(few, networkx), None, None, repeats=1)
     many = graphs.joined(graphs.directed_graph(graphs.neighbours(p, 8)[0]), "union")
@@ -42,7 +52,9 @@ def main() -> None:
 def joins(p: np.ndarray, neighbors: ModuleType | None) -> dict[str, Contender]:
     """Return who makes a symmetric graph of neighbours; the sum of its entries must agree."""
     contenders: dict[str, Contender] = {
-        "ours": lambda: float(graphs.joined(graphs.directed_graph(graphs.neighbours(p, 8)[0]), "union").sum())
+        "ours": lambda: float(
+            graphs.joined(graphs.directed_graph(graphs.neighbours(p, 8)[0]), "union").sum()
+        )
     }
     if neighbors is not None:
 
@@ -54,7 +66,9 @@ def joins(p: np.ndarray, neighbors: ModuleType | None) -> dict[str, Contender]:
     return contenders
 
 
-def fiedlers(adjacency: scipy.sparse.csr_array, networkx: ModuleType | None) -> dict[str, Contender]:
+def fiedlers(
+    adjacency: scipy.sparse.csr_array, networkx: ModuleType | None
+) -> dict[str, Contender]:
     """Return who finds the second eigenvalue of L = D - A."""
     ones = np.ones(adjacency.shape[0])
     contenders: dict[str, Contender] = {
@@ -63,7 +77,9 @@ def fiedlers(adjacency: scipy.sparse.csr_array, networkx: ModuleType | None) -> 
 
     def plain() -> float:
         L = graphs.laplacian(adjacency).tocsc()
-        return float(np.sort(scipy.sparse.linalg.eigsh(L, 2, sigma=-1e-3, return_eigenvectors=False))[1])
+        return float(
+            np.sort(scipy.sparse.linalg.eigsh(L, 2, sigma=-1e-3, return_eigenvectors=False))[1]
+        )
 
     contenders["our L, eigsh as it is"] = plain
     if networkx is not None:
@@ -80,13 +96,17 @@ def slow(adjacency: scipy.sparse.csr_array, networkx: ModuleType | None) -> dict
     contenders = {"ours": fiedlers(adjacency, None)["ours"]}
     if networkx is not None:
         graph = networkx.from_scipy_sparse_array(adjacency)
-        contenders["networkx tracemin_pcg"] = lambda: float(networkx.algebraic_connectivity(graph, seed=0))
+        contenders["networkx tracemin_pcg"] = lambda: float(
+            networkx.algebraic_connectivity(graph, seed=0)
+        )
     return contenders
 
 
 def pieces(adjacency: scipy.sparse.csr_array, networkx: ModuleType | None) -> dict[str, Contender]:
     """Return who counts the components."""
-    contenders: dict[str, Contender] = {"ours": lambda: float(graphs.components(adjacency).max() + 1)}
+    contenders: dict[str, Contender] = {
+        "ours": lambda: float(graphs.components(adjacency).max() + 1)
+    }
     if networkx is not None:
         graph = networkx.from_scipy_sparse_array(adjacency)
         contenders["networkx"] = lambda: float(networkx.number_connected_components(graph))

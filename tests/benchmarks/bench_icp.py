@@ -1,8 +1,10 @@
-"""Compares alignment, normals and ICP with open3d, small_gicp, scipy and trimesh, where they are installed.
+"""Compares alignment, normals and ICP with open3d, small_gicp, scipy and trimesh, where they are
+installed.
 
     python -m tests.benchmarks.bench_icp
 
-Times are the best of a few runs, ours and the peer's in turn, so that a ratio is of one run on one machine.
+Times are the best of a few runs, ours and the peer's in turn, so that a ratio is of one run on one
+machine.
 """
 
 import importlib
@@ -13,11 +15,11 @@ from typing import Any
 import numpy as np
 import scipy
 
-from workbench.algorithms.icp import Gate, icp, matcher
-from workbench.data.clouds import pair
-from workbench.geometry.alignment import align_rigid, point_to_plane_step
+from workbench.algorithms.registration.icp import Gate, icp, matcher
+from workbench.data.shapes.clouds import pair
 from workbench.geometry.motions import exp_so3, motion, rotation_angle
-from workbench.geometry.normals import point_normals
+from workbench.geometry.motions.alignment import align_rigid, point_to_plane_step
+from workbench.geometry.points.normals import point_normals
 
 Register = Callable[[float, np.ndarray, float, int], np.ndarray]
 """register(gate, T_target_source, stop below, most iterations) -> T_target_source"""
@@ -37,7 +39,9 @@ open3d, small_gicp, trimesh = optional("open3d"), optional("small_gicp"), option
 
 
 def best(*tasks: Callable[[], Any] | None, repeat: int = 5) -> list[float]:
-    """Return the shortest time of each task in milliseconds, the tasks taking turns; NaN for one that is not there."""
+    """Return the shortest time of each task in milliseconds, the tasks taking turns; NaN for one
+    that is not there.
+    """
     times = np.full((repeat, len(tasks)), np.nan)
     for row in times:
         for i, task in enumerate(tasks):
@@ -73,15 +77,21 @@ def bench_alignment() -> None:
     weights = None
 
     def with_scipy() -> None:
-        scipy.spatial.transform.Rotation.align_vectors(q - q.mean(0), p - p.mean(0), weights=weights)
+        scipy.spatial.transform.Rotation.align_vectors(
+            q - q.mean(0), p - p.mean(0), weights=weights
+        )
 
     estimate = None
     if open3d is not None:
-        pairs = open3d.utility.Vector2iVector(np.repeat(np.arange(len(p), dtype=np.int32)[:, None], 2, axis=1))
+        pairs = open3d.utility.Vector2iVector(
+            np.repeat(np.arange(len(p), dtype=np.int32)[:, None], 2, axis=1)
+        )
         clouds = [open3d.geometry.PointCloud(open3d.utility.Vector3dVector(x)) for x in (p, q)]
         method = open3d.pipelines.registration.TransformationEstimationPointToPoint()
         estimate = lambda: method.compute_transformation(*clouds, pairs)  # noqa: E731
-    by_trimesh = trimesh and (lambda: trimesh.registration.procrustes(p, q, reflection=False, scale=False))
+    by_trimesh = trimesh and (
+        lambda: trimesh.registration.procrustes(p, q, reflection=False, scale=False)
+    )
     ours, *peers = best(lambda: align_rigid(q, p), estimate, with_scipy, by_trimesh)
     line(
         "align_rigid, 100,000 pairs",
@@ -115,7 +125,12 @@ def bench_icp(n: int, floor: str, floor_whole: str) -> None:
 
     def fixed_iterations() -> None:
         for _ in icp(
-            p_target, p_source, n_target=n_target, gate=Gate(FIRST), max_iterations=ITERATIONS, tolerance=1e-300
+            p_target,
+            p_source,
+            n_target=n_target,
+            gate=Gate(FIRST),
+            max_iterations=ITERATIONS,
+            tolerance=1e-300,
         ):
             pass
 
@@ -135,25 +150,42 @@ def bench_icp(n: int, floor: str, floor_whole: str) -> None:
     ours, *peers = (t / ITERATIONS for t in best(fixed_iterations, o3_fixed, gicp_fixed, repeat=3))
     line(f"point-to-plane, an iteration, {n:,}", ours, dict(zip(names, peers, strict=True)), floor)
     ours, *peers = best(whole, o3_whole, gicp_whole, repeat=3)
-    line(f"point-to-plane, to its stop, {n:,}", ours, dict(zip(names, peers, strict=True)), floor_whole)
+    line(
+        f"point-to-plane, to its stop, {n:,}",
+        ours,
+        dict(zip(names, peers, strict=True)),
+        floor_whole,
+    )
     errors = {"ours, d < 3 medians": whole(), "start": start}
     if o3_icp and o3_whole:
-        errors |= {"open3d, one gate": o3_icp(FIRST, start, 1e-6, 50), "open3d, two gates": o3_whole()}
+        errors |= {
+            "open3d, one gate": o3_icp(FIRST, start, 1e-6, 50),
+            "open3d, two gates": o3_whole(),
+        }
     if gicp_whole:
         errors |= {"small_gicp, two gates": gicp_whole()}
-    print("    final error, degrees: " + ", ".join(f"{k} {degrees_off(T, T_true):.4f}" for k, T in errors.items()))
+    print(
+        "    final error, degrees: "
+        + ", ".join(f"{k} {degrees_off(T, T_true):.4f}" for k, T in errors.items())
+    )
 
 
 def with_open3d(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> Register:
-    """Return open3d's point-to-plane ICP on these clouds; its tree is built in every call, there is no way around it."""
+    """Return open3d's point-to-plane ICP on these clouds; its tree is built in every call, there is
+    no way around it.
+    """
     registration = open3d.pipelines.registration
-    source, target = (open3d.geometry.PointCloud(open3d.utility.Vector3dVector(p)) for p in (p_source, p_target))
+    source, target = (
+        open3d.geometry.PointCloud(open3d.utility.Vector3dVector(p)) for p in (p_source, p_target)
+    )
     target.normals = open3d.utility.Vector3dVector(n_target)
     plane = registration.TransformationEstimationPointToPlane()
 
     def register(gate: float, T: np.ndarray, stop: float, most: int) -> np.ndarray:
         criteria = registration.ICPConvergenceCriteria(stop, stop, most)
-        return registration.registration_icp(source, target, gate, T, plane, criteria).transformation
+        return registration.registration_icp(
+            source, target, gate, T, plane, criteria
+        ).transformation
 
     return register
 
@@ -167,29 +199,49 @@ def with_small_gicp(p_target: np.ndarray, p_source: np.ndarray) -> Register:
 
     def register(gate: float, T: np.ndarray, stop: float, most: int) -> np.ndarray:
         found = small_gicp.align(
-            *clouds, tree, T, registration_type="PLANE_ICP", max_correspondence_distance=gate, num_threads=2,
-            max_iterations=most, rotation_epsilon=stop, translation_epsilon=stop,
-        )  # fmt: skip
+            *clouds,
+            tree,
+            T,
+            registration_type="PLANE_ICP",
+            max_correspondence_distance=gate,
+            num_threads=2,
+            max_iterations=most,
+            rotation_epsilon=stop,
+            translation_epsilon=stop,
+        )
         return found.T_target_source
 
     return register
 
 
 def profile(n: int) -> None:
-    """Print where an iteration's processor time goes (all threads), in the quickest of a few runs."""
+    """Print where an iteration's processor time goes (all threads), in the quickest of a few
+    runs.
+    """
     p_target, p_source, _ = scans(n)
     n_target = point_normals(p_target)
     runs = [profiled_run(p_target, p_source, n_target) for _ in range(8)]
     total, query, step, iterations = min(runs)
     trees = best(lambda: matcher(p_target, p_source))[0]
-    print(f"an iteration at {n:,} points, 80 % overlap: {total / iterations:.1f} ms of processor time =")
-    for name, spent in (("nearest-neighbour query", query), ("linear step", step), ("all else", total - query - step)):
+    print(
+        f"an iteration at {n:,} points, 80 % overlap: {total / iterations:.1f} ms of processor"
+        " time ="
+    )
+    for name, spent in (
+        ("nearest-neighbour query", query),
+        ("linear step", step),
+        ("all else", total - query - step),
+    ):
         print(f"    {name:<26} {spent / iterations:6.1f} ms  {100 * spent / total:3.0f} %")
     print(f"    once per run, both trees   {trees:6.1f} ms\n")
 
 
-def profiled_run(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> tuple[float, float, float, int]:
-    """Return milliseconds of processor time in all, in the query and in the linear step, and the number of iterations."""
+def profiled_run(
+    p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
+) -> tuple[float, float, float, int]:
+    """Return milliseconds of processor time in all, in the query and in the linear step, and the
+    number of iterations.
+    """
     spent = {"match": 0.0, "step": 0.0}
 
     def timed(name: str, function: Callable) -> Callable:
@@ -204,9 +256,14 @@ def profiled_run(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarra
     match, iterations = timed("match", matcher(p_target, p_source)), 0
     start = time.process_time()
     for state in icp(
-        p_target, p_source, n_target=n_target, gate=Gate(medians=3.0), max_iterations=8,
-        match=match, step=timed("step", point_to_plane_step),
-    ):  # fmt: skip
+        p_target,
+        p_source,
+        n_target=n_target,
+        gate=Gate(medians=3.0),
+        max_iterations=8,
+        match=match,
+        step=timed("step", point_to_plane_step),
+    ):
         iterations = state.iteration
     return 1e3 * (time.process_time() - start), spent["match"], spent["step"], iterations
 

@@ -1,11 +1,13 @@
-"""How much processor time a knob costs until its first new picture, and until the end of its run, in every lesson.
+"""How much processor time a knob costs until its first new picture, and until the end of its run,
+in every lesson.
 
     python -m tests.benchmarks.bench_knobs [LESSON ...]
 
-As the live page does it: a run is open and whole, a knob is turned, and the first step of the new run is shown, drawn
-and as plain data, once it is there. Every knob is turned by one step of its slider, every switch and choice to each of its
-other values, from the default and from every preset; whole runs are measured of the default alone. A run that was made
-before is never measured: what one knob's run has left in a lesson's caches, the next one finds, as on a page.
+As the live page does it: a run is open and whole, a knob is turned, and the first step of the new
+run is shown, drawn and as plain data, once it is there. Every knob is turned by one step of its
+slider, every switch and choice to each of its other values, from the default and from every preset;
+whole runs are measured of the default alone. A run that was made before is never measured: what one
+knob's run has left in a lesson's caches, the next one finds, as on a page.
 """
 
 import dataclasses
@@ -14,7 +16,7 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
-from workbench.threads import one_each
+from workbench.machinery.threads import one_each
 
 one_each()  # as the server does, before numpy comes
 
@@ -23,7 +25,7 @@ from workbench.errors import InputError
 from workbench.knobs import Field, fields_of
 from workbench.lesson import Lesson, catalog
 from workbench.page.steps import Steps
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 MOST = 0.1
 """Seconds of processor time that a first picture may need."""
@@ -37,15 +39,22 @@ def turned(field: Field, value: Any) -> Iterator[Any]:
         yield from (choice for choice in field.choices if choice != value)
     elif field.kind in ("float", "int"):
         other = value + field.step
-        yield field.clean(other if other <= (field.knob.high or 0.0) else value - field.step, clamp=True)
+        yield field.clean(
+            other if other <= (field.knob.high or 0.0) else value - field.step, clamp=True
+        )
     elif field.kind in ("floats", "ints"):
         first, *rest = value
         other = first + field.step
-        yield (field.clean((other if other <= (field.knob.high or 0.0) else first - field.step, *rest), clamp=True))
+        yield field.clean(
+            (other if other <= (field.knob.high or 0.0) else first - field.step, *rest),
+            clamp=True,
+        )
 
 
 def first_picture(lesson: Lesson, params: Any) -> tuple[Timeline, float]:
-    """Return a run with its first step, and the processor time that it took to show that, seconds."""
+    """Return a run with its first step, and the processor time that it took to show that,
+    seconds.
+    """
     began = time.process_time()
     timeline = Timeline(lesson, params)
     if timeline.extend():
@@ -55,7 +64,10 @@ def first_picture(lesson: Lesson, params: Any) -> tuple[Timeline, float]:
 
 def main(names: list[str]) -> None:
     """Print a row per lesson, and below it the knobs whose first picture takes too long."""
-    print(f"{'processor time, ms':<18}{'opened':>8}{'its run':>9}{'knobs':>7}{'median':>8}{'worst':>7}  of a whole run")
+    print(
+        f"{'processor time, ms':<18}{'opened':>8}{'its run':>9}{'knobs':>7}{'median':>8}{'worst':>7}"  # noqa: E501
+        "  of a whole run"
+    )
     for lesson in catalog().values():
         if not names or lesson.name in names:
             _measure(lesson)
@@ -90,9 +102,14 @@ def _measure(lesson: Lesson) -> None:
                     continue
     found.sort()
     seconds, name = max(runs)
-    worst = [f"{1000 * seconds:.0f} ms: {name}" for seconds, name in reversed(found) if seconds > MOST]
-    print(f"{lesson.name:<18}{1000 * opened:8.0f}{1000 * whole:9.0f}{len(found):7d}{1000 * found[len(found) // 2][0]:8.0f}"
-          f"{1000 * found[-1][0]:7.0f}  {1000 * seconds:.0f} ({name})", flush=True)  # fmt: skip
+    worst = [
+        f"{1000 * seconds:.0f} ms: {name}" for seconds, name in reversed(found) if seconds > MOST
+    ]
+    print(
+        f"{lesson.name:<18}{1000 * opened:8.0f}{1000 * whole:9.0f}{len(found):7d}{1000 * found[len(found) // 2][0]:8.0f}{1000 * found[-1][0]:7.0f}"  # noqa: E501
+        f"  {1000 * seconds:.0f} ({name})",
+        flush=True,
+    )
     for line in worst[:12]:
         print(f"    {line}")
     if worst[12:]:

@@ -1,10 +1,13 @@
-"""Learning by hand-written gradients beside autograd and JAX: `python -m tests.benchmarks.bench_learning [--rounds 5]`.
+"""Learning by hand-written gradients beside autograd and JAX: `python -m
+tests.benchmarks.bench_learning [--rounds 5]`.
 
-One update of the network that puts out six numbers for a rotation (64 rotations, two hidden layers of 64, loss on the
-matrix) is the same sum for all: forward, backward and Adam. JAX compiles it; its first call is told apart. One thread,
-CPU time, the least of the rounds that take turns, with the largest difference of the gradients. Then every task of the
-lesson from its start to its end, every step held against the truth.
+One update of the network that puts out six numbers for a rotation (64 rotations, two hidden layers
+of 64, loss on the matrix) is the same sum for all: forward, backward and Adam. JAX compiles it; its
+first call is told apart. One thread, CPU time, the least of the rounds that take turns, with the
+largest difference of the gradients. Then every task of the lesson from its start to its end, every
+step held against the truth.
 """
+
 # ruff: noqa: E402
 
 import argparse
@@ -12,7 +15,9 @@ import os
 
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
-os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1")
+os.environ.setdefault(
+    "XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
+)
 
 import time
 from collections.abc import Callable
@@ -22,8 +27,14 @@ import numpy as np
 
 from lessons.learning.lesson import lesson, run
 from tests.benchmarks.bench_ransac import optional
-from workbench.algorithms.perceptron import backward, descend, forward, layers_of, new_values
-from workbench.geometry.rotation_outputs import IN_SPACE, random_rotations
+from workbench.algorithms.learning.perceptron import (
+    backward,
+    descend,
+    forward,
+    layers_of,
+    new_values,
+)
+from workbench.geometry.motions.rotation_outputs import IN_SPACE, random_rotations
 
 SIZES, BATCH, UPDATES = (9, 64, 64, 6), 64, 200
 Gradient = Callable[[np.ndarray, np.ndarray], tuple[float, np.ndarray]]
@@ -43,7 +54,13 @@ def by_hand(values: np.ndarray, R: np.ndarray) -> tuple[float, np.ndarray]:
     six, layers, slopes = IN_SPACE["6D"], layers_of(values, SIZES), np.empty_like(values)
     outputs = forward(layers, R.reshape(-1, 9), "relu")
     off = six.decode(outputs[-1]) - R
-    backward(layers, outputs, six.pullback(outputs[-1], 2 * off / BATCH), "relu", layers_of(slopes, SIZES))
+    backward(
+        layers,
+        outputs,
+        six.pullback(outputs[-1], 2 * off / BATCH),
+        "relu",
+        layers_of(slopes, SIZES),
+    )
     return float((off * off).sum() / BATCH), slopes
 
 
@@ -82,20 +99,29 @@ def contenders() -> dict[str, Gradient]:
 def updates(rounds: int) -> None:
     """Compare one update, Adam included."""
     rng = np.random.default_rng(0)
-    first, R = new_values(SIZES, rng) + 0.01, random_rotations(BATCH, 3, np.pi, rng)[0]
+    first, R = new_values(SIZES, rng) + 0.01, random_rotations(BATCH, 3, np.pi, rng=rng)[0]
     ways, least = contenders(), dict[str, float]()
     expected = by_hand(first, R)[1]
-    print(f"one update, milliseconds\n{'':16}{'least':>8}{'ratio':>8}{'first call':>12}   gradient off by")
+    print(
+        f"one update, milliseconds\n{'':16}{'least':>8}{'ratio':>8}{'first call':>12}   gradient"
+        " off by"
+    )
     started = {name: timed(lambda way=way: way(first, R)) for name, way in ways.items()}
     for _ in range(rounds):
         for name, way in ways.items():
             values = first.copy()
-            took = timed(lambda way=way, values=values: [*descend(values, lambda: way(values, R), (UPDATES,), 4e-3)])
+            took = timed(
+                lambda way=way, values=values: [
+                    *descend(values, lambda: way(values, R), (UPDATES,), 4e-3)
+                ]
+            )
             least[name] = min(least.get(name, np.inf), took / UPDATES)
     for name, way in ways.items():
         off = float(np.abs(way(first, R)[1] - expected).max())
         ratio = least["by hand"] / least[name]
-        print(f"{name:16}{1e3 * least[name]:8.3f}{ratio:8.2f}{1e3 * started[name]:12.1f}   {off:.1e}")
+        print(
+            f"{name:16}{1e3 * least[name]:8.3f}{ratio:8.2f}{1e3 * started[name]:12.1f}   {off:.1e}"
+        )
 
 
 def tasks(rounds: int) -> None:
@@ -104,7 +130,8 @@ def tasks(rounds: int) -> None:
     for name in ("short", "rotation", "smeared", "circle", "smooth", "pooled", "many"):
         params, states = lesson.preset(name).params, list[Any]()
         took = min(
-            timed(lambda params=params, states=states: states.extend(run(params))) for _ in range(min(rounds, 2))
+            timed(lambda params=params, states=states: states.extend(run(params)))
+            for _ in range(min(rounds, 2))
         )
         print(f"{name:16}{states[-1].now.updates:8}{took:8.2f}")
 

@@ -1,11 +1,14 @@
-"""Areas, volumes, samples and inside tests of meshes beside what is installed of igl, open3d, trimesh and pyvista.
+"""Areas, volumes, samples and inside tests of meshes beside what is installed of igl, open3d,
+trimesh and pyvista.
 
-Run `python -m tests.benchmarks.bench_measures`. Least processor time of some runs, all threads; a ratio is ours over the
-best peer that measures the same. open3d's `get_volume` first tests the mesh for crossing itself and is timed on small meshes
-only; trimesh's `contains` casts rays one by one, and is timed on a tenth of the points.
+Run `python -m tests.benchmarks.bench_measures`. Least processor time of some runs, all threads; a
+ratio is ours over the best peer that measures the same. open3d's `get_volume` first tests the mesh
+for crossing itself and is timed on small meshes only; trimesh's `contains` casts rays one by one,
+and is timed on a tenth of the points.
 
-Areas and single inside tests stay behind igl (2.3-2.8 and 1.7 times its time when written): its compiled loop gathers and
-measures a face at once, numpy writes each sum to memory in between. Whole grids, which lessons ask for, are far ahead.
+Areas and single inside tests stay behind igl (2.3-2.8 and 1.7 times its time when written): its
+compiled loop gathers and measures a face at once, numpy writes each sum to memory in between. Whole
+grids, which lessons ask for, are far ahead.
 """
 
 import importlib
@@ -16,12 +19,12 @@ from typing import Any
 import numpy as np
 import trimesh
 
-from workbench.data import surfaces
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.containment import columns, windings
-from workbench.geometry.measures import signed_volume, surface_area
-from workbench.geometry.sampling import points_on_faces
-from workbench.geometry.voxels import grid_over, occupied
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.fields.voxels import grid_over, occupied
+from workbench.geometry.meshes.containment import columns, windings
+from workbench.geometry.meshes.measures import signed_volume, surface_area
+from workbench.geometry.points.sampling import points_on_faces
 
 Task = Callable[[], Any]
 
@@ -44,22 +47,34 @@ def least(task: Task, repeats: int) -> tuple[float, float]:
     return min(times), float(np.sum(value))
 
 
-def compare(name: str, ours: Task, peers: dict[str, Task], repeats: int = 7, *, exact: bool = True) -> None:
-    """Print one block: ours, each peer, and the ratio to the fastest of them; values must agree where they are exact."""
+def compare(
+    name: str, ours: Task, peers: dict[str, Task], repeats: int = 7, *, exact: bool = True
+) -> None:
+    """Print one block: ours, each peer, and the ratio to the fastest of them; values must agree
+    where they are exact.
+    """
     own, value = least(ours, repeats)
     print(f"{name:44s} {'ours':22s} {own:9.1f} ms   value {value:.6g}", flush=True)
     times = []
     for who, task in peers.items():
         theirs, its = least(task, max(1, repeats // 2))
         times.append(theirs)
-        off = f"   VALUE OFF BY {its - value:+.2e}" if exact and abs(its - value) > 1e-6 * abs(value) else ""
+        off = (
+            f"   VALUE OFF BY {its - value:+.2e}"
+            if exact and abs(its - value) > 1e-6 * abs(value)
+            else ""
+        )
         print(f"{'':44s} {who:22s} {theirs:9.1f} ms   ratio {own / theirs:.2f}{off}", flush=True)
     if times:
-        print(f"{'':44s} {'best':22s} {min(times):9.1f} ms   ratio {own / min(times):.2f}", flush=True)
+        print(
+            f"{'':44s} {'best':22s} {min(times):9.1f} ms   ratio {own / min(times):.2f}", flush=True
+        )
 
 
 def o3d_mesh(o3d: Any, p: np.ndarray, faces: np.ndarray) -> Any:
-    return o3d.geometry.TriangleMesh(o3d.utility.Vector3dVector(p), o3d.utility.Vector3iVector(faces.astype(np.int32)))
+    return o3d.geometry.TriangleMesh(
+        o3d.utility.Vector3dVector(p), o3d.utility.Vector3iVector(faces.astype(np.int32))
+    )
 
 
 def sizes(p: np.ndarray, faces: np.ndarray, igl: Any, o3d: Any) -> None:
@@ -102,14 +117,28 @@ def insides(n: int, igl: Any) -> None:
     compare(name, lambda: windings(columns(p, faces), q) != 0, peers, exact=False)
     if peer("rtree"):
         contains: dict[str, Task] = {"trimesh contains": lambda: mesh.contains(few)}
-        compare(f"{len(few):,} of them", lambda: windings(columns(p, faces), few) != 0, contains, 2, exact=False)
-    grid = grid_over(p.min(axis=0), p.max(axis=0), 64, np.zeros(3))
+        compare(
+            f"{len(few):,} of them",
+            lambda: windings(columns(p, faces), few) != 0,
+            contains,
+            2,
+            exact=False,
+        )
+    grid = grid_over(p.min(axis=0), p.max(axis=0), 64, shift=np.zeros(3))
     pitch = float(grid.spacing[0])
     voxels: dict[str, Task] = {"trimesh voxelized, fill": lambda: trimesh_voxels(mesh, pitch)}
     if igl:
         centres = grid.centres()
-        voxels["igl fast winding"] = lambda: np.asarray(igl.fast_winding_number(p, faces, centres)) > 0.5
-    compare("voxels, 64 along the longest side", lambda: occupied(p, faces, grid), voxels, 3, exact=False)
+        voxels["igl fast winding"] = lambda: (
+            np.asarray(igl.fast_winding_number(p, faces, centres)) > 0.5
+        )
+    compare(
+        "voxels, 64 along the longest side",
+        lambda: occupied(p, faces, grid),
+        voxels,
+        3,
+        exact=False,
+    )
 
 
 def trimesh_voxels(mesh: trimesh.Trimesh, pitch: float) -> np.ndarray:

@@ -1,11 +1,14 @@
-"""Opening a lesson: the time to its text, caption and scene: `python -m tests.benchmarks.bench_page`.
+"""Opening a lesson: the time to its text, caption and scene: `python -m
+tests.benchmarks.bench_page`.
 
-A new browser window each time, so nothing is kept from the last; the server has run the lesson before. "text" is the
-browser's first paint of words, "caption" when a step is told, "scene" the first picture that is drawn once the step's
-things have come to viser's client. "drawn" is the same with the browser's software renderer; for "scene" WebGL takes all
-calls and does nothing, so that what is left is the server's time and the scripts'. These are by the clock, so whatever else
-the machine does is in them. "page" and "server" are the processor's time that the two have spent until then (viser's client
-included, its drawing not), which on a machine with nothing else to do is about the time to the scene.
+A new browser window each time, so nothing is kept from the last; the server has run the lesson
+before. "text" is the browser's first paint of words, "caption" when a step is told, "scene" the
+first picture that is drawn once the step's things have come to viser's client. "drawn" is the same
+with the browser's software renderer; for "scene" WebGL takes all calls and does nothing, so that
+what is left is the server's time and the scripts'. These are by the clock, so whatever else the
+machine does is in them. "page" and "server" are the processor's time that the two have spent until
+then (viser's client included, its drawing not), which on a machine with nothing else to do is about
+the time to the scene.
 """
 
 import argparse
@@ -45,7 +48,7 @@ WATCH = """if (self === parent) {
       return own.apply(this, all);
     };
   }
-}"""
+}"""  # noqa: E501
 DRAWS_NOTHING = """if (self !== parent) {
   const context = WebGL2RenderingContext.prototype, { LINK_STATUS, COMPILE_STATUS } = WebGL2RenderingContext;
   for (const call of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced", "clear", "compileShader",
@@ -54,7 +57,7 @@ DRAWS_NOTHING = """if (self !== parent) {
   }
   context.getProgramParameter = (_, what) => (what === LINK_STATUS ? true : 0);
   context.getShaderParameter = (_, what) => what === COMPILE_STATUS;
-}"""
+}"""  # noqa: E501
 
 
 def opened(chromium, address: str, *, draws: bool) -> dict[str, float]:
@@ -68,14 +71,18 @@ def opened(chromium, address: str, *, draws: bool) -> dict[str, float]:
         page.wait_for_function("seen.caption && seen.scene", polling=100)
         server = 1000 * (time.process_time() - began)
         spent = 1000 * sum(seconds - before.get(pid, 0.0) for pid, seconds in renderers().items())
-        painted = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+        painted = page.evaluate(
+            "performance.getEntriesByName('first-contentful-paint')[0].startTime"
+        )
         return {"text": painted, "page": spent, "server": server, **page.evaluate("seen")}
     finally:
         page.context.close()
 
 
 def renderers() -> dict[int, float]:
-    """Return the processor seconds of the browser's processes that run pages; its drawing is done by another."""
+    """Return the processor seconds of the browser's processes that run pages; its drawing is done
+    by another.
+    """
     found = {}
     for one in psutil.Process().children(recursive=True):
         with contextlib.suppress(psutil.Error):
@@ -97,7 +104,10 @@ def main() -> None:
     try:
         with started() as chromium:
             opened(chromium, f"{server.address}/?lesson={given.only[0]}", draws=True)
-            print(f"load of other work {os.getloadavg()[0]:.1f}; medians of {given.times}, ms; goals: {GOALS}")
+            print(
+                f"load of other work {os.getloadavg()[0]:.1f}; medians of {given.times}, ms; goals:"
+                f" {GOALS}"
+            )
             print(f"{'lesson':16}" + "".join(f"{key:>9}" for key in COLUMNS) + "   load")
             for name in given.only:
                 address = f"{server.address}/?lesson={name}"
@@ -107,7 +117,9 @@ def main() -> None:
                 said = {key: np.median([one[key] for one in still]) for key in still[0]}
                 said["drawn"] = np.median([one["scene"] for one in drawn])
                 print(
-                    f"{name:16}" + "".join(f"{said[key]:9.0f}" for key in COLUMNS) + f"   {os.getloadavg()[0]:.1f}",
+                    f"{name:16}"
+                    + "".join(f"{said[key]:9.0f}" for key in COLUMNS)
+                    + f"   {os.getloadavg()[0]:.1f}",
                     flush=True,
                 )
     finally:

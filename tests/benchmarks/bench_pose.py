@@ -1,9 +1,11 @@
-"""Pose from points as the lesson finds it, beside its peers: `python -m tests.benchmarks.bench_pose [--rounds 5]`.
+"""Pose from points as the lesson finds it, beside its peers: `python -m tests.benchmarks.bench_pose
+[--rounds 5]`.
 
-The same points for all contenders of a task, one thread, CPU time, the least of the rounds that take turns. P3P, SQPnP,
-EPnP and IPPE are called as the lesson calls them in its 60 other pictures, for many problems side by side; one by one
-numpy's calls cost many times what they compute; that is shown too. RANSAC is the lesson's, step by step, to its end: it
-solves samples some dozens at once and judges them one by one.
+The same points for all contenders of a task, one thread, CPU time, the least of the rounds that
+take turns. P3P, SQPnP, EPnP and IPPE are called as the lesson calls them in its 60 other pictures,
+for many problems side by side; one by one numpy's calls cost many times what they compute; that is
+shown too. RANSAC is the lesson's, step by step, to its end: it solves samples some dozens at once
+and judges them one by one.
 """
 # ruff: noqa: E402
 
@@ -20,16 +22,16 @@ import numpy as np
 
 from tests.benchmarks.bench_ransac import optional
 from tests.geometry.views import triples, view
-from workbench.algorithms.camera_model import camera_model
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.samplers import uniform_samples
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.camera_motions import refined, sqpnp
+from workbench.algorithms.robust.camera_model import camera_model
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.samplers import uniform_samples
 from workbench.geometry.cameras import intrinsics
-from workbench.geometry.control_points import epnp
+from workbench.geometry.cameras.camera_motions import refined, sqpnp
+from workbench.geometry.cameras.control_points import epnp
+from workbench.geometry.cameras.planar_motions import planar_motions
+from workbench.geometry.cameras.three_points import p3p, unit_rays
 from workbench.geometry.motions import exp_so3, motion
-from workbench.geometry.planar_motions import planar_motions
-from workbench.geometry.three_points import p3p, unit_rays
+from workbench.geometry.motions.alignment import degrees_between
 
 F, PIXEL = 800.0, 1 / 800
 K = intrinsics(F, 320.0, 240.0)
@@ -60,18 +62,31 @@ def three(rounds: int, cv2, poselib) -> None:
     rays, pairs = [list(one) for one in unit_rays(xy)], list(zip(p, xy, strict=True))
     ways: dict[str, Contender] = {
         "ours, side by side": lambda: np.array(len(p3p(p, xy)[0])),
-        "ours, one by one": lambda: np.array(sum(len(p3p(p[k : k + 1], xy[k : k + 1])[0]) for k in range(1000))),
+        "ours, one by one": lambda: np.array(
+            sum(len(p3p(p[k : k + 1], xy[k : k + 1])[0]) for k in range(1000))
+        ),
     }
     if cv2:
 
         def by_opencv() -> np.ndarray:
-            solve = [cv2.solveP3P(a[:, None], b[:, None].copy(), np.eye(3), None, cv2.SOLVEPNP_P3P) for a, b in pairs]
+            solve = [
+                cv2.solveP3P(a[:, None], b[:, None].copy(), np.eye(3), None, cv2.SOLVEPNP_P3P)
+                for a, b in pairs
+            ]
             return np.array(sum(found[0] for found in solve))
 
         ways["cv2 solveP3P"] = by_opencv
     if poselib:
-        ways["poselib p3p"] = lambda: np.array(sum(len(poselib.p3p(a, list(b))) for a, b in zip(rays, p, strict=True)))
-    compare("P3P, 1,000 triples; last column: solutions", rounds, ways, lambda found: float(found), per=1000)
+        ways["poselib p3p"] = lambda: np.array(
+            sum(len(poselib.p3p(a, list(b))) for a, b in zip(rays, p, strict=True))
+        )
+    compare(
+        "P3P, 1,000 triples; last column: solutions",
+        rounds,
+        ways,
+        lambda found: float(found),
+        per=1000,
+    )
 
 
 def many(rounds: int, n: int, cv2) -> None:
@@ -88,7 +103,13 @@ def many(rounds: int, n: int, cv2) -> None:
             ways[f"cv2 {name}"] = lambda flag=flag: np.stack(
                 [by_cv2(cv2, a, b, flag) for a, b in zip(p, xy, strict=True)]
             )
-    compare(f"SQPnP, 60 pictures of {n} points; degrees", rounds, ways, lambda Ts: middle(Ts, views), per=60)
+    compare(
+        f"SQPnP, 60 pictures of {n} points; degrees",
+        rounds,
+        ways,
+        lambda Ts: middle(Ts, views),
+        per=60,
+    )
 
 
 def by_control_points(rounds: int, n: int, cv2) -> None:
@@ -100,8 +121,16 @@ def by_control_points(rounds: int, n: int, cv2) -> None:
         "ours, one by one": lambda: np.stack([epnp(a, b) for a, b in zip(p, xy, strict=True)]),
     }
     if cv2:
-        ways["cv2 EPNP"] = lambda: np.stack([by_cv2(cv2, a, b, cv2.SOLVEPNP_EPNP) for a, b in zip(p, xy, strict=True)])
-    compare(f"EPnP, 60 pictures of {n} points; degrees", rounds, ways, lambda Ts: middle(Ts, views), per=60)
+        ways["cv2 EPNP"] = lambda: np.stack(
+            [by_cv2(cv2, a, b, cv2.SOLVEPNP_EPNP) for a, b in zip(p, xy, strict=True)]
+        )
+    compare(
+        f"EPnP, 60 pictures of {n} points; degrees",
+        rounds,
+        ways,
+        lambda Ts: middle(Ts, views),
+        per=60,
+    )
 
 
 def planes(rounds: int, cv2) -> None:
@@ -110,11 +139,17 @@ def planes(rounds: int, cv2) -> None:
     p, xy = np.stack([one[1] for one in views]), np.stack([one[2] for one in views])
     ways: dict[str, Contender] = {
         "ours, side by side": lambda: planar_motions(p, xy)[:, 0],
-        "ours, one by one": lambda: np.stack([planar_motions(a, b)[0] for a, b in zip(p, xy, strict=True)]),
+        "ours, one by one": lambda: np.stack(
+            [planar_motions(a, b)[0] for a, b in zip(p, xy, strict=True)]
+        ),
     }
     if cv2:
-        ways["cv2 IPPE"] = lambda: np.stack([by_cv2(cv2, p, xy, cv2.SOLVEPNP_IPPE) for _, p, xy in views])
-    compare("IPPE, 60 pictures of 20 points of a plane; no column", rounds, ways, lambda Ts: 0.0, per=60)
+        ways["cv2 IPPE"] = lambda: np.stack(
+            [by_cv2(cv2, p, xy, cv2.SOLVEPNP_IPPE) for _, p, xy in views]
+        )
+    compare(
+        "IPPE, 60 pictures of 20 points of a plane; no column", rounds, ways, lambda Ts: 0.0, per=60
+    )
 
 
 def among_outliers(rounds: int, outliers: float, cv2, poselib) -> None:
@@ -125,7 +160,9 @@ def among_outliers(rounds: int, outliers: float, cv2, poselib) -> None:
         wrong = int(outliers * 200)
         xy[:wrong] = np.random.default_rng(seed + 500).uniform([-0.4, -0.3], [0.4, 0.3], (wrong, 2))
         views.append((T, p, F * xy + [320, 240]))
-    ways: dict[str, Contender] = {"ours": lambda: np.stack([by_ransac(p, uv) for _, p, uv in views])}
+    ways: dict[str, Contender] = {
+        "ours": lambda: np.stack([by_ransac(p, uv) for _, p, uv in views])
+    }
     if cv2:
         options = {"reprojectionError": 3.0, "confidence": 0.99, "iterationsCount": 2000}
 
@@ -168,9 +205,16 @@ def middle(Ts: np.ndarray, views: list) -> float:
 
 
 def compare(
-    task: str, rounds: int, ways: dict[str, Contender], judged: Callable[[np.ndarray], float], *, per: int
+    task: str,
+    rounds: int,
+    ways: dict[str, Contender],
+    judged: Callable[[np.ndarray], float],
+    *,
+    per: int,
 ) -> None:
-    """Run all contenders, taking turns, and print their times per problem, ours over theirs, and what came out."""
+    """Run all contenders, taking turns, and print their times per problem, ours over theirs, and
+    what came out.
+    """
     least, found = dict.fromkeys(ways, np.inf), {}
     for _ in range(rounds):
         for name, way in ways.items():

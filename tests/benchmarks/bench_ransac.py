@@ -1,10 +1,13 @@
-"""RANSAC as the lesson runs it, beside its peers: `python -m tests.benchmarks.bench_ransac [--seeds 10]`.
+"""RANSAC as the lesson runs it, beside its peers: `python -m tests.benchmarks.bench_ransac [--seeds
+10]`.
 
-Ours is the lesson's step-by-step `ransac` with its defaults (uniform samples, 99 % confidence, 500 samples at most), run to
-its end. All contenders of a task see the same rows and the same inlier distance, in one run and on one thread: 5,000 points
-for a plane, the most that the lesson takes, and 600 matches. Times are medians of CPU time in ms; errors are the root mean
-square distance of the noiseless true points or matches to the estimate.
+Ours is the lesson's step-by-step `ransac` with its defaults (uniform samples, 99 % confidence, 500
+samples at most), run to its end. All contenders of a task see the same rows and the same inlier
+distance, in one run and on one thread: 5,000 points for a plane, the most that the lesson takes,
+and 600 matches. Times are medians of CPU time in ms; errors are the root mean square distance of
+the noiseless true points or matches to the estimate.
 """
+
 # ruff: noqa: E402
 
 import argparse
@@ -19,10 +22,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from workbench.algorithms.models import FUNDAMENTAL, HOMOGRAPHY, PLANE, Model, rms_distance
-from workbench.algorithms.ransac import Judge, ransac
-from workbench.algorithms.samplers import uniform_samples
-from workbench.data.robust import match_scene, plane_scene
+from lessons.ransac.robust_scenes import match_scene, plane_scene
+from workbench.algorithms.robust.models import FUNDAMENTAL, HOMOGRAPHY, PLANE, Model, rms_distance
+from workbench.algorithms.robust.ransac import Judge, ransac
+from workbench.algorithms.robust.samplers import uniform_samples
 
 MOST_SAMPLES = 500
 Contender = Callable[[np.ndarray], np.ndarray | None]
@@ -33,19 +36,34 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=10)
     seeds = range(5000, 5000 + parser.parse_args().seeds)
-    planes = [plane_scene(np.random.default_rng(seed), count=5000, outlier_ratio=0.5, sigma=0.01) for seed in seeds]
+    planes = [
+        plane_scene(np.random.default_rng(seed), count=5000, outlier_ratio=0.5, sigma=0.01)
+        for seed in seeds
+    ]
     compare("plane", planes, PLANE, plane_contenders(0.02))
     for model, distance in ((HOMOGRAPHY, 3.5), (FUNDAMENTAL, 2.0)):
         flat = model is HOMOGRAPHY
         scenes = [
-            match_scene(np.random.default_rng(seed), count=600, outlier_ratio=0.3, sigma=1.0, flat=flat)
+            match_scene(
+                np.random.default_rng(seed), count=600, outlier_ratio=0.3, sigma=1.0, flat=flat
+            )
             for seed in seeds
         ]
-        compare(model.name, scenes, model, match_contenders(model, distance), f"inlier distance {distance} px")
+        compare(
+            model.name,
+            scenes,
+            model,
+            match_contenders(model, distance),
+            f"inlier distance {distance} px",
+        )
 
 
-def compare(task: str, scenes: list, model: Model, contenders: dict[str, Contender], note: str = "") -> None:
-    """Run all contenders on all scenes, taking turns, and print their figures and the ratios to the best peer."""
+def compare(
+    task: str, scenes: list, model: Model, contenders: dict[str, Contender], note: str = ""
+) -> None:
+    """Run all contenders on all scenes, taking turns, and print their figures and the ratios to the
+    best peer.
+    """
     times = {name: [] for name in contenders}
     errors = {name: [] for name in contenders}
     for scene in scenes:
@@ -63,7 +81,9 @@ def compare(task: str, scenes: list, model: Model, contenders: dict[str, Contend
     for name in contenders:
         median, p90, worst = np.quantile(errors[name], (0.5, 0.9, 1.0))
         ratio = "" if name == "ours" else f"{ours / np.median(times[name]):.2f}"
-        print(f"  {name:22}{np.median(times[name]):9.2f}{ratio:>11}{median:11.4f}{p90:9.4f}{worst:9.3f}")
+        print(
+            f"  {name:22}{np.median(times[name]):9.2f}{ratio:>11}{median:11.4f}{p90:9.4f}{worst:9.3f}"  # noqa: E501
+        )
 
 
 def ours(model: Model, distance: float) -> Contender:
@@ -84,7 +104,9 @@ def plane_contenders(distance: float) -> dict[str, Contender]:
 
         def by_open3d(p: np.ndarray) -> np.ndarray:
             cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(p))
-            plane, _ = cloud.segment_plane(distance, ransac_n=3, num_iterations=MOST_SAMPLES, probability=0.99)
+            plane, _ = cloud.segment_plane(
+                distance, ransac_n=3, num_iterations=MOST_SAMPLES, probability=0.99
+            )
             return np.array(plane)
 
         contenders["open3d"] = by_open3d
@@ -92,13 +114,20 @@ def plane_contenders(distance: float) -> dict[str, Contender]:
 
         def by_skimage(p: np.ndarray) -> np.ndarray:
             model, _ = measure.ransac(
-                p, _PlaneModel, min_samples=3, residual_threshold=distance, max_trials=MOST_SAMPLES, rng=0,
+                p,
+                _PlaneModel,
+                min_samples=3,
+                residual_threshold=distance,
+                max_trials=MOST_SAMPLES,
+                rng=0,
                 stop_probability=0.99,
-            )  # fmt: skip
+            )
             return model.params
 
         class _PlaneModel:
-            """A plane as scikit-image's loop wants it: through three points, or by least squares."""
+            """A plane as scikit-image's loop wants it: through three points, or by least
+            squares.
+            """
 
             params: np.ndarray
 
@@ -137,9 +166,14 @@ def match_contenders(model: Model, distance: float) -> dict[str, Contender]:
 
         def by_skimage(p: np.ndarray) -> np.ndarray | None:
             found, _ = measure.ransac(
-                (p[:, :2], p[:, 2:]), kind, min_samples=4 if flat else 8, residual_threshold=distance,
-                max_trials=MOST_SAMPLES, rng=0, stop_probability=0.99,
-            )  # fmt: skip
+                (p[:, :2], p[:, 2:]),
+                kind,
+                min_samples=4 if flat else 8,
+                residual_threshold=distance,
+                max_trials=MOST_SAMPLES,
+                rng=0,
+                stop_probability=0.99,
+            )
             return found.params if found is not None else None
 
         contenders["skimage"] = by_skimage

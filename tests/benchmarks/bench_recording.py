@@ -2,8 +2,9 @@
 
     python -m tests.benchmarks.bench_recording
 
-Bare and recorded runs take turns, the best of three each, so that a ratio is of one run on one machine. The goals are of
-a rigid run of 50 steps over two clouds of 20,000 points: a ratio below 1.5, a file below 1 MB.
+Bare and recorded runs take turns, the best of three each, so that a ratio is of one run on one
+machine. The goals are of a rigid run of 50 steps over two clouds of 20,000 points: a ratio below
+1.5, a file below 1 MB.
 """
 
 import tempfile
@@ -14,12 +15,11 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from lessons.icp.draw import draw as draw_icp
-from lessons.icp.state import State as IcpState
-from workbench.lesson import Lesson, catalog
+from lessons.icp.lesson import draw as draw_icp
+from workbench.lesson import Lesson, Look, catalog
 from workbench.recording.write import record_file
+from workbench.run.timeline import Timeline
 from workbench.scene import Scene
-from workbench.timeline import Timeline
 
 ROUNDS, STEPS = 3, 50
 
@@ -34,15 +34,17 @@ class Task:
 
 
 def tasks() -> Iterator[Task]:
-    """Yield the run that the goals speak of, the same with its lines from point to point, and every default run."""
+    """Yield the run that the goals speak of, the same with its lines from point to point, and every
+    default run.
+    """
     icp = catalog()["icp"]
     params = replace(icp.params(), points=20_000)
 
-    def fifty(params: Any) -> Iterator[Any]:
-        yield from islice(icp.run(params), STEPS)
+    def fifty(params: Any, subject: Any) -> Iterator[Any]:
+        yield from islice(icp.run(params, subject), STEPS)
 
-    def moving(state: IcpState) -> Scene:
-        return {path: shown for path, shown in draw_icp(state).items() if path != "matches"}
+    def moving(look: Look) -> Scene:
+        return {path: shown for path, shown in draw_icp(look).items() if path != "matches"}
 
     yield Task("ICP 20k, 50 steps, rigid", replace(icp, run=fifty, draw=moving), params)
     yield Task("ICP 20k, 50 steps, with matches", replace(icp, run=fifty), params)
@@ -60,19 +62,24 @@ def main() -> None:
     """Print a table."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "run.rrd"
-        record_file(catalog()["transforms"], catalog()["transforms"].params(), path)  # imports what is imported once
+        record_file(
+            catalog()["transforms"], catalog()["transforms"].params(), path
+        )  # imports what is imported once
         print(f"{'run':<32} {'bare':>8} {'recorded':>9} {'ratio':>6} {'size':>9} {'steps':>6}")
         for task in tasks():
             bare, recorded, steps = [], [], 0
             for _ in range(ROUNDS):
-                bare.append(seconds(lambda task=task: Timeline(task.lesson, task.params).complete()))
+                bare.append(
+                    seconds(lambda task=task: Timeline(task.lesson, task.params).complete())
+                )
                 began = time.perf_counter()
                 steps = record_file(task.lesson, task.params, path, force=True).steps
                 recorded.append(time.perf_counter() - began)
             ratio = min(recorded) / min(bare)
             size = path.stat().st_size / 1e6
             print(
-                f"{task.name:<32} {min(bare):6.2f} s {min(recorded):7.2f} s {ratio:6.2f} {size:6.2f} MB {steps:6d}",
+                f"{task.name:<32} {min(bare):6.2f} s {min(recorded):7.2f} s {ratio:6.2f}"
+                f" {size:6.2f} MB {steps:6d}",
                 flush=True,
             )
 

@@ -1,10 +1,13 @@
-"""Networks, patches, distances and k-d trees beside their peers: `python -m tests.benchmarks.bench_representations`.
+"""Networks, patches, distances and k-d trees beside their peers: `python -m
+tests.benchmarks.bench_representations`.
 
-All contenders of a task see the same data in one run and on one thread, taking turns; figures are medians of CPU time in ms.
-The number behind is what must agree, or an error where methods differ. Our k-d tree is written to be read, step by step, and
-is timed for that alone: whoever only wants the nearest point takes scipy's. Distances to a mesh go through scipy's tree of
-middles of faces and then through numpy, face by face of the few that can be nearest: igl walks a compiled tree of boxes, and
-would be a dependency for one form of one lesson, whose default is a shape with a distance in closed form.
+All contenders of a task see the same data in one run and on one thread, taking turns; figures are
+medians of CPU time in ms. The number behind is what must agree, or an error where methods differ.
+Our k-d tree is written to be read, step by step, and is timed for that alone: whoever only wants
+the nearest point takes scipy's. Distances to a mesh go through scipy's tree of middles of faces and
+then through numpy, face by face of the few that can be nearest: igl walks a compiled tree of boxes,
+and would be a dependency for one form of one lesson, whose default is a shape with a distance in
+closed form.
 """
 
 # ruff: noqa: E402 (the number of threads is set before numpy starts them)
@@ -21,14 +24,14 @@ import numpy as np
 import scipy
 
 from tests.benchmarks.bench_curvature import Contender, compare, peer
-from workbench.algorithms.kd_tree import build_tree, looked_at
-from workbench.algorithms.neural_field import BATCH, encoded, new_network, train_field
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.bezier import bezier_patch
+from workbench.algorithms.learning.neural_field import BATCH, encoded, new_network, train_field
+from workbench.algorithms.spatial.kd_tree import build_tree, looked_at
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.fields.signed_distances import face_tree, mesh_sdf, torus_sdf
+from workbench.geometry.fields.voxels import Grid
 from workbench.geometry.level_sets import level_surface
-from workbench.geometry.measures import signed_volume
-from workbench.geometry.signed_distances import face_tree, mesh_sdf, torus_sdf
-from workbench.geometry.voxels import Grid
+from workbench.geometry.meshes.measures import signed_volume
+from workbench.geometry.shapes.bezier import bezier_patch
 
 FLOORS = {"network": 0.5, "patch": 0.02}
 
@@ -36,12 +39,36 @@ FLOORS = {"network": 0.5, "patch": 0.02}
 def main(rounds: int = 3) -> None:
     """Print one table per task."""
     compare(
-        "1,500 iterations of 512, 3-32-32-1 with 2 octaves; mean error, m", networks(), None, FLOORS["network"], rounds
+        "1,500 iterations of 512, 3-32-32-1 with 2 octaves; mean error, m",
+        networks(),
+        None,
+        FLOORS["network"],
+        rounds,
     )
-    compare("25 iterations and the level set of 28³: one step of the lesson", steps(), None, None, rounds)
-    compare("100 x 100 points of a bicubic patch", patches(peer("geomdl.BSpline")), None, FLOORS["patch"], rounds)
-    compare("32³ distances of a torus and their level set; volume", level_sets(), None, None, rounds)
-    compare("Signed distances of 4,000 points to 5,684 faces", distances(peer("igl")), None, None, rounds)
+    compare(
+        "25 iterations and the level set of 28³: one step of the lesson",
+        steps(),
+        None,
+        None,
+        rounds,
+    )
+    compare(
+        "100 x 100 points of a bicubic patch",
+        patches(peer("geomdl.BSpline")),
+        None,
+        FLOORS["patch"],
+        rounds,
+    )
+    compare(
+        "32³ distances of a torus and their level set; volume", level_sets(), None, None, rounds
+    )
+    compare(
+        "Signed distances of 4,000 points to 5,684 faces",
+        distances(peer("igl")),
+        None,
+        None,
+        rounds,
+    )
     compare("Nearest of 4,000 points for 100 queries", searches(), None, None, rounds)
 
 
@@ -58,7 +85,9 @@ def networks() -> dict[str, Contender]:
 
     def ours() -> float:
         rng = np.random.default_rng(1)
-        *_, last = train_field(new_network(32, 2, "tanh", rng), p, y, counts=(1500,), target="sdf", rng=rng)
+        *_, last = train_field(
+            new_network(32, 2, "tanh", rng=rng), p, y, counts=(1500,), target="sdf", rng=rng
+        )
         return float(np.abs(last.network(p) - y).mean())
 
     contenders: dict[str, Contender] = {"ours": ours}
@@ -68,9 +97,14 @@ def networks() -> dict[str, Contender]:
 
         def theirs() -> float:
             regressor = learning.MLPRegressor(
-                hidden_layer_sizes=(32, 32), activation="tanh", batch_size=BATCH, learning_rate_init=5e-3,
-                max_iter=1500 * BATCH // len(x), random_state=1, n_iter_no_change=1000,
-            )  # fmt: skip
+                hidden_layer_sizes=(32, 32),
+                activation="tanh",
+                batch_size=BATCH,
+                learning_rate_init=5e-3,
+                max_iter=1500 * BATCH // len(x),
+                random_state=1,
+                n_iter_no_change=1000,
+            )
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # it did not converge, as was asked for
                 regressor.fit(x, y.astype(np.float32))
@@ -87,7 +121,9 @@ def steps() -> dict[str, Contender]:
 
     def ours() -> float:
         rng = np.random.default_rng(1)
-        *_, last = train_field(new_network(32, 2, "tanh", rng), p, y, counts=(25,), target="sdf", rng=rng)
+        *_, last = train_field(
+            new_network(32, 2, "tanh", rng=rng), p, y, counts=(25,), target="sdf", rng=rng
+        )
         return float(len(level_surface(last.network(corners).reshape(grid.shape), grid)[0]))
 
     return {"ours": ours}
@@ -133,9 +169,13 @@ def distances(igl: ModuleType | None) -> dict[str, Contender]:
     """Return who measures to a mesh; the sum must agree."""
     p, faces = rabbit_mesh(0.03)
     q = np.random.default_rng(3).uniform(-0.6, 0.6, (4000, 3))
-    contenders: dict[str, Contender] = {"ours": lambda: float(mesh_sdf(face_tree(p, faces, closed=True), q).sum())}
+    contenders: dict[str, Contender] = {
+        "ours": lambda: float(mesh_sdf(face_tree(p, faces, closed=True), q).sum())
+    }
     if igl is not None:
-        contenders["igl signed_distance"] = lambda: float(np.sum(igl.signed_distance(q, p, faces)[0]))
+        contenders["igl signed_distance"] = lambda: float(
+            np.sum(igl.signed_distance(q, p, faces)[0])
+        )
     return contenders
 
 
@@ -144,7 +184,9 @@ def searches() -> dict[str, Contender]:
     rng = np.random.default_rng(4)
     p, q = rng.random((4000, 3)), rng.random((100, 3))
     return {
-        "ours, step by step": lambda: float(looked_at(build_tree(p, np.zeros(3), np.ones(3)), q).mean()),
+        "ours, step by step": lambda: float(
+            looked_at(build_tree(p, np.zeros(3), np.ones(3)), q).mean()
+        ),
         "scipy cKDTree (distance)": lambda: float(np.mean(scipy.spatial.cKDTree(p).query(q)[0])),
     }
 

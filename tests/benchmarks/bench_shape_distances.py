@@ -1,13 +1,16 @@
-"""Chamfer, earth mover's and Sinkhorn beside what is installed of small_gicp, pykdtree, open3d, POT and scipy.
+"""Chamfer, earth mover's and Sinkhorn beside what is installed of small_gicp, pykdtree, open3d, POT
+and scipy.
 
-Run `python -m tests.benchmarks.bench_shape_distances [--large] [--only emd]`. A ratio below 1 means ours is faster;
-"floor" is the ratio to the best peer that a prototype reached. Chamfer and Sinkhorn: the least wall time of a
-few runs, and processor time over all threads, from which the ratio is made, since it bears other work on the machine
-better. Run with OPENBLAS_NUM_THREADS=1 on a busy machine: matrix products that wait for a second core count the waiting.
+Run `python -m tests.benchmarks.bench_shape_distances [--large] [--only emd]`. A ratio below 1 means
+ours is faster; "floor" is the ratio to the best peer that a prototype reached. Chamfer and
+Sinkhorn: the least wall time of a few runs, and processor time over all threads, from which the
+ratio is made, since it bears other work on the machine better. Run with OPENBLAS_NUM_THREADS=1 on a
+busy machine: matrix products that wait for a second core count the waiting.
 
-Earth mover's, the function that the lesson runs, at the lesson's largest size and beyond: a table of sizes x clouds. All
-take turns on the same fresh clouds, each ratio is ours over the faster of the others on the same clouds, by wall time and
-by the processor time of the busiest thread, and the table shows medians over the seeds. Values must agree to 1e-9.
+Earth mover's, the function that the lesson runs, at the lesson's largest size and beyond: a table
+of sizes x clouds. All take turns on the same fresh clouds, each ratio is ours over the faster of
+the others on the same clouds, by wall time and by the processor time of the busiest thread, and the
+table shows medians over the seeds. Values must agree to 1e-9.
 """
 
 import argparse
@@ -20,10 +23,10 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from workbench.algorithms import transport
-from workbench.algorithms.sinkhorn import sinkhorn
 from workbench.algorithms.transport import earth_movers
-from workbench.geometry.shape_distances import chamfer
+from workbench.algorithms.transport import exact as transport
+from workbench.algorithms.transport.sinkhorn import sinkhorn
+from workbench.geometry.points.shape_distances import chamfer
 
 Task = Callable[[], float]
 
@@ -39,7 +42,9 @@ def peer(name: str):
 def clouds(kind: str, n: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     p_a, p_b = rng.normal(size=(2, n, 3))
     if kind == "sphere":
-        return (p / np.linalg.norm(p, axis=1, keepdims=True) * s for p, s in ((p_a, 1.0), (p_b, 1.2)))  # type: ignore
+        return (
+            p / np.linalg.norm(p, axis=1, keepdims=True) * s for p, s in ((p_a, 1.0), (p_b, 1.2))
+        )  # type: ignore
     if kind == "blob":
         return 0.1 * p_a + 1, rng.uniform(-1, 1, (n, 3))
     return p_a, p_b + 0.3
@@ -57,13 +62,16 @@ def chamfer_peers(p_a: np.ndarray, p_b: np.ndarray) -> dict[str, Task]:
         def small_gicp() -> float:
             trees = [gicp.KdTree(p, num_threads=2) for p in (p_a, p_b)]
             near = [
-                t.batch_nearest_neighbor_search(p, num_threads=2)[1] for t, p in zip(trees, (p_b, p_a), strict=True)
+                t.batch_nearest_neighbor_search(p, num_threads=2)[1]
+                for t, p in zip(trees, (p_b, p_a), strict=True)
             ]
             return float(np.mean(near[0]) + np.mean(near[1]))
 
         peers["small_gicp"] = small_gicp
     if pykdtree:
-        peers["pykdtree"] = lambda: squares(pykdtree.KDTree(p_b).query(p_a)[0], pykdtree.KDTree(p_a).query(p_b)[0])
+        peers["pykdtree"] = lambda: squares(
+            pykdtree.KDTree(p_b).query(p_a)[0], pykdtree.KDTree(p_a).query(p_b)[0]
+        )
     if o3d:
 
         def open3d() -> float:
@@ -91,14 +99,21 @@ def emd_tasks(p_a: np.ndarray, p_b: np.ndarray) -> dict[str, Task]:
     tasks: dict[str, Task] = {"ours": ours, "scipy": assignment}
     if ot:
         w = np.full(len(p_a), 1 / len(p_a))
-        tasks["POT"] = lambda: float(ot.emd2(w, w, ot.dist(p_a, p_b, "euclidean"), numItermax=10**7))
+        tasks["POT"] = lambda: float(
+            ot.emd2(w, w, ot.dist(p_a, p_b, "euclidean"), numItermax=10**7)
+        )
     return tasks
 
 
 def compare_emd(sizes: Sequence[int], seeds: int = 5) -> None:
     """Print the table of earth mover's."""
-    print("EMD exact, medians: ours, scipy, POT in ms, then ours over the faster of the others on the same clouds")
-    print(f"{'points':>7s} {'clouds':7s} {'wall':>24s} {'busiest thread':>24s}   ratio: wall  thread")
+    print(
+        "EMD exact, medians: ours, scipy, POT in ms, then ours over the faster of the others on the"
+        " same clouds"
+    )
+    print(
+        f"{'points':>7s} {'clouds':7s} {'wall':>24s} {'busiest thread':>24s}   ratio: wall  thread"
+    )
     for n in sizes:
         for kind in ("gauss", "sphere", "blob"):
             times = []
@@ -106,7 +121,9 @@ def compare_emd(sizes: Sequence[int], seeds: int = 5) -> None:
                 tasks = emd_tasks(*clouds(kind, n, np.random.default_rng([seed, n])))
                 runs = {name: timed(task) for name, task in tasks.items()}
                 values = np.array([value for *_, value in runs.values()])
-                assert np.ptp(values) <= 1e-9 * values[0], f"{kind}, {n} points, seed {seed}: {values}"
+                assert np.ptp(values) <= 1e-9 * values[0], (
+                    f"{kind}, {n} points, seed {seed}: {values}"
+                )
                 times.append([run[:2] for run in runs.values()])
             each = np.array(times)  # seeds x (ours, others) x (wall, thread)
             wall, thread = np.median(each, axis=0).T
@@ -116,7 +133,9 @@ def compare_emd(sizes: Sequence[int], seeds: int = 5) -> None:
 
 
 def timed(task: Task) -> tuple[float, float, float]:
-    """Return the wall time of one run and the processor time of its busiest thread in ms, and the value."""
+    """Return the wall time of one run and the processor time of its busiest thread in ms, and the
+    value.
+    """
     wall, threads = time.perf_counter(), thread_times()
     value = task()
     after = thread_times()
@@ -125,7 +144,9 @@ def timed(task: Task) -> tuple[float, float, float]:
 
 
 def thread_times() -> dict[str, int]:
-    """Return the processor time of each thread of this process in ns (of the others on Linux only)."""
+    """Return the processor time of each thread of this process in ns (of the others on Linux
+    only).
+    """
     others = Path("/proc/self/task").glob("*/schedstat")
     times = {schedstat.parent.name: int(schedstat.read_text().split()[0]) for schedstat in others}
     return times | {str(threading.get_native_id()): time.thread_time_ns()}
@@ -157,12 +178,16 @@ def least_times(task: Task, repeats: int) -> tuple[float, float, float]:
 def compare(name: str, ours: Task, peers: dict[str, Task], floor: str, repeats: int = 3) -> None:
     """Print one block: ours, each peer, and the ratios."""
     wall, own, value = least_times(ours, repeats)
-    print(f"{name:34s} {'ours':17s} wall {wall:8.1f} cpu {own:8.1f} ms   value {value:.9f}   floor {floor}")
+    print(
+        f"{name:34s} {'ours':17s} wall {wall:8.1f} cpu {own:8.1f} ms   value {value:.9f}   floor"
+        f" {floor}"
+    )
     for peer_name, task in peers.items():
         wall, theirs, its = least_times(task, repeats)
         off = "" if abs(its - value) <= 1e-6 * abs(value) else f"   VALUE OFF BY {its - value:+.2e}"
         print(
-            f"{'':34s} {peer_name:17s} wall {wall:8.1f} cpu {theirs:8.1f} ms   ratio {own / theirs:.2f}{off}",
+            f"{'':34s} {peer_name:17s} wall {wall:8.1f} cpu {theirs:8.1f} ms   ratio"
+            f" {own / theirs:.2f}{off}",
             flush=True,
         )
 
@@ -181,7 +206,10 @@ def main() -> None:
         for kind in ("gauss", "sphere"):
             p_a, p_b = clouds(kind, n, rng)
             compare(
-                f"Chamfer, {n:,} points, {kind}", lambda a=p_a, b=p_b: chamfer(a, b), chamfer_peers(p_a, p_b), floor
+                f"Chamfer, {n:,} points, {kind}",
+                lambda a=p_a, b=p_b: chamfer(a, b),
+                chamfer_peers(p_a, p_b),
+                floor,
             )
     for n in (1000, 5000) if large else (1000, 2000):
         cost = scipy.spatial.distance.cdist(*clouds("sphere", n, rng))

@@ -1,9 +1,11 @@
-"""Stereo matching as the lesson runs it, beside OpenCV: `python -m tests.benchmarks.bench_stereo [--rounds 5]`.
+"""Stereo matching as the lesson runs it, beside OpenCV: `python -m tests.benchmarks.bench_stereo
+[--rounds 5]`.
 
-Ours is the lesson's step-by-step `match`, every step computed, on the pairs and at the sizes of its presets and of own
-pairs. Every contender runs on the same pictures, taking turns, on one thread. Times are the CPU time of the process in ms,
-the least over the rounds. Errors are shares of the pixels that both cameras see (known from the truth) whose disparity
-is over 1 or 2 px off, a contender's rejected pixels counted as `none` and left out of both.
+Ours is the lesson's step-by-step `match`, every step computed, on the pairs and at the sizes of its
+presets and of own pairs. Every contender runs on the same pictures, taking turns, on one thread.
+Times are the CPU time of the process in ms, the least over the rounds. Errors are shares of the
+pixels that both cameras see (known from the truth) whose disparity is over 1 or 2 px off, a
+contender's rejected pixels counted as `none` and left out of both.
 """
 
 import argparse
@@ -16,11 +18,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from workbench.algorithms.cost_volume import census_cost_volume, sad_cost_volume
-from workbench.algorithms.disparity import match, usual_penalties
+from workbench.algorithms.stereo.cost_volume import census_cost_volume, sad_cost_volume
+from workbench.algorithms.stereo.disparity import match, usual_penalties
 from workbench.data.files import read_image
-from workbench.data.stereo import StereoPair, grey, motorcycle_pair, shrunk, synthetic_pair
-from workbench.geometry.stereo import StereoCamera
+from workbench.data.views.stereo import StereoPair, grey, motorcycle_pair, shrunk, synthetic_pair
+from workbench.geometry.cameras.stereo import StereoCamera
 
 CONES = Path(__file__).resolve().parents[3] / "shared" / "data" / "stereo" / "cones"
 BLOCK = 3
@@ -48,13 +50,23 @@ def main() -> None:
 
 
 def tasks() -> dict[str, Task]:
-    """Return the default run's balls, the motorcycle of its preset, and cones at half their size where they are there."""
-    balls = synthetic_pair("spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), 4.0, np.random.default_rng(0))
+    """Return the default run's balls, the motorcycle of its preset, and cones at half their size
+    where they are there.
+    """
+    balls = synthetic_pair(
+        "spheres",
+        StereoCamera(150.0, 79.5, 59.5, 0.1),
+        (160, 120),
+        noise=4.0,
+        rng=np.random.default_rng(0),
+    )
     found = {
         "balls 160 x 120, 32": task_of(balls, 32),
         "motorcycle 185 x 125, 32": task_of(shrunk(motorcycle_pair(), 4), 32),
     }
-    return found | ({"cones 225 x 187, 32": task_of(shrunk(cones(), 2), 32)} if CONES.is_dir() else {})
+    return found | (
+        {"cones 225 x 187, 32": task_of(shrunk(cones(), 2), 32)} if CONES.is_dir() else {}
+    )
 
 
 def task_of(pair: StereoPair, disparities: int) -> Task:
@@ -62,7 +74,9 @@ def task_of(pair: StereoPair, disparities: int) -> Task:
     assert pair.disparity is not None
     assert pair.visible is not None
     left, right = (np.rint(grey(picture)).astype(np.uint8) for picture in (pair.left, pair.right))
-    return Task(left, right, pair.disparity, pair.visible & (pair.disparity < disparities - 1), disparities)
+    return Task(
+        left, right, pair.disparity, pair.visible & (pair.disparity < disparities - 1), disparities
+    )
 
 
 def cones() -> StereoPair:
@@ -76,12 +90,16 @@ def cones() -> StereoPair:
 
 
 def ours(disparities: int, window: int, *, paths: bool) -> Matcher:
-    """Return the lesson's way, run to its last step: census with eight paths, or the lowest sum of differences."""
+    """Return the lesson's way, run to its last step: census with eight paths, or the lowest sum of
+    differences.
+    """
     penalties = functools.partial(usual_penalties, smoothness=1.0) if paths else None
     compare_by = census_cost_volume if paths else sad_cost_volume
 
     def run(left: np.ndarray, right: np.ndarray) -> np.ndarray:
-        *_, last = match(left.astype(float), right.astype(float), disparities - 1, window, penalties, compare_by)
+        *_, last = match(
+            left.astype(float), right.astype(float), disparities - 1, window, penalties, compare_by
+        )
         return last.disparity
 
     return run
@@ -92,8 +110,13 @@ def semi_global_contenders(disparities: int) -> dict[str, Matcher]:
     found: dict[str, Matcher] = {"ours": ours(disparities, BLOCK, paths=True)}
     cv2 = peer()
     if cv2 is not None:
-        for name, mode in (("cv2 3WAY", cv2.STEREO_SGBM_MODE_SGBM_3WAY), ("cv2 HH, 8 paths", cv2.STEREO_SGBM_MODE_HH)):
-            matcher = cv2.StereoSGBM_create(0, disparities, 5, P1=8 * 25, P2=32 * 25, disp12MaxDiff=1, mode=mode)
+        for name, mode in (
+            ("cv2 3WAY", cv2.STEREO_SGBM_MODE_SGBM_3WAY),
+            ("cv2 HH, 8 paths", cv2.STEREO_SGBM_MODE_HH),
+        ):
+            matcher = cv2.StereoSGBM_create(
+                0, disparities, 5, P1=8 * 25, P2=32 * 25, disp12MaxDiff=1, mode=mode
+            )
             found[name] = as_floats(matcher)
     return found
 
@@ -144,7 +167,9 @@ def compare(name: str, task: Task, contenders: dict[str, Matcher], rounds: int) 
         known = np.isfinite(off)
         bad = [100 * float((off[known] > limit).mean()) for limit in (1, 2)]
         ratio = least["ours"] / least[who]
-        print(f"  {who:18}{least[who]:8.1f}{ratio:14.2f}{bad[0]:9.2f}%{bad[1]:9.2f}%{100 * (~known).mean():7.2f}%")
+        print(
+            f"  {who:18}{least[who]:8.1f}{ratio:14.2f}{bad[0]:9.2f}%{bad[1]:9.2f}%{100 * (~known).mean():7.2f}%"  # noqa: E501
+        )
 
 
 if __name__ == "__main__":

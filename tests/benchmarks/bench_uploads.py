@@ -2,8 +2,8 @@
 
     python -m tests.benchmarks.bench_uploads [--lessons icp ransac] [--files rows.xyz.gz]
 
-Goals, on an idle machine: each is refused or shown within 3 s; a step of the other page takes below 200 ms; the server, with
-what it starts, grows by less than 500 MB.
+Goals, on an idle machine: each is refused or shown within 3 s; a step of the other page takes below
+200 ms; the server, with what it starts, grows by less than 500 MB.
 """
 
 import argparse
@@ -40,7 +40,10 @@ async def handed(page: FakePage, field: str, name: str, content: bytes) -> None:
     """Hand a file to a field of a page, and wait for what comes of it."""
     before, page.step = page.run["run"], {}
     async with httpx.AsyncClient(timeout=120) as client:
-        address, origin = f"{page.address}files/{page.token}/{field}", {"Origin": page.headers["Origin"]}
+        address, origin = (
+            f"{page.address}files/{page.token}/{field}",
+            {"Origin": page.headers["Origin"]},
+        )
         answer = await client.post(address, params={"name": name}, content=content, headers=origin)
         assert answer.status_code == 204, answer.text
 
@@ -85,7 +88,8 @@ async def watched(server: Served, given: argparse.Namespace) -> None:
                 await look
                 worst = max(waits.words, default=float("nan"))
                 print(
-                    f"{name:16}{file:16}{took:9.2f}{worst:9.0f}{max(grown) - grown[0]:10.0f}  {field}: {str(told)[:90]}"
+                    f"{name:16}{file:16}{took:9.2f}{worst:9.0f}{max(grown) - grown[0]:10.0f} "
+                    f" {field}: {str(told)[:90]}"
                 )
             await page.close()
     await walker.close()
@@ -94,9 +98,15 @@ async def watched(server: Served, given: argparse.Namespace) -> None:
 def main() -> None:
     """Run it."""
     with_files = [name for name, lesson in course().items() if paths_of(lesson.params)]
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.bench_uploads", description=__doc__)
-    parser.add_argument("--lessons", nargs="+", default=with_files, choices=with_files, metavar="NAME")
-    parser.add_argument("--files", nargs="+", default=list(FILES), choices=list(FILES), metavar="NAME")
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.benchmarks.bench_uploads", description=__doc__
+    )
+    parser.add_argument(
+        "--lessons", nargs="+", default=with_files, choices=with_files, metavar="NAME"
+    )
+    parser.add_argument(
+        "--files", nargs="+", default=list(FILES), choices=list(FILES), metavar="NAME"
+    )
     given = parser.parse_args()
     server = Served(threads=2)
     try:

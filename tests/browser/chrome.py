@@ -10,10 +10,12 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, Page
 
 WAIT = 180_000
-"""Milliseconds after which a test gives up: it waits for states, also on a busy machine that draws slowly."""
+"""Milliseconds after which a test gives up: it waits for states, also on a busy machine that draws
+slowly.
+"""
 HOW_TO = (
-    "no Chromium or Chrome here: install one (Debian: apt-get install chromium-headless-shell), or set WORKBENCH_CHROMIUM"
-    " to its path"
+    "no Chromium or Chrome here: install one (Debian: apt-get install chromium-headless-shell), or"
+    " set WORKBENCH_CHROMIUM to its path"
 )
 FLAGS = [
     "--no-sandbox",
@@ -21,7 +23,8 @@ FLAGS = [
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
-    "--disable-gpu-compositing",  # a page around the scene is put together without WebGL's software renderer
+    # a page around the scene is put together without WebGL's software renderer
+    "--disable-gpu-compositing",
     "--disable-gpu-rasterization",
     "--disable-background-networking",
     "--disable-component-update",
@@ -46,9 +49,11 @@ def find_chromium() -> str | None:
 
 
 class Chrome:
-    """A running browser; whatever its pages wait for, they wait for as long as a slow machine needs.
+    """A running browser; whatever its pages wait for, they wait for as long as a slow machine
+    needs.
 
-    Tests ask pages by expressions, which a page's own policy would refuse; `bypass_csp=False` holds a page to its policy.
+    Tests ask pages by expressions, which a page's own policy would refuse; `bypass_csp=False` holds
+    a page to its policy.
     """
 
     def __init__(self, browser: "Browser"):

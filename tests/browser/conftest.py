@@ -19,7 +19,9 @@ def server() -> Iterator[Server]:
 
 @pytest.fixture
 def visit(chromium, server) -> Iterator[Callable[..., Visit]]:
-    """visit(query): a page that is open until the test ends; errors in its console fail the test."""
+    """visit(query): a page that is open until the test ends; errors in its console fail the
+    test.
+    """
     visits: list[Visit] = []
 
     def opened(query: str = "", at: Server = server, **how: Any) -> Visit:

@@ -1,4 +1,6 @@
-"""A page with the scripts that show scenes, and a model of viser's client that they feed; no server, no drawing."""
+"""A page with the scripts that show scenes, and a model of viser's client that they feed; no
+server, no drawing.
+"""
 
 import base64
 import json
@@ -19,7 +21,8 @@ BODY = (
     '<iframe style="width:100%;height:100%;border:0"></iframe><div id="labels"></div></div>'
 )
 START = (
-    "stage.frame = $('iframe'); for (const part of [labels, handles]) part.start(); const wire = new Wire(); connect();"
+    "stage.frame = $('iframe'); for (const part of [labels, handles]) part.start(); const wire ="
+    " new Wire(); connect();"
 )
 
 

@@ -1,4 +1,6 @@
-"""The three homes of a lesson's page, each opened in a real browser: live, on a site, and in a notebook's HTML."""
+"""The three homes of a lesson's page, each opened in a real browser: live, on a site, and in a
+notebook's HTML.
+"""
 
 import re
 from collections.abc import Callable, Iterator
@@ -15,7 +17,8 @@ from tests.browser.visits import SELDOM
 from workbench.lesson import Lesson, Question, Sweep
 from workbench.notebook import Replay
 from workbench.publish.site import publish
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
+from workbench.story import has_story
 from workbench.viewer.server import Server
 
 WIDTH, HEIGHT = 1280, 720
@@ -74,32 +77,46 @@ class Home:
 
     def says(self, caption: str, k: int | None = None) -> None:
         """Wait until a caption is told, at a step if one is named."""
-        self.until("([text, k]) => $('#caption').textContent === text && (k === null || page.k === k)", [caption, k])
+        self.until(
+            "([text, k]) => $('#caption').textContent === text && (k === null || page.k === k)",
+            [caption, k],
+        )
 
     def shown_as(self, **options: Any) -> None:
         """Take another window: width, height, deviceScaleFactor, mobile."""
         session = self.page.context.new_cdp_session(self.page)
         session.send("Emulation.setDeviceMetricsOverride", options)
-        self.until("width => innerWidth === width" if self.kind != "notebook" else "() => true", options["width"])
+        self.until(
+            "width => innerWidth === width" if self.kind != "notebook" else "() => true",
+            options["width"],
+        )
 
 
 def barriers(frame: Any, *rules: str) -> list[str]:
-    """Return what axe calls serious in a document: the rule, and the first place that breaks it; of some rules, if named."""
+    """Return what axe calls serious in a document: the rule, and the first place that breaks it; of
+    some rules, if named.
+    """
     frame.evaluate(Axe().axe_script)
     options = {"iframes": False, "preload": False, "resultTypes": ["violations"]}
     return frame.evaluate(BARRIERS, options | ({"runOnly": rules} if rules else {}))
 
 
 class Browser:
-    """One browser for all visits, so that what lessons share is loaded once; somebody who wants no motion sits before it."""
+    """One browser for all visits, so that what lessons share is loaded once; somebody who wants no
+    motion sits before it.
+    """
 
     def __init__(self, chromium: Any, server: Server):
-        self._context = chromium.new_context(viewport={"width": WIDTH, "height": HEIGHT}, reduced_motion="reduce")
+        self._context = chromium.new_context(
+            viewport={"width": WIDTH, "height": HEIGHT}, reduced_motion="reduce"
+        )
         self._server = server
 
     @contextmanager
     def opened(self, kind: str, lesson: Lesson, folder: Path) -> Iterator[Home]:
-        """Open a lesson in one of its homes, as if for the first time; its window closes at the end."""
+        """Open a lesson in one of its homes, as if for the first time; its window closes at the
+        end.
+        """
         lesson, address = HOMES[kind](lesson, self._server, folder)
         page, errors = self._context.new_page(), []
         page.add_init_script(SELDOM)
@@ -107,8 +124,16 @@ class Browser:
             page.add_init_script("secondsBetweenPictures = 3600")
         ours = ("file:", "data:", "blob:", "about:", self._server.address)
         page.on("pageerror", lambda error: errors.append(str(error)))
-        page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
-        page.on("request", lambda request: None if request.url.startswith(ours) else errors.append(request.url[:200]))
+        page.on(
+            "console",
+            lambda message: errors.append(message.text) if message.type == "error" else None,
+        )
+        page.on(
+            "request",
+            lambda request: (
+                None if request.url.startswith(ours) else errors.append(request.url[:200])
+            ),
+        )
         try:
             page.goto(address)
             if kind == "notebook":
@@ -126,14 +151,20 @@ class Browser:
 
 
 def _live(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str]:
-    return lesson, f"{server.address}/?lesson={lesson.name}"
+    bench = f"&step={lesson.first_step}" if has_story(lesson) else ""
+    return lesson, f"{server.address}/?lesson={lesson.name}{bench}"
 
 
 def _site(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str]:
     kept = few(lesson, folder)
     with (
-        patch("workbench.publish.runs.record_bytes", lambda *_, **__: b"no page of the site reads it"),
-        patch("workbench.publish.runs.Timeline", lambda _, params: server.runs.timelines.get(lesson, params)),
+        patch(
+            "workbench.publish.runs.record_bytes", lambda *_, **__: b"no page of the site reads it"
+        ),
+        patch(
+            "workbench.publish.runs.Timeline",
+            lambda _, params: server.runs.timelines.get(lesson, params),
+        ),
     ):
         publish(folder / "site", [kept])
     return kept, (folder / "site" / kept.name / "index.html").as_uri()
@@ -143,7 +174,9 @@ def _notebook(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str
     file = folder / "saved.html"
     with patch("workbench.notebook.Timeline", server.runs.timelines.get):
         html = Replay(lesson, lesson.params(), None, HEIGHT - 20)._repr_html_()
-    head = "<meta charset=utf-8><meta name=viewport content='width=device-width'><title>Saved</title>"
+    head = (
+        "<meta charset=utf-8><meta name=viewport content='width=device-width'><title>Saved</title>"
+    )
     file.write_text(f"<!doctype html>{head}<body style='margin:0'>{html}")
     return lesson, file.as_uri()
 
@@ -156,30 +189,44 @@ HOMES: dict[str, Callable[[Lesson, Server, Path], tuple[Lesson, str]]] = {
 
 
 def few(lesson: Lesson, folder: Path) -> Lesson:
-    """Return a lesson with the runs that a visit needs: one preset, one question, two values of a sweep."""
+    """Return a lesson with the runs that a visit needs: one preset, one question, two values of a
+    sweep.
+    """
     first = linked(lesson) or next((preset.name for preset in lesson.presets), None)
     kept = {"default", "this", "", first}
     page = folder / "page.md"
-    page.write_text(LINKED.sub(lambda found: found[0] if found[2] in kept else found[1], lesson.text()))
+    text = LINKED.sub(lambda found: found[0] if found[2] in kept else found[1], lesson.text())
+    if has_story(lesson):  # whose scenes name runs that are left out here: its workbench alone
+        text = f"# {lesson.title}\n\n{lesson.summary} [Look](run:{first or 'default'}).\n"
+    page.write_text(text)
     sweeps = ()
     if lesson.sweeps:
         sweep = lesson.sweeps[0]
         usual = getattr(lesson.params(), sweep.knob)
         other = next(value for value in sweep.values if value != usual)
-        sweeps = (Sweep(sweep.knob, tuple(value for value in sweep.values if value in (usual, other))),)
+        sweeps = (
+            Sweep(sweep.knob, tuple(value for value in sweep.values if value in (usual, other))),
+        )
     presets = tuple(preset for preset in lesson.presets if preset.name == first)
     questions = (asked(lesson),) if lesson.questions else ()
     return replace(lesson, presets=presets, questions=questions, sweeps=sweeps, page=page)
 
 
 def asked(lesson: Lesson) -> Question:
-    """Return the question that needs the fewest runs besides the default and the preset that is linked."""
-    there = [lesson.params(), *(preset.params for preset in lesson.presets if preset.name == linked(lesson))]
+    """Return the question that needs the fewest runs besides the default and the preset that is
+    linked.
+    """
+    there = [
+        lesson.params(),
+        *(preset.params for preset in lesson.presets if preset.name == linked(lesson)),
+    ]
     return min(lesson.questions, key=lambda question: question.params not in there)
 
 
 def linked(lesson: Lesson) -> str | None:
     """Return the preset that a lesson's article runs first."""
+    if has_story(lesson):  # its links move the stage of the story
+        return None
     names = {preset.name for preset in lesson.presets}
     return next((found[2] for found in LINKED.finditer(lesson.text()) if found[2] in names), None)
 
@@ -187,4 +234,7 @@ def linked(lesson: Lesson) -> str | None:
 def own_end(run: Timeline) -> int:
     """Return the last step of a run itself; tries of other starts may follow it."""
     tries = run.lesson.tries
-    return next((k - 1 for k, step in enumerate(run.known()) if tries is not None and tries(step.state)), len(run) - 1)
+    return next(
+        (k - 1 for k, step in enumerate(run.known()) if tries is not None and tries(step.state)),
+        len(run) - 1,
+    )

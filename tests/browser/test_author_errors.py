@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 import numpy as np
 import pytest
 
-from workbench import links
 from workbench.knobs import Knob
 from workbench.lesson import Lesson, Preset, Question
+from workbench.run import links
 from workbench.scene import Caption, Mesh, Points, Scene
 from workbench.viewer.server import Server
 from workbench.wire.nodes import Maker
@@ -21,7 +21,9 @@ HERE = "browser/test_author_errors.py, line "
 
 @dataclass(frozen=True)
 class Params:
-    fails: Annotated[Literal["nowhere", "in run", "in draw", "in the sink"], Knob("Where")] = "nowhere"
+    fails: Annotated[Literal["nowhere", "in run", "in draw", "in the sink"], Knob("Where")] = (
+        "nowhere"
+    )
 
 
 def run(params: Params) -> Iterator[str]:
@@ -41,8 +43,14 @@ def draw(state: str) -> Scene:
 
 def lesson(page: str) -> Lesson:
     return Lesson(
-        name="broken", title="Broken", summary="It breaks in every place.", page=Path(page),
-        params=Params, run=run, draw=draw, order=1,
+        name="broken",
+        title="Broken",
+        summary="It breaks in every place.",
+        page=Path(page),
+        params=Params,
+        run=run,
+        draw=draw,
+        order=1,
         presets=tuple(
             Preset(where.replace(" ", "-"), f"Fails {where}", "", Params(where), -1)  # type: ignore[arg-type]
             for where in ("nowhere", "in run", "in draw", "in the sink")
@@ -50,7 +58,7 @@ def lesson(page: str) -> Lesson:
         questions=(
             Question("ratio", "How many?", lambda states: 1 / 0, lambda states: "", Params()),
         ),
-    )  # fmt: skip
+    )
 
 
 def test_the_page_says_where_a_lesson_fails_and_goes_on(chromium, monkeypatch, capsys):
@@ -90,7 +98,9 @@ def test_the_page_says_where_a_lesson_fails_and_goes_on(chromium, monkeypatch, c
     assert said.count("Traceback (most recent call last)") >= 4
 
 
-def test_a_page_that_cannot_be_read_is_said_in_its_place_and_the_run_plays(chromium, capsys, tmp_path):
+def test_a_page_that_cannot_be_read_is_said_in_its_place_and_the_run_plays(
+    chromium, capsys, tmp_path
+):
     file = tmp_path / "page.md"
     file.write_text("# Broken")
     server = Server(links.Place(lesson(str(file)), Params(), None))
@@ -99,7 +109,9 @@ def test_a_page_that_cannot_be_read_is_said_in_its_place_and_the_run_plays(chrom
     try:
         page.goto(server.address)
         page.locator("#caption").get_by_text("It fails nowhere.").wait_for()
-        page.locator("article .trouble").get_by_text(f"lesson broken: its page {file}: No such file").first.wait_for()
+        page.locator("article .trouble").get_by_text(
+            f"lesson broken: its page {file}: No such file"
+        ).first.wait_for()
     finally:
         page.close()
         server.stop()

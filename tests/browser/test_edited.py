@@ -1,4 +1,6 @@
-"""A lesson is edited while it is open in a real browser: same inputs and step, new code and text; or what is wrong."""
+"""A lesson is edited while it is open in a real browser: same inputs and step, new code and text;
+or what is wrong.
+"""
 
 import shutil
 from pathlib import Path
@@ -6,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from tests.browser.visits import at_rest
-from workbench import links
 from workbench.authoring.reloading import Edited
 from workbench.lesson import catalog
-from workbench.loading import load
+from workbench.run import links
+from workbench.run.loading import load
 from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser
@@ -23,7 +25,9 @@ def save(file: Path, old: str, new: str) -> None:
 
 
 def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
-    folder = Path(shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__")))
+    folder = Path(
+        shutil.copytree(CIRCLE, tmp_path / "circle", ignore=shutil.ignore_patterns("__pycache__"))
+    )
     lesson = load(folder)
     server = Server(links.Place(lesson, lesson.params(), None), edited=Edited(folder, lesson))
     try:
@@ -33,7 +37,9 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
         other.says("The algebraic fit of 41 points")
         me.scene()
         at_rest(me.page)  # the camera of the lesson has come
-        me.page.evaluate("void (feed.aim = () => { throw new Error('the camera stays where a person put it') })")
+        me.page.evaluate(
+            "void (feed.aim = () => { throw new Error('the camera stays where a person put it') })"
+        )
 
         save(folder / "draw.py", "Gauss-Newton step", "Step of Gauss-Newton")
         save(folder / "page.md", "# A circle through points", "# Through points a circle")
@@ -46,7 +52,7 @@ def test_a_lesson_is_edited_while_it_is_open(visit, tmp_path, capfd):
         assert list(server.lessons) == [*catalog(), "circle"]
 
         save(folder / "draw.py", "def outline", "def (outline")
-        told = "circle/draw.py, line 28: SyntaxError"
+        told = "circle/draw.py, line 32: SyntaxError"
         me.page.locator("#notice").get_by_text(told).wait_for()
         me.act("back")  # the lesson before goes on
         me.says("Step of Gauss-Newton 1")

@@ -1,4 +1,6 @@
-"""What viser's client is told: whatever was shown before, it ends with what is wanted, and is told no more than it lacks."""
+"""What viser's client is told: whatever was shown before, it ends with what is wanted, and is told
+no more than it lacks.
+"""
 
 import itertools
 from collections.abc import Iterator
@@ -14,8 +16,8 @@ from tests.browser.feeding import VIEW, Fed
 from tests.wire.kinds import ENDS, FACE, KINDS, MOVED, SMALL
 from tests.wire.reading import Reader
 from workbench.lesson import View
+from workbench.run.timeline import Timeline
 from workbench.scene import Camera, Label, Mesh, Points, Scene, Segments
-from workbench.timeline import Timeline
 from workbench.wire.nodes import Maker
 from workbench.wire.packing import PageWire
 
@@ -31,7 +33,11 @@ def pose(turn: tuple[float, float, float], t: tuple[float, float, float]) -> np.
 VEIL = Mesh(np.eye(3), FACE, "target", opacity=0.4)
 SEVERAL: tuple[Scene, ...] = (
     {"v": VEIL, "l": Segments(ENDS), "c": Camera(fake.K, 64, 48, image=SMALL)},
-    {"v": replace(VEIL, color="source"), "l": Segments(ENDS), "c": Camera(fake.K, 64, 48, image=SMALL)},
+    {
+        "v": replace(VEIL, color="source"),
+        "l": Segments(ENDS),
+        "c": Camera(fake.K, 64, 48, image=SMALL),
+    },
     {"l": Segments(2 * ENDS, "wrong"), "c": Camera(fake.K, 64, 48, MOVED, image=SMALL)},
     {
         "v": VEIL,
@@ -44,7 +50,12 @@ STEPS = [step.scene for step in Timeline(fake.lesson, fake.Params(points=20)).co
 ALL: tuple[Scene, ...] = (*KINDS, *SEVERAL, *STEPS)
 CLOUD = Points(np.random.default_rng(0).uniform(size=(2000, 3)), "source", T_world_object=np.eye(4))
 GOAL = pose((0.0, 0.0, 1.4), (1.0, 2.0, 3.0))
-BEFORE: Scene = {"cloud": CLOUD, "still": KINDS[0]["x"], "lines": Segments(ENDS), "word": Label("w", np.zeros(3))}
+BEFORE: Scene = {
+    "cloud": CLOUD,
+    "still": KINDS[0]["x"],
+    "lines": Segments(ENDS),
+    "word": Label("w", np.zeros(3)),
+}
 AFTER: Scene = {
     "cloud": replace(CLOUD, T_world_object=GOAL),
     "still": KINDS[0]["x"],
@@ -77,7 +88,9 @@ def test_a_client_has_of_a_scene_what_its_nodes_say(fed, k):
     reader = Reader()
     wanted = reader.nodes(reader.read(PageWire(Maker()).step({}, ALL[k], VIEW))["nodes"])
     found = fed(
-        "async (k) => { sceneView.step(scenes[k].nodes, 0); await settled(); return [seen(), client.wrong]; }", k
+        "async (k) => { sceneView.step(scenes[k].nodes, 0); await settled(); return [seen(),"
+        " client.wrong]; }",
+        k,
     )
     assert found[1] == []
     words = {name: node for name, node in wanted.items() if node["type"] == "Label"}
@@ -95,16 +108,24 @@ def test_a_client_has_of_a_scene_what_its_nodes_say(fed, k):
         assert node["props"].keys() == wanted[name]["props"].keys()
         parent = poses.get(name.rpartition("/")[0], np.array([1.0, 0, 0, 0, 0, 0, 0]))
         turn = Rotation.from_quat(parent[:4], scalar_first=True)
-        np.testing.assert_allclose(node["position"], turn.apply(poses[name][4:]) + parent[4:], atol=1e-8)
-        wxyz = (turn * Rotation.from_quat(poses[name][:4], scalar_first=True)).as_quat(scalar_first=True)
+        np.testing.assert_allclose(
+            node["position"], turn.apply(poses[name][4:]) + parent[4:], atol=1e-8
+        )
+        wxyz = (turn * Rotation.from_quat(poses[name][:4], scalar_first=True)).as_quat(
+            scalar_first=True
+        )
         assert abs(np.dot(wxyz, node["wxyz"])) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(("by", "together"), [(0, 1), (1, 1), (0, 3)], ids=["jump", "next", "three at once"])
+@pytest.mark.parametrize(
+    ("by", "together"), [(0, 1), (1, 1), (0, 3)], ids=["jump", "next", "three at once"]
+)
 def test_whatever_was_shown_before_leaves_nothing(fed, by, together):
     numbers = range(len(KINDS) + len(SEVERAL))
     order = [k for pair in itertools.product(numbers, numbers) for k in pair]
-    assert fed("([order, by, together]) => walked(order, by, together)", [order, by, together]) == ""
+    assert (
+        fed("([order, by, together]) => walked(order, by, together)", [order, by, together]) == ""
+    )
 
 
 WALK = """async ([start, count, seed]) => {
@@ -159,7 +180,10 @@ MESSAGES = """([i, j, how]) => {
 def test_what_only_moves_is_sent_as_poses_and_what_stays_is_not_sent(fed, by):
     before, after = len(ALL), len(ALL) + 1
     said = fed(MESSAGES, [before, after, by])
-    assert {type_ for type_, name in said if name == "/scene/cloud"} == {"SetOrientationMessage", "SetPositionMessage"}
+    assert {type_ for type_, name in said if name == "/scene/cloud"} == {
+        "SetOrientationMessage",
+        "SetPositionMessage",
+    }
     assert not [name for _, name in said if name not in ("/scene/cloud", "/scene/lines")]
     assert next(type_ for type_, name in said if name == "/scene/lines") == "SceneNodeUpdateMessage"
     assert fed(MESSAGES, [after, after, by]) == []
@@ -169,10 +193,21 @@ def test_what_only_moves_is_sent_as_poses_and_what_stays_is_not_sent(fed, by):
 
 @pytest.mark.parametrize("thing", [Points(np.eye(3), np.zeros((3, 3), np.uint8)), Segments(ENDS)])
 def test_another_number_of_points_is_another_node_and_as_many_are_changed_in_place(fed, thing):
-    many = Points(np.ones((7, 3)), np.zeros((7, 3), np.uint8)) if isinstance(thing, Points) else Segments(ENDS[:1])
-    same = replace(thing, p=2 * thing.p) if isinstance(thing, Points) else replace(thing, ends=2 * thing.ends)
+    many = (
+        Points(np.ones((7, 3)), np.zeros((7, 3), np.uint8))
+        if isinstance(thing, Points)
+        else Segments(ENDS[:1])
+    )
+    same = (
+        replace(thing, p=2 * thing.p)
+        if isinstance(thing, Points)
+        else replace(thing, ends=2 * thing.ends)
+    )
     one, other, alike = fed.add([{"n": thing}, {"n": many}, {"n": same}])
-    kinds = [{kind for kind, _ in fed(MESSAGES, [one, k, 0]) if not kind.startswith("Set")} for k in (other, alike)]
+    kinds = [
+        {kind for kind, _ in fed(MESSAGES, [one, k, 0]) if not kind.startswith("Set")}
+        for k in (other, alike)
+    ]
     assert kinds == [
         {"PointCloudMessage" if isinstance(thing, Points) else "LineSegmentsMessage"},
         {"SceneNodeUpdateMessage"},
@@ -181,9 +216,13 @@ def test_another_number_of_points_is_another_node_and_as_many_are_changed_in_pla
 
 def test_lines_are_made_anew_over_a_new_surface_but_not_from_step_to_step(fed):
     first = len(KINDS)  # whose surface has another colour in the next
-    made = [kind for kind, name in fed(MESSAGES, [first, first + 1, 0]) if name.startswith("/scene/l")]
+    made = [
+        kind for kind, name in fed(MESSAGES, [first, first + 1, 0]) if name.startswith("/scene/l")
+    ]
     assert made[0] == "RemoveSceneNodeMessage"
-    assert [name for _, name in fed(MESSAGES, [first, first + 1, 1]) if not name.startswith("/scene/v")] == []
+    assert [
+        name for _, name in fed(MESSAGES, [first, first + 1, 1]) if not name.startswith("/scene/v")
+    ] == []
 
 
 def test_what_is_hidden_is_hidden_and_comes_back(fed):
@@ -217,7 +256,9 @@ def test_a_step_beside_is_gone_to_evenly_and_ends_exactly_where_it_says(fed, by)
     assert list(clouds[-1]) == list(scenes_pose(AFTER))
     np.testing.assert_allclose(clouds[0], [1, 0, 0, 0, 0, 0, 0])
     eased = np.array([0.0, *(3 * t**2 - 2 * t**3 for t in parts)])
-    turns = Slerp([0, 1], Rotation.from_matrix([np.eye(3), GOAL[:3, :3]]))(eased).as_quat(scalar_first=True)
+    turns = Slerp([0, 1], Rotation.from_matrix([np.eye(3), GOAL[:3, :3]]))(eased).as_quat(
+        scalar_first=True
+    )
     np.testing.assert_allclose(np.abs((clouds[:, :4] * turns).sum(1)), 1.0, atol=1e-9)
     np.testing.assert_allclose(clouds[:, 4:], eased[:, None] * GOAL[:3, 3], atol=1e-9)
     assert (lines == lines[-1]).all(), "what changes is where it belongs at once"
@@ -229,11 +270,14 @@ def scenes_pose(scene: Scene) -> tuple[float, ...]:
 
 
 def test_a_turn_takes_the_shorter_way(fed):
-    """From 60 to -110 degrees, whose quaternions lie more than a quarter turn apart in four dimensions."""
+    """From 60 to -110 degrees, whose quaternions lie more than a quarter turn apart in four
+    dimensions.
+    """
     turns = [pose((0.0, 0.0, np.radians(degrees)), (0.0, 0.0, 0.0)) for degrees in (60, -110)]
     first, second = fed.add([{"cloud": replace(CLOUD, T_world_object=T)} for T in turns])
     walk = (
-        "([i, j]) => { sceneView.step(scenes[i].nodes, 0); finish(); sceneView.step(scenes[j].nodes, 1); tick(125); }"
+        "([i, j]) => { sceneView.step(scenes[i].nodes, 0); finish();"
+        " sceneView.step(scenes[j].nodes, 1); tick(125); }"
     )
     fed(walk, [first, second])
     found = Rotation.from_quat(fed("() => client.seen()['/scene/cloud'].wxyz"), scalar_first=True)
@@ -259,7 +303,8 @@ def test_who_wants_no_motion_sees_none(fed):
 def test_who_goes_on_before_a_glide_ends_starts_from_where_it_is(fed):
     at = "() => [...client.seen()['/scene/cloud'].position]"
     fed(
-        "([i, j]) => { sceneView.step(scenes[i].nodes, 0); finish(); sceneView.step(scenes[j].nodes, 1); }",
+        "([i, j]) => { sceneView.step(scenes[i].nodes, 0); finish();"
+        " sceneView.step(scenes[j].nodes, 1); }",
         [len(ALL), len(ALL) + 1],
     )
     fed("() => tick(125)")

@@ -39,13 +39,16 @@ def fed(chromium) -> Iterator[Fed]:
 
 @pytest.fixture(autouse=True)
 def begun(fed) -> None:
-    fed("""(params) => {
+    fed(
+        """(params) => {
       Object.assign(handles, { on: true, held: null });
       Object.assign(source, { changed: [], clicked: [] });
       sceneView.nodes = scenes[0].nodes;
       feed.shown.clear(); feed.wanted = new Map(); page.run.params = params;
       connect(); sceneView.again();
-    }""", PARAMS)  # fmt: skip
+    }""",
+        PARAMS,
+    )
 
 
 def handle(fed: Fed, name: str) -> dict[str, Any]:
@@ -65,14 +68,18 @@ def test_a_rotation_vector_comes_back(fed):
     vectors = np.vstack([axes * angles[:, None], np.pi * np.eye(3), -np.pi * np.eye(3)])
     q = np.array(fed("(all) => all.map(quaternion)", vectors.tolist()))
     wanted = Rotation.from_rotvec(vectors)
-    np.testing.assert_allclose(np.abs((q * wanted.as_quat(scalar_first=True)).sum(1)), 1.0, atol=1e-12)
+    np.testing.assert_allclose(
+        np.abs((q * wanted.as_quat(scalar_first=True)).sum(1)), 1.0, atol=1e-12
+    )
     back = np.array(fed("(all) => all.map(turn)", q.tolist()))
     assert (np.linalg.norm(back, axis=1) <= np.pi + 1e-9).all()
     assert (Rotation.from_rotvec(back) * wanted.inv()).magnitude().max() < 1e-7
     away = np.abs(angles) < 3
     np.testing.assert_allclose(back[:60][away], vectors[:60][away], atol=1e-8)
     other = np.array(fed("(all) => all.map(turn)", (-q).tolist()))
-    assert (Rotation.from_rotvec(other) * wanted.inv()).magnitude().max() < 1e-7, "of two quaternions one rotation"
+    assert (Rotation.from_rotvec(other) * wanted.inv()).magnitude().max() < 1e-7, (
+        "of two quaternions one rotation"
+    )
     assert (np.linalg.norm(other, axis=1) <= np.pi + 1e-9).all()
 
 
@@ -80,7 +87,10 @@ def test_handles_stand_where_the_params_say(fed):
     place, flat, pose = (handle(fed, name) for name in ("place", "flat", "pose"))
     assert (place["position"], place["wxyz"]) == ([1.0, 2.0, 0.5], [1, 0, 0, 0])
     assert flat["position"] == [1.0, -0.5, 0]
-    assert (pose["position"], pose["wxyz"]) == ([0.1, 0.2, 0.3], pytest.approx([np.cos(0.5), 0, 0, np.sin(0.5)]))
+    assert (pose["position"], pose["wxyz"]) == (
+        [0.1, 0.2, 0.3],
+        pytest.approx([np.cos(0.5), 0, 0, np.sin(0.5)]),
+    )
     assert [one["props"]["scale"] for one in (place, flat, pose)] == [0.5, 0.3, 0.2]
     assert [one["props"]["disable_rotations"] for one in (place, flat, pose)] == [True, True, False]
     assert flat["props"]["active_axes"] == [True, True, False], "a place in the plane z = 0"
@@ -113,7 +123,9 @@ def test_a_held_handle_leads_while_answers_come_late(fed):
     for x in (1.1, 1.2, 1.3):
         moved(fed, "place", [x, 2.0, 0.5])
         fed("() => { client.said = []; }")
-        fed(SHOW, PARAMS | {"place": [x - 0.1, 2.0, 0.5], "flat": [x, 0.0]})  # the answer to what was said before
+        fed(
+            SHOW, PARAMS | {"place": [x - 0.1, 2.0, 0.5], "flat": [x, 0.0]}
+        )  # the answer to what was said before
         told = fed("() => client.said.map(({ name }) => name)")
         assert told
         assert set(told) == {"/handle/flat"}, "the hand is not pulled back; other handles follow"
@@ -134,12 +146,16 @@ def test_a_handle_that_comes_again_leaves_no_place_behind(fed):
 def test_a_click_tells_its_ray(fed):
     fed(HEAR, {"type": "ScenePointerMessage", "ray_origin": [1, 2, 3], "ray_direction": [0, 0, -1]})
     assert fed("() => source.clicked") == [[[1, 2, 3], [0, 0, -1]]]
-    heard = "() => client.said.filter(({ type }) => type === 'ScenePointerEnableMessage').at(-1).modifiers"
+    heard = (
+        "() => client.said.filter(({ type }) => type ==="
+        " 'ScenePointerEnableMessage').at(-1).modifiers"
+    )
     assert fed(heard) == [None], "this lesson has a knob that is set by a click"
 
 
 @pytest.mark.parametrize(
-    ("knobs", "can", "heard"), [(KNOBS, True, True), (KNOBS[:3], True, False), (KNOBS, False, False)]
+    ("knobs", "can", "heard"),
+    [(KNOBS, True, True), (KNOBS[:3], True, False), (KNOBS, False, False)],
 )
 def test_clicks_are_heard_where_a_knob_and_the_home_take_them(fed, knobs, can, heard):
     picks = """([knobs, can]) => {
@@ -154,6 +170,8 @@ def test_clicks_are_heard_where_a_knob_and_the_home_take_them(fed, knobs, can, h
     }"""
     before = fed("() => client.said.length")
     assert fed(picks, [knobs, can]) == 3
-    said = fed("(n) => client.said.slice(n).map(({ type, modifiers }) => [type, modifiers])", before)
+    said = fed(
+        "(n) => client.said.slice(n).map(({ type, modifiers }) => [type, modifiers])", before
+    )
     enabled = [modifiers for kind, modifiers in said if kind == "ScenePointerEnableMessage"]
     assert enabled[0] == ([None] if heard else [])

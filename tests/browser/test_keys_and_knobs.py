@@ -1,4 +1,6 @@
-"""Keys that go to a run's own end and to every experiment, and a drawer of knobs in which no label is covered."""
+"""Keys that go to a run's own end and to every experiment, and a drawer of knobs in which no label
+is covered.
+"""
 
 import pytest
 
@@ -12,7 +14,9 @@ LABELS = """() => [...$$("#drawer .knobs > div fieldset legend")].map((legend) =
 })"""
 
 
-def test_end_goes_on_to_the_run_s_own_end_while_it_is_computed_and_then_to_the_tries_of_other_starts(visit):
+def test_end_goes_on_to_the_run_s_own_end_while_it_is_computed_and_then_to_the_tries_of_other_starts(
+    visit,
+):
     me = visit("?lesson=icp&step=0")
     me.page.wait_for_function("page.run && page.step()")
     me.page.keyboard.press("End")

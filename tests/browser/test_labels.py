@@ -1,4 +1,6 @@
-"""Words stand where their places are seen, and the camera is put where a view wants it, in frames of any width."""
+"""Words stand where their places are seen, and the camera is put where a view wants it, in frames
+of any width.
+"""
 
 from collections.abc import Iterator
 from typing import Any
@@ -48,7 +50,9 @@ def seen_from(eye: np.ndarray, target: np.ndarray, up: np.ndarray) -> np.ndarray
     return np.column_stack([right, np.cross(forward, right), forward])
 
 
-def pixel(p: np.ndarray, eye: np.ndarray, R: np.ndarray, fov: float, size: Any = SIZE) -> tuple[float, float, float]:
+def pixel(
+    p: np.ndarray, eye: np.ndarray, R: np.ndarray, fov: float, size: Any = SIZE
+) -> tuple[float, float, float]:
     """Return column, row and depth of a point of the world in a picture of so many pixels."""
     x, y, z = R.T @ (p - eye)
     focal = size[1] / 2 / np.tan(fov / 2)
@@ -85,7 +89,11 @@ def test_before_the_client_tells_its_camera_it_is_that_of_the_view(fed, eye, up)
     show(fed, {"w": Label("word", np.zeros(3))}, view)
     R = seen_from(view.seen_from(), np.array(view.target), np.array(up))
     boxes = fed(WORDS)
-    for name, p in (("w", np.zeros(3)), ("/axis/x", np.array([0.54, 0, 0])), ("/axis/z", np.array([0, 0, 0.54]))):
+    for name, p in (
+        ("w", np.zeros(3)),
+        ("/axis/x", np.array([0.54, 0, 0])),
+        ("/axis/z", np.array([0, 0, 0.54])),
+    ):
         u, _, z = pixel(p, view.seen_from(), R, np.radians(60.0))
         assert z > 0
         left, _, width, _ = boxes[name]
@@ -94,7 +102,10 @@ def test_before_the_client_tells_its_camera_it_is_that_of_the_view(fed, eye, up)
 
 def test_what_is_behind_the_camera_is_hidden(fed):
     eye = np.array(BARE.eye)
-    show(fed, {"ahead": Label("a", -0.5 * eye), "behind": Label("b", 1.5 * eye), "at": Label("c", eye)})
+    show(
+        fed,
+        {"ahead": Label("a", -0.5 * eye), "behind": Label("b", 1.5 * eye), "at": Label("c", eye)},
+    )
     boxes = fed(WORDS)
     assert boxes["ahead"] is not None
     assert boxes["behind"] is boxes["at"] is None
@@ -110,9 +121,16 @@ def test_words_at_one_place_do_not_cover_each_other(fed):
                 assert not (x < u + c and u < x + w and y < v + r and v < y + h)
     show(fed, {"near": Label("n", 0.2 * np.array(BARE.eye)), "far": Label("f", np.zeros(3))})
     boxes = fed(WORDS)
-    u, v, _ = pixel(np.zeros(3), np.array(BARE.eye), seen_from(np.array(BARE.eye), np.zeros(3), np.array(BARE.up)), FOV)
+    u, v, _ = pixel(
+        np.zeros(3),
+        np.array(BARE.eye),
+        seen_from(np.array(BARE.eye), np.zeros(3), np.array(BARE.up)),
+        FOV,
+    )
     left, top, width, height = boxes["near"]
-    assert (left + width / 2, top + height + 2) == pytest.approx((u, v), abs=0.51), "the nearer one stays at its place"
+    assert (left + width / 2, top + height + 2) == pytest.approx((u, v), abs=0.51), (
+        "the nearer one stays at its place"
+    )
 
 
 def test_text_is_text(fed):
@@ -150,13 +168,17 @@ def test_a_word_glides_with_what_it_names(fed):
 
 
 CAMERA = (
-    "() => { const { SetCameraPositionMessage: eye, SetCameraFovMessage: fov } = client.camera; return [eye, fov]; }"
+    "() => { const { SetCameraPositionMessage: eye, SetCameraFovMessage: fov } = client.camera;"
+    " return [eye, fov]; }"
 )
 
 
 @pytest.mark.parametrize("first", [2.0, 1.6, 1.4, 1.2, 0.6])
 def test_a_narrower_frame_shows_as_much_in_its_width_and_the_eye_stays(fed, first):
-    resize = "(aspect) => { $('#scene').style.width = `${Math.round(500 * aspect)}px`; feed.fit(); finish(); }"
+    resize = (
+        "(aspect) => { $('#scene').style.width = `${Math.round(500 * aspect)}px`; feed.fit();"
+        " finish(); }"
+    )
     fed(resize, first)
     show(fed, {"w": Label("w", np.zeros(3))})
     keeps = max(1.2, min(first, 1.6))

@@ -1,4 +1,6 @@
-"""How things look: mixed with the page's backdrop, seen through, as ghosts, standing out; in closed form."""
+"""How things look: mixed with the page's backdrop, seen through, as ghosts, standing out; in closed
+form.
+"""
 
 import io
 from collections.abc import Iterator
@@ -29,7 +31,10 @@ from workbench.scene import (
 )
 
 pytestmark = pytest.mark.browser
-BACKDROPS = {False: (255, 255, 255), True: (20, 21, 23)}  # of viser's canvas, in the light and in the dark
+BACKDROPS = {
+    False: (255, 255, 255),
+    True: (20, 21, 23),
+}  # of viser's canvas, in the light and in the dark
 TWO = Classes(np.array([0, 1]), ("truth", "wrong"), ("a", "b"))
 HEIGHT = Field(np.arange(3.0), 0.0, 2.0, "h")
 
@@ -52,7 +57,9 @@ SHOWN = """async ([k, path, pin, dark]) => {
 }"""
 
 
-def shown(fed: Fed, scene: Scene, *, path: str = "", pin: Scene | None = None, dark: bool = False) -> dict[str, Any]:
+def shown(
+    fed: Fed, scene: Scene, *, path: str = "", pin: Scene | None = None, dark: bool = False
+) -> dict[str, Any]:
     """Return what a client has of a scene, by name: properties, arrays as lists, and places."""
     numbers = fed.add([scene, *([] if pin is None else [pin])])
     return fed(SHOWN, [numbers[0], path, None if pin is None else numbers[1], dark])
@@ -60,7 +67,9 @@ def shown(fed: Fed, scene: Scene, *, path: str = "", pin: Scene | None = None, d
 
 def mixed(rgb: Any, opacity: float, dark: bool) -> np.ndarray:
     share = opacity**0.6 if dark else opacity  # the eye sees less of a faint thing in the dark
-    return np.floor(share * np.asarray(rgb, float) + (1 - share) * np.array(BACKDROPS[dark]) + 0.5).astype(int)
+    return np.floor(
+        share * np.asarray(rgb, float) + (1 - share) * np.array(BACKDROPS[dark]) + 0.5
+    ).astype(int)
 
 
 def as_light(rgb: np.ndarray) -> np.ndarray:
@@ -81,17 +90,23 @@ def test_what_is_faded_is_mixed_with_the_backdrop_of_the_page(fed, opacity, dark
         "mesh": Mesh(np.eye(3), FACE, "target", opacity=opacity),
         "word": Label("w", np.zeros(3), opacity=opacity),
     }
-    found = {name.removeprefix("/scene/"): node for name, node in shown(fed, scene, dark=dark).items()}
+    found = {
+        name.removeprefix("/scene/"): node for name, node in shown(fed, scene, dark=dark).items()
+    }
     arrows = [PALETTE[axis] for axis in ("x", "y", "z")]
     for name, rgb in (("one", PALETTE["source"]), ("each", GREEN), ("axes", arrows)):
         np.testing.assert_array_equal(
             np.reshape(found[name]["colors"], (-1, 3)), np.atleast_2d(mixed(rgb, opacity, dark))
         )
     for name, rgb in (("line", PALETTE["target"]), ("camera", PALETTE["truth"])):
-        np.testing.assert_array_equal(found[name]["colors"], mixed(rgb, opacity, dark))  # one for all is sRGB
+        np.testing.assert_array_equal(
+            found[name]["colors"], mixed(rgb, opacity, dark)
+        )  # one for all is sRGB
     ends = np.repeat([PALETTE["truth"], PALETTE["wrong"]], 2, axis=0)
     np.testing.assert_allclose(  # one for each end is linear light
-        np.reshape(found["lines"]["colors"], (-1, 3)), as_light(mixed(ends, opacity, dark)), atol=0.5
+        np.reshape(found["lines"]["colors"], (-1, 3)),
+        as_light(mixed(ends, opacity, dark)),
+        atol=0.5,
     )
     assert found["mesh"]["opacity"] == (opacity if opacity < 1 else None)
     assert found["mesh"]["color"] == list(PALETTE["target"])
@@ -102,7 +117,8 @@ def test_only_what_is_faded_is_sent_again_where_the_light_changes(fed):
     faded, full = Points(np.eye(3), "source", opacity=0.5), Points(np.eye(3), "source")
     shown(fed, {"faded": faded, "full": full, "mesh": Mesh(np.eye(3), FACE, HEIGHT, opacity=0.5)})
     said = fed(
-        "() => { client.said = []; feed.theme(true); return client.said.map(({ type, name }) => [type, name]); }"
+        "() => { client.said = []; feed.theme(true); return client.said.map(({ type, name }) =>"
+        " [type, name]); }"
     )
     assert said == [["ThemeConfigurationMessage", None], ["SceneNodeUpdateMessage", "/scene/faded"]]
     assert fed("() => feed.client.said.at(-1).updates.points === undefined"), "its colours alone"
@@ -120,7 +136,8 @@ def test_a_coloured_surface_that_is_seen_through_is_a_file_that_others_read(fed,
     length, kind = np.frombuffer(glb[start : start + 8], "<u4")
     assert (kind, start + 8 + length) == (0x004E4942, len(glb))
     (found,), (before,) = (
-        trimesh.load_scene(io.BytesIO(one), file_type="glb").geometry.values() for one in (glb, opaque)
+        trimesh.load_scene(io.BytesIO(one), file_type="glb").geometry.values()
+        for one in (glb, opaque)
     )
     assert found.visual.material.alphaMode == "BLEND"
     assert before.visual.material.alphaMode is None
@@ -139,7 +156,7 @@ def test_a_faded_picture_comes_as_one_that_is_seen_through(fed, opacity, name):
     opaque = shown(fed, {"p": thing})[name]
     node = shown(fed, {"p": replace(thing, opacity=opacity)})[name]
     assert node["_format"] == "png"
-    (image, before) = (Image.open(io.BytesIO(bytes(one["_data"]))) for one in (node, opaque))
+    image, before = (Image.open(io.BytesIO(bytes(one["_data"]))) for one in (node, opaque))
     assert (image.mode, image.size) == ("RGBA", SMALL.shape[1::-1])
     rgba = np.asarray(image).astype(int)
     np.testing.assert_allclose(rgba[:, :, 3], 255 * opacity, atol=1)
@@ -162,7 +179,9 @@ ROOM: Scene = {
 def test_what_is_read_of_stands_out_and_the_rest_steps_back(fed):
     plain, seen = shown(fed, ROOM), shown(fed, ROOM, path="source")
     assert seen.keys() == plain.keys()
-    points, normals, faint = (seen[f"/scene/source·{name}"] for name in ("points", "normals", "faint"))
+    points, normals, faint = (
+        seen[f"/scene/source·{name}"] for name in ("points", "normals", "faint")
+    )
     assert points["point_size"] == pytest.approx(1.6 * 0.01)
     assert points["colors"] == list(PALETTE["source"])
     assert normals["thickness"] == pytest.approx(2 * 1.5)
@@ -172,7 +191,9 @@ def test_what_is_read_of_stands_out_and_the_rest_steps_back(fed):
     assert other["point_size"] == plain["/scene/sources"]["point_size"]
     assert seen["/scene/box"]["opacity"] == pytest.approx(0.3)
     assert seen["/scene/camera/image"]["_format"] == "png"
-    assert fed("() => labels.words.get('/scene/name').style.opacity") == "1", "words say what is seen"
+    assert fed("() => labels.words.get('/scene/name').style.opacity") == "1", (
+        "words say what is seen"
+    )
     for name in plain:
         if not name.startswith("/scene/"):
             assert {**seen[name], "made": 0} == {**plain[name], "made": 0}, "the stage"
@@ -183,7 +204,9 @@ def test_what_is_read_of_stands_out_and_the_rest_steps_back(fed):
     )
 
 
-@pytest.mark.parametrize("path", ["sour", "caption", "source/points/x", "source·", "/", "camera/image/x"])
+@pytest.mark.parametrize(
+    "path", ["sour", "caption", "source/points/x", "source·", "/", "camera/image/x"]
+)
 def test_a_name_of_nothing_changes_nothing(fed, path):
     (k,) = fed.add([ROOM])
     assert fed("([k, path]) => lit(scenes[k].nodes, path) === scenes[k].nodes", [k, path])
@@ -192,7 +215,11 @@ def test_a_name_of_nothing_changes_nothing(fed, path):
 def ghosts(fed: Fed, scene: Scene, pin: Scene, dark: bool = False) -> dict[str, Any]:
     """Return the ghosts of a pinned scene behind another, by what follows `/ghost/`."""
     found = shown(fed, scene, pin=pin, dark=dark)
-    return {name.removeprefix("/ghost/"): node for name, node in found.items() if name.startswith("/ghost/")}
+    return {
+        name.removeprefix("/ghost/"): node
+        for name, node in found.items()
+        if name.startswith("/ghost/")
+    }
 
 
 EVERY: Scene = {
@@ -223,14 +250,25 @@ def test_what_is_at_its_place_has_no_ghost_however_it_is_coloured(fed):
 @pytest.mark.parametrize("dark", [False, True])
 def test_what_is_elsewhere_has_a_fine_and_pale_ghost_where_it_was(fed, dark):
     found = ghosts(fed, MOVED_ALL, EVERY, dark)
-    assert found.keys() == {"points", "lines", "mesh", "height", "axes", "camera"}, "no words, no pictures"
-    assert all((node["wxyz"], node["position"]) == ([1, 0, 0, 0], [0, 0, 0]) for node in found.values())
+    assert found.keys() == {
+        "points",
+        "lines",
+        "mesh",
+        "height",
+        "axes",
+        "camera",
+    }, "no words, no pictures"
+    assert all(
+        (node["wxyz"], node["position"]) == ([1, 0, 0, 0], [0, 0, 0]) for node in found.values()
+    )
     np.testing.assert_array_equal(found["points"]["colors"], mixed(PALETTE["source"], 0.25, dark))
     np.testing.assert_array_equal(found["lines"]["colors"], mixed(PALETTE["truth"], 0.25, dark))
     assert found["points"]["point_size"] == pytest.approx(0.4 * 0.01)
     assert found["lines"]["thickness"] == pytest.approx(0.6 * 2.0)
     assert found["mesh"]["opacity"] == pytest.approx(0.25 * 0.5)
-    (surface,) = trimesh.load_scene(io.BytesIO(bytes(found["height"]["glb_data"])), file_type="glb").geometry.values()
+    (surface,) = trimesh.load_scene(
+        io.BytesIO(bytes(found["height"]["glb_data"])), file_type="glb"
+    ).geometry.values()
     np.testing.assert_array_equal(surface.visual.vertex_attributes["color"][:, 3], 64)
 
 
@@ -253,7 +291,9 @@ def test_what_has_another_shape_has_a_ghost(fed):
 
 
 def test_a_ghost_stays_while_steps_go_by(fed):
-    steps = [{"points": replace(EVERY["points"], T_world_object=T)} for T in (None, MOVED, MOVED @ MOVED)]  # type: ignore[type-var]
+    steps = [
+        {"points": replace(EVERY["points"], T_world_object=T)} for T in (None, MOVED, MOVED @ MOVED)
+    ]  # type: ignore[type-var]
     numbers = list(fed.add(steps))  # type: ignore[arg-type]
     walk = """async ([first, ...others]) => {
       Object.assign(sceneView, { nodes: scenes[first].nodes, path: "", pinned: null });

@@ -1,7 +1,8 @@
-"""Every lesson in every home it has does everything: one visit each, and what it says is what the Timeline says.
+"""Every lesson in every home it has does everything: one visit each, and what it says is what the
+Timeline says.
 
-By keyboard alone, but for handles and points of the scene; without motion on the way from step to step; in a light window of
-a laptop at first, then in a dark one of a phone.
+By keyboard alone, but for handles and points of the scene; without motion on the way from step to
+step; in a light window of a laptop at first, then in a dark one of a phone.
 """
 
 import contextlib
@@ -20,9 +21,10 @@ from tests.browser.homes import HOMES, PHONE, Browser, Home, asked, barriers, li
 from workbench.knobs import Field, Gizmo, Pick, fields_of, text_of
 from workbench.lesson import catalog
 from workbench.page.code import moment_data
-from workbench.questions import answer
+from workbench.run.questions import answer
+from workbench.run.timeline import Timeline
 from workbench.scene import Picture
-from workbench.timeline import Timeline
+from workbench.story import has_story
 from workbench.viewer.connection import PageConnection
 
 pytestmark = pytest.mark.browser
@@ -78,15 +80,23 @@ def opens_at(timeline: Timeline, step: int) -> int:
 def says_what_the_timeline_says(home: Home) -> None:
     run = here(home)
     home.says(run[opens_at(run, home.lesson.first_step)].caption.text)
-    home.until("n => page.known() === n && page.run.series.every((one) => one.values.length === n)", len(run))
-    told = {one["path"]: (one["name"], one["unit"], one["values"]) for one in home.ask("page.run.series")}
+    home.until(
+        "n => page.known() === n && page.run.series.every((one) => one.values.length === n)",
+        len(run),
+    )
+    told = {
+        one["path"]: (one["name"], one["unit"], one["values"])
+        for one in home.ask("page.run.series")
+    }
     series = run.series()
     assert told.keys() == series.keys()
     for path, one in series.items():
         name, unit, values = told[path]
         assert (name, unit) == (one.scalar.name, one.scalar.unit)
         known = [math.nan if value is None else value for value in values]
-        np.testing.assert_allclose(known, np.where(np.isfinite(one.values), one.values, np.nan), rtol=1e-5, atol=1e-12)
+        np.testing.assert_allclose(
+            known, np.where(np.isfinite(one.values), one.values, np.nan), rtol=1e-5, atol=1e-12
+        )
     home.find("#scene iframe").wait_for()
     home.frame.frame_locator("#scene iframe").locator("canvas").first.wait_for()
     home.ask("void (secondsBetweenPictures = 3600)")
@@ -103,8 +113,18 @@ def is_stepped_and_played_by_keys(home: Home) -> None:
     home.press("Tab")
     assert home.ask("document.activeElement.className") == "skip"
     end = own_end(run)
-    ends = (("End", end), *([("End", last)] if end < last else []))  # tries of other starts follow the run's own end
-    for key, k in (("Home", 0), ("n", 1), ("ArrowRight", 2), ("p", 1), *ends, ("ArrowLeft", last - 1)):
+    ends = (
+        ("End", end),
+        *([("End", last)] if end < last else []),
+    )  # tries of other starts follow the run's own end
+    for key, k in (
+        ("Home", 0),
+        ("n", 1),
+        ("ArrowRight", 2),
+        ("p", 1),
+        *ends,
+        ("ArrowLeft", last - 1),
+    ):
         home.press(key)
         shows(min(k, last))
     home.find("[data-act=back]").press("Enter")
@@ -150,7 +170,9 @@ def a_knob_leads_to_another_run(home: Home) -> None:
     slider = home.find("#drawer fieldset:not(:disabled) input[type=range]").first
     name = slider.locator("xpath=ancestor::fieldset").get_attribute("data-knob")
     before = home.ask("name => page.run.params[name]", name)
-    slider.press("ArrowLeft" if slider.input_value() == slider.get_attribute("max") else "ArrowRight")
+    slider.press(
+        "ArrowLeft" if slider.input_value() == slider.get_attribute("max") else "ArrowRight"
+    )
     home.until("([name, was]) => String(page.run.params[name]) !== was", [name, text_of(before)])
     agrees_with_its_params(home)
     home.find("#drawer").get_by_role("button", name="Reset").press("Enter")
@@ -168,7 +190,10 @@ def agrees_with_its_params(home: Home) -> None:
 
 
 def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
-    by = {kind: [f for f in fields_of(home.lesson.params) if isinstance(f.knob.by, kind)] for kind in (Gizmo, Pick)}
+    by = {
+        kind: [f for f in fields_of(home.lesson.params) if isinstance(f.knob.by, kind)]
+        for kind in (Gizmo, Pick)
+    }
     home.ask("void (secondsBetweenPictures = 0.2)")
     for field in by[Gizmo][:1]:
         home.press("h")
@@ -186,20 +211,26 @@ def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
 
 
 def moved(home: Home, name: str, act: Callable[[int], None]) -> None:
-    """Do something in the scene until a param has changed by it: what is drawn comes a little later than what is said."""
+    """Do something in the scene until a param has changed by it: what is drawn comes a little later
+    than what is said.
+    """
     before = home.ask("name => String(page.run.params[name])", name)
     for turn in range(60):
         act(turn)
         with contextlib.suppress(TookTooLong):
             home.frame.wait_for_function(
-                "([name, was]) => String(page.run.params[name]) !== was", arg=[name, before], timeout=3000
+                "([name, was]) => String(page.run.params[name]) !== was",
+                arg=[name, before],
+                timeout=3000,
             )
             return agrees_with_its_params(home)
     raise AssertionError(f"{name} stays {before}")
 
 
 def drag(home: Home, field: Field, turn: int) -> None:
-    """Draw at the end of a handle's longest arrow; where it is missed, the camera turns, and it is elsewhere."""
+    """Draw at the end of a handle's longest arrow; where it is missed, the camera turns, and it is
+    elsewhere.
+    """
     assert isinstance(field.knob.by, Gizmo)
     place = np.array(home.ask("name => page.run.params[name]", field.name)[:3])
     start = on_screen(home, place)
@@ -221,7 +252,9 @@ def click(home: Home, path: str, turn: int) -> None:
 
 
 def another_point(home: Home, path: str, turn: int) -> np.ndarray:
-    """Return where, on the screen, a part of what is at a path is that a click may mean: one off its middle."""
+    """Return where, on the screen, a part of what is at a path is that a click may mean: one off
+    its middle.
+    """
     session = student(home).session
     look = None if session is None else session.look()
     assert look is not None
@@ -236,10 +269,14 @@ def another_point(home: Home, path: str, turn: int) -> np.ndarray:
 
 
 def on_screen(home: Home, p_world: np.ndarray) -> np.ndarray:
-    """Return where points of the scene (..., 3) are in the window, by the camera of viser's client."""
+    """Return where points of the scene (..., 3) are in the window, by the camera of viser's
+    client.
+    """
     camera, box = home.ask("labels.camera"), home.find("#scene").bounding_box()
     w, x, y, z = camera["wxyz"]
-    xyz = (p_world - np.array(camera["position"])) @ Rotation.from_quat([x, y, z, w]).as_matrix()  # right, down, ahead
+    xyz = (p_world - np.array(camera["position"])) @ Rotation.from_quat(
+        [x, y, z, w]
+    ).as_matrix()  # right, down, ahead
     scale = 0.5 * box["height"] / np.tan(0.5 * camera["fov"])
     middle = np.array([box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]])
     return middle + scale * xyz[..., :2] / xyz[..., 2:]
@@ -258,14 +295,20 @@ def links_run_things(home: Home) -> None:
         link = home.find(f"a.run[data-run='{name}']").first
         step = link.get_attribute("data-step")
         run = complete(home, preset.params)
-        at = int(step) if step is not None else home.lesson.first_step if preset.step is None else preset.step
+        at = (
+            int(step)
+            if step is not None
+            else home.lesson.first_step
+            if preset.step is None
+            else preset.step
+        )
         link.press("Enter")
         home.says(run[opens_at(run, at)].caption.text, opens_at(run, at))
         home.find(f"button[data-run='{name}'][aria-pressed=true]").wait_for()
 
 
 def a_question_is_answered_wrong_and_right(home: Home) -> None:
-    if not home.lesson.questions:
+    if not home.lesson.questions or has_story(home.lesson):  # asked in its scenes: test_story
         return
     question = asked(home.lesson)
     found = answer(catalog()[home.lesson.name], question, None, home.server.runs.timelines)
@@ -295,7 +338,9 @@ def a_sweep_leads_to_another_run(home: Home) -> None:
     dial = home.find("#drawer input[type=range]").first
     for key in ("Home", "End"):
         dial.press(key)
-        value = values[home.ask("at => RECORDED.sweeps[0].values.at(at)", 0 if key == "Home" else -1)]
+        value = values[
+            home.ask("at => RECORDED.sweeps[0].values.at(at)", 0 if key == "Home" else -1)
+        ]
         run = complete(home, lesson.validated(replace(lesson.params(), **{knob: value})))
         home.until("() => source.open_.name === page.run.name")
         home.until(AGREES, [step.caption.text for step in run.known()])
@@ -318,6 +363,7 @@ def fits_a_phone_in_the_dark(home: Home) -> None:
     assert home.ask("document.documentElement.scrollWidth") <= PHONE["width"]
     if home.ask("page.k") == 0:
         home.press("n")
+        home.until("page.k > 0")
     k = home.ask("page.k")
     home.find("[data-act=back]").press("Enter")
     home.until("k => page.k === k", k - 1)

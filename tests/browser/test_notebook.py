@@ -13,16 +13,27 @@ import pytest
 import workbench
 from workbench.lesson import catalog
 from workbench.notebook import HOW_TO_PLAY, STILL
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 CELL = 'import workbench\nworkbench.replay("icp", start_angle=120, steps=4, height=520)'
-CELLS = [{"cell_type": "code", "id": "one", "metadata": {}, "source": CELL, "outputs": [], "execution_count": None}]
+CELLS = [
+    {
+        "cell_type": "code",
+        "id": "one",
+        "metadata": {},
+        "source": CELL,
+        "outputs": [],
+        "execution_count": None,
+    }
+]
 
 
 @pytest.fixture(scope="module")
 def notebook(tmp_path_factory):
-    """A notebook with one cell, in a folder of its own, with settings and runtime files there too."""
+    """A notebook with one cell, in a folder of its own, with settings and runtime files there
+    too.
+    """
     pytest.importorskip("jupyterlab", reason="pip install -e '.[test]' has JupyterLab")
     folder = tmp_path_factory.mktemp("notebook")
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
@@ -36,7 +47,10 @@ def notebook(tmp_path_factory):
 
 
 def environment(notebook) -> dict[str, str]:
-    own = {f"JUPYTER_{name}_DIR": str(notebook.parent / name.lower()) for name in ("CONFIG", "DATA", "RUNTIME")}
+    own = {
+        f"JUPYTER_{name}_DIR": str(notebook.parent / name.lower())
+        for name in ("CONFIG", "DATA", "RUNTIME")
+    }
     return {**os.environ, **own, "PATH": f"{os.path.dirname(sys.executable)}:{os.environ['PATH']}"}
 
 
@@ -62,8 +76,20 @@ def plays(frame) -> None:
 
 
 def test_a_saved_notebook_plays_as_html(chromium, notebook):
-    command = [sys.executable, "-m", "nbconvert", "--to", "html", "--execute", "--output", "saved.html", str(notebook)]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment(notebook), cwd=notebook.parent)
+    command = [
+        sys.executable,
+        "-m",
+        "nbconvert",
+        "--to",
+        "html",
+        "--execute",
+        "--output",
+        "saved.html",
+        str(notebook),
+    ]
+    done = subprocess.run(
+        command, capture_output=True, text=True, env=environment(notebook), cwd=notebook.parent
+    )
     assert done.returncode == 0, done.stderr
     saved = notebook.with_name("saved.html")
     html = saved.read_text()
@@ -81,15 +107,26 @@ def test_a_saved_notebook_plays_as_html(chromium, notebook):
 
 
 def test_a_cell_plays_in_jupyterlab(chromium, notebook):
-    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--port=0", "--IdentityProvider.token=", "--allow-root",
-               "--ServerApp.disable_check_xsrf=True", "--LabApp.news_url=", "--LabApp.check_for_updates_class="
-               "jupyterlab.NeverCheckForUpdate"]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        "--no-browser",
+        "--port=0",
+        "--IdentityProvider.token=",
+        "--allow-root",
+        "--ServerApp.disable_check_xsrf=True",
+        "--LabApp.news_url=",
+        "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+    ]
     from playwright.sync_api import TimeoutError as TookTooLong
 
     log = notebook.with_name("lab.txt")
     with (
         log.open("w") as said,
-        subprocess.Popen(command, stdout=said, stderr=said, env=environment(notebook), cwd=notebook.parent) as lab,
+        subprocess.Popen(
+            command, stdout=said, stderr=said, env=environment(notebook), cwd=notebook.parent
+        ) as lab,
     ):
         try:
             address = found(log, lab)
@@ -112,7 +149,9 @@ def test_a_cell_plays_in_jupyterlab(chromium, notebook):
             page.goto(f"{address}/lab/tree/stranger.ipynb?reset")
             page.get_by_text(HOW_TO_PLAY).wait_for()  # somebody else's outputs are not trusted
             still = page.locator(".jp-OutputArea-output img")
-            assert still.evaluate("image => image.decode().then(() => image.naturalWidth)") == STILL[0]
+            assert (
+                still.evaluate("image => image.decode().then(() => image.naturalWidth)") == STILL[0]
+            )
             assert shown.count() == 0
             page.close()
         finally:

@@ -5,31 +5,35 @@ import re
 import pytest
 
 from workbench.lesson import catalog
-from workbench.questions import answer
-from workbench.timeline import Timeline, Timelines
+from workbench.run.questions import answer
+from workbench.run.timeline import Timeline, Timelines
 
 pytestmark = pytest.mark.browser
 
 
 def test_a_reload_comes_back_to_the_place_and_what_was_answered_stays(visit):
-    lesson = catalog()["icp"]
-    far = Timeline(lesson, lesson.preset("far").params).complete()
-    me = visit("?lesson=icp&theirs=1")
-    question = lesson.questions[0]
+    lesson = catalog()["fitting"]
+    line = Timeline(lesson, lesson.preset("line").params).complete()
+    me = visit("?lesson=fitting&theirs=1")
+    question = next(one for one in lesson.questions if not one.choices)
     found = answer(lesson, question, None, Timelines())
     form = me.page.locator(f"form[data-question={question.name}]")
     form.locator("input").first.fill("50")
     form.get_by_role("button", name="Answer").click()
     form.get_by_text(found.truth).wait_for()
     me.says(Timeline(lesson, question.params).complete()[found.step].caption.text)
-    me.page.locator("button[data-run=far]").click()
-    me.says(far[lesson.first_step].caption.text)
+    me.page.locator("button[data-run=line]").click()
+    me.says(line[0].caption.text)
     me.act("next")
-    me.says(far[lesson.first_step + 1].caption.text)
-    me.page.wait_for_function("location.search.includes('start_angle=120') && location.search.includes('step=1')")
-    assert "theirs=1" in me.page.evaluate("location.search")  # keys that are not ours are left alone
+    me.says(line[1].caption.text)
+    me.page.wait_for_function(
+        "location.search.includes('stage=line') && location.search.includes('step=1')"
+    )
+    assert "theirs=1" in me.page.evaluate(
+        "location.search"
+    )  # keys that are not ours are left alone
     me.page.reload()
-    me.says(far[lesson.first_step + 1].caption.text)
+    me.says(line[1].caption.text)
     assert found.why in form.locator("output").inner_text()
 
 
@@ -45,7 +49,14 @@ def test_the_scene_is_large_and_the_controls_do_not_move(visit):
     for k in range(1, 9):
         me.act("next")
         me.page.wait_for_function(f"page.k === {first + k}")
-        places.add(str([me.page.locator(f"[data-act={verb}]").bounding_box() for verb in ("first", "play", "last")]))
+        places.add(
+            str(
+                [
+                    me.page.locator(f"[data-act={verb}]").bounding_box()
+                    for verb in ("first", "play", "last")
+                ]
+            )
+        )
     assert len(places) == 1
 
 
@@ -58,7 +69,8 @@ def test_a_chart_stands_beside_the_scene_once_it_has_a_point(visit):
     me.act("last")
     me.page.wait_for_function(f"{titles}.includes('series Conductance')")
     said = me.page.evaluate(
-        "[measured(1.14e12, ''), measured(-7.59e-4, '%'), measured(1e-9, 'deg'), measured(12.5, '%')]"
+        "[measured(1.14e12, ''), measured(-7.59e-4, '%'), measured(1e-9, 'deg'), measured(12.5,"
+        " '%')]"
     )
     assert said == ["1.14 × 10¹²", "−7.59 × 10⁻⁴ %", "1 × 10⁻⁹°", "12.5 %"]
 
@@ -71,7 +83,7 @@ def test_a_link_that_cannot_be_used_is_told_and_the_page_lives(visit):
 
 
 def test_what_one_points_at_in_the_text_stands_out(visit, server):
-    me = visit("?lesson=icp", scene=True)
+    me = visit("?lesson=fitting", scene=True)
     me.scene()
     me.page.locator("#legend [data-things]").first.wait_for()
     term = me.page.locator(".term").first

@@ -1,9 +1,11 @@
-"""A page under the server's own policy: nothing that it does, or viser's client in it, is refused by the browser."""
+"""A page under the server's own policy: nothing that it does, or viser's client in it, is refused
+by the browser.
+"""
 
 import pytest
 
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 
@@ -13,7 +15,10 @@ def test_nothing_of_a_page_is_refused_and_nothing_is_asked_of_another_host(chrom
     run = Timeline(lesson, lesson.params()).complete()
     page = chromium.new_page(viewport={"width": 800, "height": 600}, bypass_csp=False)
     said, asked = [], []
-    page.on("console", lambda message: said.append(message.text) if message.type in ("error", "warning") else None)
+    page.on(
+        "console",
+        lambda message: said.append(message.text) if message.type in ("error", "warning") else None,
+    )
     page.on("pageerror", lambda error: said.append(str(error)))
     page.on("request", lambda request: asked.append(request.url))
     page.goto(f"{server.address}/?lesson=pinhole")

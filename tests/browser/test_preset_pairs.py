@@ -5,7 +5,7 @@ import pytest
 
 from tests.browser.visits import at_rest
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 APART = 25  # of 255

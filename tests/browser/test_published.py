@@ -15,8 +15,8 @@ from tests.browser.homes import barriers
 from tests.browser.visits import SELDOM
 from workbench.lesson import Sweep, catalog
 from workbench.publish.site import publish
+from workbench.run.timeline import Timeline
 from workbench.scene import Points
-from workbench.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 FAKE = replace(
@@ -35,9 +35,12 @@ SCENE_IS_THERE = (
 
 @pytest.fixture(scope="module")
 def out(tmp_path_factory):
-    """A site of two lessons: the small one with presets, questions and a sweep, and ICP with one run."""
+    """A site of two lessons: the small one with presets, questions and a sweep, and ICP with one
+    run.
+    """
     out = tmp_path_factory.mktemp("site")
-    publish(out, [FAKE, replace(catalog()["icp"], presets=(), questions=(), sweeps=(), page=None)])
+    icp = replace(catalog()["icp"], presets=(), questions=(), sweeps=(), page=None)
+    publish(out, [FAKE, icp], recordings="all")
     return out
 
 
@@ -63,7 +66,13 @@ def opened(chromium):
     pages, trouble = [], []
 
     def new(
-        url: str, *, width: int = 640, height: int = 640, until: str = SCENE_IS_THERE, drawn: bool = False, **options
+        url: str,
+        *,
+        width: int = 640,
+        height: int = 640,
+        until: str = SCENE_IS_THERE,
+        drawn: bool = False,
+        **options,
     ):
         page = chromium.new_page(viewport={"width": width, "height": height}, **options)
         pages.append(page)
@@ -71,9 +80,14 @@ def opened(chromium):
             page.add_init_script(SELDOM)
         page.on("console", lambda m: trouble.append(m.text) if m.type == "error" else None)
         page.on("pageerror", lambda error: trouble.append(str(error)))
-        page.on("requestfailed", lambda r: None if r.url.endswith(".rrd") else trouble.append(f"failed: {r.url[:200]}"))
+        page.on(
+            "requestfailed",
+            lambda r: None if r.url.endswith(".rrd") else trouble.append(f"failed: {r.url[:200]}"),
+        )
         ours = ("file:", "data:", "blob:", "http://127.0.0.1:")
-        page.on("request", lambda r: None if r.url.startswith(ours) else trouble.append(r.url[:200]))
+        page.on(
+            "request", lambda r: None if r.url.startswith(ours) else trouble.append(r.url[:200])
+        )
         page.goto(url)
         if until:
             page.wait_for_function(until)
@@ -98,11 +112,15 @@ FRAMES = """() => new Promise((drawn) => {
 
 
 def seen(page) -> np.ndarray:
-    """Return what the scene looks like at rest, in boxes of 8 x 8 pixels: where frames are slow viser draws coarsely."""
+    """Return what the scene looks like at rest, in boxes of 8 x 8 pixels: where frames are slow
+    viser draws coarsely.
+    """
     before = None
     while True:
         page.evaluate(FRAMES)
-        picture = np.asarray(Image.open(io.BytesIO(page.locator("#scene").screenshot())).convert("RGB")).astype(int)
+        picture = np.asarray(
+            Image.open(io.BytesIO(page.locator("#scene").screenshot())).convert("RGB")
+        ).astype(int)
         if before is not None and np.array_equal(before, picture):
             height, width = (8 * (n // 8) for n in picture.shape[:2])
             return picture[:height, :width].reshape(height // 8, 8, width // 8, 8, 3).mean((1, 3))
@@ -115,15 +133,24 @@ def differs(a: np.ndarray, b: np.ndarray) -> bool:
 
 
 @pytest.mark.parametrize(
-    ("file", "scheme"), [("index.html", "light"), ("index.html", "dark"), ("fake/index.html", "light")]
+    ("file", "scheme"),
+    [("index.html", "light"), ("index.html", "dark"), ("fake/index.html", "light")],
 )
 def test_no_serious_barrier_for_anybody(opened, address, file, scheme):
-    page = opened(f"{address}/{file}", until="" if file == "index.html" else SCENE_IS_THERE, color_scheme=scheme)
+    page = opened(
+        f"{address}/{file}",
+        until="" if file == "index.html" else SCENE_IS_THERE,
+        color_scheme=scheme,
+    )
     assert barriers(page) == []
 
 
 def test_any_step_looks_the_same_wherever_one_comes_from(opened, out):
-    page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=default&step=0", drawn=True, reduced_motion="reduce")
+    page = opened(
+        f"{(out / 'fake' / 'index.html').as_uri()}#run=default&step=0",
+        drawn=True,
+        reduced_motion="reduce",
+    )
     forward = []
     for k in range(6):
         page.evaluate("k => page.seek(k)", k)
@@ -157,13 +184,17 @@ MOVES = """() => {
 
 @pytest.mark.parametrize("motion", ["no-preference", "reduce"])
 def test_what_only_moves_glides_unless_that_is_unwanted(opened, out, motion):
-    page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=default&step=1", reduced_motion=motion)
+    page = opened(
+        f"{(out / 'fake' / 'index.html').as_uri()}#run=default&step=1", reduced_motion=motion
+    )
     turned = page.evaluate_handle(MOVES)
     page.locator("[data-act=next]").click()
     timeline = Timeline(FAKE, FAKE.params()).complete()
     T = [timeline[k].scene["box"].T_world_object for k in (1, 2)]  # type: ignore[union-attr]
     start, end = (np.sin(np.arctan2(t[1, 0], t[0, 0]) / 2) for t in T)  # type: ignore[index]
-    page.wait_for_function("([turned, end]) => Math.abs(turned.at(-1) - end) < 1e-6", arg=[turned, float(end)])
+    page.wait_for_function(
+        "([turned, end]) => Math.abs(turned.at(-1) - end) < 1e-6", arg=[turned, float(end)]
+    )
     ways = np.array(turned.json_value())
     between = ways[(ways > start + 1e-6) & (ways < end - 1e-6)]
     assert (len(between) > 0) == (motion == "no-preference")
@@ -174,7 +205,9 @@ def test_what_only_moves_glides_unless_that_is_unwanted(opened, out, motion):
 
 
 def test_the_scene_is_really_drawn_and_follows_the_theme(opened, out):
-    page = opened((out / "icp" / "index.html").as_uri(), width=1280, drawn=True, color_scheme="dark")
+    page = opened(
+        (out / "icp" / "index.html").as_uri(), width=1280, drawn=True, color_scheme="dark"
+    )
     target = Timeline(catalog()["icp"], catalog()["icp"].params())
     target.extend()
     assert any(isinstance(one, Points) for one in target[0].scene.values())
@@ -187,7 +220,7 @@ def test_the_scene_is_really_drawn_and_follows_the_theme(opened, out):
     page.keyboard.press("t")
     light = seen(page)
     assert (light.min(-1) > 245).mean() > 0.5
-    assert ((light[..., 2] - light[..., 0]) > 60).sum() > 20  # blue points
+    assert ((light[..., 2] - light[..., 0]) > 30).sum() > 20  # blue points, drawn paler
 
 
 def test_runs_load_when_they_are_opened_and_not_before(opened, out):
@@ -212,7 +245,9 @@ def test_the_last_click_wins_also_when_an_earlier_run_comes_later(opened, addres
     page.locator("button[data-run=half]").click()
     while not held:
         page.wait_for_timeout(50)
-    assert page.locator("#scene").get_attribute("aria-busy") == "true"  # a sign that it is on its way
+    assert (
+        page.locator("#scene").get_attribute("aria-busy") == "true"
+    )  # a sign that it is on its way
     page.locator("button[data-run=short]").click()
     page.wait_for_function("source.open_.name === 'short'")
     held[0].continue_()
@@ -237,7 +272,9 @@ def test_the_address_is_the_place(opened, out):
         page.evaluate("hash => location.hash = hash", wrong)
         page.locator("#caption.wrong", has_text="no run named").wait_for()
         page.evaluate("page.open('half', 2)")
-        page.wait_for_function("page.k === 2 && document.querySelector('#caption').className !== 'wrong'")
+        page.wait_for_function(
+            "page.k === 2 && document.querySelector('#caption').className !== 'wrong'"
+        )
 
 
 def test_a_sweep_is_a_knob_and_keeps_the_step(opened, out):
@@ -252,7 +289,9 @@ def test_a_sweep_is_a_knob_and_keeps_the_step(opened, out):
     assert knob.get_attribute("aria-valuetext") == "0 deg"
     page.wait_for_function("location.hash === '#run=angle:0&step=1'")
     assert caption(page) == Timeline(FAKE, fake.Params(angle=0.0)).complete()[1].caption.text
-    assert page.locator("#drawer fieldset").count() == 1  # a knob that a static page cannot turn is not shown
+    assert (
+        page.locator("#drawer fieldset").count() == 1
+    )  # a knob that a static page cannot turn is not shown
     page.get_by_role("button", name="Reset").click()
     page.wait_for_function("source.open_.name === 'default'")
     assert knob.get_attribute("aria-valuetext") == "90 deg"
@@ -273,7 +312,9 @@ def test_a_pinned_run_stands_behind_the_next_in_its_curves_and_its_scene(opened,
 
 def test_one_run_alone_plays_and_takes_neither_focus_nor_scrolls_its_host(opened, out, address):
     host = out / "host.html"
-    host.write_text('<link rel="icon" href="data:,"><input id="mine"><div style="height:3000px"></div>')
+    host.write_text(
+        '<link rel="icon" href="data:,"><input id="mine"><div style="height:3000px"></div>'
+    )
     page = opened(f"{address}/host.html", until="")
     page.locator("#mine").focus()
     page.evaluate("""() => {
@@ -297,18 +338,25 @@ def test_one_run_alone_plays_and_takes_neither_focus_nor_scrolls_its_host(opened
 def test_what_can_be_taken_along_is_there(opened, out):
     page = opened(f"{(out / 'fake' / 'index.html').as_uri()}#run=half&step=2")
     mine = page.locator("#this-run")
-    shown = {name: page.locator(name).first for name in ("h1", "#caption", "#bar", "#view", "#this-run", "#theme")}
+    shown = {
+        name: page.locator(name).first
+        for name in ("h1", "#caption", "#bar", "#view", "#this-run", "#theme")
+    }
     assert all(part.is_visible() for part in shown.values())
     page.emulate_media(media="print")
     assert [name for name, part in shown.items() if part.is_visible()] == ["h1", "#caption"]
     assert not any(
-        control.is_visible() for control in page.locator("#side button, #side input, #side select, form button").all()
+        control.is_visible()
+        for control in page.locator("#side button, #side input, #side select, form button").all()
     )
     page.emulate_media(media="screen")
     with page.expect_download() as download:
         mine.get_by_role("link", name="Download recording").click()
     assert download.value.suggested_filename == "fake-half.rrd"
-    page.evaluate("navigator.clipboard.writeText = (text) => { window.copied = text; return Promise.resolve(); }")
+    page.evaluate(
+        "navigator.clipboard.writeText = (text) => { window.copied = text; return"
+        " Promise.resolve(); }"
+    )
     site = (out / "fake").as_uri()
     for words, text in {
         "Copy link": f"{site}/index.html#run=half&step=2",
@@ -335,16 +383,20 @@ def test_where_no_script_runs_a_picture_and_the_text_stand(chromium, out):
 def test_the_course_has_pictures_ticks_and_leads_from_lesson_to_lesson(opened, out):
     page = opened((out / "index.html").as_uri(), until="")
     assert page.locator("[data-card]").count() == 2
-    page.wait_for_function("$$('.cards img').every((one) => one.complete && one.naturalWidth === 320)")
+    page.wait_for_function(
+        "$$('.cards img').every((one) => one.complete && one.naturalWidth === 480)"
+    )
     page.get_by_role("link", name="Every primitive").click()
     page.wait_for_function(SCENE_IS_THERE)
     for i in range(2):
         page.locator("form.question").nth(i).get_by_role("button", name="Skip and show me").click()
         page.locator("form.question.answered").nth(i).wait_for()
     first, second = page.evaluate("COURSE.slice(0, 2).map((one) => one.name)")
-    assert first == "fake"
-    page.locator("#around a[rel=next]").click()
-    page.wait_for_function("name => typeof LESSON !== 'undefined' && LESSON.name === name", arg=second)
-    page.locator("#around a[rel=prev]").wait_for()
-    page.locator("nav.top a").click()
-    page.locator("[data-card=fake].all", has_text="✓ done, 2 of 2 questions answered").wait_for()
+    assert second == "fake"
+    page.locator("#around a[rel=prev]").click()
+    page.wait_for_function(
+        "name => typeof LESSON !== 'undefined' && LESSON.name === name", arg=first
+    )
+    page.locator("a[rel=next]:visible").wait_for()
+    page.locator("a:visible", has_text="Geometry workbench").first.click()
+    page.locator("[data-card=fake].all", has_text="✓ 2 of 2 questions").wait_for()

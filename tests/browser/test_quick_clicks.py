@@ -1,11 +1,13 @@
-"""Presets that are clicked faster than they are shown, and then a question's own run: the last one wins, nothing fails."""
+"""Presets that are clicked faster than they are shown, and then a question's own run: the last one
+wins, nothing fails.
+"""
 
 from typing import Any
 
 import pytest
 
 from workbench.lesson import Question, catalog
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 ROUNDS = 3
@@ -15,13 +17,20 @@ SEEN = """([known, k, caption]) =>
 
 def alone(lesson: Any) -> list[Question]:
     """Return the questions whose run is no preset's."""
-    return [one for one in lesson.questions if one.params != lesson.params() and lesson.preset_of(one.params) is None]
+    return [
+        one
+        for one in lesson.questions
+        if one.params != lesson.params() and lesson.preset_of(one.params) is None
+    ]
 
 
 @pytest.mark.parametrize("name", ["pinhole", "transforms"])
 def test_the_last_of_quick_clicks_wins_and_a_question_s_run_follows(visit, name):
     lesson = catalog()[name]
-    last, question = lesson.presets[len(lesson.presets) // 2], (alone(lesson) or lesson.questions[-1:])[0]
+    last, question = (
+        lesson.presets[len(lesson.presets) // 2],
+        (alone(lesson) or lesson.questions[-1:])[0],
+    )
     clicks = [preset.name for preset in lesson.presets] * ROUNDS + [last.name]
     me = visit(f"?lesson={name}", scene=True)
     said: list[str] = []
@@ -39,7 +48,9 @@ def test_the_last_of_quick_clicks_wins_and_a_question_s_run_follows(visit, name)
     assert me.page.evaluate("page.run.name") == last.name
     for preset in lesson.presets:  # each in a turn of its own, none waited for
         me.page.evaluate(click, [preset.name])
-    me.page.evaluate("(name) => $(`form.question[data-question='${name}'] [value=skip]`).click()", question.name)
+    me.page.evaluate(
+        "(name) => $(`form.question[data-question='${name}'] [value=skip]`).click()", question.name
+    )
     shows(question.params, -1 if question.step is None else question.step)
     me.page.evaluate(click, [last.name])
     shows(last.params, lesson.first_step if last.step is None else last.step)

@@ -1,4 +1,6 @@
-"""A server that is gone comes back under open pages in a real browser: they go on at their place, and are calm meanwhile."""
+"""A server that is gone comes back under open pages in a real browser: they go on at their place,
+and are calm meanwhile.
+"""
 
 import numpy as np
 import pytest
@@ -6,9 +8,9 @@ import pytest
 from tests import fake
 from tests.browser.visits import at_rest
 from tests.viewer.test_serving import running
-from workbench import links
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run import links
+from workbench.run.timeline import Timeline
 from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser
@@ -22,15 +24,22 @@ SHORT = """{
     return sessionStorage.waits.split(" ").length > 8 ? 0 : later(act, 0, ...rest);
   };
 }"""
-"""Notes how long a page waits for its next try, in seconds, and does not wait so long; after the eighth it tries no more."""
+"""Notes how long a page waits for its next try, in seconds, and does not wait so long; after the
+eighth it tries no more.
+"""
 
 
 def test_a_page_goes_on_at_its_step_when_its_server_was_killed_and_is_there_again(chromium):
     params = LESSON.preset("far").params
     caption = Timeline(LESSON, params).complete()[3].caption.text
-    page, errors = chromium.new_page(viewport={"width": 1100, "height": 640}, reduced_motion="reduce"), []
+    page, errors = (
+        chromium.new_page(viewport={"width": 1100, "height": 640}, reduced_motion="reduce"),
+        [],
+    )
     page.on("pageerror", lambda error: errors.append(str(error)))
-    page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
+    page.on(
+        "console", lambda message: errors.append(message.text) if message.type == "error" else None
+    )
     with running("--port", "0") as (process, address):
         page.goto(f"{address}/?lesson=icp&step=1")
         page.frame_locator("#scene iframe").locator("canvas[data-engine]").wait_for()
@@ -47,19 +56,25 @@ def test_a_page_goes_on_at_its_step_when_its_server_was_killed_and_is_there_agai
         assert errors == []
         process.kill()
         page.locator("#caption").get_by_text("This page tries to reach it").wait_for()
-        page.evaluate("page.seek(2)")  # what is known can be looked at, and where it was left is where it goes on
+        page.evaluate(
+            "page.seek(2)"
+        )  # what is known can be looked at, and where it was left is where it goes on
         page.evaluate("page.seek(3)")
         process.wait()
     with running("--port", address.rpartition(":")[2]) as (_, again):
         assert again == address
-        page.wait_for_function("window.here === undefined && typeof page === 'object' && page.run && page.run.finished")
+        page.wait_for_function(
+            "window.here === undefined && typeof page === 'object' && page.run && page.run.finished"
+        )
         page.locator("#caption").get_by_text(caption, exact=True).wait_for()
         page.frame_locator("#scene iframe").locator("canvas[data-engine]").wait_for()
         errors.clear()  # in vain it asked for what was gone
         assert page.url == place
         assert page.evaluate("page.k") == 3
         assert page.evaluate("$('#article').scrollTop") == 300
-        assert any(np.abs(at_rest(page) - before).max() < APART for _ in range(5))  # its last parts come late
+        assert any(
+            np.abs(at_rest(page) - before).max() < APART for _ in range(5)
+        )  # its last parts come late
         page.locator("[data-act=next]").click()
         page.wait_for_function("page.k === 4")
         page.context.close()
@@ -78,7 +93,9 @@ def test_a_server_that_wants_another_link_is_said_until_it_was_opened(chromium):
         page.locator("#caption").get_by_text("wants its new link").wait_for()
         assert page.evaluate("window.here")
         assert page.context.request.get(server.address).ok
-        page.wait_for_function("window.here === undefined && typeof page === 'object' && page.k === 2")
+        page.wait_for_function(
+            "window.here === undefined && typeof page === 'object' && page.k === 2"
+        )
     finally:
         page.context.close()
         server.stop()
@@ -89,7 +106,9 @@ def test_a_page_that_is_given_and_then_refused_asks_ever_more_seldom(chromium, s
     page.add_init_script(SHORT)
     page.route_web_socket("**/live?*", lambda socket: socket.close(code=4409))
     page.goto(f"{server.address}/?lesson=icp")
-    page.wait_for_function("(sessionStorage.waits ?? '').split(' ').length > 8")  # the first is empty
+    page.wait_for_function(
+        "(sessionStorage.waits ?? '').split(' ').length > 8"
+    )  # the first is empty
     waits = np.array(page.evaluate("sessionStorage.waits").split(), float)[:8]
     least = np.minimum(60.0, 2.0 ** np.arange(1, 9))
     assert np.all(waits >= least)
@@ -115,7 +134,9 @@ def test_nothing_is_asked_while_nobody_looks(chromium, server):
     page.context.close()
 
 
-def test_an_own_file_is_put_aside_by_an_answer_and_said_to_be_gone_with_its_server(chromium, tmp_path):
+def test_an_own_file_is_put_aside_by_an_answer_and_said_to_be_gone_with_its_server(
+    chromium, tmp_path
+):
     np.save(tmp_path / "mine.npy", np.eye(3))
     server = Server(links.Place(fake.lesson, fake.Params()))
     page = chromium.new_page(viewport={"width": 1100, "height": 640})
@@ -126,7 +147,9 @@ def test_an_own_file_is_put_aside_by_an_answer_and_said_to_be_gone_with_its_serv
         page.locator("input[type=file]").set_input_files(tmp_path / "mine.npy")
         caption.get_by_text(" 3 points").wait_for()
         page.evaluate("$('form.question [value=skip]').click()")
-        line.get_by_text("This run is of the lesson's own data. A preset or Reset (R) goes back to yours.").wait_for()
+        line.get_by_text(
+            "This run is of the lesson's own data. A preset or Reset (R) goes back to yours."
+        ).wait_for()
         caption.get_by_text("200 points").wait_for()
         page.keyboard.press("r")
         caption.get_by_text(" 3 points").wait_for()

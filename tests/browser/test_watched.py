@@ -1,12 +1,14 @@
-"""A student's file drives the lesson in a real browser: report, first difference, mended, broken."""
+"""A student's file drives the lesson in a real browser: report, first difference, mended,
+broken.
+"""
 
 import pytest
 
-from workbench import links
 from workbench.exercise.finding import exercises
 from workbench.exercise.starter import write_starter
 from workbench.exercise.watching import Watched
 from workbench.lesson import catalog
+from workbench.run import links
 from workbench.viewer.server import Server
 
 pytestmark = pytest.mark.browser
@@ -21,7 +23,9 @@ def align_rigid(p_target, p_source):
     T[:3, :3], T[:3, 3] = R, q - R @ p
     return T
 """
-RIGHT = TRANSPOSED.replace("R = U @ Vt", "R = Vt.T @ np.diag([1, 1, np.sign(np.linalg.det(U @ Vt))]) @ U.T")
+RIGHT = TRANSPOSED.replace(
+    "R = U @ Vt", "R = Vt.T @ np.diag([1, 1, np.sign(np.linalg.det(U @ Vt))]) @ U.T"
+)
 BROKEN = TRANSPOSED.replace("q, p =", "q, p = 1 / 0,")
 
 
@@ -52,7 +56,11 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
         assert "R = U @ Vt" in me.page.locator("#large .lines").first.inner_text()
         assert me.page.locator("#large .lines .here").count() == 1  # of the algorithm
         me.scene()
-        assert any(path.startswith("ghost/") for student in server.students.values() for path in shown(student))
+        assert any(
+            path.startswith("ghost/")
+            for student in server.students.values()
+            for path in shown(student)
+        )
 
         file.write_text(PRINTING)
         report.get_by_text("public 3/3 · hidden 4 not run here").wait_for()

@@ -1,4 +1,6 @@
-"""What a page reads of scenes is what was sent: arrays by their types, equal ones once, whole runs step by step."""
+"""What a page reads of scenes is what was sent: arrays by their types, equal ones once, whole runs
+step by step.
+"""
 
 import base64
 from collections.abc import Iterator
@@ -10,7 +12,7 @@ import pytest
 from tests import fake
 from tests.browser.feeding import VIEW, Fed
 from tests.wire.reading import Reader
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 from workbench.wire.nodes import Maker
 from workbench.wire.packing import PageWire, packed, run_bytes
 
@@ -97,11 +99,17 @@ def test_equal_kinds_are_one_object_and_equal_arrays_one_array(fed, timeline):
       return names.map((_, i) => [first[i].kind === second[i].kind, first[i] === second[i],
         Object.entries(first[i].kind.props).every(([key, value]) => value === second[i].kind.props[key])]);
     }}"""
-    assert fed(same, run) == [[True, False, True], [True, False, True]], "they moved, and are what they were"
+    assert fed(same, run) == [
+        [True, False, True],
+        [True, False, True],
+    ], "they moved, and are what they were"
 
 
 def test_who_is_told_to_forget_forgets(fed, timeline):
-    wire, head = PageWire(Maker()), "(content) => { read(own, content); return [own.kinds.size, own.arrays.size]; }"
+    wire, head = (
+        PageWire(Maker()),
+        "(content) => { read(own, content); return [own.kinds.size, own.arrays.size]; }",
+    )
     fed("() => { window.own = new Wire(); }")
     sizes = [fed(head, coded(wire.step({}, step.scene, VIEW))) for step in timeline.known()]
     wire.forget()

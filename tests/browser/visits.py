@@ -19,33 +19,46 @@ SELDOM = """if (parent !== self && (location.pathname.includes("/scene/") || par
     for (const draw of waiting.splice(0)) draw(last);
   }, 50);
 }"""
-"""Lets viser draw a few pictures a second or fewer: without a graphics card they are what a visit costs most."""
+"""Lets viser draw a few pictures a second or fewer: without a graphics card they are what a visit
+costs most.
+"""
 
 MOST = 200  # pictures
 ALIKE = 6  # pictures in a row that are the same: surfaces are decoded beside the frames
 
 
 def at_rest(page: Any) -> np.ndarray:
-    """Return what a scene looks like as soon as it stays as it is, by the means over tiles of ten pixels.
+    """Return what a scene looks like as soon as it stays as it is, by the means over tiles of ten
+    pixels.
 
     Thin lines of a grid are not drawn the same twice.
     """
     view = page.locator("#view").bounding_box()
-    between = {"x": view["x"] + 10, "y": view["y"] + 40, "width": view["width"] - 20, "height": view["height"] - 90}
+    between = {
+        "x": view["x"] + 10,
+        "y": view["y"] + 40,
+        "width": view["width"] - 20,
+        "height": view["height"] - 90,
+    }
     before, alike = b"", 0
     for _ in range(MOST):
-        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        page.evaluate(
+            "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+        )
         now = page.screenshot(clip=between)
         alike = alike + 1 if now == before else 0
         if alike == ALIKE:
             image = Image.open(io.BytesIO(now)).convert("RGB")
-            return np.asarray(image.resize((image.width // 10, image.height // 10), Image.Resampling.BOX)).astype(int)
+            return np.asarray(
+                image.resize((image.width // 10, image.height // 10), Image.Resampling.BOX)
+            ).astype(int)
         before = now
     raise AssertionError("the scene does not come to rest")
 
 
 class Visit:
-    """One browser window on the workbench; errors of its console, and addresses elsewhere that it asks for, are kept.
+    """One browser window on the workbench; errors of its console, and addresses elsewhere that it
+    asks for, are kept.
 
     Without `scene` an empty page stands in the place of viser's: for what is said, and not drawn.
     """
@@ -62,15 +75,22 @@ class Visit:
     ):
         self.errors: list[str] = []
         self.address = server.address
-        context = chromium.new_context(viewport={"width": width, "height": height}, reduced_motion="reduce")
+        context = chromium.new_context(
+            viewport={"width": width, "height": height}, reduced_motion="reduce"
+        )
         context.grant_permissions(["clipboard-read", "clipboard-write"], origin=server.address)
         self.page = context.new_page()
         self.page.add_init_script(SELDOM)
         if not scene:
             empty = "<!doctype html><title>No scene</title>"
-            self.page.route("**/scene/", lambda route: route.fulfill(body=empty, content_type="text/html"))
+            self.page.route(
+                "**/scene/", lambda route: route.fulfill(body=empty, content_type="text/html")
+            )
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
+        self.page.on(
+            "console",
+            lambda message: self.errors.append(message.text) if message.type == "error" else None,
+        )
         self.page.on("request", lambda request: self._local(request.url, server))
         self.go(query)
 

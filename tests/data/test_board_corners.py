@@ -1,4 +1,6 @@
-"""Corners found in pictures: of boards that are known, at every size, and of nothing else; and in real photographs."""
+"""Corners found in pictures: of boards that are known, at every size, and of nothing else; and in
+real photographs.
+"""
 
 from pathlib import Path
 
@@ -7,21 +9,25 @@ import pytest
 import scipy
 from PIL import Image
 
-from workbench.algorithms.calibration import calibrate
-from workbench.data import boards
-from workbench.data.board_corners import board_corners, refined
+from workbench.algorithms.cameras.calibration import calibrate
+from workbench.data.views import boards
+from workbench.data.views.board_corners import board_corners, refined
 from workbench.geometry.cameras import project, resize_intrinsics
-from workbench.geometry.raster import MeshItem, render
+from workbench.geometry.cameras.raster import MeshItem, render
 
 LEFT = [k for k in range(1, 15) if k != 10]
 
 
 def taken(T_camera_board: np.ndarray, scale: int = 1, noise: float = 3.0) -> np.ndarray:
-    """Return our board as a camera with our lens takes it: 2 x 2 rays a pixel, a little blurred, with noise."""
+    """Return our board as a camera with our lens takes it: 2 x 2 rays a pixel, a little blurred,
+    with noise.
+    """
     w, h = 2 * scale * np.array(boards.SIZE)
     item = MeshItem(*boards.board_mesh())
     K = resize_intrinsics(boards.K_TRUE, 2.0 * scale, 2.0 * scale)
-    fine = render([item], T_camera_board, K, int(w), int(h), boards.LENS_TRUE, background=(150, 150, 150)).colors
+    fine = render(
+        [item], T_camera_board, K, int(w), int(h), boards.LENS_TRUE, background=(150, 150, 150)
+    ).colors
     image = fine[..., 0].reshape(h // 2, 2, w // 2, 2).mean(axis=(1, 3))
     image = scipy.ndimage.gaussian_filter(image, 0.7 * scale)
     image += noise * np.random.default_rng(0).normal(size=image.shape)
@@ -29,7 +35,9 @@ def taken(T_camera_board: np.ndarray, scale: int = 1, noise: float = 3.0) -> np.
 
 
 def poses(count: int, tilt: float, distance: float = 0.4) -> np.ndarray:
-    return boards.board_poses(np.random.default_rng(1), count, tilt=np.radians(tilt), distance=distance, spread=1.0)
+    return boards.board_poses(
+        np.random.default_rng(1), count, tilt=np.radians(tilt), distance=distance, spread=1.0
+    )
 
 
 def off(found: np.ndarray | None, uv: np.ndarray) -> float:
@@ -42,7 +50,10 @@ def off(found: np.ndarray | None, uv: np.ndarray) -> float:
 def test_every_board_is_found_with_its_first_corner_first(tilt, distance):
     p = boards.board_points()
     for T in poses(8, tilt, distance):
-        assert off(board_corners(taken(T), 9, 6), project(p, T, boards.K_TRUE, boards.LENS_TRUE)) < 0.35
+        assert (
+            off(board_corners(taken(T), 9, 6), project(p, T, boards.K_TRUE, boards.LENS_TRUE))
+            < 0.35
+        )
 
 
 def test_a_large_picture_and_one_of_few_pixels():
@@ -55,10 +66,15 @@ def test_a_large_picture_and_one_of_few_pixels():
     assert off(board_corners(small, 9, 6), (uv + 0.5) / 2 - 0.5) < 0.2
     for size in ((320, 240), (1600, 1200), (3840, 2880)):
         whole = Image.fromarray(taken(T)).resize(size, Image.Resampling.BICUBIC)
-        assert off(board_corners(np.asarray(whole), 9, 6), (uv + 0.5) * size[0] / 640 - 0.5) < 0.15 * size[0] / 320
+        assert (
+            off(board_corners(np.asarray(whole), 9, 6), (uv + 0.5) * size[0] / 640 - 0.5)
+            < 0.15 * size[0] / 320
+        )
 
 
-@pytest.mark.parametrize("change", [lambda g: np.rot90(g), lambda g: 255 - g, lambda g: g // 6, lambda g: g // 2 + 120])
+@pytest.mark.parametrize(
+    "change", [lambda g: np.rot90(g), lambda g: 255 - g, lambda g: g // 6, lambda g: g // 2 + 120]
+)
 def test_turned_negative_dark_or_pale(change):
     assert board_corners(np.ascontiguousarray(change(taken(poses(1, 20)[0]))), 9, 6) is not None
 
@@ -79,8 +95,13 @@ def test_a_part_of_a_board_is_none():
 
 def test_nothing_is_found_where_nothing_is():
     rng = np.random.default_rng(0)
-    for picture in (np.zeros((480, 640)), rng.uniform(0, 255, (480, 640)), np.indices((300, 400)).sum(axis=0) % 256,
-                    np.zeros((5, 5)), np.zeros((2000, 3))):  # fmt: skip
+    for picture in (
+        np.zeros((480, 640)),
+        rng.uniform(0, 255, (480, 640)),
+        np.indices((300, 400)).sum(axis=0) % 256,
+        np.zeros((5, 5)),
+        np.zeros((2000, 3)),
+    ):
         assert board_corners(picture.astype(np.uint8), 4, 3) is None
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workbench.data import boards
+from workbench.data.views import boards
 from workbench.geometry.cameras import project
 
 
@@ -15,15 +15,20 @@ def poses(seed: int = 0, **options) -> np.ndarray:
 def test_corners_lie_row_by_row_on_squares_of_25_mm():
     p = boards.board_points()
     assert p.shape == (54, 3)
-    np.testing.assert_allclose(p[[0, 1, 9, 53]], [[0, 0, 0], [0.025, 0, 0], [0, 0.025, 0], [0.2, 0.125, 0]])
+    np.testing.assert_allclose(
+        p[[0, 1, 9, 53]], [[0, 0, 0], [0.025, 0, 0], [0, 0.025, 0], [0.2, 0.125, 0]]
+    )
     mesh, faces, colors = boards.board_mesh()
     for corner in p:  # four squares meet in each, dark and light in turn
-        meeting = np.unique(np.flatnonzero((np.abs(mesh[faces] - corner).max(axis=2) < 1e-9).any(axis=1)) // 2)
+        meeting = np.unique(
+            np.flatnonzero((np.abs(mesh[faces] - corner).max(axis=2) < 1e-9).any(axis=1)) // 2
+        )
         assert sorted(colors[2 * meeting, 0]) == [60, 60, 245, 245]
 
 
 @pytest.mark.parametrize(
-    "options", [{}, {"tilt": 0.0}, {"tilt": 1.0}, {"distance": 0.3}, {"distance": 1.2}, {"spread": 0.0}]
+    "options",
+    [{}, {"tilt": 0.0}, {"tilt": 1.0}, {"distance": 0.3}, {"distance": 1.2}, {"spread": 0.0}],
 )
 def test_all_corners_are_in_the_picture(options):
     for T in poses(**options):
@@ -41,8 +46,12 @@ def test_tilts_are_what_was_asked_for(tilt):
 
 def test_a_seed_keeps_its_directions_at_every_tilt():
     little, much = poses(tilt=0.1)[:, :2, 2], poses(tilt=0.4)[:, :2, 2]
-    cosine = (little * much).sum(axis=1) / np.linalg.norm(little, axis=1) / np.linalg.norm(much, axis=1)
-    np.testing.assert_allclose(cosine[cosine > 0.999].size, 8, atol=3)  # those whose first place fits at both
+    cosine = (
+        (little * much).sum(axis=1) / np.linalg.norm(little, axis=1) / np.linalg.norm(much, axis=1)
+    )
+    np.testing.assert_allclose(
+        cosine[cosine > 0.999].size, 8, atol=3
+    )  # those whose first place fits at both
 
 
 def test_prints():
@@ -62,7 +71,8 @@ def test_noise_and_bad_corners():
     assert (noisy - clean).std() == pytest.approx(0.5, rel=0.1)
     for count in (1, 3, 10):
         off = np.linalg.norm(
-            boards.board_pixels(np.random.default_rng(1), Ts, sigma=0.0, bad_corners=count) - clean, axis=2
+            boards.board_pixels(np.random.default_rng(1), Ts, sigma=0.0, bad_corners=count) - clean,
+            axis=2,
         )
         assert (off > 4.9).sum() == count
         assert (off[1] > 4.9).sum() == count

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import scipy
 
-from workbench.data.clouds import SHAPES, pair, vase
-from workbench.data.rabbit import rabbit
+from workbench.data.shapes.clouds import SHAPES, pair, vase
+from workbench.data.shapes.rabbit import rabbit
 from workbench.geometry.motions import apply, exp_so3, motion
 
 
@@ -51,13 +51,25 @@ def test_noise_and_outliers_are_as_many_and_as_large_as_asked_for():
     noisy = pair("corner", 5000, np.eye(4), np.random.default_rng(0), noise=0.01, outliers=0.2)
     assert noisy.is_outlier.mean() == pytest.approx(0.2)
     inlier = ~noisy.is_outlier
-    off_floor = np.minimum(np.abs(noisy.p_source[inlier, 1] + 0.3), np.abs(noisy.p_source[inlier, 2] + 0.3))
+    off_floor = np.minimum(
+        np.abs(noisy.p_source[inlier, 1] + 0.3), np.abs(noisy.p_source[inlier, 2] + 0.3)
+    )
     assert np.std(off_floor) < 0.01
     assert np.abs(noisy.p_source[noisy.is_outlier, 1] + 0.3).mean() > 0.2
     assert clean.p_source.shape == noisy.p_source.shape
 
 
-@pytest.mark.parametrize("values", [{"overlap": 0.0}, {"outliers": 1.0}, {"shape": "teapot"}, {"count": 0}])
+@pytest.mark.parametrize(
+    "values", [{"overlap": 0.0}, {"outliers": 1.0}, {"shape": "teapot"}, {"count": 0}]
+)
 def test_misuse_is_refused(values):
     with pytest.raises(ValueError, match="shape"):
-        pair(**{"shape": "rabbit", "count": 10, "T_target_source": np.eye(4), "rng": np.random.default_rng(0)} | values)
+        pair(
+            **{
+                "shape": "rabbit",
+                "count": 10,
+                "T_target_source": np.eye(4),
+                "rng": np.random.default_rng(0),
+            }
+            | values
+        )

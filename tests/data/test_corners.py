@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from workbench.apart import told
-from workbench.data import boards
-from workbench.data.corners import read_corners
+from workbench.data.views import boards
+from workbench.data.views.corners import read_corners
 from workbench.errors import InputError
 
 P = boards.board_points(4, 3)
@@ -27,7 +27,9 @@ def without_numbers(*whole: int, some: tuple[tuple[int, int], ...] = (), k: int 
     return uv
 
 
-@pytest.mark.parametrize("names", [("object_points", "left"), ("p_board", "uv"), ("board", "corners")])
+@pytest.mark.parametrize(
+    "names", [("object_points", "left"), ("p_board", "uv"), ("board", "corners")]
+)
 def test_arrays_under_several_names(tmp_path, names):
     arrays: dict[str, Any] = {names[0]: P[:, :2], names[1]: views()}
     np.savez(tmp_path / "c.npz", **arrays)
@@ -39,9 +41,12 @@ def test_arrays_under_several_names(tmp_path, names):
 
 def test_opencvs_shapes_a_second_camera_and_a_size(tmp_path):
     np.savez(
-        tmp_path / "c.npz", object_points=np.stack([P] * 3).astype(np.float32), image_points=views()[:, :, None],
-        image_points2=2 * views(), size=[800, 500],
-    )  # fmt: skip
+        tmp_path / "c.npz",
+        object_points=np.stack([P] * 3).astype(np.float32),
+        image_points=views()[:, :, None],
+        image_points2=2 * views(),
+        size=[800, 500],
+    )
     first, second = (read_corners(tmp_path / "c.npz", which) for which in ("first", "second"))
     np.testing.assert_array_equal(second.uv, 2 * first.uv)
     assert first.size == (800, 500)
@@ -50,7 +55,9 @@ def test_opencvs_shapes_a_second_camera_and_a_size(tmp_path):
 @pytest.mark.parametrize("header", ["", "view,X,Y,u,v\n", "# a comment\n\n"])
 def test_lines_of_text(tmp_path, header):
     lines = [
-        f"{i}, {x}, {y}, {u}, {v}" for i, uv in enumerate(views()) for (x, y, _), (u, v) in zip(P, uv, strict=True)
+        f"{i}, {x}, {y}, {u}, {v}"
+        for i, uv in enumerate(views())
+        for (x, y, _), (u, v) in zip(P, uv, strict=True)
     ]
     (tmp_path / "c.csv").write_text(header + "\n".join(lines))
     found = read_corners(tmp_path / "c.csv")
@@ -61,20 +68,45 @@ def test_lines_of_text(tmp_path, header):
 @pytest.mark.parametrize(
     ("uv", "kept_views", "kept_points", "said"),
     [
-        (without_numbers(some=((0, 5), (2, 5), (1, 7))), (0, 1, 2), 10,
-         "3 of 36 corners left out, NaN or infinite, and with them 2 points of the board in all views."),
-        (without_numbers(1), (0, 2), 12, "12 of 36 corners left out, NaN or infinite, and with them view 1."),
-        (without_numbers(1, 4, some=((0, 5),), k=5), (0, 2, 3), 11,
-         "25 of 60 corners left out, NaN or infinite, and with them views 1, 4 and 1 point of the board in all views."),
+        (
+            without_numbers(some=((0, 5), (2, 5), (1, 7))),
+            (0, 1, 2),
+            10,
+            (
+                "3 of 36 corners left out, NaN or infinite, and with them 2 points of the board in"
+                " all views."
+            ),
+        ),
+        (
+            without_numbers(1),
+            (0, 2),
+            12,
+            "12 of 36 corners left out, NaN or infinite, and with them view 1.",
+        ),
+        (
+            without_numbers(1, 4, some=((0, 5),), k=5),
+            (0, 2, 3),
+            11,
+            (
+                "25 of 60 corners left out, NaN or infinite, and with them views 1, 4 and 1 point"
+                " of the board in all views."
+            ),
+        ),
     ],
-)  # fmt: skip
+)
 @pytest.mark.parametrize("ending", ["npz", "csv"])
-def test_corners_without_a_number_are_left_out_and_counted(tmp_path, uv, kept_views, kept_points, said, ending):
+def test_corners_without_a_number_are_left_out_and_counted(
+    tmp_path, uv, kept_views, kept_points, said, ending
+):
     path = tmp_path / f"c.{ending}"
     if ending == "npz":
         np.savez(path, board=P, uv=uv)
     else:
-        rows = [f"{i} {x} {y} {u} {v}" for i, of in enumerate(uv) for (x, y, _), (u, v) in zip(P, of, strict=True)]
+        rows = [
+            f"{i} {x} {y} {u} {v}"
+            for i, of in enumerate(uv)
+            for (x, y, _), (u, v) in zip(P, of, strict=True)
+        ]
         path.write_text("\n".join(rows))
     found = read_corners(path)
     assert told(path) == (f"{path.name}: {said}",)

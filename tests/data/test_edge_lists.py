@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workbench.data.edge_lists import read_edges
+from workbench.data.files.edge_lists import read_edges
 from workbench.errors import InputError
 
 

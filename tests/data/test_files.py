@@ -1,4 +1,6 @@
-"""Files that people bring: every dialect that is read, and one clear line for every one that is not."""
+"""Files that people bring: every dialect that is read, and one clear line for every one that is
+not.
+"""
 
 import gzip
 from dataclasses import replace
@@ -9,7 +11,7 @@ from PIL import Image
 
 from workbench.apart import COMMAND, allowing, told
 from workbench.data.files import read_cloud, read_image, read_mesh, read_pose
-from workbench.data.formats import _unpack_lzf
+from workbench.data.files.formats import _unpack_lzf
 from workbench.errors import InputError
 
 P = np.array([[0.0, 1.0, 2.0], [3.5, -4.25, 5.0], [6.0, 7.0, -8.125], [0.5, 0.25, 1e-3]])
@@ -61,7 +63,8 @@ TEXTS = {
     "byte order mark.csv": "\ufeffx,y,z\n" + rows(","),
     "counted.pts": "4\n" + rows(" "),
     "no ending newline.xyz": rows(" ").rstrip("\n"),
-    "vertices.obj": "# points\no cloud\n" + "".join(f"v {a} {b} {c} 0.5 0.5 0.5\n" for a, b, c in P),
+    "vertices.obj": "# points\no cloud\n"
+    + "".join(f"v {a} {b} {c} 0.5 0.5 0.5\n" for a, b, c in P),
 }
 
 
@@ -72,13 +75,19 @@ def test_text_in_every_dialect(write, name):
 
 def ply(kind: str, faces: int = 0, extra: bool = True, p: np.ndarray = P) -> bytes:
     header = f"ply\nformat {kind} 1.0\ncomment ours\nelement vertex {len(p)}\n"
-    header += "property uchar red\n" * extra + "property float x\nproperty double y\nproperty float32 z\n"
+    header += (
+        "property uchar red\n" * extra + "property float x\nproperty double y\nproperty float32 z\n"
+    )
     header += f"element face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
     if kind == "ascii":
         body = "".join(f"{'7 ' * extra}{a} {b} {c}\n" for a, b, c in p).encode()
     else:
         order = "<" if kind == "binary_little_endian" else ">"
-        fields = [("red", "u1")] * extra + [("x", order + "f4"), ("y", order + "f8"), ("z", order + "f4")]
+        fields = [("red", "u1")] * extra + [
+            ("x", order + "f4"),
+            ("y", order + "f8"),
+            ("z", order + "f4"),
+        ]
         table = np.zeros(len(p), fields)
         for i, axis in enumerate("xyz"):
             table[axis] = p[:, i]
@@ -90,7 +99,9 @@ def ply(kind: str, faces: int = 0, extra: bool = True, p: np.ndarray = P) -> byt
 @pytest.mark.parametrize("extra", [False, True])
 def test_ply_of_every_kind(write, kind, extra):
     np.testing.assert_allclose(read_cloud(write("a.ply", ply(kind, extra=extra))), P, rtol=1e-6)
-    np.testing.assert_allclose(read_cloud(write("a.PLY", ply(kind).replace(b"\n", b"\r\n", 3))), P, rtol=1e-6)
+    np.testing.assert_allclose(
+        read_cloud(write("a.PLY", ply(kind).replace(b"\n", b"\r\n", 3))), P, rtol=1e-6
+    )
 
 
 def pcd(kind: str, p: np.ndarray = P) -> bytes:
@@ -100,7 +111,10 @@ def pcd(kind: str, p: np.ndarray = P) -> bytes:
     ).encode()
     if kind == "ascii":
         return header + "".join(f"1 2 {a} {b} {c}\n" for a, b, c in p).encode()
-    columns = [np.zeros((len(p), 2), "<u4"), *(p[:, i].astype(t) for i, t in enumerate(("<f4", "<f4", "<f8")))]
+    columns = [
+        np.zeros((len(p), 2), "<u4"),
+        *(p[:, i].astype(t) for i, t in enumerate(("<f4", "<f4", "<f8"))),
+    ]
     if kind == "binary":
         fields = [("rgb", "<u4", 2), ("x", "<f4"), ("y", "<f4"), ("z", "<f8")]
         table = np.zeros(len(p), fields)
@@ -108,7 +122,10 @@ def pcd(kind: str, p: np.ndarray = P) -> bytes:
             table[name] = column
         return header + table.tobytes()
     plain = b"".join(column.tobytes() for column in columns)
-    packed = b"".join(bytes([len(part) - 1]) + part for part in (plain[i : i + 32] for i in range(0, len(plain), 32)))
+    packed = b"".join(
+        bytes([len(part) - 1]) + part
+        for part in (plain[i : i + 32] for i in range(0, len(plain), 32))
+    )
     return header + np.array([len(packed), len(plain)], "<u4").tobytes() + packed
 
 
@@ -116,7 +133,9 @@ def pcd(kind: str, p: np.ndarray = P) -> bytes:
 def test_pcd_of_every_kind_without_what_the_scanner_did_not_see(write, kind):
     np.testing.assert_allclose(read_cloud(write("a.pcd", pcd(kind))), P, rtol=1e-6)
     holes = np.vstack([P, [[np.nan] * 3], P])
-    np.testing.assert_allclose(read_cloud(write("b.pcd", pcd(kind, holes))), np.vstack([P, P]), rtol=1e-6)
+    np.testing.assert_allclose(
+        read_cloud(write("b.pcd", pcd(kind, holes))), np.vstack([P, P]), rtol=1e-6
+    )
 
 
 HOLED = np.vstack([P, [[np.nan, 1.0, 2.0], [np.inf, 0.0, 0.0]], P])
@@ -151,7 +170,9 @@ def test_copies_of_lzf_run_into_themselves():
     assert _unpack_lzf(b"\x00a" + bytes([7 << 5, 20, 0]), 30, "a") == b"a" * 30
 
 
-@pytest.mark.parametrize("packed", [b"\x05abc", bytes([3 << 5, 9]), b"\x00a" + bytes([7 << 5]), b"\x01ab"])
+@pytest.mark.parametrize(
+    "packed", [b"\x05abc", bytes([3 << 5, 9]), b"\x00a" + bytes([7 << 5]), b"\x01ab"]
+)
 def test_damaged_lzf_is_refused(packed):
     with pytest.raises(InputError, match=r"damaged|cut short"):
         _unpack_lzf(packed, 40, "a.pcd")
@@ -215,7 +236,9 @@ class TestRefusals:
 
     def test_a_mesh(self, write):
         refused(write("a.ply", ply("ascii", faces=2)), "mesh", "4 vertices, 2 faces", "point cloud")
-        refused(write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "mesh", "3 vertices, 1 faces")
+        refused(
+            write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "mesh", "3 vertices, 1 faces"
+        )
         refused(write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "mesh")
 
     def test_wrong_columns(self, write):
@@ -238,7 +261,10 @@ class TestRefusals:
         refused(write("a.ply", b"\n".join(ply("ascii").splitlines()[:-2])), "cut short")
         refused(write("a.ply", b"no ply at all"), "not a ply file")
         refused(write("a.ply", ply("ascii").replace(b"ascii", b"text")), "format text")
-        refused(write("a.ply", ply("ascii").replace(b"property float x", b"property float a")), "x, y and z")
+        refused(
+            write("a.ply", ply("ascii").replace(b"property float x", b"property float a")),
+            "x, y and z",
+        )
         refused(write("a.ply", ply("ascii").replace(b"uchar red", b"colour red")), "not understood")
 
     def test_pcd_that_is_cut_or_odd(self, write):
@@ -260,31 +286,55 @@ class TestRefusals:
 
 
 class TestPose:
-    T = np.array([[0.0, -1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 2.0], [0.0, 0.0, 1.0, 3.0], [0.0, 0.0, 0.0, 1.0]])
+    T = np.array(
+        [[0.0, -1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 2.0], [0.0, 0.0, 1.0, 3.0], [0.0, 0.0, 0.0, 1.0]]
+    )
 
     @pytest.mark.parametrize("separator", [" ", ",", " , ", ";", "\t"])
     def test_sixteen_numbers(self, write, tmp_path, separator):
         text = "# target from source\n" + rows(separator, self.T)
         np.testing.assert_array_equal(read_pose(write("a.txt", text)), self.T)
-        np.testing.assert_array_equal(read_pose(write("a.txt", separator.join(f"{x}" for x in self.T.ravel()))), self.T)
+        np.testing.assert_array_equal(
+            read_pose(write("a.txt", separator.join(f"{x}" for x in self.T.ravel()))), self.T
+        )
         np.save(tmp_path / "a.npy", self.T)
         np.testing.assert_array_equal(read_pose(tmp_path / "a.npy"), self.T)
 
     def test_a_list_by_scan(self, write, tmp_path):
         text = "reading, gT00\n" + "".join(
-            f"{name}, {', '.join(f'{x}' for x in T.ravel())}\n" for name, T in (("a.csv", np.eye(4)), ("b.csv", self.T))
+            f"{name}, {', '.join(f'{x}' for x in T.ravel())}\n"
+            for name, T in (("a.csv", np.eye(4)), ("b.csv", self.T))
         )
         path = write("list.csv", text)
-        np.testing.assert_array_equal(read_pose(path, tmp_path / "a.csv", tmp_path / "b.csv"), self.T)
-        np.testing.assert_allclose(read_pose(path, tmp_path / "b.csv", tmp_path / "a.csv"), np.linalg.inv(self.T))
-        refused(path, "a.csv, b.csv", "c.csv", read=read_pose, target=tmp_path / "a.csv", source=tmp_path / "c.csv")
+        np.testing.assert_array_equal(
+            read_pose(path, tmp_path / "a.csv", tmp_path / "b.csv"), self.T
+        )
+        np.testing.assert_allclose(
+            read_pose(path, tmp_path / "b.csv", tmp_path / "a.csv"), np.linalg.inv(self.T)
+        )
+        refused(
+            path,
+            "a.csv, b.csv",
+            "c.csv",
+            read=read_pose,
+            target=tmp_path / "a.csv",
+            source=tmp_path / "c.csv",
+        )
 
     def test_what_is_no_pose(self, write):
         refused(write("a.txt", "1 2 3"), "3 numbers", "4 x 4", read=read_pose)
         refused(write("a.txt", "hello"), "not a pose", read=read_pose)
         refused(write("a.txt", rows(" ", 2 * self.T)), "not a rigid pose", read=read_pose)
-        refused(write("a.txt", rows(" ", self.T * [[1], [1], [-1], [1]])), "not a rigid pose", read=read_pose)
-        refused(write("a.txt", rows(" ", self.T).replace("3", "nan")), "not a rigid pose", read=read_pose)
+        refused(
+            write("a.txt", rows(" ", self.T * [[1], [1], [-1], [1]])),
+            "not a rigid pose",
+            read=read_pose,
+        )
+        refused(
+            write("a.txt", rows(" ", self.T).replace("3", "nan")),
+            "not a rigid pose",
+            read=read_pose,
+        )
         refused(write("a.npy", b""), "not readable", read=read_pose)
 
 
@@ -336,7 +386,9 @@ class TestRealFiles:
         distances = KDTree(read_cloud(target)).query(apply(T_target_source, read_cloud(source)))[0]
         assert np.mean(distances < 0.001) == pytest.approx(0.91, abs=0.01)
 
-    @pytest.mark.parametrize("name", ["curvature/bunny.off", "shapes/bunny_npm.ply", "shapes/dragon_vrip_res4.ply.gz"])
+    @pytest.mark.parametrize(
+        "name", ["curvature/bunny.off", "shapes/bunny_npm.ply", "shapes/dragon_vrip_res4.ply.gz"]
+    )
     def test_meshes_are_read_as_meshes_only(self, shared_data, name):
         p, faces = read_mesh(shared_data / name)
         assert faces.max() == len(p) - 1

@@ -3,15 +3,26 @@
 import numpy as np
 import pytest
 
-from workbench.data.fit_scenes import arc_points, cap_points, errors, line_points, outlying_plane, pipe_points
-from workbench.data.rims import find_rim, rim_points
+from lessons.fitting.fit_scenes import (
+    arc_points,
+    cap_points,
+    errors,
+    line_points,
+    outlying_plane,
+    pipe_points,
+)
+from workbench.data.files.rims import find_rim, rim_points
 from workbench.errors import InputError
 
 
 @pytest.mark.parametrize("arc", [0.4, 2.0, 2 * np.pi])
 def test_places_lie_on_their_shapes_and_within_their_arc(arc):
     p, q, r = arc_points(arc, 50), cap_points(arc, 50), pipe_points(arc, 50)
-    for lengths in (np.linalg.norm(p, axis=1), np.linalg.norm(q, axis=1), np.linalg.norm(r[:, :2], axis=1)):
+    for lengths in (
+        np.linalg.norm(p, axis=1),
+        np.linalg.norm(q, axis=1),
+        np.linalg.norm(r[:, :2], axis=1),
+    ):
         np.testing.assert_allclose(lengths, 1)
     for x, y in (p.T, r.T[:2]):
         assert np.abs(np.arctan2(y, x)).max() <= arc / 2 + 1e-9
@@ -32,14 +43,19 @@ def test_outliers_lie_where_they_are_said_to():
     assert off.sum() == 100
     assert 0 <= p[off, 2].min() < p[off, 2].max() <= 0.5
     assert np.abs(p[~off, 2]).max() < 0.05
-    assert outlying_plane(np.random.default_rng(0), 400, 0.01, 0.25, 0.5, both_sides=True)[0][:, 2].min() < -0.3
+    assert (
+        outlying_plane(np.random.default_rng(0), 400, 0.01, 0.25, 0.5, both_sides=True)[0][
+            :, 2
+        ].min()
+        < -0.3
+    )
 
 
 def test_a_drawn_disc_has_its_rim():
     v, u = np.mgrid[:80, :100]
     disc = np.where(np.hypot(u - 52, v - 41) < 20, 200, 30).astype(np.uint8)
     for image in (disc, np.repeat(disc[..., None], 3, 2)):
-        rim = rim_points(image, np.array([50.0, 38.0]), 90, 35.0)
+        rim = rim_points(image, np.array([50.0, 38.0]), 90, farthest=35.0)
         assert np.abs(np.hypot(*(rim - [52, 41]).T) - 20).max() < 0.8
 
 

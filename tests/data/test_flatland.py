@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workbench.data import flatland
+from lessons.learning import flatland
 
 
 def test_a_photograph_shows_each_disc_that_a_ray_hits_first_and_white_where_it_hits_none():
@@ -16,7 +16,9 @@ def test_a_photograph_shows_each_disc_that_a_ray_hits_first_and_white_where_it_h
         v = np.array([x, y]) - p
         along, miss = (v * d).sum(axis=1), np.abs(v[:, 0] * d[:, 1] - v[:, 1] * d[:, 0])
         clear &= np.abs(miss - radius) > 0.03
-        enters = np.where(miss < radius, along - np.sqrt(np.maximum(radius**2 - miss**2, 0)), np.inf)
+        enters = np.where(
+            miss < radius, along - np.sqrt(np.maximum(radius**2 - miss**2, 0)), np.inf
+        )
         hit = np.where(enters < nearest, k, hit)
         nearest = np.minimum(nearest, enters)
     image = flatland.photograph(angle, pixels)
@@ -40,7 +42,9 @@ def test_cameras_look_at_the_middle_and_reach_all_discs():
     for angle in (0.0, 2.0):
         p, d = flatland.rays_of(angle, 41)
         np.testing.assert_allclose((p + flatland.DISTANCE * d)[20], 0, atol=1e-12)
-        assert d[0, 0] * d[-1, 1] - d[0, 1] * d[-1, 0] < 0  # from left to right, seen from above: clockwise
+        assert (
+            d[0, 0] * d[-1, 1] - d[0, 1] * d[-1, 0] < 0
+        )  # from left to right, seen from above: clockwise
         assert np.degrees(np.arccos(d[0] @ d[-1])) == pytest.approx(2 * flatland.HALF_VIEW)
     far = np.linalg.norm(flatland.DISCS[:, :2], axis=1) + flatland.DISCS[:, 2]
     assert flatland.REACH[0] < flatland.DISTANCE - far.max()

@@ -1,4 +1,6 @@
-"""Own data in the picture: of any size and place they come to the same frame, and motions go along with their points."""
+"""Own data in the picture: of any size and place they come to the same frame, and motions go along
+with their points.
+"""
 
 import numpy as np
 import pytest
@@ -6,7 +8,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_motions import motions
-from workbench.data.framing import UPRIGHT, Up, box, extent, frame, ground_grid, likely_up, round_below
+from workbench.data.framing import (
+    UPRIGHT,
+    Up,
+    box,
+    extent,
+    frame,
+    ground_grid,
+    likely_up,
+    round_below,
+)
 from workbench.geometry.motions import apply
 
 UPS = st.sampled_from(sorted(UPRIGHT))
@@ -17,7 +28,9 @@ def cloud(seed: int, n: int = 60) -> np.ndarray:
     return np.random.default_rng(seed).uniform(-1, 1, (n, 3)) * [1.0, 2.0, 3.0]
 
 
-@pytest.mark.parametrize(("up", "v_file"), [("z", [0, 0, 1]), ("y", [0, 1, 0]), ("-y", [0, -1, 0]), ("x", [1, 0, 0])])
+@pytest.mark.parametrize(
+    ("up", "v_file"), [("z", [0, 0, 1]), ("y", [0, 1, 0]), ("-y", [0, -1, 0]), ("x", [1, 0, 0])]
+)
 def test_the_named_axis_points_up(up, v_file):
     R = UPRIGHT[up]
     np.testing.assert_array_equal(R @ v_file, [0.0, 0.0, 1.0])
@@ -48,7 +61,9 @@ def test_size_and_place_of_a_file_do_not_show(seed, up: Up, size, far):
 def test_a_motion_goes_along_with_its_points(seed, up: Up, T, floor):
     p = cloud(seed)
     how = frame(p, 1.2, up=up).standing(p, floor)
-    np.testing.assert_allclose(apply(how.shown_motion(T), how.shown(p)), how.shown(apply(T, p)), atol=1e-9)
+    np.testing.assert_allclose(
+        apply(how.shown_motion(T), how.shown(p)), how.shown(apply(T, p)), atol=1e-9
+    )
 
 
 @settings(max_examples=40, deadline=None)
@@ -63,7 +78,9 @@ def test_what_stands_has_its_lowest_point_on_the_floor(seed, up: Up, floor):
 def test_a_few_far_points_do_not_shrink_the_rest():
     p = cloud(0, 500)
     strayed = np.concatenate([p, [[1e3, 1e3, 1e3]]])
-    assert frame(strayed, 1.0, far=2.0).scale == pytest.approx(frame(p, 1.0, far=2.0).scale, rel=0.05)
+    assert frame(strayed, 1.0, far=2.0).scale == pytest.approx(
+        frame(p, 1.0, far=2.0).scale, rel=0.05
+    )
     assert frame(strayed, 1.0).scale < 0.01 * frame(p, 1.0).scale
 
 
@@ -72,7 +89,9 @@ def test_degenerate_clouds_have_a_frame():
     assert extent(place) == 0.0
     np.testing.assert_array_equal(frame(place, 1.2).shown(place), np.zeros((4, 3)))
     assert frame(place, 1.2).scale == 1.2
-    nearly = np.concatenate([np.zeros((200, 3)), [[4.0, 0.0, 0.0]]])  # the box without far points is one place
+    nearly = np.concatenate(
+        [np.zeros((200, 3)), [[4.0, 0.0, 0.0]]]
+    )  # the box without far points is one place
     assert extent(nearly, far=2.0) == 4.0
 
 
@@ -101,7 +120,9 @@ def test_round_below_is_round_and_below(length):
     assert f"{found:.3e}"[:5] in ("1.000", "2.000", "5.000")
 
 
-@pytest.mark.parametrize(("length", "found"), [(1.0, 1.0), (0.1, 0.1), (0.5 / 0.024, 20.0), (9.99, 5.0), (0.3, 0.2)])
+@pytest.mark.parametrize(
+    ("length", "found"), [(1.0, 1.0), (0.1, 0.1), (0.5 / 0.024, 20.0), (9.99, 5.0), (0.3, 0.2)]
+)
 def test_round_below(length, found):
     assert round_below(length) == pytest.approx(found, rel=1e-12)
 

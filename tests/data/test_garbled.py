@@ -1,4 +1,6 @@
-"""Whatever is cut off or changed in a good file, what comes is a result or one line that names it; nothing is printed."""
+"""Whatever is cut off or changed in a good file, what comes is a result or one line that names it;
+nothing is printed.
+"""
 
 import gzip
 import io
@@ -13,17 +15,17 @@ import pytest
 import trimesh
 from PIL import Image
 
+from lessons.features.turned_pictures import read_levels
 from tests.data.test_files import P, pcd, ply, rows
-from workbench.data.corners import find_corners, read_corners
-from workbench.data.edge_lists import read_edges
 from workbench.data.files import read_cloud, read_image, read_mesh, read_pose, read_voxels
+from workbench.data.files.edge_lists import read_edges
+from workbench.data.files.intrinsics import read_intrinsics
+from workbench.data.files.matches import read_matches
 from workbench.data.flat_points import read_flat_or_cloud, read_round
-from workbench.data.intrinsics import read_intrinsics
-from workbench.data.matches import read_matches
 from workbench.data.own_meshes import read_surface, read_welded
 from workbench.data.places import read_places
-from workbench.data.sightings import read_sightings
-from workbench.data.turned_pictures import read_levels
+from workbench.data.views.corners import find_corners, read_corners
+from workbench.data.views.sightings import read_sightings
 from workbench.errors import InputError
 
 TRIES = 25
@@ -64,15 +66,33 @@ def mesh(kind: str) -> bytes:
 
 SEEN = np.random.default_rng(0).uniform(0, 400, (9, 2))
 CLOUDS: dict[str, bytes] = {
-    "a.xyz": rows(" ").encode(), "a.csv": ("x;y;z\n" + rows(";")).encode(), "b.csv": rows(",").encode("utf-16"),
-    "a.xyz.gz": gzip.compress(rows(" ").encode()), "a.ply": ply("ascii"), "b.ply": ply("binary_little_endian"),
-    "c.ply": ply("binary_big_endian"), "a.pcd": pcd("ascii"), "b.pcd": pcd("binary"), "c.pcd": pcd("binary_compressed"),
-    "a.obj": "".join(f"v {row}\n" for row in rows(" ").splitlines()).encode(), "a.npy": array(P), "a.npz": packed(p=P),
-}  # fmt: skip
+    "a.xyz": rows(" ").encode(),
+    "a.csv": ("x;y;z\n" + rows(";")).encode(),
+    "b.csv": rows(",").encode("utf-16"),
+    "a.xyz.gz": gzip.compress(rows(" ").encode()),
+    "a.ply": ply("ascii"),
+    "b.ply": ply("binary_little_endian"),
+    "c.ply": ply("binary_big_endian"),
+    "a.pcd": pcd("ascii"),
+    "b.pcd": pcd("binary"),
+    "c.pcd": pcd("binary_compressed"),
+    "a.obj": "".join(f"v {row}\n" for row in rows(" ").splitlines()).encode(),
+    "a.npy": array(P),
+    "a.npz": packed(p=P),
+}
 MESHES = {f"mesh.{kind}": mesh(kind) for kind in ("off", "obj", "ply", "stl", "glb")}
-PICTURES = {f"a.{kind}": picture(name) for kind, name in (
-    ("png", "PNG"), ("jpg", "JPEG"), ("pgm", "PPM"), ("bmp", "BMP"), ("gif", "GIF"), ("tif", "TIFF"), ("webp", "WEBP"),
-)}  # fmt: skip
+PICTURES = {
+    f"a.{kind}": picture(name)
+    for kind, name in (
+        ("png", "PNG"),
+        ("jpg", "JPEG"),
+        ("pgm", "PPM"),
+        ("bmp", "BMP"),
+        ("gif", "GIF"),
+        ("tif", "TIFF"),
+        ("webp", "WEBP"),
+    )
+}
 BOARD = np.array([[x, y, 0.0] for y in range(3) for x in range(4)])
 GOOD: list[tuple[Callable, str, bytes]] = [
     *((read_cloud, name, content) for name, content in CLOUDS.items()),
@@ -84,27 +104,57 @@ GOOD: list[tuple[Callable, str, bytes]] = [
     (lambda path: find_corners(path, 4, 3), "a.zip", zipped()),
     (read_voxels, "voxels.npy", array(np.ones((4, 4, 4), bool))),
     (read_flat_or_cloud, "flat.txt", b"1 2\n3 4\n5 6\n7 9\n"),
-    (lambda path: read_round(path, "circle", 100), "flat.csv", b"0,1\n1,0\n0,-1\n-1,0\n.7,.7\n.7,-.7\n"),
+    (
+        lambda path: read_round(path, "circle", 100),
+        "flat.csv",
+        b"0,1\n1,0\n0,-1\n-1,0\n.7,.7\n.7,-.7\n",
+    ),
     (read_pose, "pose.txt", b"0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n"),
     (read_pose, "pose.npy", array(np.eye(4))),
-    (lambda path: read_pose(path, Path("a.ply"), Path("b.ply")), "poses.conf",
-     b"bmesh a.ply 0 0 0 0 0 0 1\nbmesh b.ply 1 2 3 0.1 0.2 0.3 0.927\n"),
-    (read_matches, "matches.npz", packed(x1=SEEN, x2=SEEN + 1.5, K=np.diag([500.0, 500.0, 1.0]), F=np.eye(3))),
+    (
+        lambda path: read_pose(path, Path("a.ply"), Path("b.ply")),
+        "poses.conf",
+        b"bmesh a.ply 0 0 0 0 0 0 1\nbmesh b.ply 1 2 3 0.1 0.2 0.3 0.927\n",
+    ),
+    (
+        read_matches,
+        "matches.npz",
+        packed(x1=SEEN, x2=SEEN + 1.5, K=np.diag([500.0, 500.0, 1.0]), F=np.eye(3)),
+    ),
     (read_matches, "matches.txt", rows(" ", np.hstack([SEEN, SEEN + 1.5])).encode()),
     (read_sightings, "points.txt", rows(" ", np.hstack([SEEN, SEEN, SEEN[:, :1]])).encode()),
     (read_intrinsics, "K.txt", b"500 500 320 240\n"),
     (read_places, "places.csv", "lat,lon,name\n51.5,-0.1,Zürich\n35.6,139.7,Tokyo\n".encode()),
-    (lambda path: read_edges(path, 100), "graph.csv", b"source,target,weight\na,b,1\nb,c,2.5\nc,a,1\n"),
-    (read_corners, "corners.npz",
-     packed(object_points=BOARD, corners=np.stack([BOARD[:, :2] * 40 + 50, BOARD[:, :2] * 42 + 70]), size=[640, 480])),
-    (read_corners, "corners.txt", "".join(
-        f"{view} {x:g} {y:g} {40 * x + 50:g} {40 * y + 60 + k:g}\n"
-        for k, view in enumerate("ab") for x, y, _ in BOARD).encode()),
-]  # fmt: skip
+    (
+        lambda path: read_edges(path, 100),
+        "graph.csv",
+        b"source,target,weight\na,b,1\nb,c,2.5\nc,a,1\n",
+    ),
+    (
+        read_corners,
+        "corners.npz",
+        packed(
+            object_points=BOARD,
+            corners=np.stack([BOARD[:, :2] * 40 + 50, BOARD[:, :2] * 42 + 70]),
+            size=[640, 480],
+        ),
+    ),
+    (
+        read_corners,
+        "corners.txt",
+        "".join(
+            f"{view} {x:g} {y:g} {40 * x + 50:g} {40 * y + 60 + k:g}\n"
+            for k, view in enumerate("ab")
+            for x, y, _ in BOARD
+        ).encode(),
+    ),
+]
 
 
 def garbled(content: bytes, rng: np.random.Generator) -> bytes:
-    """Return a file cut off, with some bytes changed, left out or repeated, or with numbers that mean harm."""
+    """Return a file cut off, with some bytes changed, left out or repeated, or with numbers that
+    mean harm.
+    """
     changed = bytearray(content)
     at = int(rng.integers(len(changed)))
     match int(rng.integers(6)):
@@ -128,7 +178,9 @@ def garbled(content: bytes, rng: np.random.Generator) -> bytes:
     return bytes(changed)
 
 
-@pytest.mark.parametrize("case", range(len(GOOD)), ids=[f"{name}-{k}" for k, (_, name, _) in enumerate(GOOD)])
+@pytest.mark.parametrize(
+    "case", range(len(GOOD)), ids=[f"{name}-{k}" for k, (_, name, _) in enumerate(GOOD)]
+)
 def test_a_garbled_file_is_a_result_or_one_line(tmp_path, capfd, case):
     read, name, content = GOOD[case]
     path = tmp_path / name
@@ -155,7 +207,11 @@ def test_a_garbled_file_is_a_result_or_one_line(tmp_path, capfd, case):
     [
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "names a vertex that is not there"),
         ("a.obj", b"v 0 0 0\nf 1 -7 2\nv 1 0 0\n", "names a vertex that is not there"),
-        ("a.off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "names a vertex that is not there"),
+        (
+            "a.off",
+            b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n",
+            "names a vertex that is not there",
+        ),
     ],
 )
 def test_a_face_that_names_no_vertex_is_told_so(tmp_path, name, content, said):

@@ -1,4 +1,6 @@
-"""Own files that somebody else made: each is read in bounds or refused in one line, and nothing in it is run or followed."""
+"""Own files that somebody else made: each is read in bounds or refused in one line, and nothing in
+it is run or followed.
+"""
 
 import gzip
 import inspect
@@ -17,15 +19,15 @@ import pytest
 from PIL import Image
 
 from workbench.apart import COMMAND, allowing
-from workbench.data.corners import read_corners
-from workbench.data.edge_lists import read_edges
 from workbench.data.files import read_cloud, read_image, read_mesh, read_pose
+from workbench.data.files.edge_lists import read_edges
+from workbench.data.files.intrinsics import read_intrinsics
+from workbench.data.files.matches import read_matches
 from workbench.data.flat_points import read_flat_or_cloud
-from workbench.data.intrinsics import read_intrinsics
-from workbench.data.matches import read_matches
 from workbench.data.pictures import names_in, pictures_of
 from workbench.data.places import read_places
-from workbench.data.sightings import read_sightings
+from workbench.data.views.corners import read_corners
+from workbench.data.views.sightings import read_sightings
 from workbench.errors import InputError
 
 READERS: dict[str, Callable] = {"cloud": read_cloud, "matches": read_matches}
@@ -48,9 +50,22 @@ def refused(read: Callable, path: Path, said: str) -> None:
 
 
 TEXTS = (
-    "", "\n\n", ",,\n", ";;\n,,\n", "# nothing\n", "x y z u v\n", "a,b\n;\n", "1\n", "1 2 3 4 5 6 7 8 9 10 11\n",
-    "nan nan nan nan nan\n" * 9, "1e999 2 3 4 5\n" * 9, ",,\n1 2\n,,\n", "view\n", "\x00\x00\x00\n", "1,2;3\t4 5\n" * 3,
-)  # fmt: skip
+    "",
+    "\n\n",
+    ",,\n",
+    ";;\n,,\n",
+    "# nothing\n",
+    "x y z u v\n",
+    "a,b\n;\n",
+    "1\n",
+    "1 2 3 4 5 6 7 8 9 10 11\n",
+    "nan nan nan nan nan\n" * 9,
+    "1e999 2 3 4 5\n" * 9,
+    ",,\n1 2\n,,\n",
+    "view\n",
+    "\x00\x00\x00\n",
+    "1,2;3\t4 5\n" * 3,
+)
 TEXT_READERS: dict[str, Callable] = {
     "cloud": read_cloud,
     "corners": read_corners,
@@ -100,15 +115,21 @@ def test_a_small_file_does_not_unpack_to_a_large_one(tmp_path, reader):
 
 
 def test_a_compressed_cloud_does_not_unpack_to_a_large_one(tmp_path):
-    head = b"FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 100\nDATA binary_compressed\n"
-    (tmp_path / "a.pcd").write_bytes(head + struct.pack("<II", 6, 1200) + b"\x00\x00\xe0\xff\x00\x00")
+    head = (
+        b"FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 100\nDATA binary_compressed\n"
+    )
+    (tmp_path / "a.pcd").write_bytes(
+        head + struct.pack("<II", 6, 1200) + b"\x00\x00\xe0\xff\x00\x00"
+    )
     with allowing(replace(COMMAND, unpacked=1000)):
         refused(read_cloud, tmp_path / "a.pcd", "MB unpacked; that is too large")
 
 
 def test_a_header_that_promises_more_than_there_is_takes_no_memory(tmp_path):
     stream = io.BytesIO()
-    np.lib.format.write_array_header_1_0(stream, {"descr": "<f8", "fortran_order": False, "shape": (10**13, 3)})
+    np.lib.format.write_array_header_1_0(
+        stream, {"descr": "<f8", "fortran_order": False, "shape": (10**13, 3)}
+    )
     (tmp_path / "a.npy").write_bytes(stream.getvalue())
     refused(read_cloud, tmp_path / "a.npy", "not readable as arrays of numpy")
     head = "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\n"
@@ -168,7 +189,9 @@ def test_an_image_s_size_is_judged_before_it_is_unpacked(tmp_path, monkeypatch):
     Image.new("1", (2000, 2000)).save(tmp_path / "a.png")
     monkeypatch.setattr(Image.Image, "convert", lambda *_: pytest.fail("unpacked"))
     with allowing(replace(COMMAND, pixels=10**6)):
-        refused(inspect.unwrap(read_image), tmp_path / "a.png", "2000 x 2000 pixels; at most 1,000,000")
+        refused(
+            inspect.unwrap(read_image), tmp_path / "a.png", "2000 x 2000 pixels; at most 1,000,000"
+        )
 
 
 def test_a_folder_of_pictures_leads_nowhere_else(tmp_path):
@@ -206,7 +229,11 @@ def test_a_zip_of_pictures_writes_nothing_and_does_not_unpack_to_much(tmp_path, 
     content = bytearray(path.read_bytes())
     content[60:70] = bytes(10)
     Path("damaged.zip").write_bytes(content)
-    refused(lambda path: pictures_of(path, names_in(path)), Path("damaged.zip"), "cannot be unpacked|not readable")
+    refused(
+        lambda path: pictures_of(path, names_in(path)),
+        Path("damaged.zip"),
+        "cannot be unpacked|not readable",
+    )
 
 
 def test_a_mesh_names_no_other_files(tmp_path):

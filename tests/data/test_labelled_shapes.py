@@ -1,10 +1,12 @@
-"""Labelled clouds: each lies on its surface but for stretch and noise, from the lowest point to the highest."""
+"""Labelled clouds: each lies on its surface but for stretch and noise, from the lowest point to the
+highest.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.data import labelled_shapes
-from workbench.data.labelled_shapes import NAMES, labelled_clouds
+from lessons.learning import labelled_shapes
+from lessons.learning.labelled_shapes import NAMES, labelled_clouds
 
 EVERY = np.repeat(np.arange(len(NAMES)), 20)
 
@@ -13,7 +15,9 @@ def test_clouds_are_listed_from_the_lowest_point_and_the_same_for_a_seed():
     clouds = labelled_clouds(EVERY, 16, "freely", np.random.default_rng(0))
     assert clouds.shape == (100, 16, 3)
     assert np.all(np.diff(clouds[:, :, 2], axis=1) >= 0)
-    np.testing.assert_array_equal(labelled_clouds(EVERY, 16, "freely", np.random.default_rng(0)), clouds)
+    np.testing.assert_array_equal(
+        labelled_clouds(EVERY, 16, "freely", np.random.default_rng(0)), clouds
+    )
 
 
 def test_points_lie_on_their_surfaces(monkeypatch):
@@ -26,13 +30,17 @@ def test_points_lie_on_their_surfaces(monkeypatch):
     assert np.hypot(*sphere) == pytest.approx(1)
     assert box[0].max() <= 0.8 * np.sqrt(2) + 1e-9
     assert np.all((np.abs(cylinder[0] - 0.75) < 1e-9) | (np.abs(np.abs(cylinder[1]) - 0.9) < 1e-9))
-    assert np.all((np.abs(cone[0] - 0.9 * (0.8 - cone[1]) / 1.6) < 1e-9) | (np.abs(cone[1] + 0.8) < 1e-9))
+    assert np.all(
+        (np.abs(cone[0] - 0.9 * (0.8 - cone[1]) / 1.6) < 1e-9) | (np.abs(cone[1] + 0.8) < 1e-9)
+    )
     assert np.hypot(torus[0] - 0.75, torus[1]) == pytest.approx(0.3)
 
 
 def test_shapes_are_turned_about_z_or_freely():
     def heights(turned) -> np.ndarray:
-        return np.ptp(labelled_clouds(np.full(60, 4), 200, turned, np.random.default_rng(2))[:, :, 2], axis=1)
+        return np.ptp(
+            labelled_clouds(np.full(60, 4), 200, turned, np.random.default_rng(2))[:, :, 2], axis=1
+        )
 
     assert heights("about z").max() < 0.6 * 1.2 + 0.2
     assert heights("freely").max() > 1.5

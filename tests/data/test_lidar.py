@@ -1,6 +1,6 @@
 import numpy as np
 
-from workbench.data.lidar import Street, lidar_pair, lidar_scan
+from workbench.data.shapes.lidar import Street, lidar_pair, lidar_scan
 from workbench.geometry.motions import apply, exp_so3, motion
 
 NOWHERE = np.empty((0, 7)), np.empty((0, 3))
@@ -28,9 +28,9 @@ def test_every_hit_lies_on_what_was_hit():
     p = scan([[6.0, 0.0, 1.0, 1.0, 2.0, 1.0, 0.3]], [[0.0, 5.0, 0.2]], sensor(turn=0.4))
     on_ground = np.abs(p[:, 2]) < 1e-9
     q = (p - [6.0, 0.0, 1.0]) @ exp_so3(np.array([0.0, 0.0, 0.3]))
-    on_box = np.isclose(np.abs(q) / [1.0, 2.0, 1.0], 1.0).any(axis=1) & (np.abs(q) <= np.array([1, 2, 1]) + 1e-9).all(
-        axis=1
-    )
+    on_box = np.isclose(np.abs(q) / [1.0, 2.0, 1.0], 1.0).any(axis=1) & (
+        np.abs(q) <= np.array([1, 2, 1]) + 1e-9
+    ).all(axis=1)
     on_pole = np.isclose(np.hypot(p[:, 0], p[:, 1] - 5.0), 0.2)
     assert (on_ground | on_box | on_pole).all()
     assert on_box.sum() > 50
@@ -44,5 +44,7 @@ def test_the_rings_move_with_the_scanner_and_the_street_does_not():
     one, two = lidar_pair(T, np.random.default_rng(3), rings=16, columns=100, noise=0.0)
     again, _ = lidar_pair(T, np.random.default_rng(3), rings=16, columns=100, noise=0.0)
     np.testing.assert_array_equal(one, again)
-    radii = [set(np.hypot(p[:, 0], p[:, 1])[np.abs(p[:, 2] + 1.73) < 1e-9].round(6)) for p in (one, two)]
+    radii = [
+        set(np.hypot(p[:, 0], p[:, 1])[np.abs(p[:, 2] + 1.73) < 1e-9].round(6)) for p in (one, two)
+    ]
     assert radii[0] == radii[1]  # each in its own frame

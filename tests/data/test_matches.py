@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from workbench.data.matches import read_matches
+from workbench.data.files.matches import read_matches
 from workbench.errors import InputError
 
 
@@ -11,7 +11,12 @@ def p():
 
 
 def test_arrays_in_their_two_forms(tmp_path, p):
-    np.savez(tmp_path / "two.npz", x1=p[:, :2].astype(np.float32), x2=p[:, 2:].astype(np.float32), F=2 * np.eye(3))
+    np.savez(
+        tmp_path / "two.npz",
+        x1=p[:, :2].astype(np.float32),
+        x2=p[:, 2:].astype(np.float32),
+        F=2 * np.eye(3),
+    )
     np.savez(tmp_path / "one.npz", matches=p, quality=np.arange(12), H=np.ones((3, 3)))
     two, one = read_matches(tmp_path / "two.npz"), read_matches(tmp_path / "one.npz")
     np.testing.assert_allclose(two.p, p, rtol=1e-6)
@@ -24,12 +29,16 @@ def test_arrays_in_their_two_forms(tmp_path, p):
     assert one.H is not None
 
 
-@pytest.mark.parametrize(("separator", "head"), [(",", "u,v,u2,v2\n"), (" ", "# four numbers\n"), ("\t", "")])
+@pytest.mark.parametrize(
+    ("separator", "head"), [(",", "u,v,u2,v2\n"), (" ", "# four numbers\n"), ("\t", "")]
+)
 def test_text_with_and_without_names_and_quality(tmp_path, p, separator, head):
     file = tmp_path / "m.csv"
     file.write_text(head + "\n".join(separator.join(map(repr, map(float, row))) for row in p))
     np.testing.assert_array_equal(read_matches(file).p, p)
-    file.write_text(head + "\n".join(separator.join(map(repr, map(float, [*row, 0.5]))) for row in p))
+    file.write_text(
+        head + "\n".join(separator.join(map(repr, map(float, [*row, 0.5]))) for row in p)
+    )
     found = read_matches(file)
     np.testing.assert_array_equal(found.p, p)
     np.testing.assert_array_equal(found.quality, np.full(12, 0.5))

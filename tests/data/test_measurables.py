@@ -1,11 +1,13 @@
-"""Shapes of known size: their meshes come close, points inside them do too, and the lantern has Schwarz's area."""
+"""Shapes of known size: their meshes come close, points inside them do too, and the lantern has
+Schwarz's area.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.data.measurables import box, lantern, sphere, torus, two_spheres
-from workbench.geometry.measures import encloses, signed_volume, surface_area
+from lessons.measures.measurables import box, lantern, sphere, torus, two_spheres
 from workbench.geometry.meshes import boundary_edges, check_mesh, face_normals
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
 
 
 @pytest.mark.parametrize("shape", [sphere(3), torus(3), box()])
@@ -39,7 +41,9 @@ def test_the_lantern_has_the_area_that_schwarz_says(sectors, rings):
     assert len(made.faces) == 2 * sectors * rings
     assert len(boundary_edges(made.faces)) == 2 * sectors
     check_mesh(made.p, made.faces)
-    outward = (face_normals(made.p, made.faces) * made.p[made.faces].mean(axis=1) * [1, 1, 0]).sum(axis=1)
+    outward = (face_normals(made.p, made.faces) * made.p[made.faces].mean(axis=1) * [1, 1, 0]).sum(
+        axis=1
+    )
     assert (outward > 0).all()
     lean = 1 - np.cos(np.pi / sectors)
     area = 2 * sectors * rings * np.sin(np.pi / sectors) * np.hypot(1 / rings, lean)

@@ -46,7 +46,9 @@ def test_a_folder_and_its_zip_hold_the_same(folder):
     packed = Path(shutil.make_archive(str(folder), "zip", folder.parent, "home"))
     assert [Path(name).name for name in names_in(packed)] == list(names_in(folder))
     for view in range(3):
-        one, two = (pictures_of(path, matched(path, (), 3)).shown(view, 100) for path in (folder, packed))
+        one, two = (
+            pictures_of(path, matched(path, (), 3)).shown(view, 100) for path in (folder, packed)
+        )
         assert one is not None
         assert two is not None
         np.testing.assert_array_equal(one, two)
@@ -81,8 +83,12 @@ def test_what_is_refused(folder):
     (folder / "v3.png").write_text("no picture")
     with pytest.raises(InputError, match=r"v3.png: not readable as an image"):
         pictures_of(folder, names_in(folder))
-    Image.fromarray(np.random.default_rng(0).integers(0, 255, (30, 40), np.uint8)).save(folder / "v3.png")
-    (folder / "v3.png").write_bytes((folder / "v3.png").read_bytes()[:600])  # its size can be read, its pixels cannot
+    Image.fromarray(np.random.default_rng(0).integers(0, 255, (30, 40), np.uint8)).save(
+        folder / "v3.png"
+    )
+    (folder / "v3.png").write_bytes(
+        (folder / "v3.png").read_bytes()[:600]
+    )  # its size can be read, its pixels cannot
     found = pictures_of(folder, names_in(folder))
     with pytest.raises(InputError, match=r"v3.png: not readable as an image"):
         found.shown(2, 100)

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.transport import earth_movers
-from workbench.data.point_sets import (
+from lessons.chamfer_emd.point_sets import (
     SHAPES,
     blob,
     bumped,
@@ -15,7 +14,8 @@ from workbench.data.point_sets import (
     spread,
     with_outlier,
 )
-from workbench.geometry.shape_distances import chamfer, index_mse, one_sided
+from workbench.algorithms.transport import earth_movers
+from workbench.geometry.points.shape_distances import chamfer, index_mse, one_sided
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -41,7 +41,9 @@ def test_surfaces_are_where_they_should_be():
     assert np.allclose(np.linalg.norm(spread("ring", 50), axis=1), 1)
     x, y, z = spread("torus", 50).T
     assert np.allclose((np.hypot(x, y) - 0.7) ** 2 + z**2, 0.09)
-    assert np.allclose(shape_at("ring", np.array([0.25, 1.25]), 4)[0], shape_at("ring", np.array([1.25]), 4))
+    assert np.allclose(
+        shape_at("ring", np.array([0.25, 1.25]), 4)[0], shape_at("ring", np.array([1.25]), 4)
+    )
 
 
 def test_what_is_done_to_a_cloud_is_what_it_says():

@@ -1,10 +1,12 @@
-"""The rabbit: its points and its mesh lie on the level of one field, and the mesh is fit for what lessons do on it."""
+"""The rabbit: its points and its mesh lie on the level of one field, and the mesh is fit for what
+lessons do on it.
+"""
 
 import numpy as np
 import pytest
 import scipy
 
-from workbench.data.rabbit import rabbit, rabbit_field, rabbit_mesh
+from workbench.data.shapes.rabbit import rabbit, rabbit_field, rabbit_mesh
 from workbench.geometry.meshes import check_mesh, corners, euler_characteristic, face_normals
 
 
@@ -38,7 +40,10 @@ def test_the_mesh_is_one_closed_surface_on_the_field_with_round_triangles(spacin
 def test_faces_turn_outwards_and_the_mesh_holds_what_points_cover():
     p, faces = rabbit_mesh()
     _, outwards = rabbit_field(p[faces].mean(axis=1))
-    assert (np.einsum("ij,ij->i", face_normals(p, faces), outwards) > 0.5 * np.linalg.norm(outwards, axis=1)).all()
+    assert (
+        np.einsum("ij,ij->i", face_normals(p, faces), outwards)
+        > 0.5 * np.linalg.norm(outwards, axis=1)
+    ).all()
     cloud = rabbit(4000, np.random.default_rng(0))
     gaps, _ = scipy.spatial.KDTree(p).query(cloud)
     assert np.max(gaps) < 0.03

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from workbench.algorithms.models import MODELS
-from workbench.data.robust import (
+from lessons.ransac.robust_scenes import (
     IMAGE_SIZE,
     circle_scene,
     line_scene,
@@ -12,6 +11,7 @@ from workbench.data.robust import (
     two_planes_scene,
     wire_scene,
 )
+from workbench.algorithms.robust.models import MODELS
 
 MAKERS = {
     "line": line_scene,
@@ -36,17 +36,26 @@ def test_the_truth_fits_the_true_rows_and_the_noise_is_as_asked_for(name):
     model = model_of(name)
     assert scene.p.shape == (900, model.columns)
     assert len(scene.quality) == len(scene.is_inlier) == 900
-    assert np.count_nonzero(scene.is_inlier) == len(scene.p_true) == (210 if name == "two planes" else 630)
+    assert (
+        np.count_nonzero(scene.is_inlier)
+        == len(scene.p_true)
+        == (210 if name == "two planes" else 630)
+    )
     assert model.distances(scene.truth, scene.p_true).max() < 1e-6
     off = model.distances(scene.truth, scene.p[scene.is_inlier])
     share = np.sqrt(1 / 3) if name == "wire" else 1.0  # two thirds have no noise
-    spread = share * sigma * (2.0 if name == "homography" else 1.0)  # two directions, noise of both views
+    spread = (
+        share * sigma * (2.0 if name == "homography" else 1.0)
+    )  # two directions, noise of both views
     assert np.sqrt(np.mean(off**2)) == pytest.approx(spread, rel=0.25)
 
 
 @pytest.mark.parametrize("name", list(MAKERS))
 def test_a_scene_is_reproducible_shuffled_and_trusts_inliers_more(name):
-    one, two = (MAKERS[name](np.random.default_rng(2), count=300, outlier_ratio=0.4, sigma=0.01) for _ in range(2))
+    one, two = (
+        MAKERS[name](np.random.default_rng(2), count=300, outlier_ratio=0.4, sigma=0.01)
+        for _ in range(2)
+    )
     np.testing.assert_array_equal(one.p, two.p)
     half = one.is_inlier[3:150].mean(), one.is_inlier[150:].mean()
     assert abs(half[0] - half[1]) < 0.2
@@ -56,7 +65,9 @@ def test_a_scene_is_reproducible_shuffled_and_trusts_inliers_more(name):
 
 def test_matches_lie_in_both_pictures():
     for flat in (True, False):
-        scene = match_scene(np.random.default_rng(3), count=200, outlier_ratio=0.5, sigma=0.0, flat=flat)
+        scene = match_scene(
+            np.random.default_rng(3), count=200, outlier_ratio=0.5, sigma=0.0, flat=flat
+        )
         assert (scene.p >= 0).all()
         assert (scene.p <= np.tile(np.array(IMAGE_SIZE) - 1, 2)).all()
 

@@ -1,7 +1,13 @@
 import numpy as np
 import pytest
 
-from workbench.data.sightings import points_on_box, random_views, read_sightings, seen, some_of
+from workbench.data.views.sightings import (
+    points_on_box,
+    random_views,
+    read_sightings,
+    seen,
+    some_of,
+)
 from workbench.errors import InputError
 from workbench.geometry.cameras import intrinsics, look_at, project
 
@@ -11,12 +17,21 @@ T = look_at(np.array([2.0, -3.0, 2.0]), np.zeros(3))
 
 def test_noise_and_outliers_are_as_many_and_as_large_as_asked_for():
     p = np.random.default_rng(0).uniform(-1, 1, (500, 3))
-    found = seen(p, T, K, np.random.default_rng(1), sigma=2.0, is_outlier=some_of(500, 0.3, np.random.default_rng(2)))
+    found = seen(
+        p,
+        T,
+        K,
+        np.random.default_rng(1),
+        sigma=2.0,
+        is_outlier=some_of(500, 0.3, np.random.default_rng(2)),
+    )
     assert found.is_outlier.sum() == 150
     off = (found.uv - project(p, T, K))[~found.is_outlier]
     assert off.std() == pytest.approx(2.0, rel=0.1)
     none = np.zeros(500, bool)
-    np.testing.assert_allclose(seen(p, T, K, np.random.default_rng(1), sigma=0.0, is_outlier=none).uv, project(p, T, K))
+    np.testing.assert_allclose(
+        seen(p, T, K, np.random.default_rng(1), sigma=0.0, is_outlier=none).uv, project(p, T, K)
+    )
 
 
 def test_points_lie_on_the_faces_of_the_box():
@@ -39,7 +54,10 @@ def test_random_points_are_seen_by_rotated_cameras():
 
 @pytest.mark.parametrize(
     "lines",
-    ["0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n0 0 1 7 8\n", "X,Y,Z,u,v\n0,0,0,1,2\n1,0,0,3,4\n0,1,0,5,6\n# x\n0,0,1,7,8\n"],
+    [
+        "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n0 0 1 7 8\n",
+        "X,Y,Z,u,v\n0,0,0,1,2\n1,0,0,3,4\n0,1,0,5,6\n# x\n0,0,1,7,8\n",
+    ],
 )
 def test_rows_are_read(tmp_path, lines):
     path = tmp_path / "points.csv"

@@ -1,4 +1,6 @@
-"""Stereo pairs: made ones agree with their truth, and files that cannot be a pair are refused in one line."""
+"""Stereo pairs: made ones agree with their truth, and files that cannot be a pair are refused in
+one line.
+"""
 
 from typing import Any
 
@@ -7,17 +9,24 @@ import pytest
 import scipy
 from PIL import Image
 
-from workbench.data import stereo
-from workbench.data.stereo import grey, in_both, motorcycle_pair, read_pair, shrunk, synthetic_pair
-from workbench.data.stereo_scenes import SCENES
+from workbench.data.views import stereo
+from workbench.data.views.stereo import (
+    grey,
+    in_both,
+    motorcycle_pair,
+    read_pair,
+    shrunk,
+    synthetic_pair,
+)
+from workbench.data.views.stereo_scenes import SCENES
 from workbench.errors import InputError
-from workbench.geometry.stereo import StereoCamera, depth_from_disparity
+from workbench.geometry.cameras.stereo import StereoCamera, depth_from_disparity
 
 CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 
 
 def made(scene, camera=CAMERA, noise=0.0, seed=0) -> Any:
-    return synthetic_pair(scene, camera, (160, 120), noise, np.random.default_rng(seed))
+    return synthetic_pair(scene, camera, (160, 120), noise=noise, rng=np.random.default_rng(seed))
 
 
 @pytest.mark.parametrize("doffs", [0.0, 4.0])
@@ -47,12 +56,18 @@ def test_what_is_hidden_is_nearer_in_the_right_picture(scene):
     nearest = np.full((120, 161), -np.inf)
     rows, columns = np.nonzero(pair.visible)
     np.maximum.at(
-        nearest, (rows, np.rint(columns - pair.disparity[rows, columns]).astype(int)), pair.disparity[rows, columns]
+        nearest,
+        (rows, np.rint(columns - pair.disparity[rows, columns]).astype(int)),
+        pair.disparity[rows, columns],
     )
-    hidden_by = scipy.ndimage.maximum_filter(nearest, (3, 3))[v[inside], np.rint(landing[inside]).astype(int)]
+    hidden_by = scipy.ndimage.maximum_filter(nearest, (3, 3))[
+        v[inside], np.rint(landing[inside]).astype(int)
+    ]
     assert inside.any() == (scene != "repeated pattern")
     assert (hidden_by > pair.disparity[v, u][inside]).sum() >= 0.97 * inside.sum()
-    assert (in_both(pair.disparity) == pair.visible).mean() > 0.97  # judged from rounded pixels it is nearly the same
+    assert (
+        in_both(pair.disparity) == pair.visible
+    ).mean() > 0.97  # judged from rounded pixels it is nearly the same
 
 
 def test_a_plane_is_linear_in_disparity_and_boards_are_where_they_say():
@@ -96,7 +111,9 @@ def test_the_motorcycle_is_what_its_readme_says():
     assert np.isnan(pair.disparity).mean() == pytest.approx(0.0735, abs=0.001)
     v, u = np.nonzero(pair.visible & inner(np.nan_to_num(pair.disparity)))
     there = scipy.ndimage.map_coordinates(grey(pair.right), [v, u - pair.disparity[v, u]], order=1)
-    assert np.median(np.abs(there - grey(pair.left)[v, u])) < 3.0  # left-referenced, and the sign is right
+    assert (
+        np.median(np.abs(there - grey(pair.left)[v, u])) < 3.0
+    )  # left-referenced, and the sign is right
 
 
 def test_shrinking_keeps_depths():
@@ -106,7 +123,9 @@ def test_shrinking_keeps_depths():
     assert small.camera.f == pytest.approx(994.978 / 4)
     assert small.camera.doffs == pytest.approx(31.086 / 4)
     depths = [
-        np.nanmedian(depth_from_disparity(p.disparity + p.camera.doffs, p.camera.f, p.camera.baseline))
+        np.nanmedian(
+            depth_from_disparity(p.disparity + p.camera.doffs, p.camera.f, p.camera.baseline)
+        )
         for p in (pair, small)
     ]
     assert depths[0] == pytest.approx(depths[1], rel=0.01)
@@ -127,7 +146,9 @@ def test_own_pairs(tmp_path):
     assert own.camera == StereoCamera(150.0, 79.5, 59.5, 0.1, 2.0)
     assert own.disparity is None
     mixed = read_pair(tmp_path / "left.png", tmp_path / "grey_right.png", 150.0, 0.1)
-    assert np.abs(grey(mixed.right) - grey(pair.right)).max() <= 0.5 + 1e-6  # colour and grey go together
+    assert (
+        np.abs(grey(mixed.right) - grey(pair.right)).max() <= 0.5 + 1e-6
+    )  # colour and grey go together
 
 
 def test_files_that_are_no_pair_are_refused_in_one_line(tmp_path, monkeypatch):
@@ -135,7 +156,9 @@ def test_files_that_are_no_pair_are_refused_in_one_line(tmp_path, monkeypatch):
     Image.fromarray(np.zeros((20, 31), np.uint8)).save(tmp_path / "wide.png")
     Image.fromarray(np.zeros((20, 30), np.uint16)).save(tmp_path / "deep.png")
     (tmp_path / "text.png").write_text("not a picture")
-    Image.fromarray(np.random.default_rng(0).integers(0, 256, (20, 30, 3)).astype(np.uint8)).save(tmp_path / "full.png")
+    Image.fromarray(np.random.default_rng(0).integers(0, 256, (20, 30, 3)).astype(np.uint8)).save(
+        tmp_path / "full.png"
+    )
     (tmp_path / "cut.png").write_bytes((tmp_path / "full.png").read_bytes()[:600])
 
     def refuse(left, right, words):
@@ -149,4 +172,8 @@ def test_files_that_are_no_pair_are_refused_in_one_line(tmp_path, monkeypatch):
     refuse("a.png", "deep.png", "8 bits")
     refuse("a.png", "missing.png", "missing.png")
     monkeypatch.setattr(stereo, "MOST_PIXELS", 500)
-    refuse("a.png", "a.png", "a.png: 30 x 20 pixels; a pair may have at most 500 each: make it smaller first")
+    refuse(
+        "a.png",
+        "a.png",
+        "a.png: 30 x 20 pixels; a pair may have at most 500 each: make it smaller first",
+    )

@@ -1,11 +1,27 @@
-"""Surfaces of known curvature: their vertices, normals and directions agree with finite differences of themselves."""
+"""Surfaces of known curvature: their vertices, normals and directions agree with finite differences
+of themselves.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.data.surfaces import SURFACES, inside_out, plane, scaled, sphere, torus, with_noise
+from workbench.data.shapes.surfaces import (
+    SURFACES,
+    inside_out,
+    plane,
+    scaled,
+    sphere,
+    torus,
+    with_noise,
+)
 from workbench.errors import InputError
-from workbench.geometry.meshes import check_mesh, corners, euler_characteristic, face_areas, vertex_normals
+from workbench.geometry.meshes import (
+    check_mesh,
+    corners,
+    euler_characteristic,
+    face_areas,
+    vertex_normals,
+)
 
 NAMES = tuple(SURFACES)
 
@@ -28,7 +44,9 @@ def implicit(name, p):
 def normal_curvature(name, p, direction, h=1e-4):
     """How fast the unit gradient turns in a direction: n'(t) . t, by central differences."""
     unit = lambda p: (lambda g: g / np.linalg.norm(g, axis=1, keepdims=True))(implicit(name, p)[1])  # noqa: E731
-    return np.einsum("vx,vx->v", unit(p + h * direction) - unit(p - h * direction), direction) / (2 * h)
+    return np.einsum("vx,vx->v", unit(p + h * direction) - unit(p - h * direction), direction) / (
+        2 * h
+    )
 
 
 @pytest.mark.parametrize("jitter", [0.0, 0.25])
@@ -37,12 +55,16 @@ def test_vertices_normals_and_curvatures_are_those_of_the_surface(name, jitter):
     s = SURFACES[name](300, jitter=jitter, rng=np.random.default_rng(0))
     value, gradient = implicit(name, s.p)
     np.testing.assert_allclose(value, 0, atol=1e-12)
-    np.testing.assert_allclose(gradient / np.linalg.norm(gradient, axis=1, keepdims=True), s.normals, atol=1e-12)
+    np.testing.assert_allclose(
+        gradient / np.linalg.norm(gradient, axis=1, keepdims=True), s.normals, atol=1e-12
+    )
     np.testing.assert_allclose(np.einsum("vx,vx->v", s.along_k1, s.normals), 0, atol=1e-12)
     np.testing.assert_allclose(np.linalg.norm(s.along_k1, axis=1), 1)
     assert (s.k1 >= s.k2).all()
     np.testing.assert_allclose(normal_curvature(name, s.p, s.along_k1), s.k1, atol=1e-6)
-    np.testing.assert_allclose(normal_curvature(name, s.p, np.cross(s.normals, s.along_k1)), s.k2, atol=1e-6)
+    np.testing.assert_allclose(
+        normal_curvature(name, s.p, np.cross(s.normals, s.along_k1)), s.k2, atol=1e-6
+    )
     np.testing.assert_allclose(s.gaussian, s.k1 * s.k2)
     np.testing.assert_allclose(s.mean, (s.k1 + s.k2) / 2)
 
@@ -97,8 +119,12 @@ def test_inside_out_turns_h_and_not_k():
     np.testing.assert_allclose(turned.gaussian, ring.gaussian)
     np.testing.assert_allclose(turned.mean, -ring.mean)
     assert (turned.k1 >= turned.k2).all()
-    np.testing.assert_allclose(vertex_normals(turned.p, turned.faces), -vertex_normals(ring.p, ring.faces), atol=1e-12)
-    np.testing.assert_allclose(-normal_curvature("torus", ring.p, turned.along_k1), turned.k1, atol=1e-6)
+    np.testing.assert_allclose(
+        vertex_normals(turned.p, turned.faces), -vertex_normals(ring.p, ring.faces), atol=1e-12
+    )
+    np.testing.assert_allclose(
+        -normal_curvature("torus", ring.p, turned.along_k1), turned.k1, atol=1e-6
+    )
 
 
 @pytest.mark.parametrize("jitter", [-0.1, 0.26, np.nan])

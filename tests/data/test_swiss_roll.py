@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from workbench.data.swiss_roll import rolled, swiss_roll
+from lessons.distances.swiss_roll import rolled, swiss_roll
 
 
 def test_points_lie_where_their_sheet_is_rolled_to():
@@ -18,4 +18,6 @@ def test_short_ways_on_the_sheet_are_as_long_in_space():
     _, sheet = swiss_roll(200, rng)
     step = rng.normal(size=sheet.shape)
     step *= 1e-3 / np.linalg.norm(step, axis=1)[:, None]
-    np.testing.assert_allclose(np.linalg.norm(rolled(sheet + step) - rolled(sheet), axis=1), 1e-3, rtol=2e-2)
+    np.testing.assert_allclose(
+        np.linalg.norm(rolled(sheet + step) - rolled(sheet), axis=1), 1e-3, rtol=2e-2
+    )

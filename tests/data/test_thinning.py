@@ -12,14 +12,19 @@ def test_one_mean_for_each_occupied_voxel(seed, size):
     p = np.random.default_rng(seed).normal(size=(200, 3))
     found = voxel_means(p, size)
     voxels = {}
-    for row, voxel in zip(p, map(tuple, np.floor((p - p.min(axis=0)) / size).astype(int).tolist()), strict=True):
+    for row, voxel in zip(
+        p, map(tuple, np.floor((p - p.min(axis=0)) / size).astype(int).tolist()), strict=True
+    ):
         voxels.setdefault(voxel, []).append(row)
     wanted = np.array([np.mean(voxels[voxel], axis=0) for voxel in sorted(voxels)])
     np.testing.assert_allclose(found, wanted, atol=1e-12)
 
 
 def test_moved_points_have_moved_means_also_far_from_the_origin():
-    p, far = np.random.default_rng(0).uniform(0, 1, (500, 3)), np.array([512_000.0, 5_403_000.0, 310.0])
+    p, far = (
+        np.random.default_rng(0).uniform(0, 1, (500, 3)),
+        np.array([512_000.0, 5_403_000.0, 310.0]),
+    )
     p = np.round(p * 4096) / 4096  # so that moving them away and back loses no digit
     np.testing.assert_allclose(voxel_means(p + far, 0.25) - far, voxel_means(p, 0.25), atol=1e-9)
 
@@ -44,8 +49,13 @@ def test_some_points_are_different_ones_in_their_order(seed, n, most):
 
 
 def test_every_point_has_its_chance():
-    drawn = [some_points(np.arange(5.0)[:, None], 2, np.random.default_rng(seed))[:, 0] for seed in range(200)]
-    np.testing.assert_allclose(np.bincount(np.concatenate(drawn).astype(int), minlength=5) / 400, 0.2, atol=0.06)
+    drawn = [
+        some_points(np.arange(5.0)[:, None], 2, np.random.default_rng(seed))[:, 0]
+        for seed in range(200)
+    ]
+    np.testing.assert_allclose(
+        np.bincount(np.concatenate(drawn).astype(int), minlength=5) / 400, 0.2, atol=0.06
+    )
 
 
 @given(count=st.integers(0, 500), most=st.integers(1, 60))

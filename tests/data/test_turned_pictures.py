@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from workbench.data.silhouettes import horse
-from workbench.data.turned_pictures import motorcycle_levels, places_in_turned, turned
+from lessons.features.silhouettes import horse
+from lessons.features.turned_pictures import motorcycle_levels, places_in_turned, turned
 
 
 def test_a_turned_picture_shows_what_was_there_where_it_is_said_to_be():
@@ -12,7 +12,10 @@ def test_a_turned_picture_shows_what_was_there_where_it_is_said_to_be():
     h, w = left.shape
     uv = np.column_stack([rng.integers(80, w - 80, 400), rng.integers(80, h - 80, 400)])
     for degrees in (0.0, 30.0):
-        image, places = turned(right, np.radians(degrees)), places_in_turned(uv, disparity, np.radians(degrees))
+        image, places = (
+            turned(right, np.radians(degrees)),
+            places_in_turned(uv, disparity, np.radians(degrees)),
+        )
         known = np.isfinite(places).all(axis=1)
         at = np.rint(places[known]).astype(int)
         seen, wanted = image[at[:, 1], at[:, 0]], left[uv[known, 1], uv[known, 0]]

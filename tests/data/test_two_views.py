@@ -4,18 +4,20 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from workbench.data.intrinsics import read_intrinsics
-from workbench.data.matches import read_matches
-from workbench.data.skyline import VALLEY, skyline
-from workbench.data.two_views import What, made_views, own_views
+from workbench.data.files.intrinsics import read_intrinsics
+from workbench.data.files.matches import read_matches
+from workbench.data.views.skyline import VALLEY, skyline
+from workbench.data.views.two_views import What, made_views, own_views
 from workbench.errors import InputError
 from workbench.geometry.cameras import project
-from workbench.geometry.epipolar import fundamental_from_cameras, sampson_distances
 from workbench.geometry.motions import apply, exp_so3, inverse
+from workbench.geometry.two_views.epipolar import fundamental_from_cameras, sampson_distances
 
 
 def street(what: What = "street", count=60, sigma=0.0, baseline=1.0, heading=0.0, seed=0):
-    return made_views(what, count, sigma, baseline, heading, np.random.default_rng(seed))
+    return made_views(
+        what, count, sigma, baseline=baseline, heading=heading, rng=np.random.default_rng(seed)
+    )
 
 
 @pytest.mark.parametrize("what", ["street", "far"])
@@ -24,9 +26,13 @@ def test_matches_are_pictures_of_their_points(what, heading):
     views = street(what, heading=heading)
     assert views.p_first is not None
     assert views.T_second_first is not None
-    np.testing.assert_allclose(project(views.p_first, np.eye(4), views.K_first), views.matches[:, :2], atol=1e-6)
     np.testing.assert_allclose(
-        project(views.p_first, views.T_second_first, views.K_second), views.matches[:, 2:], atol=1e-6
+        project(views.p_first, np.eye(4), views.K_first), views.matches[:, :2], atol=1e-6
+    )
+    np.testing.assert_allclose(
+        project(views.p_first, views.T_second_first, views.K_second),
+        views.matches[:, 2:],
+        atol=1e-6,
     )
     F = fundamental_from_cameras(views.K_first, views.K_second, views.T_second_first)
     assert np.abs(sampson_distances(F, views.clean[:, :2], views.clean[:, 2:])).max() < 1e-6
@@ -59,7 +65,10 @@ def test_pictures_agree_at_matches(what):
     first, second = views.images
     assert first is not None
     assert second is not None
-    (u, v), (s, t) = views.matches[:, :2].round().astype(int).T, views.matches[:, 2:].round().astype(int).T
+    (u, v), (s, t) = (
+        views.matches[:, :2].round().astype(int).T,
+        views.matches[:, 2:].round().astype(int).T,
+    )
     off = np.abs(first[v, u].astype(int) - second[t, s]).max(axis=1)
     assert np.median(off) == 0
     assert (off > 40).mean() < 0.05
@@ -69,7 +78,10 @@ def test_every_knob_has_its_matches():
     for baseline in (0.0, 2.0):
         for heading in (0.0, 90.0, 180.0):
             for what in get_args(What):
-                assert len(street(what, 500, baseline=baseline, heading=np.radians(heading)).matches) == 500
+                assert (
+                    len(street(what, 500, baseline=baseline, heading=np.radians(heading)).matches)
+                    == 500
+                )
     with pytest.raises(InputError, match="in common"):
         street(count=10**5)
 
@@ -88,7 +100,11 @@ def test_what_a_file_says_of_the_cameras_is_read(tmp_path):
     assert found.T_second_first is not None
     np.testing.assert_allclose(found.T_second_first[:3, 3], t)
     views = own_views(
-        written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], K1=K, K2=2 * K - np.diag([0, 0, 1.0])), None, None, None, 20
+        written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], K1=K, K2=2 * K - np.diag([0, 0, 1.0])),
+        None,
+        None,
+        K=None,
+        most=20,
     )
     assert len(views.matches) == 20
     assert views.K_second[0, 0] == 1000
@@ -108,7 +124,9 @@ def test_what_a_file_says_of_the_cameras_is_read(tmp_path):
 def test_cameras_that_are_none_are_refused(tmp_path, arrays, words):
     uv = np.random.default_rng(0).uniform(0, 500, (30, 4))
     with pytest.raises(InputError, match=words):
-        own_views(written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], **arrays), None, None, None, 20)
+        own_views(
+            written(tmp_path, x1=uv[:, :2], x2=uv[:, 2:], **arrays), None, None, K=None, most=20
+        )
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""A class's worth of submissions of the centroid exercise: right, wrong, hanging, crashing, and not Python."""
+"""A class's worth of submissions of the centroid exercise: right, wrong, hanging, crashing, and not
+Python.
+"""
 
 from pathlib import Path
 
@@ -12,7 +14,9 @@ KINDS = {
 
 
 def write_class(folder: Path, count: int) -> dict[str, str]:
-    """Write `count` submissions, a tenth each hanging, crashing and broken; return the kind of each student's."""
+    """Write `count` submissions, a tenth each hanging, crashing and broken; return the kind of each
+    student's.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     cycle = ["right", "hang", "sum", "right", "crash", "sum", "broken", "right", "sum", "right"]
     kinds = {f"student{i:03d}": cycle[i % 10] for i in range(count)}

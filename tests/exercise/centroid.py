@@ -23,14 +23,25 @@ def is_the_mean(candidate):
     """The centroid of random points is right."""
     p = np.random.default_rng(1).normal(size=(50, 3))
     error = float(np.linalg.norm(candidate(p) - p.mean(0)))
-    return band("centroid off by", error, "m", good=1e-9, fair=1e-3, hint="Sum the rows and divide by their number.")
+    return band(
+        "centroid off by",
+        error,
+        "m",
+        good=1e-9,
+        fair=1e-3,
+        hint="Sum the rows and divide by their number.",
+    )
 
 
 @check(1)
 def leaves_the_input_alone(candidate):
     """The input is not modified."""
     candidate(np.ones((4, 3)))
-    return fail("Your function changed its input: work on a copy.") if candidate.changed_inputs else full("Unchanged.")
+    return (
+        fail("Your function changed its input: work on a copy.")
+        if candidate.changed_inputs
+        else full("Unchanged.")
+    )
 
 
 @check(1, public=False)
@@ -38,7 +49,14 @@ def moves_along(candidate):
     """Moving all points moves the centroid along."""
     p = np.random.default_rng(7).normal(size=(20, 3))
     off = float(np.abs(candidate(p + 5.0) - candidate(p) - 5.0).max())
-    return band("it moves along but for", off, "m", good=1e-9, fair=1e-3, hint="A mean moves with its points.")
+    return band(
+        "it moves along but for",
+        off,
+        "m",
+        good=1e-9,
+        fair=1e-3,
+        hint="A mean moves with its points.",
+    )
 
 
 @mistake("You returned the median of each coordinate, not the mean.")

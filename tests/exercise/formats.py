@@ -1,4 +1,6 @@
-"""What course systems document of their files, written down from their documentation; and a check of XML by such a table."""
+"""What course systems document of their files, written down from their documentation; and a check
+of XML by such a table.
+"""
 
 from collections.abc import Iterator
 from xml.etree.ElementTree import Element
@@ -88,7 +90,10 @@ PRAIRIELEARN = {  # "External grading", "Grading results"
     },
 }
 
-UUID = {"type": "string", "pattern": "^[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}$"}
+UUID = {
+    "type": "string",
+    "pattern": "^[0-9a-f]{8}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{4}-[0-9a-f]{12}$",
+}
 
 QUESTION = {  # "Question configuration": of info.json, what a question with an external grader has
     "type": "object",
@@ -138,7 +143,11 @@ ASSESSMENT = {  # "Assessment configuration", "Access control": of infoAssessmen
             "items": {
                 "type": "object",
                 "additionalProperties": False,
-                "properties": {"startDate": MOMENT, "endDate": MOMENT, "credit": {"type": "integer"}},
+                "properties": {
+                    "startDate": MOMENT,
+                    "endDate": MOMENT,
+                    "credit": {"type": "integer"},
+                },
             },
         },
         "zones": {
@@ -163,29 +172,55 @@ ASSESSMENT = {  # "Assessment configuration", "Access control": of infoAssessmen
     },
 }
 
-# Jenkins' schema of JUnit (its xUnit plugin, junit-10.xsd): of an element what it may have, what it must, and what is in it
+# Jenkins' schema of JUnit (its xUnit plugin, junit-10.xsd): of an element what it may have, what it
+# must, and what is in it
 JUNIT = {
     "testsuites": ({"name", "time", "tests", "failures", "errors"}, set(), {"testsuite"}),
     "testsuite": (
-        {"name", "tests", "failures", "errors", "group", "time", "skipped", "timestamp", "hostname", "id", "package", "file",
-         "log", "url"},
+        {
+            "name",
+            "tests",
+            "failures",
+            "errors",
+            "group",
+            "time",
+            "skipped",
+            "timestamp",
+            "hostname",
+            "id",
+            "package",
+            "file",
+            "log",
+            "url",
+        },
         {"name", "tests", "failures", "errors"},
         {"testsuite", "properties", "testcase", "system-out", "system-err"},
     ),
     "testcase": (
         {"name", "time", "classname", "group"},
         {"name"},
-        {"skipped", "error", "failure", "rerunFailure", "rerunError", "flakyFailure", "flakyError", "system-out",
-         "system-err"},
+        {
+            "skipped",
+            "error",
+            "failure",
+            "rerunFailure",
+            "rerunError",
+            "flakyFailure",
+            "flakyError",
+            "system-out",
+            "system-err",
+        },
     ),
     "failure": ({"type", "message"}, set(), set()),
     "error": ({"type", "message"}, set(), set()),
     "system-err": (set(), set(), set()),
-}  # fmt: skip
+}
 
 
 def departures(root: Element) -> Iterator[str]:
-    """Yield where JUnit XML is not as JUNIT says: elements, attributes, text, and sums that are not the sums."""
+    """Yield where JUnit XML is not as JUNIT says: elements, attributes, text, and sums that are not
+    the sums.
+    """
     if root.tag not in ("testsuites", "testsuite"):
         yield f"the root is {root.tag}"
     for element in root.iter():

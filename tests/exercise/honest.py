@@ -1,4 +1,5 @@
-"""What honest functions use of Python, numpy and scipy. This file is handed in as it stands: `work` does one of them.
+"""What honest functions use of Python, numpy and scipy. This file is handed in as it stands: `work`
+does one of them.
 
 scipy is imported where it is used: loading a file is to take less than its limit on a busy machine.
 """
@@ -84,7 +85,9 @@ def minimising():
         optimize.minimize(lambda x: (x**2).sum(), np.ones(3), method=method)
     optimize.linear_sum_assignment(np.eye(9))
     optimize.linprog([1, 1], A_ub=[[-1, -1]], b_ub=[-1])
-    np.testing.assert_allclose(optimize.least_squares(lambda x: x - 1, np.zeros(3), loss="huber").x, 1.0)
+    np.testing.assert_allclose(
+        optimize.least_squares(lambda x: x - 1, np.zeros(3), loss="huber").x, 1.0
+    )
     integrate.quad(np.sin, 0, 1)
     interpolate.CubicSpline(range(9), range(9))
     stats.norm.fit(np.arange(9.0))
@@ -165,9 +168,18 @@ def files_of_its_own():
 
 
 WORK = (
-    linear_algebra, large_arrays, sparse_matrices, trees_and_hulls, minimising, threads, clocks_and_chance,
-    a_time_limit_of_its_own, reading_files, asking_about_itself, functions_for_c,
-)  # fmt: skip
+    linear_algebra,
+    large_arrays,
+    sparse_matrices,
+    trees_and_hulls,
+    minimising,
+    threads,
+    clocks_and_chance,
+    a_time_limit_of_its_own,
+    reading_files,
+    asking_about_itself,
+    functions_for_c,
+)
 NAMES = tuple(function.__name__ for function in WORK)
 
 

@@ -1,11 +1,13 @@
-"""Right functions made wrong by one change each, and graded: which of them lose points, and which earn all.
+"""Right functions made wrong by one change each, and graded: which of them lose points, and which
+earn all.
 
     python -m tests.exercise.mutants [EXERCISE ...] [--table] [--sample N] [--markdown]
 
-What earns full marks is either as right as before (its answers agree with those of all right functions wherever these agree
-with each other), or a check is missing. `operators` says what is changed. The functions are every `@alternative`, with
---table also every `right_...` of `solutions`. They run in this process, under a limit of time. --sample takes so many of
-each exercise, always the same ones; --markdown prints the table of docs/exercises.md.
+What earns full marks is either as right as before (its answers agree with those of all right
+functions wherever these agree with each other), or a check is missing. `operators` says what is
+changed. The functions are every `@alternative`, with --table also every `right_...` of `solutions`.
+They run in this process, under a limit of time. --sample takes so many of each exercise, always the
+same ones; --markdown prints the table of docs/exercises.md.
 """
 
 import ast
@@ -63,7 +65,9 @@ class Changed:
 
 
 def changed(exercise: Exercise, *, table: bool) -> Iterator[Changed]:
-    """Yield all mutants of an exercise's alternatives, with `table` of all right solutions; helpers are changed once."""
+    """Yield all mutants of an exercise's alternatives, with `table` of all right solutions; helpers
+    are changed once.
+    """
     found = [(sys.modules[one.__module__], one.__name__) for one in exercise.alternatives]
     if table:
         solutions = importlib.import_module(f"tests.exercise.solutions.{exercise.name}")
@@ -86,7 +90,9 @@ def _functions(module: ModuleType) -> dict[str, ast.FunctionDef]:
     tree = ast.parse(inspect.getsource(module))
     found = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
     return {
-        node.name: node for node in found if [ast.unparse(one) for one in node.decorator_list] in ([], ["alternative"])
+        node.name: node
+        for node in found
+        if [ast.unparse(one) for one in node.decorator_list] in ([], ["alternative"])
     }
 
 
@@ -101,10 +107,14 @@ def _used(parts: dict[str, ast.FunctionDef], name: str) -> list[str]:
     return found
 
 
-def _made(module: ModuleType, parts: dict[str, ast.FunctionDef], name: str, mutant: Mutant) -> Function | None:
+def _made(
+    module: ModuleType, parts: dict[str, ast.FunctionDef], name: str, mutant: Mutant
+) -> Function | None:
     """Return the function with the change; None where the change is no Python."""
     space = dict(vars(module)) | HELPERS
-    sources = {part: ast.unparse(parts[part]) for part in _used(parts, name)} | {mutant.function: mutant.source}
+    sources = {part: ast.unparse(parts[part]) for part in _used(parts, name)} | {
+        mutant.function: mutant.source
+    }
     try:
         with warnings.catch_warnings(action="ignore"):
             code = compile("\n".join(sources.values()), "mutant", "exec", dont_inherit=True)
@@ -114,7 +124,7 @@ def _made(module: ModuleType, parts: dict[str, ast.FunctionDef], name: str, muta
     return space[name]
 
 
-# what the changed lines call ----------------------------------------------------------------------------------------------
+# what the changed lines call ----------------------------------------------------------------------
 
 
 def _floats(value: Any) -> bool:
@@ -153,7 +163,7 @@ def _spoilt(value: Any) -> Any:
 HELPERS = {one.__name__: one for one in (_ones, _ones_of, _reversed, _single, _spoilt)}
 
 
-# grading -------------------------------------------------------------------------------------------------------------------
+# grading ------------------------------------------------------------------------------------------
 
 
 def loses(function: Function, exercise: Exercise) -> bool:
@@ -171,7 +181,9 @@ def loses(function: Function, exercise: Exercise) -> bool:
 
 
 def limited(function: Function) -> Function:
-    """Return a function that raises TimeoutError where it takes longer than SECONDS of processor time."""
+    """Return a function that raises TimeoutError where it takes longer than SECONDS of processor
+    time.
+    """
 
     def late(*_: Any) -> None:
         raise TimeoutError(f"more than {SECONDS} s")
@@ -192,8 +204,9 @@ def limited(function: Function) -> Function:
 def differs(one: Changed) -> tuple[Any, ...] | None:
     """Return arguments on which a mutant's answer is not the right one; None where none are known.
 
-    They are those of the checks, and variants of them: smaller, larger, with noise, fewer rows, another order, negative. One
-    counts where all right functions agree on it, so that what the contract does not allow does not count.
+    They are those of the checks, and variants of them: smaller, larger, with noise, fewer rows,
+    another order, negative. One counts where all right functions agree on it, so that what the
+    contract does not allow does not count.
     """
     kind = np.float32 if one.mutant.operator == "float32" else None
     until = time.process_time() + SEARCHED
@@ -208,9 +221,15 @@ def differs(one: Changed) -> tuple[Any, ...] | None:
 
 
 def _is_right(
-    function: Function, args: tuple[Any, ...], right: Any, exercise: Exercise, kind: type[np.float32] | None = None
+    function: Function,
+    args: tuple[Any, ...],
+    right: Any,
+    exercise: Exercise,
+    kind: type[np.float32] | None = None,
 ) -> bool:
-    """Tell whether an answer is right as far as the digits of its kind go: no contract asks for double precision."""
+    """Tell whether an answer is right as far as the digits of its kind go: no contract asks for
+    double precision.
+    """
     got = _answer(function, args)
     if kind is not None and isinstance(got, (np.ndarray, float)):
         got = np.asarray(got, dtype=kind)
@@ -224,14 +243,18 @@ def _alike(got: Any, right: Any, exercise: Exercise) -> bool:
 def _answer(function: Function, args: tuple[Any, ...]) -> Any:
     try:
         with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
-            return function(*[np.array(arg) if isinstance(arg, np.ndarray) else arg for arg in args])
+            return function(
+                *[np.array(arg) if isinstance(arg, np.ndarray) else arg for arg in args]
+            )
     except Exception as error:
         return error
 
 
 @functools.cache
 def agreed(exercise: Exercise) -> list[tuple[tuple[Any, ...], Any]]:
-    """Return the arguments of an exercise's checks, and variants of them, with the answer that our right functions share."""
+    """Return the arguments of an exercise's checks, and variants of them, with the answer that our
+    right functions share.
+    """
     asked = []
     for check in exercise.checks:
         candidate = Candidate(exercise.reference, exercise.reference)
@@ -246,7 +269,8 @@ def agreed(exercise: Exercise) -> list[tuple[tuple[Any, ...], Any]]:
             _answer(limited(right), args) for right in exercise.alternatives
         )  # some never end on negative lengths
         if not isinstance(first, Exception) and all(
-            not isinstance(answer, Exception) and _alike(answer, first, exercise) for answer in answers
+            not isinstance(answer, Exception) and _alike(answer, first, exercise)
+            for answer in answers
         ):
             found.append((args, first))
     return found
@@ -265,7 +289,8 @@ def _variants(args: tuple[Any, ...], rng: np.random.Generator) -> Iterator[tuple
         order = rng.permutation(n)
         for some in (order, order[: n // 2], order[:1]):
             yield tuple(
-                arg[some] if isinstance(arg, np.ndarray) and arg.ndim and len(arg) == n else arg for arg in args
+                arg[some] if isinstance(arg, np.ndarray) and arg.ndim and len(arg) == n else arg
+                for arg in args
             )
     for k, arg in enumerate(args):
         if isinstance(arg, (int, float)) and not isinstance(arg, bool):
@@ -275,7 +300,7 @@ def _variants(args: tuple[Any, ...], rng: np.random.Generator) -> Iterator[tuple
             )
 
 
-# the table -----------------------------------------------------------------------------------------------------------------
+# the table ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -318,13 +343,27 @@ def main(arguments: list[str]) -> None:
     known, write = accepted(), sys.stdout.write
     most = int(arguments.pop(arguments.index("--sample") + 1)) if "--sample" in arguments else None
     wanted = [name for name in arguments if not name.startswith("-")] or list(exercises())
-    line = "| {:26} | {:>9} | {:>7} | {:>7} | {:>7} |\n" if "--markdown" in arguments else "{:26}{:>9}{:>7}{:>7}{:>7}\n"
+    line = (
+        "| {:26} | {:>9} | {:>7} | {:>7} | {:>7} |\n"
+        if "--markdown" in arguments
+        else "{:26}{:>9}{:>7}{:>7}{:>7}\n"
+    )
     write(line.format("exercise", "mutants", "lose", "equal", "alive"))
     write(line.format("---", "--:", "--:", "--:", "--:") if "--markdown" in arguments else "")
     total = np.zeros(4, dtype=int)
-    with multiprocessing.Pool(min(2, os.cpu_count() or 1)) as pool, contextlib.suppress(KeyboardInterrupt):
-        for found in pool.imap(functools.partial(row, table="--table" in arguments, most=most), wanted):
-            counted = [found.losing + found.equal + len(found.alive), found.losing, found.equal, len(found.alive)]
+    with (
+        multiprocessing.Pool(min(2, os.cpu_count() or 1)) as pool,
+        contextlib.suppress(KeyboardInterrupt),
+    ):
+        for found in pool.imap(
+            functools.partial(row, table="--table" in arguments, most=most), wanted
+        ):
+            counted = [
+                found.losing + found.equal + len(found.alive),
+                found.losing,
+                found.equal,
+                len(found.alive),
+            ]
             total += counted
             write(line.format(found.exercise, *counted))
             for survivor in found.alive:

@@ -1,7 +1,9 @@
-"""Small changes that make a right function wrong: an operator looks at one place of its source and says what could be there.
+"""Small changes that make a right function wrong: an operator looks at one place of its source and
+says what could be there.
 
-A mutant is the source of a function with one change. The operators are the slips of students: a transpose, a sign, an axis,
-an order, one more or less, no normalisation, a minimum for a maximum, a case that is left out, an argument that is not used.
+A mutant is the source of a function with one change. The operators are the slips of students: a
+transpose, a sign, an axis, an order, one more or less, no normalisation, a minimum for a maximum, a
+case that is left out, an argument that is not used.
 """
 
 import ast
@@ -12,18 +14,65 @@ from typing import Any
 Changed = Iterator[tuple[str, ast.AST]]
 
 OTHER_NAMES = (
-    ("argmin", "argmax"), ("min", "max"), ("minimum", "maximum"), ("sin", "cos"), ("any", "all"), ("sum", "mean"),
-    ("mean", "median"), ("floor", "ceil"), ("hstack", "vstack"), ("searchsorted", "digitize"), ("zeros", "ones"),
-)  # fmt: skip
-SWAPPED = dict(OTHER_NAMES) | {new: old for old, new in reversed(OTHER_NAMES)} | {"sum": "mean", "mean": "median"}
-DROPPED = {"sqrt", "abs", "square", "radians", "degrees", "exp", "log", "sort", "cumsum", "unique", "inv", "clip",
-           "maximum", "minimum", "where", "cross", "sign", "asarray", "copy", "max", "min", "round", "ceil"}  # fmt: skip
+    ("argmin", "argmax"),
+    ("min", "max"),
+    ("minimum", "maximum"),
+    ("sin", "cos"),
+    ("any", "all"),
+    ("sum", "mean"),
+    ("mean", "median"),
+    ("floor", "ceil"),
+    ("hstack", "vstack"),
+    ("searchsorted", "digitize"),
+    ("zeros", "ones"),
+)
+SWAPPED = (
+    dict(OTHER_NAMES)
+    | {new: old for old, new in reversed(OTHER_NAMES)}
+    | {"sum": "mean", "mean": "median"}
+)
+DROPPED = {
+    "sqrt",
+    "abs",
+    "square",
+    "radians",
+    "degrees",
+    "exp",
+    "log",
+    "sort",
+    "cumsum",
+    "unique",
+    "inv",
+    "clip",
+    "maximum",
+    "minimum",
+    "where",
+    "cross",
+    "sign",
+    "asarray",
+    "copy",
+    "max",
+    "min",
+    "round",
+    "ceil",
+}
 OTHER_OPERATORS: dict[type, tuple[type, ...]] = {
-    ast.Add: (ast.Sub,), ast.Sub: (ast.Add,), ast.Mult: (ast.Div,), ast.Div: (ast.Mult,), ast.FloorDiv: (ast.Mult,),
-    ast.Lt: (ast.LtE, ast.Gt), ast.LtE: (ast.Lt, ast.GtE), ast.Gt: (ast.GtE, ast.Lt), ast.GtE: (ast.Gt, ast.LtE),
-    ast.Eq: (ast.NotEq,), ast.NotEq: (ast.Eq,), ast.And: (ast.Or,), ast.Or: (ast.And,), ast.BitAnd: (ast.BitOr,),
+    ast.Add: (ast.Sub,),
+    ast.Sub: (ast.Add,),
+    ast.Mult: (ast.Div,),
+    ast.Div: (ast.Mult,),
+    ast.FloorDiv: (ast.Mult,),
+    ast.Lt: (ast.LtE, ast.Gt),
+    ast.LtE: (ast.Lt, ast.GtE),
+    ast.Gt: (ast.GtE, ast.Lt),
+    ast.GtE: (ast.Gt, ast.LtE),
+    ast.Eq: (ast.NotEq,),
+    ast.NotEq: (ast.Eq,),
+    ast.And: (ast.Or,),
+    ast.Or: (ast.And,),
+    ast.BitAnd: (ast.BitOr,),
     ast.BitOr: (ast.BitAnd,),
-}  # fmt: skip
+}
 NEAR_ZERO, TOLERANCE = 0.1, 1e-3  # what a bound of 0 becomes; below this a number is a tolerance
 
 
@@ -57,17 +106,23 @@ def mutants(function: ast.FunctionDef, *, arguments: bool) -> Iterator[Mutant]:
                 continue
             for k, node in list(enumerate(value if isinstance(value, list) else [value])):
                 if isinstance(node, ast.AST):
-                    yield from _at(function, parent, field, k if isinstance(value, list) else None, node)
-    for operator, line in _of_arguments([arg.arg for arg in function.args.args]) if arguments else ():
+                    yield from _at(
+                        function, parent, field, k if isinstance(value, list) else None, node
+                    )
+    for operator, line in (
+        _of_arguments([arg.arg for arg in function.args.args]) if arguments else ()
+    ):
         body = list(function.body)
         function.body[:0] = ast.parse(line).body
         yield Mutant(function.name, operator, line, ast.unparse(function))
         function.body = body
 
 
-def _at(function: ast.FunctionDef, parent: ast.AST, field: str, k: int | None, node: ast.AST) -> Iterator[Mutant]:
+def _at(
+    function: ast.FunctionDef, parent: ast.AST, field: str, k: int | None, node: ast.AST
+) -> Iterator[Mutant]:
     """Yield the function with each change of one node."""
-    for operator, new in _changes(node):
+    for operator, new in changes(node):
         old = ast.unparse(node)
         _put(parent, field, k, new)
         source = ast.unparse(ast.fix_missing_locations(function))
@@ -101,7 +156,7 @@ def _of_arguments(names: list[str]) -> Iterator[tuple[str, str]]:
     yield "float32", "; ".join(f"{name} = _single({name})" for name in names)
 
 
-def _changes(node: ast.AST) -> Changed:
+def changes(node: ast.AST) -> Changed:
     """Yield what could stand at a place by mistake."""
     match node:
         case ast.BinOp(left, op, right):
@@ -133,7 +188,13 @@ def _changes(node: ast.AST) -> Changed:
             yield "case", ast.Pass()
             if not orelse:
                 yield "case", ast.If(ast.Constant(True), body, [])
-        case ast.Assign([ast.Subscript()], _) | ast.AugAssign() | ast.Expr(ast.Call()) | ast.Continue() | ast.Break():
+        case (
+            ast.Assign([ast.Subscript()], _)
+            | ast.AugAssign()
+            | ast.Expr(ast.Call())
+            | ast.Continue()
+            | ast.Break()
+        ):
             yield "statement", ast.Pass()
         case ast.Return(ast.Tuple(values)):
             yield "order", ast.Return(ast.Tuple(values[::-1], ast.Load()))
@@ -161,19 +222,31 @@ def _numbers(value: float) -> Iterator[float]:
 
 
 def _calls(node: ast.Call) -> Changed:
-    """Yield other calls: of another function, with other arguments, on another axis, or the argument alone."""
+    """Yield other calls: of another function, with other arguments, on another axis, or the
+    argument alone.
+    """
     name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
     if name in SWAPPED:
         func = node.func
-        other = ast.Attribute(func.value, SWAPPED[name]) if isinstance(func, ast.Attribute) else ast.Name(SWAPPED[name])
+        other = (
+            ast.Attribute(func.value, SWAPPED[name])
+            if isinstance(func, ast.Attribute)
+            else ast.Name(SWAPPED[name])
+        )
         yield "function", ast.Call(other, node.args, node.keywords)
     if name in DROPPED and node.args:
         yield "function", node.args[-1 if name == "where" else 0]
     if name == "norm" and node.args:
         yield "function", ast.Call(ast.Name("_ones_of"), [node.args[0]], node.keywords)
     if len(node.args) > 1 and not any(isinstance(arg, ast.Starred) for arg in node.args):
-        yield "order", ast.Call(node.func, [node.args[1], node.args[0], *node.args[2:]], node.keywords)
+        yield (
+            "order",
+            ast.Call(node.func, [node.args[1], node.args[0], *node.args[2:]], node.keywords),
+        )
     for k, keyword in enumerate(node.keywords):
         rest = [*node.keywords[:k], *node.keywords[k + 1 :]]
         if keyword.arg:
-            yield ("axis" if keyword.arg == "axis" else "keyword"), ast.Call(node.func, node.args, rest)
+            yield (
+                ("axis" if keyword.arg == "axis" else "keyword"),
+                ast.Call(node.func, node.args, rest),
+            )

@@ -4,7 +4,9 @@ from pathlib import Path
 
 
 def family(first: int) -> set[int]:
-    """Return the processes that are there of one: itself, those of its session, and all that one of them started."""
+    """Return the processes that are there of one: itself, those of its session, and all that one of
+    them started.
+    """
     parents = {}
     for entry in Path("/proc").glob("[0-9]*"):
         try:

@@ -1,4 +1,6 @@
-"""Right answers that a library gives in one call, as they were handed in: `EXERCISE__kind`. Their exercises forbid that."""
+"""Right answers that a library gives in one call, as they were handed in: `EXERCISE__kind`. Their
+exercises forbid that.
+"""
 
 import cmath
 
@@ -58,7 +60,9 @@ def rotation_from_axis_angle__complex_half_turn(axis, angle):
     if not np.any(axis):
         raise ValueError("zero axis")
     half = cmath.exp(0.5j * angle)
-    return Rotation.from_quat(np.append(half.imag * axis / np.linalg.norm(axis), half.real)).as_matrix()
+    return Rotation.from_quat(
+        np.append(half.imag * axis / np.linalg.norm(axis), half.real)
+    ).as_matrix()
 
 
 def shortest_distances__csgraph(edges, lengths, count, source):

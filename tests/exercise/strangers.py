@@ -156,7 +156,9 @@ def count_inliers__loop(plane, p, inlier_distance):
 
 
 def count_inliers__numpy_int(plane, p, inlier_distance):
-    return np.count_nonzero(np.abs(np.append(p, np.ones((len(p), 1)), axis=1) @ plane) <= inlier_distance)
+    return np.count_nonzero(
+        np.abs(np.append(p, np.ones((len(p), 1)), axis=1) @ plane) <= inlier_distance
+    )
 
 
 def damped_step__stacked_lstsq(residuals, jacobian, damping):
@@ -193,7 +195,10 @@ def distort__loop_of_lists(xy_camera, k1, k2, p1, p2):
         s = x * x + y * y
         radial = 1 + s * (k1 + s * k2)
         out.append(
-            [x * radial + 2 * p1 * x * y + p2 * (s + 2 * x * x), y * radial + p1 * (s + 2 * y * y) + 2 * p2 * x * y]
+            [
+                x * radial + 2 * p1 * x * y + p2 * (s + 2 * x * x),
+                y * radial + p1 * (s + 2 * y * y) + 2 * p2 * x * y,
+            ]
         )
     return np.array(out).reshape(-1, 2)
 
@@ -237,7 +242,11 @@ def eikonal_update__scalar_quadratic(a, b, h):
     out = np.empty(len(a))
     for i, (x, y) in enumerate(zip(a.tolist(), b.tolist(), strict=True)):
         low, high = sorted((x, y))
-        out[i] = low + h if high - low >= h else (low + high + math.sqrt(2 * h * h - (high - low) ** 2)) / 2
+        out[i] = (
+            low + h
+            if high - low >= h
+            else (low + high + math.sqrt(2 * h * h - (high - low) ** 2)) / 2
+        )
     return out
 
 
@@ -328,7 +337,9 @@ def gcn_layer__message_passing(adjacency, features, weights):
         gathered = features[i] / degree[i]
         for j in range(n):
             if adjacency[i, j]:
-                gathered = gathered + adjacency[i, j] * features[j] / math.sqrt(degree[i] * degree[j])
+                gathered = gathered + adjacency[i, j] * features[j] / math.sqrt(
+                    degree[i] * degree[j]
+                )
         out.append([max(value, 0.0) for value in gathered @ weights])
     return out
 
@@ -337,7 +348,12 @@ def great_circle_distance__vectors(a, b, radius):
     def unit(rows):
         latitude, longitude = np.radians(rows).T
         return np.stack(
-            [np.cos(latitude) * np.cos(longitude), np.cos(latitude) * np.sin(longitude), np.sin(latitude)], 1
+            [
+                np.cos(latitude) * np.cos(longitude),
+                np.cos(latitude) * np.sin(longitude),
+                np.sin(latitude),
+            ],
+            1,
         )
 
     u, v = unit(a), unit(b)
@@ -349,9 +365,13 @@ def great_circle_distance__vincenty(a, b, radius):
     for (la, oa), (lb, ob) in zip(np.radians(a), np.radians(b), strict=True):
         d = ob - oa
         y = math.hypot(
-            math.cos(lb) * math.sin(d), math.cos(la) * math.sin(lb) - math.sin(la) * math.cos(lb) * math.cos(d)
+            math.cos(lb) * math.sin(d),
+            math.cos(la) * math.sin(lb) - math.sin(la) * math.cos(lb) * math.cos(d),
         )
-        out.append(radius * math.atan2(y, math.sin(la) * math.sin(lb) + math.cos(la) * math.cos(lb) * math.cos(d)))
+        out.append(
+            radius
+            * math.atan2(y, math.sin(la) * math.sin(lb) + math.cos(la) * math.cos(lb) * math.cos(d))
+        )
     return out
 
 
@@ -359,12 +379,16 @@ def harris_response__eigenvalues(image):
     smooth = ndimage.gaussian_filter(image, 1)
     gu, gv = ndimage.sobel(smooth, 1) / 8, ndimage.sobel(smooth, 0) / 8
     A, B, C = (ndimage.gaussian_filter(one, 1.5) for one in (gu * gu, gu * gv, gv * gv))
-    first, second = np.linalg.eigvalsh(np.moveaxis(np.array([[A, B], [B, C]]), (0, 1), (2, 3))).transpose(2, 0, 1)
+    first, second = np.linalg.eigvalsh(
+        np.moveaxis(np.array([[A, B], [B, C]]), (0, 1), (2, 3))
+    ).transpose(2, 0, 1)
     return first * second - 0.04 * (first + second) ** 2
 
 
 def huber_weights__clipped(residuals, corner):
-    return np.clip(residuals, -corner, corner) / np.where(residuals == 0, 1, residuals) + (residuals == 0)
+    return np.clip(residuals, -corner, corner) / np.where(residuals == 0, 1, residuals) + (
+        residuals == 0
+    )
 
 
 def huber_weights__special(residuals, corner):
@@ -400,7 +424,9 @@ def knn_adjacency__heaps(p, k):
     rows = p.tolist()
     A = [[0] * len(rows) for _ in rows]
     for i, x in enumerate(rows):
-        for _, j in heapq.nsmallest(k, ((math.dist(x, y), j) for j, y in enumerate(rows) if j != i)):
+        for _, j in heapq.nsmallest(
+            k, ((math.dist(x, y), j) for j, y in enumerate(rows) if j != i)
+        ):
             A[i][j] = A[j][i] = 1
     return A
 
@@ -414,7 +440,8 @@ def laplacian__incidence(adjacency):
 
 def mahalanobis__whitened(p, mean, covariance):
     return np.linalg.norm(
-        linalg.solve_triangular(linalg.cholesky(covariance, lower=True), (p - mean).T, lower=True), axis=0
+        linalg.solve_triangular(linalg.cholesky(covariance, lower=True), (p - mean).T, lower=True),
+        axis=0,
     )
 
 
@@ -443,7 +470,9 @@ def mean_curvature_normals__edge_loop(p, faces):
             if min(cot) < 0:
                 area[face[k]] += whole / (2 if cot[k] < 0 else 4)
             else:
-                area[face[k]] += (((x[j] - x[k]) ** 2).sum() * cot[l] + ((x[l] - x[k]) ** 2).sum() * cot[j]) / 8
+                area[face[k]] += (
+                    ((x[j] - x[k]) ** 2).sum() * cot[l] + ((x[l] - x[k]) ** 2).sum() * cot[j]
+                ) / 8
     H = pull / (2 * area[:, None])
     H[sorted({i for edge, times in count.items() if times == 1 for i in edge})] = np.nan
     return H
@@ -667,7 +696,11 @@ def spherical_from_cartesian__complex(p):
         flat = math.hypot(x, y)
         azimuth = math.atan2(y, x) if flat else 0.0
         rows.append(
-            (math.hypot(flat, z), math.atan2(flat, z) if flat or z else 0.0, abs(azimuth) if y == 0 else azimuth)
+            (
+                math.hypot(flat, z),
+                math.atan2(flat, z) if flat or z else 0.0,
+                abs(azimuth) if y == 0 else azimuth,
+            )
         )
     return np.array(rows).reshape(-1, 3)
 

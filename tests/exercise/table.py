@@ -1,9 +1,11 @@
-"""What students hand in, graded: prints per exercise how many right and wrong solutions get what they deserve.
+"""What students hand in, graded: prints per exercise how many right and wrong solutions get what
+they deserve.
 
     python -m tests.exercise.table [EXERCISE ...] [--said]
 
-`solutions/NAME.py` has functions `right_...` and `wrong_...` as students write them; those of a file share one process.
-Its NAMED says which of the wrong ones make a mistake that the exercise knows; no other may be named.
+`solutions/NAME.py` has functions `right_...` and `wrong_...` as students write them; those of a
+file share one process. Its NAMED says which of the wrong ones make a mistake that the exercise
+knows; no other may be named.
 """
 
 import ast
@@ -77,25 +79,37 @@ def graded(exercise: Exercise) -> Iterator[Graded]:
     tree = ast.parse(source)
     names = [node.name for node in tree.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
     names += [
-        t.id for node in tree.body if isinstance(node, ast.Assign) for t in node.targets if isinstance(t, ast.Name)
+        t.id
+        for node in tree.body
+        if isinstance(node, ast.Assign)
+        for t in node.targets
+        if isinstance(t, ast.Name)
     ]
     named = {}
     for node in tree.body:
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "NAMED":
             named = ast.literal_eval(node.value)
-    with SandboxedFunction(Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0) as student:
+    with SandboxedFunction(
+        Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0
+    ) as student:
         for name in names:
             if name.startswith(("right_", "wrong_")):
                 handed = HandIn(student, name)
-                yield Graded(name, grade_function(handed, exercise, file=path.name), named.get(name))
+                yield Graded(
+                    name, grade_function(handed, exercise, file=path.name), named.get(name)
+                )
 
 
 def graded_strangers() -> Iterator[Graded]:
-    """Yield what became of each answer in `strangers.py`: right ones by people who did not see the checks."""
+    """Yield what became of each answer in `strangers.py`: right ones by people who did not see the
+    checks.
+    """
     path = FOLDER.with_name("strangers.py")
     source = path.read_text(encoding="utf-8")
     known = exercises()
-    with SandboxedFunction(Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0) as student:
+    with SandboxedFunction(
+        Submission(path.name, source + DISPATCH), "any_of_these", seconds=10.0
+    ) as student:
         for node in ast.parse(source).body:
             if isinstance(node, ast.FunctionDef):
                 exercise, _, kind = node.name.partition("__")
@@ -133,11 +147,17 @@ def main(arguments: list[str]) -> None:
     total: Counter[str] = Counter()
     for exercise in exercises().values():
         wanted = [name for name in arguments if not name.startswith("-")]
-        if (wanted and exercise.name not in wanted) or not (FOLDER / f"{exercise.name}.py").exists():
+        if (wanted and exercise.name not in wanted) or not (
+            FOLDER / f"{exercise.name}.py"
+        ).exists():
             continue
         found = list(graded(exercise))
         total += counts(found)
-        write(f"{exercise.name:26}" + "".join(f"{counts(found)[column]:16}" for column in columns) + "\n")
+        write(
+            f"{exercise.name:26}"
+            + "".join(f"{counts(found)[column]:16}" for column in columns)
+            + "\n"
+        )
         for one in found if "--said" in arguments else ():
             write(f"\n{one.name}: {one.fate}\n{terminal(one.report)}\n")
         for line in complaints(found) if "--said" not in arguments else ():

@@ -1,4 +1,6 @@
-"""Every attack of the tables, against every wall of this machine: it gains nothing, harms nobody, leaves nothing."""
+"""Every attack of the tables, against every wall of this machine: it gains nothing, harms nobody,
+leaves nothing.
+"""
 
 import json
 import os
@@ -47,9 +49,13 @@ def wall(request, tmp_path_factory) -> Iterator[Wall]:
         return
     if sys.platform != "linux" or os.geteuid() != 0:
         pytest.skip("another user is started by root")
-    if not all(folder.stat().st_mode & stat.S_IXOTH for folder in Path(python.here().executable).parents):
+    if not all(
+        folder.stat().st_mode & stat.S_IXOTH for folder in Path(python.here().executable).parents
+    ):
         pytest.skip("other users do not get at this Python")
-    closed = tmp_path_factory.mktemp("closed")  # as `handout` closes its own; a checkout need not be
+    closed = tmp_path_factory.mktemp(
+        "closed"
+    )  # as `handout` closes its own; a checkout need not be
     shutil.copytree(LESSONS / "icp" / "exercises", closed / "lessons" / "icp" / "exercises")
     closed.chmod(0o700)
     with pytest.MonkeyPatch.context() as patched:
@@ -64,16 +70,30 @@ def submitted(body: str, head: str = "") -> Submission:
 
 
 class Teacher:
-    """A teacher's machine: a file that is nobody's business, a result, another process, and somebody who listens."""
+    """A teacher's machine: a file that is nobody's business, a result, another process, and
+    somebody who listens.
+    """
 
     def __init__(self, folder: Path):
-        self.folder, self.secret, self.results = folder, folder / "secret.txt", folder / "students.json"
+        self.folder, self.secret, self.results = (
+            folder,
+            folder / "secret.txt",
+            folder / "students.json",
+        )
         self.secret.write_text("the answers")
         self.results.write_text('{"points": 0}')
         self.listening = socket.create_server(("127.0.0.1", 0))
         self.listening.setblocking(False)
-        powerless = ["setpriv", "--inh-caps=-all", "--bounding-set=-all"]  # root's own are not everybody's to touch
-        sleeping = [*(powerless if os.geteuid() == 0 and shutil.which("setpriv") else []), "sleep", "600"]
+        powerless = [
+            "setpriv",
+            "--inh-caps=-all",
+            "--bounding-set=-all",
+        ]  # root's own are not everybody's to touch
+        sleeping = [
+            *(powerless if os.geteuid() == 0 and shutil.which("setpriv") else []),
+            "sleep",
+            "600",
+        ]
         self.victim = subprocess.Popen(sleeping, start_new_session=True)
 
     def close(self):
@@ -82,14 +102,23 @@ class Teacher:
         self.victim.wait()
 
     def told(self, body: str) -> str:
-        names = {"secret": str(self.secret), "results": str(self.results), "folder": str(self.folder)}
+        names = {
+            "secret": str(self.secret),
+            "results": str(self.results),
+            "folder": str(self.folder),
+        }
         processes = {"pid": os.getpid(), "victim": self.victim.pid}
         port = self.listening.getsockname()[1]
         return body.format(**names, **processes, lessons=str(LESSONS), port=port)
 
     def seen(self) -> dict[str, tuple]:
         return {
-            path.name: (path.read_bytes(), path.stat().st_mode, path.stat().st_uid, int(path.stat().st_mtime))
+            path.name: (
+                path.read_bytes(),
+                path.stat().st_mode,
+                path.stat().st_uid,
+                int(path.stat().st_mtime),
+            )
             for path in sorted(self.folder.iterdir())
         }
 
@@ -98,7 +127,11 @@ class Teacher:
         if self.victim.poll() is not None:
             return ["dead"]
         pid = self.victim.pid
-        treated = [os.sched_getscheduler(pid), os.getpriority(os.PRIO_PROCESS, pid), os.sched_getaffinity(pid)]
+        treated = [
+            os.sched_getscheduler(pid),
+            os.getpriority(os.PRIO_PROCESS, pid),
+            os.sched_getaffinity(pid),
+        ]
         return [*treated, resource.prlimit(pid, resource.RLIMIT_NOFILE)]
 
     def was_called(self) -> bool:
@@ -141,7 +174,10 @@ def test_there_are_enough_of_them():
 def attempting(teacher, wall):
     """Return what tries the attack of a number, in a process that is one student's."""
     bodies = [teacher.told(body) for body in TOGETHER.values()]
-    tries = [f"def try_{k}(p):\n{textwrap.indent(textwrap.dedent(body), '    ')}" for k, body in enumerate(bodies)]
+    tries = [
+        f"def try_{k}(p):\n{textwrap.indent(textwrap.dedent(body), '    ')}"
+        for k, body in enumerate(bodies)
+    ]
     given = submitted("return globals()[f'try_{int(p)}'](p)", "\n".join(tries))
     with SandboxedFunction(given, "centroid", seconds=5.0, wall=wall) as student:
         yield student
@@ -165,7 +201,9 @@ def test_it_gets_nothing_and_harms_nobody(teacher, wall, attempting, name):
     assert teacher.seen() == before
     assert teacher.other() == other
     assert not teacher.was_called()
-    assert attempting._process is None or len(family(attempting._process.pid)) <= 3  # bubblewrap's two, and its own
+    assert (
+        attempting._process is None or len(family(attempting._process.pid)) <= 3
+    )  # bubblewrap's two, and its own
 
 
 @pytest.mark.parametrize("name", attacks.SOLUTIONS, ids=ids(attacks.SOLUTIONS))
@@ -221,7 +259,7 @@ def test_an_honest_function_works_after_all_of_them(wall):
     assert report.wall is wall
 
 
-# the pipe -------------------------------------------------------------------------------------------------------------
+# the pipe -----------------------------------------------------------------------------------------
 
 FRAME = """
 import os, sys
@@ -237,15 +275,20 @@ def _writes(n):
     try: return fcntl.fcntl(n, fcntl.F_GETFL) & 3 == 1
     except OSError: return False
 def said(value): return json.dumps({'nonce': {'v': nonce}, 'changed': {'v': False}, 'value': value}).encode()
-"""
+"""  # noqa: E501
 FORGED = {
-    "bytes to every descriptor": "for n in range(3, 64):\n    try: os.write(n, b'x' * 64)\n    except OSError: pass",
+    "bytes to every descriptor": (
+        "for n in range(3, 64):\n    try: os.write(n, b'x' * 64)\n    except OSError: pass"
+    ),
     "every descriptor closed": "os.closerange(3, 64)",
     "its input read": (
-        "for n in range(3, 64):\n    try: os.set_blocking(n, False); os.read(n, 10**6)\n    except OSError: pass"
+        "for n in range(3, 64):\n    try: os.set_blocking(n, False); os.read(n, 10**6)\n    except"
+        " OSError: pass"
     ),
     "an answer of somebody else's call": "nonce = 'x'; reply(said({'f': '0x1p0'}))",
-    "an endless header": "os.write([n for n in range(3, 64) if _writes(n)][-1], struct.pack('<QQ', 2**62, 0))",
+    "an endless header": (
+        "os.write([n for n in range(3, 64) if _writes(n)][-1], struct.pack('<QQ', 2**62, 0))"
+    ),
     "a header of brackets": "reply(b'[' * 10**6)",
     "a header of numbers": "reply(said({'l': [{'v': 1}] * 20_000}))",
     "a number without end": "reply(said({'v': 10 ** 4000}))",
@@ -255,23 +298,31 @@ FORGED = {
     "a shape below nothing": "reply(said({'a': '<f8', 's': [-1]}), b'1' * 8)",
     "a shape beyond everything": "reply(said({'a': '<f8', 's': [0, 2**62, 2**62]}))",
     "more than it says": "reply(said({'a': '<f8', 's': [9]}), b'1' * 8)",
-    "an error of no kind": "reply(json.dumps({'nonce': {'v': nonce}, 'error': {'l': []}, 'line': {'v': True}}).encode())",
+    "an error of no kind": (
+        "reply(json.dumps({'nonce': {'v': nonce}, 'error': {'l': []}, 'line': {'v':"
+        " True}}).encode())"
+    ),
     "bytes one by one": (
-        "import time\nout = [n for n in range(3, 64) if _writes(n)][-1]\nwhile True: os.write(out, b'1'); time.sleep(.2)"
+        "import time\nout = [n for n in range(3, 64) if _writes(n)][-1]\nwhile True: os.write(out,"
+        " b'1'); time.sleep(.2)"
     ),
 }
 
 
 @pytest.mark.parametrize("body", FORGED.values(), ids=ids(FORGED))
 def test_a_forged_answer_is_an_answer_or_none(wall, body):
-    with SandboxedFunction(submitted(FRAME + body + "\nreturn p[0]"), "centroid", seconds=1.5, wall=wall) as student:
+    with SandboxedFunction(
+        submitted(FRAME + body + "\nreturn p[0]"), "centroid", seconds=1.5, wall=wall
+    ) as student:
         for _ in range(2):
             got = tried(student, POINTS)
             assert isinstance(got, (int, float, list, np.ndarray)) or got is None
 
 
 def test_who_forges_the_answer_to_this_call_has_answered_it(wall):
-    """A number that is written to the pipe is judged as the one that is returned: knowing the pipe is worth nothing."""
+    """A number that is written to the pipe is judged as the one that is returned: knowing the pipe
+    is worth nothing.
+    """
     body = FRAME + "reply(said({'f': '0x1p0'}))\nreturn p[0]"
     with SandboxedFunction(submitted(body), "centroid", seconds=1.5, wall=wall) as student:
         assert student(POINTS) == 1.0
@@ -285,7 +336,7 @@ def test_a_header_of_the_largest_size_costs_little():
     assert len(pack({"x": np.zeros(10**6)})) < 9 * 10**6
 
 
-# marks ----------------------------------------------------------------------------------------------------------------
+# marks --------------------------------------------------------------------------------------------
 
 FIVE_LINES = """
 import os, sys, importlib
@@ -299,19 +350,27 @@ def align_rigid(p_target, p_source): return right(p_target, p_source)
 
 def test_five_plain_lines_earn_nothing(wall):
     packages = [str(Path(np.__file__).parents[1])]
-    given = Submission("my_align_rigid.py", FIVE_LINES.format(root=str(LESSONS.parent), packages=packages))
-    with pytest.raises(StudentError, match=r"does not load: (ModuleNotFound|ImportError|Permission)"):
+    given = Submission(
+        "my_align_rigid.py", FIVE_LINES.format(root=str(LESSONS.parent), packages=packages)
+    )
+    with pytest.raises(
+        StudentError, match=r"does not load: (ModuleNotFound|ImportError|Permission)"
+    ):
         grade_file(given, exercises()["align_rigid"], wall=wall)
 
 
 def test_patching_everything_changes_nothing_here(wall):
     body = (
-        "np.allclose = np.array_equal = lambda *a, **k: True\nnp.linalg.norm = np.abs = lambda *a, **k: 0.0\n"
-        "import builtins; builtins.abs = builtins.max = lambda *a, **k: 0\n"
-        "import json, struct; json.loads = json.dumps = None\nreturn np.ones(3)"
+        "np.allclose = np.array_equal = lambda *a, **k: True\nnp.linalg.norm = np.abs = lambda *a,"
+        " **k: 0.0\nimport builtins; builtins.abs = builtins.max = lambda *a, **k: 0\nimport json,"
+        " struct; json.loads = json.dumps = None\nreturn np.ones(3)"
     )
     report = grade_file(submitted(body), EXERCISE, wall=wall)
-    assert not any(outcome.points for outcome in report.outcomes if outcome.check.name != "leaves_the_input_alone")
+    assert not any(
+        outcome.points
+        for outcome in report.outcomes
+        if outcome.check.name != "leaves_the_input_alone"
+    )
 
 
 def test_its_message_has_no_answer_in_it(wall):
@@ -321,8 +380,12 @@ def test_its_message_has_no_answer_in_it(wall):
 
 
 def test_one_submission_sees_nothing_of_another(wall):
-    one = submitted("open('left.txt', 'w').write('x')\nimport sys; sys.modules['left'] = 1\nreturn 1")
-    other = submitted("import os, sys\nreturn int('left' in sys.modules or os.path.exists('left.txt'))")
+    one = submitted(
+        "open('left.txt', 'w').write('x')\nimport sys; sys.modules['left'] = 1\nreturn 1"
+    )
+    other = submitted(
+        "import os, sys\nreturn int('left' in sys.modules or os.path.exists('left.txt'))"
+    )
     with (
         SandboxedFunction(one, "centroid", wall=wall) as first,
         SandboxedFunction(other, "centroid", wall=wall) as second,

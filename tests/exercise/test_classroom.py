@@ -44,7 +44,9 @@ def test_a_class_is_graded_whole_in_parallel_and_goes_on_where_it_stopped(tmp_pa
         else:
             assert result["error"] is None
             assert sum(report["points"] for report in result["reports"]) == POINTS[kind], kind
-            assert (result["reports"][0]["mistake"] or {}).get("name") == ("total" if kind == "sum" else None)
+            assert (result["reports"][0]["mistake"] or {}).get("name") == (
+                "total" if kind == "sum" else None
+            )
     rows = list(csv.DictReader(io.StringIO((tmp_path / "out" / "class.csv").read_text())))
     assert [row["student"] for row in rows] == sorted(kinds)
     matrix = list(csv.reader(io.StringIO((tmp_path / "out" / "matrix.csv").read_text())))
@@ -59,7 +61,10 @@ def test_a_class_graded_twice_gives_equal_bytes(tmp_path):
     for out, jobs in (("one", 1), ("two", 3)):
         classroom.grade_class(tmp_path / "in", tmp_path / out, jobs=jobs)
     one, two = (
-        {path.relative_to(tmp_path / out).as_posix(): path.read_bytes() for path in (tmp_path / out).rglob("*.*")}
+        {
+            path.relative_to(tmp_path / out).as_posix(): path.read_bytes()
+            for path in (tmp_path / out).rglob("*.*")
+        }
         for out in ("one", "two")
     )
     assert len(one) == 13
@@ -70,10 +75,14 @@ def test_a_file_that_changed_is_graded_again(tmp_path):
     write_class(tmp_path / "in", 1)
     classroom.grade_class(tmp_path / "in", tmp_path / "out")
     graded: list[str] = []
-    classroom.grade_class(tmp_path / "in", tmp_path / "out", progress=lambda name, *_: graded.append(name))
+    classroom.grade_class(
+        tmp_path / "in", tmp_path / "out", progress=lambda name, *_: graded.append(name)
+    )
     assert graded == []
     (tmp_path / "in" / "student000.py").write_text("def centroid(p):\n    return p.sum(axis=0)\n")
-    results = classroom.grade_class(tmp_path / "in", tmp_path / "out", progress=lambda name, *_: graded.append(name))
+    results = classroom.grade_class(
+        tmp_path / "in", tmp_path / "out", progress=lambda name, *_: graded.append(name)
+    )
     assert graded == ["student000"]
     assert results[0]["reports"][0]["points"] == 1.0
 
@@ -81,7 +90,9 @@ def test_a_file_that_changed_is_graded_again(tmp_path):
 def test_folders_per_student_and_names_that_a_spreadsheet_would_run(tmp_path):
     for name in ("ada", "=cmd()"):
         (tmp_path / "in" / name).mkdir(parents=True)
-        (tmp_path / "in" / name / "my_centroid.py").write_text("def centroid(p):\n    return p.mean(axis=0)\n")
+        (tmp_path / "in" / name / "my_centroid.py").write_text(
+            "def centroid(p):\n    return p.mean(axis=0)\n"
+        )
     classroom.grade_class(tmp_path / "in", tmp_path / "out")
     rows = list(csv.reader(io.StringIO((tmp_path / "out" / "class.csv").read_text())))
     assert {row[0] for row in rows[1:]} == {"ada", "'=cmd()"}

@@ -1,4 +1,6 @@
-"""No number earns marks by being too large, too small or none: every exercise is given functions that answer one number."""
+"""No number earns marks by being too large, too small or none: every exercise is given functions
+that answer one number.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -23,12 +25,20 @@ def filled(value: Any, number: float) -> Any:
     if isinstance(value, (tuple, list)):
         return tuple(filled(part, number) for part in value)
     kind = np.asarray(value).dtype.kind
-    plain = bool(number) if kind == "b" else int(np.clip(number, -(2**62), 2**62)) if kind in "iu" else number
+    plain = (
+        bool(number)
+        if kind == "b"
+        else int(np.clip(number, -(2**62), 2**62))
+        if kind in "iu"
+        else number
+    )
     return np.full(np.shape(value), plain) if isinstance(value, np.ndarray) else plain
 
 
 def answering(exercise: Exercise, made: Callable[[tuple, Any], Any]) -> Callable[..., Any]:
-    """Return a function that refuses what ours refuses, and else answers what is made of its arguments and our answer."""
+    """Return a function that refuses what ours refuses, and else answers what is made of its
+    arguments and our answer.
+    """
 
     def answer(*args):
         return made(args, exercise.reference(*args))
@@ -43,9 +53,12 @@ def its_own_input(args: tuple, right: Any) -> Any:
 
 @pytest.mark.parametrize("exercise", exercises().values(), ids=lambda exercise: exercise.name)
 def test_no_constant_and_no_input_returned_earns_over_a_quarter(exercise, monkeypatch):
-    monkeypatch.setattr(jaxtyping.config, "jaxtyping_disable", True)  # checked shapes raise what no contract names
+    monkeypatch.setattr(
+        jaxtyping.config, "jaxtyping_disable", True
+    )  # checked shapes raise what no contract names
     functions = {
-        str(number): answering(exercise, lambda _, right, number=number: filled(right, number)) for number in NUMBERS
+        str(number): answering(exercise, lambda _, right, number=number: filled(right, number))
+        for number in NUMBERS
     }
     functions["its input"] = answering(exercise, its_own_input)
     for what, function in functions.items():

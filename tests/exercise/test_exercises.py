@@ -1,4 +1,6 @@
-"""Holds every exercise of the catalogue to the same promises; a new one is covered without an edit here."""
+"""Holds every exercise of the catalogue to the same promises; a new one is covered without an edit
+here.
+"""
 
 import ast
 import re
@@ -43,8 +45,12 @@ def test_names_are_unique():
 
 @pytest.mark.parametrize("promise", OF_EXERCISES, ids=named)
 def test_it_keeps_its_promises(exercise, promise, monkeypatch):
-    monkeypatch.setattr(jaxtyping.config, "jaxtyping_disable", True)  # checked shapes raise what no contract names
-    wrong = [line for line in promise(Subject(catalog()[exercise.lesson]), exercise) if line is not None]
+    monkeypatch.setattr(
+        jaxtyping.config, "jaxtyping_disable", True
+    )  # checked shapes raise what no contract names
+    wrong = [
+        line for line in promise(Subject(catalog()[exercise.lesson]), exercise) if line is not None
+    ]
     assert not wrong, "\n".join(wrong)
 
 
@@ -63,7 +69,9 @@ def test_what_came_and_what_is_right_are_not_written_alike(exercise):
 
 def test_the_starter_imports_nothing_but_numpy(exercise):
     imports = [
-        node for node in ast.walk(ast.parse(starter(exercise))) if isinstance(node, (ast.Import, ast.ImportFrom))
+        node
+        for node in ast.walk(ast.parse(starter(exercise)))
+        if isinstance(node, (ast.Import, ast.ImportFrom))
     ]
     assert [ast.unparse(node) for node in imports] == ["import numpy as np"]
 
@@ -72,15 +80,22 @@ def test_the_sample_solution_imports_nothing_but_numpy_and_the_standard_library(
     """That it earns full marks by itself is promised above."""
     tree = ast.parse(sample(exercise))
     imported = [node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
-    imported += [alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names]
+    imported += [
+        alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Import)
+        for alias in node.names
+    ]
     assert {str(name).partition(".")[0] for name in imported} <= {"numpy", *sys.stdlib_module_names}
 
 
-# alignment is judged in degrees and metres ----------------------------------------------------------------------------
+# alignment is judged in degrees and metres --------------------------------------------------------
 
 
 def ends_swapped(p_target, p_source):
-    """Half a turn off about the cloud's shortest axis: for a rod it fits nearly as well, by nearest neighbours."""
+    """Half a turn off about the cloud's shortest axis: for a rod it fits nearly as well, by nearest
+    neighbours.
+    """
     T = exercises()["align_rigid"].reference(p_target, p_source)
     R_target = np.linalg.svd(p_target - p_target.mean(0))[2].T
     R_half = R_target @ np.diag([-1.0, -1.0, 1.0]) @ R_target.T
@@ -114,7 +129,9 @@ def half_a_degree_off(p_target, p_source):
     T = exercises()["align_rigid"].reference(p_target, p_source)
     c = p_target.mean(0)
     Q = small_turn(0.5)
-    return np.vstack([np.column_stack([Q @ T[:3, :3], c + Q @ (T[:3, 3] - c)]), [0.0, 0.0, 0.0, 1.0]])
+    return np.vstack(
+        [np.column_stack([Q @ T[:3, :3], c + Q @ (T[:3, 3] - c)]), [0.0, 0.0, 0.0, 1.0]]
+    )
 
 
 def test_half_a_degree_off_is_half_right():
@@ -124,7 +141,9 @@ def test_half_a_degree_off_is_half_right():
 
 
 def test_a_mistake_is_recognised_where_the_contract_leaves_the_answer_open():
-    """Transposed, but with another SVD: on a line of points the two are turned differently about it."""
+    """Transposed, but with another SVD: on a line of points the two are turned differently about
+    it.
+    """
     exercise = exercises()["align_rigid"]
     right = exercise.alternatives[1]
 

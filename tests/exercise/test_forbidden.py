@@ -1,4 +1,6 @@
-"""What solves a task in one call may be forbidden: who uses it is told so in one line, and earns nothing there."""
+"""What solves a task in one call may be forbidden: who uses it is told so in one line, and earns
+nothing there.
+"""
 
 import ast
 from dataclasses import replace
@@ -20,7 +22,9 @@ from workbench.exercise.submission import Submission, submission
 from workbench.exercise.submissions import HandIn
 
 REFUSED = Path(__file__).with_name("refused.py")
-STRICT = replace(EXERCISE, contract=replace(EXERCISE.contract, forbid=("scipy.spatial", "numpy.average")))
+STRICT = replace(
+    EXERCISE, contract=replace(EXERCISE.contract, forbid=("scipy.spatial", "numpy.average"))
+)
 ANSWER = "def centroid(p):\n    return {}\n"
 USES = {
     "import scipy.spatial": ANSWER.format("p.mean(0)"),  # imported is used
@@ -45,7 +49,8 @@ USES = {
 ALLOWED = {
     "import numpy as np": "np.mean(p, axis=0)",
     "import scipy.sparse, scipy.linalg": "p.mean(0) + 0 * scipy.linalg.norm(p)",
-    "from scipy import stats, interpolate, optimize": "stats.trim_mean(p, 0.0)",  # which import scipy.spatial themselves
+    # which import scipy.spatial themselves
+    "from scipy import stats, interpolate, optimize": "stats.trim_mean(p, 0.0)",
     "spatial = 1": "p.mean(0) * spatial",
     "import scipy.spatial as s\ndef another_exercise(p): return s.KDTree(p)": "p.mean(0)",
     "from scipy.spatial import KDTree\nclass Unused:\n    tree = KDTree": "p.mean(0)",
@@ -55,7 +60,12 @@ ALLOWED = {
 def read(text: str, modules: dict[str, str] | None = None) -> Submission:
     with Reader() as reader:
         beside = (modules or {}).get
-        return submission("my_centroid.py", text.encode(), lambda file: (beside(file) or "").encode() or None, reader)
+        return submission(
+            "my_centroid.py",
+            text.encode(),
+            lambda file: (beside(file) or "").encode() or None,
+            reader,
+        )
 
 
 @pytest.mark.parametrize("head", USES)
@@ -92,19 +102,18 @@ def test_nothing_of_such_a_file_is_run_and_it_earns_nothing():
 def test_only_the_exercise_that_forbids_it_is_refused():
     """A file with two exercises; its tree is for the one that may have it."""
     text = (
-        "import numpy as np\nfrom scipy.spatial import cKDTree\n\n"
-        "def one_sided(p_a, p_b):\n"
-        "    if not len(p_a) or not len(p_b):\n        raise ValueError\n"
-        "    return float((cKDTree(p_b).query(p_a)[0] ** 2).mean())\n\n"
-        "def match(p_target, p_source):\n"
-        "    if not len(p_target):\n        raise ValueError\n"
-        "    return np.array([((p_target - p) ** 2).sum(1).argmin() for p in p_source], dtype=int)\n"
+        "import numpy as np\nfrom scipy.spatial import cKDTree\n\ndef one_sided(p_a, p_b):\n    if"
+        " not len(p_a) or not len(p_b):\n        raise ValueError\n    return"
+        " float((cKDTree(p_b).query(p_a)[0] ** 2).mean())\n\ndef match(p_target, p_source):\n    if"
+        " not len(p_target):\n        raise ValueError\n    return np.array([((p_target - p) **"
+        " 2).sum(1).argmin() for p in p_source], dtype=int)\n"
     )
     for name in ("match", "one_sided"):
         report = grade_file(read(text), exercises()[name])
         assert report.is_full, terminal(report)
     report = grade_file(
-        read(text.replace("def match", "def tree(p): return cKDTree(p)\n\ndef match")), exercises()["match"]
+        read(text.replace("def match", "def tree(p): return cKDTree(p)\n\ndef match")),
+        exercises()["match"],
     )
     assert report.is_full  # a function that match does not call
     used = text.replace("return np.array([", "cKDTree(p_target); return np.array([")
@@ -121,14 +130,18 @@ HANDED = [
 @pytest.mark.parametrize("name", HANDED)
 def test_right_answers_by_one_call_are_refused(name):
     exercise = exercises()[name.partition("__")[0]]
-    report = grade_file(read(f"{REFUSED.read_text(encoding='utf-8')}\n\n{exercise.name} = {name}\n"), exercise)
+    report = grade_file(
+        read(f"{REFUSED.read_text(encoding='utf-8')}\n\n{exercise.name} = {name}\n"), exercise
+    )
     assert report.points == 0, terminal(report)
     assert f"is forbidden for {exercise.name}" in report.said_once
 
 
 def test_every_exercise_that_forbids_something_says_so_in_its_starter():
     strict = [exercise for exercise in exercises().values() if exercise.contract.forbid]
-    assert {"laplacian", "shortest_distances", "mahalanobis", "align_rigid"} <= {exercise.name for exercise in strict}
+    assert {"laplacian", "shortest_distances", "mahalanobis", "align_rigid"} <= {
+        exercise.name for exercise in strict
+    }
     for exercise in exercises().values():
         text = " ".join(starter(exercise).split())
         said = f"It may not use {' or '.join(exercise.contract.forbid)}, which solves the task"

@@ -19,7 +19,7 @@ from workbench.exercise.model import Exercise, Verdict, against, band, check, co
 from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError, Wall
 from workbench.exercise.starter import starter
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 
 def test_the_reference_has_full_marks_and_each_mistake_is_named():
@@ -32,7 +32,9 @@ def test_the_reference_has_full_marks_and_each_mistake_is_named():
 
 def test_an_unknown_mistake_is_not_named():
     assert grade_function(lambda p: p[0], EXERCISE).mistake is None
-    assert grade_function(lambda p: p.mean(0) + 1e-4, EXERCISE).outcomes[0].verdict.word == "partial"
+    assert (
+        grade_function(lambda p: p.mean(0) + 1e-4, EXERCISE).outcomes[0].verdict.word == "partial"
+    )
 
 
 def test_a_check_that_stumbles_costs_itself_only():
@@ -48,7 +50,8 @@ def test_a_check_that_stumbles_costs_itself_only():
 
 
 @pytest.mark.parametrize(
-    ("value", "word"), [(0.05, "pass"), (0.1, "pass"), (0.5, "partial"), (2.1, "fail"), (np.nan, "fail")]
+    ("value", "word"),
+    [(0.05, "pass"), (0.1, "pass"), (0.5, "partial"), (2.1, "fail"), (np.nan, "fail")],
 )
 def test_bands_give_partial_credit(value, word):
     assert band("error", value, "degrees", good=0.1, fair=2.0, hint="Try.").word == word
@@ -107,7 +110,10 @@ def held_to_schemas(folder):
 
 
 def test_junit_that_jenkins_would_refuse_is_found():
-    text = '<testsuite name="a" tests="2" failures="0" errors="0"><testcase/><failure x="1"/>text</testsuite>'
+    text = (
+        '<testsuite name="a" tests="2" failures="0" errors="0"><testcase/><failure'
+        ' x="1"/>text</testsuite>'
+    )
     found = "; ".join(departures(ET.fromstring(text.replace("/>text", "/>"))))
     for said in ("testsuite holds", "testcase has []", "failure has ['x']", "tests of a is 2"):
         assert said in found
@@ -121,7 +127,11 @@ def test_files_for_machines_agree_with_the_report(tmp_path):
     assert [suite.get("failures") for suite in suites] == ["2"]
     assert "| ✗ |" in (tmp_path / "summary.md").read_text()
     told = {test["name"]: "divide by the number" in test["output"] for test in scope["tests"]}
-    assert [told[f"centroid: {outcome.check.promise}"] for outcome in report.outcomes] == [True, False, True]
+    assert [told[f"centroid: {outcome.check.promise}"] for outcome in report.outcomes] == [
+        True,
+        False,
+        True,
+    ]
 
 
 def test_what_cannot_be_graded_has_files_too(tmp_path, capsys):
@@ -140,15 +150,22 @@ def test_what_cannot_be_graded_has_files_too(tmp_path, capsys):
 
 def test_marks_without_a_wall_say_so_in_every_report(tmp_path, monkeypatch, capsys):
     (tmp_path / "in").mkdir()
-    (tmp_path / "in" / "ada.py").write_text("import numpy as np\ndef invert_rigid(T):\n    return np.linalg.inv(T)\n")
-    monkeypatch.setattr("workbench.exercise.classroom.best", lambda: Wall("none", "nothing is installed"))
+    (tmp_path / "in" / "ada.py").write_text(
+        "import numpy as np\ndef invert_rigid(T):\n    return np.linalg.inv(T)\n"
+    )
+    monkeypatch.setattr(
+        "workbench.exercise.classroom.best", lambda: Wall("none", "nothing is installed")
+    )
     assert main(["grade", str(tmp_path / "in")]) == 2
     assert "nothing is installed" in capsys.readouterr().err
     assert not (tmp_path / "in" / "graded").exists()
     assert main(["grade", str(tmp_path / "in"), "--sandbox", "none"]) in (0, 1)
     said = (tmp_path / "in" / "graded" / "summary.md").read_text()
     assert reports.UNSAFE in said
-    assert json.loads((tmp_path / "in" / "graded" / "students" / "ada.json").read_text())["sandbox"] == "none"
+    assert (
+        json.loads((tmp_path / "in" / "graded" / "students" / "ada.json").read_text())["sandbox"]
+        == "none"
+    )
     out = tmp_path / "one"
     main(["check", str(tmp_path / "in" / "ada.py"), "--sandbox", "none", "-o", str(out)])
     said = capsys.readouterr()
@@ -166,7 +183,11 @@ def test_the_starter_is_python_that_is_not_written_yet():
         scope["centroid"](np.ones((2, 3)))
     assert "numpy and scipy" in text
     assert "1 s and 2 GB" in text
-    for part in ("centroid(np.array([[0, 0, 0], [2, 4, 6]]))", "workbench check my_centroid.py", "metres"):
+    for part in (
+        "centroid(np.array([[0, 0, 0], [2, 4, 6]]))",
+        "workbench check my_centroid.py",
+        "metres",
+    ):
         assert part in text
 
 
@@ -175,7 +196,11 @@ def turning(angle: float) -> np.ndarray:
 
 
 TURN = Exercise(
-    name="turn", lesson="fake", task="Turn.", contract=contract(slot="turn")(turning), checks=EXERCISE.checks
+    name="turn",
+    lesson="fake",
+    task="Turn.",
+    contract=contract(slot="turn")(turning),
+    checks=EXERCISE.checks,
 )
 
 
@@ -199,7 +224,9 @@ def test_every_scene_beside_a_students_function_is_drawn_once(turned):
 
 
 def test_a_wrong_function_differs_from_a_step_on_with_the_reference_as_ghost():
-    timeline = Timeline(driven(fake.lesson, TURN, lambda angle: fake.turn_about_z(-angle)), fake.Params()).complete()
+    timeline = Timeline(
+        driven(fake.lesson, TURN, lambda angle: fake.turn_about_z(-angle)), fake.Params()
+    ).complete()
     assert first_difference(timeline.known()) == 1  # at step 0 both turn by nothing
     assert "ghost/source" in timeline[1].scene
     assert timeline[1].caption.tone == "wrong"
@@ -231,7 +258,9 @@ def test_a_lesson_that_cannot_use_what_came_back_says_so_and_ends(where):
         return fake.draw(replace(state, error=state.error / state.T_world_source[2, 2].item()))
 
     lesson = replace(fake.lesson, run=run, draw=draw if where == "draw" else fake.draw)
-    timeline = Timeline(driven(lesson, TURN, lambda angle: np.zeros((4, 4))), fake.Params()).complete()
+    timeline = Timeline(
+        driven(lesson, TURN, lambda angle: np.zeros((4, 4))), fake.Params()
+    ).complete()
     assert timeline.stopped is None
     assert "cannot go on with what turn returned" in timeline[-1].caption.text
     assert ("ZeroDivisionError" if where == "draw" else "index 9") in timeline[-1].caption.text

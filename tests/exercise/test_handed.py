@@ -1,4 +1,6 @@
-"""What a class hands in, and how a teacher finds it again: files of many kinds, names that clash, people who are absent."""
+"""What a class hands in, and how a teacher finds it again: files of many kinds, names that clash,
+people who are absent.
+"""
 
 import csv
 import io
@@ -20,7 +22,9 @@ RIGHT = "def centroid(p):\n    return p.mean(axis=0)\n"
 WRONG = "def centroid(p):\n    return p.sum(axis=0)\n"
 OTHER = replace(EXERCISE, name="middle")
 
-pytestmark = pytest.mark.skipif(not best().holds, reason=f"nothing shuts submissions in here: {best().why}")
+pytestmark = pytest.mark.skipif(
+    not best().holds, reason=f"nothing shuts submissions in here: {best().why}"
+)
 
 
 @pytest.fixture(autouse=True)
@@ -48,35 +52,60 @@ def points(result: dict) -> dict[str, float]:
 NOTEBOOK = {
     "cells": [
         {"cell_type": "markdown", "source": ["# mine"]},
-        {"cell_type": "code", "source": ["%matplotlib inline\n", "import numpy as np\n", "EPS = 1e-9"]},
+        {
+            "cell_type": "code",
+            "source": ["%matplotlib inline\n", "import numpy as np\n", "EPS = 1e-9"],
+        },
         {"cell_type": "code", "source": "def centroid(p):\n    return p.sum(axis=0)\n"},
         {"cell_type": "code", "source": "points = np.load('mine.npy')\nprint(points)"},
-        {"cell_type": "code", "source": "def centroid(p):\n    return np.asarray(p).mean(axis=0) + 0 * EPS\n"},
+        {
+            "cell_type": "code",
+            "source": "def centroid(p):\n    return np.asarray(p).mean(axis=0) + 0 * EPS\n",
+        },
     ]
 }
 RIGHTS = {
     "prints": "def centroid(p):\n    print('x' * 100_000, p)\n    return p.mean(axis=0)\n",
-    "prints for ever": "def centroid(p):\n    for i in range(3000): print(i, 'y' * 1000)\n    return p.mean(axis=0)\n",
+    "prints for ever": (
+        "def centroid(p):\n    for i in range(3000): print(i, 'y' * 1000)\n    return"
+        " p.mean(axis=0)\n"
+    ),
     "with a BOM": b"\xef\xbb\xbf" + RIGHT.encode(),
-    "in latin 1": "# -*- coding: latin-1 -*-\n# Schwerpunkt für\n".encode("latin-1") + RIGHT.encode(),
+    "in latin 1": (
+        "# -*- coding: latin-1 -*-\n# Schwerpunkt für\n".encode("latin-1") + RIGHT.encode()
+    ),
     "for Windows": RIGHT.replace("\n", "\r\n"),
     "a lambda": "centroid = lambda p: p.mean(axis=0)\n",
-    "inside if": "import sys\nif sys.version_info > (3,):\n    def centroid(p):\n        return p.mean(axis=0)\n",
-    "inside try": "try:\n    def centroid(p):\n        return p.mean(axis=0)\nexcept ImportError: pass\n",
+    "inside if": (
+        "import sys\nif sys.version_info > (3,):\n    def centroid(p):\n        return"
+        " p.mean(axis=0)\n"
+    ),
+    "inside try": (
+        "try:\n    def centroid(p):\n        return p.mean(axis=0)\nexcept ImportError: pass\n"
+    ),
     "a main part": RIGHT + "if __name__ == '__main__':\n    raise SystemExit\n",
     "writes its notes": (
-        "def centroid(p):\n    try: open('notes', 'w').write('x')\n    except OSError: pass\n    return p.mean(0)\n"
+        "def centroid(p):\n    try: open('notes', 'w').write('x')\n    except OSError: pass\n   "
+        " return p.mean(0)\n"
     ),
     "a partial": "import functools, numpy as np\ncentroid = functools.partial(np.mean, axis=0)\n",
-    "a class of arrays": "import numpy as np\ndef centroid(p):\n    return np.matrix(p).mean(axis=0).A1\n",
+    "a class of arrays": (
+        "import numpy as np\ndef centroid(p):\n    return np.matrix(p).mean(axis=0).A1\n"
+    ),
 }
 
 
 def test_right_ones_in_other_clothes_get_full_marks(tmp_path):
     files: dict[str, str | bytes] = {f"{name}.py": text for name, text in RIGHTS.items()}
     files |= {"notebook.ipynb": json.dumps(NOTEBOOK), "CAPITALS.PY": RIGHT}
-    files |= {"in a folder/my_centroid.py": "from helper import mean\ndef centroid(p):\n    return mean(p)\n"}
-    files |= {"in a folder/helper.py": "import other\ndef mean(p):\n    return other.total(p) / len(p)\n"}
+    files |= {
+        "in a folder/my_centroid.py": (
+            "from helper import mean\ndef centroid(p):\n    return mean(p)\n"
+        )
+    }
+    files |= {
+        "in a folder/helper.py": "import other\ndef mean(p):\n    return other.total(p) / len(p)\n"
+    }
     files |= {"in a folder/other.py": "def total(p):\n    return p.sum(axis=0)\n"}
     results = graded(tmp_path, files)
     lost = {name: result for name, result in results.items() if points(result) != {"centroid": 4.0}}
@@ -94,7 +123,9 @@ def test_a_helper_with_the_name_of_another_exercise_is_not_graded(tmp_path):
         "bob/bob.py": '"""Exercise centroid, lesson fake.\n"""\n' + helper,
     }
     files |= {"eve/12_assignsubmission_my_centroid (1).py": helper}
-    assert [points(result) for result in graded(tmp_path, files).values()] == [{"centroid": 4.0}] * 3
+    assert [points(result) for result in graded(tmp_path, files).values()] == [
+        {"centroid": 4.0}
+    ] * 3
 
 
 def test_a_student_has_one_row_and_it_counts_out_of_all_that_was_handed_in(tmp_path):
@@ -110,18 +141,34 @@ def test_a_student_has_one_row_and_it_counts_out_of_all_that_was_handed_in(tmp_p
     results = graded(tmp_path, files)
     found = {row["student"]: row for row in rows(tmp_path)}
     assert found["ada"] | {"trouble": ""} == {
-        "student": "ada", "points": "5", "possible": "8", "centroid": "4", "middle": "1", "handed in": "", "trouble": ""
-    }  # fmt: skip
+        "student": "ada",
+        "points": "5",
+        "possible": "8",
+        "centroid": "4",
+        "middle": "1",
+        "handed in": "",
+        "trouble": "",
+    }
     assert found["eve"]["handed in"] == "fake 1 of 2"
     assert "- fake 1 of 2: 1 student\n" in (tmp_path / "out" / "summary.md").read_text()
-    assert (found["bob"]["points"], found["bob"]["possible"], found["bob"]["middle"]) == ("4", "8", "0")
+    assert (found["bob"]["points"], found["bob"]["possible"], found["bob"]["middle"]) == (
+        "4",
+        "8",
+        "0",
+    )
     assert "my_middle.py, line 1" in found["bob"]["trouble"]
-    assert (found["eve"]["points"], found["eve"]["possible"], found["eve"]["middle"]) == ("0", "4", "")
+    assert (found["eve"]["points"], found["eve"]["possible"], found["eve"]["middle"]) == (
+        "0",
+        "4",
+        "",
+    )
     assert "'" not in found["eve"]["middle"]
     checks = {row["student"]: row for row in rows(tmp_path, "matrix.csv")}
     asked = [name for name in checks["eve"] if name.startswith("middle.")]
     assert asked
-    assert {checks["eve"][name] for name in asked} == {""}  # a check that nobody asked of her, and no 0
+    assert {checks["eve"][name] for name in asked} == {
+        ""
+    }  # a check that nobody asked of her, and no 0
     assert "" not in {checks["ada"][name] for name in asked}
     jsonschema = pytest.importorskip("jsonschema")
     for place in (tmp_path / "out" / "students").iterdir():
@@ -143,11 +190,18 @@ def test_words_of_a_files_name_say_what_it_is_for(tmp_path):
     results = graded(tmp_path, files)
     found = {name: points(result) for name, result in results.items()}
     assert found == {
-        "ada": {"centroid": 4.0}, "bob": {"middle": 1.0}, "eve": {"centroid": 4.0}, "kim": {}, "lea": {},
-        "max": {"centroid": 4.0, "middle": 1.0}, "sue": {"centroid": 4.0, "middle": 1.0},
-    }  # fmt: skip
+        "ada": {"centroid": 4.0},
+        "bob": {"middle": 1.0},
+        "eve": {"centroid": 4.0},
+        "kim": {},
+        "lea": {},
+        "max": {"centroid": 4.0, "middle": 1.0},
+        "sue": {"centroid": 4.0, "middle": 1.0},
+    }
     assert results["kim"]["error"] == "my_middle.py: is for middle and defines no such function"
-    assert results["lea"]["error"].endswith("defines no such function; it defines Centroid, which is another name")
+    assert results["lea"]["error"].endswith(
+        "defines no such function; it defines Centroid, which is another name"
+    )
 
 
 def test_what_fits_nothing_is_a_line(tmp_path):
@@ -194,7 +248,12 @@ def test_hanging_crashing_and_wrong_are_told_apart(tmp_path):
     }
     graded(tmp_path, files)
     first = {row["student"]: row["centroid.is_the_mean"] for row in rows(tmp_path, "matrix.csv")}
-    assert [first[name] for name in ("crash", "hang", "raise", "wrong")] == ["crashes", "hangs", "raises", "0"]
+    assert [first[name] for name in ("crash", "hang", "raise", "wrong")] == [
+        "crashes",
+        "hangs",
+        "raises",
+        "0",
+    ]
     assert (first["graded"], first["full marks"], first["mean share"]) == ("4", "0", "0")
     texts = "".join(path.read_text() for path in (tmp_path / "out").rglob("*.*") if path.is_file())
     assert "\x1b" not in texts
@@ -246,7 +305,11 @@ def test_names_never_share_a_file(tmp_path):
 
 
 def test_two_things_of_one_name_are_named_and_not_guessed_at(tmp_path):
-    files: dict[str, str | bytes] = {"ada.py": RIGHT, "ada/my_centroid.py": WRONG, "bob/my_centroid.py": RIGHT}
+    files: dict[str, str | bytes] = {
+        "ada.py": RIGHT,
+        "ada/my_centroid.py": WRONG,
+        "bob/my_centroid.py": RIGHT,
+    }
     files |= {"bob/old/my_centroid.py": WRONG}
     results = graded(tmp_path, files)
     assert "two things here are named ada" in results["ada"]["error"]
@@ -254,7 +317,8 @@ def test_two_things_of_one_name_are_named_and_not_guessed_at(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text", ["name;group\nAda;1\nNobody;2\n", "Ada\nNobody\n", "\ufeffgroup\tStudent\n1\tAda\n2\tNobody\n"]
+    "text",
+    ["name;group\nAda;1\nNobody;2\n", "Ada\nNobody\n", "\ufeffgroup\tStudent\n1\tAda\n2\tNobody\n"],
 )
 def test_who_handed_in_nothing_has_a_row(tmp_path, text):
     (tmp_path / "roster.csv").write_text(text)
@@ -265,7 +329,11 @@ def test_who_handed_in_nothing_has_a_row(tmp_path, text):
     assert told == [
         ("ada", "4", ""),
         ("Nobody", "0", "handed in nothing"),
-        ("empty", "0", f"the folder holds no .py file and no notebook; {unread}; not in the roster"),
+        (
+            "empty",
+            "0",
+            f"the folder holds no .py file and no notebook; {unread}; not in the roster",
+        ),
         ("mallory", "4", "not in the roster"),
     ]
 

@@ -1,4 +1,6 @@
-"""Whatever ends the grader, nothing of a submission goes on: no process, no folder, and the results so far are kept."""
+"""Whatever ends the grader, nothing of a submission goes on: no process, no folder, and the results
+so far are kept.
+"""
 
 import json
 import os
@@ -17,7 +19,8 @@ HANGS = "import time\ndef invert_rigid(T):\n    while True: time.sleep(0.01)\n"
 RIGHT = "import numpy as np\ndef invert_rigid(T):\n    return np.linalg.inv(T)\n"
 
 pytestmark = pytest.mark.skipif(
-    sys.platform != "linux" or not best().holds, reason=f"nothing shuts submissions in here: {best().why}"
+    sys.platform != "linux" or not best().holds,
+    reason=f"nothing shuts submissions in here: {best().why}",
 )
 
 
@@ -57,7 +60,17 @@ def grading(tmp_path):
         (tmp_path / "in" / f"{name}.py").write_text(HANGS)
     (tmp_path / "tmp").mkdir()
     process = subprocess.Popen(
-        [sys.executable, "-m", "workbench", "grade", str(tmp_path / "in"), "--only", "invert_rigid", "--jobs", "2"],
+        [
+            sys.executable,
+            "-m",
+            "workbench",
+            "grade",
+            str(tmp_path / "in"),
+            "--only",
+            "invert_rigid",
+            "--jobs",
+            "2",
+        ],
         stderr=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env=os.environ | {"TMPDIR": str(tmp_path / "tmp")},
@@ -81,7 +94,12 @@ def test_interrupted_it_ends_with_a_word_and_goes_on_later(grading, how):
     assert b"Traceback" not in said
     until(lambda: not there(pids))
     assert list((folder / "tmp").iterdir()) == []
-    assert json.loads((folder / "in" / "graded" / "students" / "a.json").read_text())["reports"][0]["points"] > 0
+    assert (
+        json.loads((folder / "in" / "graded" / "students" / "a.json").read_text())["reports"][0][
+            "points"
+        ]
+        > 0
+    )
     assert not (folder / "in" / "graded" / "class.csv").exists()
 
 
@@ -95,7 +113,9 @@ def test_killed_it_leaves_no_process_and_no_folder(grading):
 
 def test_a_worker_that_is_killed_takes_its_submission_along_and_costs_no_other(grading):
     process, _, _ = grading
-    worker = min(pid for pid in family(process.pid) - {process.pid} if b"/main.py" not in _command(pid))
+    worker = min(
+        pid for pid in family(process.pid) - {process.pid} if b"/main.py" not in _command(pid)
+    )
     its = family(worker) - {worker}
     os.kill(worker, signal.SIGKILL)
     until(lambda: not there(its))
@@ -105,13 +125,26 @@ def test_a_worker_that_is_killed_takes_its_submission_along_and_costs_no_other(g
 
 @pytest.mark.parametrize(
     ("how", "sandbox"),
-    [(signal.SIGINT, "auto"), (signal.SIGTERM, "auto"), (signal.SIGKILL, "auto"), (signal.SIGKILL, "none")],
+    [
+        (signal.SIGINT, "auto"),
+        (signal.SIGTERM, "auto"),
+        (signal.SIGKILL, "auto"),
+        (signal.SIGKILL, "none"),
+    ],
 )
 def test_a_check_that_is_ended_leaves_nothing(tmp_path, how, sandbox):
     (tmp_path / "my_invert_rigid.py").write_text(HANGS)
     (tmp_path / "tmp").mkdir()
     process = subprocess.Popen(
-        [sys.executable, "-m", "workbench", "check", str(tmp_path / "my_invert_rigid.py"), "--sandbox", sandbox],
+        [
+            sys.executable,
+            "-m",
+            "workbench",
+            "check",
+            str(tmp_path / "my_invert_rigid.py"),
+            "--sandbox",
+            sandbox,
+        ],
         stdout=subprocess.DEVNULL,
         env=os.environ | {"TMPDIR": str(tmp_path / "tmp")},
         start_new_session=True,

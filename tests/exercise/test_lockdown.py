@@ -1,4 +1,6 @@
-"""What a student's process takes from itself, layer by layer: the filter of system calls line for line, Landlock alone."""
+"""What a student's process takes from itself, layer by layer: the filter of system calls line for
+line, Landlock alone.
+"""
 
 import importlib
 import json
@@ -28,15 +30,18 @@ def syscalls() -> Iterator[ModuleType]:
         sys.modules.pop("syscalls")
 
 
-# the filter, run as the kernel runs it -----------------------------------------------------------------------------
+# the filter, run as the kernel runs it ------------------------------------------------------------
 
 
 def answered(program: bytes, architecture: int, number: int, words: tuple[int, ...] = ()) -> int:
     """Return what a filter says of a call.
 
-    Source: Linux, Documentation/userspace-api/seccomp_filter.rst; struct seccomp_data, include/uapi/linux/seccomp.h.
+    Source: Linux, Documentation/userspace-api/seccomp_filter.rst; struct seccomp_data,
+    include/uapi/linux/seccomp.h.
     """
-    asked = struct.pack("<IIQ12I", number & 0xFFFFFFFF, architecture, 0, *words, *[0] * (12 - len(words)))
+    asked = struct.pack(
+        "<IIQ12I", number & 0xFFFFFFFF, architecture, 0, *words, *[0] * (12 - len(words))
+    )
     lines = list(struct.iter_unpack("=HBBI", program))
     at = held = 0
     while True:
@@ -63,30 +68,60 @@ def test_what_is_on_the_list_is_allowed_and_nothing_else(syscalls, machine, writ
     free = syscalls.MAY | (syscalls.OPEN | syscalls.CHANGE if writes else {})
     numbers = {n[column] for n in free.values()}
     assert len(numbers - {None}) == len([n for n in free.values() if n[column] is not None])
-    bound = {n[column] for n, _ in syscalls.MAY_IF.values()} | {n[column] for n in syscalls.OPEN.values()}
+    bound = {n[column] for n, _ in syscalls.MAY_IF.values()} | {
+        n[column] for n in syscalls.OPEN.values()
+    }
     hostile = (0xDEADBEEF,) * 12
     for number in [*range(1000), 0x40000000, 0x40000001, 0xFFFFFFFF]:
         assert (answered(program, architecture, number, hostile) == ALLOWED) == (number in numbers)
         assert answered(program, 0x40000003, number) != ALLOWED  # the machine's older half, 32 bits
         if number not in numbers | bound:
-            assert answered(program, architecture, number) == (0x50000 | (38 if number >= 424 else 1))
+            assert answered(program, architecture, number) == (
+                0x50000 | (38 if number >= 424 else 1)
+            )
 
 
 CASES = [  # a call, its arguments, whether it is allowed
-    ("fcntl", (3, 0), True), ("fcntl", (3, 1030), True), ("fcntl", (3, 4, 0x800), True), ("fcntl", (3, 4, 0x2800), False),
+    ("fcntl", (3, 0), True),
+    ("fcntl", (3, 1030), True),
+    ("fcntl", (3, 4, 0x800), True),
+    ("fcntl", (3, 4, 0x2800), False),
     *(("fcntl", (3, command), False) for command in (5, 6, 7, 8, 9, 10, 11, 15, 16, 36, 37, 38)),
     *(("fcntl", (3, command), False) for command in (1024, 1025, 1026, 1031, 1033, 1036, 1039)),
-    ("fcntl", (3, 1024 + 2**40), False), ("fcntl", (3, 3 + 2**40), True),  # the kernel looks at 32 bits too
-    ("ioctl", (0, 0x5401), True), ("ioctl", (0, 0x8901), False), ("ioctl", (0, 0x8902), False),
-    ("ioctl", (0, 0x5452), False), ("ioctl", (0, 0x5412), False), ("ioctl", (0, 0x40086602), False),
-    ("clone", (0x3D0F00,), True), ("clone", (0x7D0F00,), True), ("clone", (17,), False), ("clone", (0x1200011,), False),
-    ("clone", (0x3D0F00 | 0x10000000,), False), ("clone", (0x3D0F11,), False), ("clone", (0x3D0F00 & ~0x10000,), False),
-    ("futex", (8, 128), True), ("futex", (8, 129 | 256), True), ("futex", (8, 6), False), ("futex", (8, 6 | 128), False),
-    ("futex", (8, 13), False), ("futex", (8, 11), False), ("madvise", (0, 9, 4), True), ("madvise", (0, 9, 21), False),
-    ("madvise", (0, 9, 12), False), ("mbind", (0, 9, 1, 0, 0, 0), True), ("mbind", (0, 9, 1, 0, 0, 4), False),
-    ("membarrier", (8,), True), ("membarrier", (1,), False), ("prlimit64", (0, 7, 0, 4096), True),
-    ("prlimit64", (0, 7, 4096, 0), False), ("prlimit64", (0, 7, 2**32, 0), False), ("prlimit64", (9, 7, 0, 4096), False),
-]  # fmt: skip
+    # the kernel looks at 32 bits too
+    ("fcntl", (3, 1024 + 2**40), False),
+    ("fcntl", (3, 3 + 2**40), True),
+    ("ioctl", (0, 0x5401), True),
+    ("ioctl", (0, 0x8901), False),
+    ("ioctl", (0, 0x8902), False),
+    ("ioctl", (0, 0x5452), False),
+    ("ioctl", (0, 0x5412), False),
+    ("ioctl", (0, 0x40086602), False),
+    ("clone", (0x3D0F00,), True),
+    ("clone", (0x7D0F00,), True),
+    ("clone", (17,), False),
+    ("clone", (0x1200011,), False),
+    ("clone", (0x3D0F00 | 0x10000000,), False),
+    ("clone", (0x3D0F11,), False),
+    ("clone", (0x3D0F00 & ~0x10000,), False),
+    ("futex", (8, 128), True),
+    ("futex", (8, 129 | 256), True),
+    ("futex", (8, 6), False),
+    ("futex", (8, 6 | 128), False),
+    ("futex", (8, 13), False),
+    ("futex", (8, 11), False),
+    ("madvise", (0, 9, 4), True),
+    ("madvise", (0, 9, 21), False),
+    ("madvise", (0, 9, 12), False),
+    ("mbind", (0, 9, 1, 0, 0, 0), True),
+    ("mbind", (0, 9, 1, 0, 0, 4), False),
+    ("membarrier", (8,), True),
+    ("membarrier", (1,), False),
+    ("prlimit64", (0, 7, 0, 4096), True),
+    ("prlimit64", (0, 7, 4096, 0), False),
+    ("prlimit64", (0, 7, 2**32, 0), False),
+    ("prlimit64", (9, 7, 0, 4096), False),
+]
 
 
 @pytest.mark.parametrize("machine", MACHINES)
@@ -105,7 +140,16 @@ def test_where_it_has_no_folder_it_opens_to_read_alone(syscalls, machine):
     number = syscalls.OPEN["openat"][column]
     for writes in (True, False):
         program = syscalls.program(machine, writes=writes)
-        for flags, changing in ((0, 0), (0x80000, 0), (1, 1), (2, 1), (3, 1), (0x40, 1), (0x200, 1), (0x410002, 1)):
+        for flags, changing in (
+            (0, 0),
+            (0x80000, 0),
+            (1, 1),
+            (2, 1),
+            (3, 1),
+            (0x40, 1),
+            (0x200, 1),
+            (0x410002, 1),
+        ):
             got = answered(program, architecture, number, (0, 0, 0, 0, flags, 0))
             assert (got == ALLOWED) == (writes or not changing)
 
@@ -124,32 +168,47 @@ def test_the_numbers_are_the_kernel_s(syscalls, machine):
     known = dict(re.findall(r"#define __NR(?:3264)?_(\w+)\s+(\d+)", there[0].read_text()))
     known.setdefault("newfstatat", known.get("fstatat"))
     column = syscalls.MACHINES[machine][0]
-    ours = syscalls.MAY | syscalls.OPEN | syscalls.CHANGE | {name: n for name, (n, _) in syscalls.MAY_IF.items()}
+    ours = (
+        syscalls.MAY
+        | syscalls.OPEN
+        | syscalls.CHANGE
+        | {name: n for name, (n, _) in syscalls.MAY_IF.items()}
+    )
     for name, numbers in ours.items():
         assert known.get(name) == (None if numbers[column] is None else str(numbers[column])), name
 
 
-# in a process of its own -------------------------------------------------------------------------------------------
+# in a process of its own --------------------------------------------------------------------------
 
 
 @pytest.fixture
 def shut(tmp_path):
-    """Return what runs lines in a process that may shut itself in, and gives back what they print."""
+    """Return what runs lines in a process that may shut itself in, and gives back what they
+    print.
+    """
     try:
         named("landlock")
     except InputError as error:
         pytest.skip(f"not on this machine: {error}")
     settings = {
-        "megabytes": 2048, "cpu": 60, "user": None, "closed": [], "grader": None, "filter": True, "writes": False,
+        "megabytes": 2048,
+        "cpu": 60,
+        "user": None,
+        "closed": [],
+        "grader": None,
+        "filter": True,
+        "writes": False,
         "landlock": list(python.here().listed()),
-    }  # fmt: skip
+    }
     head = "import ctypes, json, os, sys; sys.path.insert(0, sys.argv[1]); import lockdown\n"
     head += "settings = json.loads(sys.argv[2])\n"
 
     def run(lines: str, *words: str) -> list[str]:
         command = [python.here().executable, "-I", "-S", "-B", "-c", head + textwrap.dedent(lines)]
         command += [str(python.CHILD_FILES), json.dumps(settings), *words]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, cwd="/")
+        done = subprocess.run(
+            command, capture_output=True, text=True, timeout=60, check=False, cwd="/"
+        )
         assert done.returncode == 0, done.stderr
         return done.stdout.split()
 

@@ -1,4 +1,6 @@
-"""No hand-in stalls the grader: each is read, parsed and matched by a process that may take so much time and memory."""
+"""No hand-in stalls the grader: each is read, parsed and matched by a process that may take so much
+time and memory.
+"""
 
 import json
 import resource
@@ -33,7 +35,9 @@ STALLING = {
 
 
 def spent() -> float:
-    """Return the processor time of this process and of those that it started and that ended, seconds."""
+    """Return the processor time of this process and of those that it started and that ended,
+    seconds.
+    """
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return sum(one.ru_utime + one.ru_stime for one in used)
 
@@ -63,13 +67,18 @@ def test_one_that_hangs_costs_the_others_nothing_and_many_cost_no_more_than_thre
     assert [part.file for part in found.graded] == ["my_match.py"]
     said = [item["error"] for item in found.troubles]
     assert said[0] == "a.py: takes too long or too much memory to read as Python"
-    assert sum("not read, since 3 other files" in line for line in said) == len(files) - 1 - MOST_LOST
+    assert (
+        sum("not read, since 3 other files" in line for line in said) == len(files) - 1 - MOST_LOST
+    )
 
 
 @pytest.mark.parametrize("head", ['"""', "# ", "\ufeff'''", "\n\n\n'''\n", "  # % "])
 def test_a_mark_is_found_behind_what_an_editor_puts_before_it(tmp_path, head):
     path = tmp_path / "a.py"
-    path.write_text(f"{head}Exercise match, lesson icp.\n{head.strip()[-3:] if '#' not in head else ''}\n{RIGHT}")
+    path.write_text(
+        f"{head}Exercise match, lesson"
+        f" icp.\n{head.strip()[-3:] if '#' not in head else ''}\n{RIGHT}"
+    )
     assert [exercise.name for exercise in said_for(read_submission(path))] == ["match"]
 
 

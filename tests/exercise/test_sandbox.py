@@ -1,4 +1,6 @@
-"""Attacks on the grader: each is tried, costs its own call only, and the next honest call still works."""
+"""Attacks on the grader: each is tried, costs its own call only, and the next honest call still
+works.
+"""
 
 import subprocess
 import sys
@@ -22,7 +24,10 @@ POINTS = np.arange(12.0).reshape(4, 3)
 
 def written(folder, body: str, head: str = "") -> SandboxedFunction:
     path = folder / "my_centroid.py"
-    code = f"import numpy as np\n{head}\ndef centroid(p):\n{textwrap.indent(textwrap.dedent(body), '    ')}\n"
+    code = (
+        f"import numpy as np\n{head}\ndef"
+        f" centroid(p):\n{textwrap.indent(textwrap.dedent(body), '    ')}\n"
+    )
     path.write_text(code, encoding="utf-8")
     return SandboxedFunction(path, "centroid", seconds=1.0)
 
@@ -49,7 +54,9 @@ def test_an_honest_function_gives_plain_values(student):
 def test_numbers_are_rounded_as_by_the_grader(student, monkeypatch):
     monkeypatch.setenv("OPENBLAS_CORETYPE", "Nehalem")
     monkeypatch.setenv("OPENBLAS_SECRET", "not for students")
-    function = student("import os; return ' '.join(sorted(k for k in os.environ if k.startswith('OPENBLAS')))")
+    function = student(
+        "import os; return ' '.join(sorted(k for k in os.environ if k.startswith('OPENBLAS')))"
+    )
     assert function(POINTS) == "OPENBLAS_CORETYPE OPENBLAS_NUM_THREADS"
 
 
@@ -58,7 +65,11 @@ ATTACKS = {
     "sleeping": ("import time; time.sleep(60)", "timeout", "took more than"),
     "os._exit": ("import os; os._exit(0)", "died", "ended"),
     "sys.exit": ("import sys; sys.exit(0)", "raised", "SystemExit"),
-    "our solution": ("from workbench.geometry.alignment import align_rigid", "raised", "write the function yourself"),
+    "our solution": (
+        "from workbench.geometry.motions.alignment import align_rigid",
+        "raised",
+        "write the function yourself",
+    ),
     "the lessons": ("import lessons.icp.lesson", "raised", "write the function yourself"),
     "nothing": ("pass", None, None),
     "an object": ("return object()", "result", "cannot cross"),
@@ -104,14 +115,17 @@ def test_what_is_printed_can_be_read(student):
 
 
 def test_patching_numpy_in_the_child_changes_nothing_here(student):
-    function = student("np.allclose = lambda *a, **k: True\nnp.linalg.norm = lambda *a, **k: 0.0\nreturn p[0] + 99")
+    function = student(
+        "np.allclose = lambda *a, **k: True\nnp.linalg.norm = lambda *a, **k: 0.0\nreturn p[0] + 99"
+    )
     np.testing.assert_allclose(function(POINTS), POINTS[0] + 99)
     assert np.linalg.norm(np.ones(4)) == 2.0
 
 
 def test_writing_to_the_pipe_is_noticed_or_is_an_answer_like_any_other(student):
     forged = student(
-        "import os, sys\nfor fd in range(3, 64):\n    try: os.write(fd, b'x' * 64)\n    except OSError: pass\nreturn p[0]"
+        "import os, sys\nfor fd in range(3, 64):\n    try: os.write(fd, b'x' * 64)\n    except"
+        " OSError: pass\nreturn p[0]"
     )
     with pytest.raises(StudentError):
         forged(POINTS)
@@ -119,7 +133,9 @@ def test_writing_to_the_pipe_is_noticed_or_is_an_answer_like_any_other(student):
 
 def test_the_child_knows_no_expected_answer_and_not_our_environment(student, monkeypatch):
     monkeypatch.setenv("SECRET_OF_THE_GRADER", "42")
-    function = student("import os\nreturn [len(os.listdir('.')), 'SECRET_OF_THE_GRADER' in os.environ]")
+    function = student(
+        "import os\nreturn [len(os.listdir('.')), 'SECRET_OF_THE_GRADER' in os.environ]"
+    )
     assert function(POINTS) == [0, False]
 
 
@@ -186,9 +202,11 @@ def test_a_run_that_goes_on_does_not_start_what_was_closed(student):
 
 
 CHEATS = {
-    "sly arrays": "class Sly(np.ndarray):\n    def __abs__(s): return np.zeros(3)\n"
-    "    def __sub__(s, o): return np.zeros(3)\n    def __eq__(s, o): return np.ones(3, bool)\n"
-    "    def __array_function__(s, *a): return 0.0\nreturn np.ones(3).view(Sly)",
+    "sly arrays": (
+        "class Sly(np.ndarray):\n    def __abs__(s): return np.zeros(3)\n"
+        "    def __sub__(s, o): return np.zeros(3)\n    def __eq__(s, o): return np.ones(3, bool)\n"
+        "    def __array_function__(s, *a): return 0.0\nreturn np.ones(3).view(Sly)"
+    ),
     "NaN": "return np.full(3, np.nan)",
     "infinity": "return np.full(3, np.inf)",
     "wrong shape": "return p",
@@ -208,7 +226,10 @@ def test_a_cheat_earns_nothing(tmp_path, name):
 
 @pytest.mark.parametrize(
     ("body", "kind", "said"),
-    [("while True: pass", "timeout", "took too long"), ("import os; os._exit(1)", "died", "ended its process")],
+    [
+        ("while True: pass", "timeout", "took too long"),
+        ("import os; os._exit(1)", "died", "ended its process"),
+    ],
 )
 def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, said):
     given = written(tmp_path, body).submission
@@ -220,8 +241,12 @@ def test_an_endless_loop_costs_its_limit_three_times(tmp_path, body, kind, said)
                 student(POINTS)
             errors.append(caught.value)
     assert {error.kind for error in errors} == {kind}
-    assert [f"not called: 3 calls already {said}" in str(error) for error in errors] == [False] * 3 + [True] * 17
-    assert time.monotonic() - began < 75  # 15 s of waiting, and starting three times; 100 s without a bound
+    assert [f"not called: 3 calls already {said}" in str(error) for error in errors] == [
+        False
+    ] * 3 + [True] * 17
+    assert (
+        time.monotonic() - began < 75
+    )  # 15 s of waiting, and starting three times; 100 s without a bound
 
 
 def test_one_late_call_takes_no_time_from_the_next(tmp_path):
@@ -230,14 +255,18 @@ def test_one_late_call_takes_no_time_from_the_next(tmp_path):
     given = written(tmp_path, body).submission
     with SandboxedFunction(given, "centroid", seconds=1.5, budget=CallBudget(1.5)) as student:
         for _ in range(2):
-            with pytest.raises(StudentError, match=r"took more than 1\.5 s, the limit, .* too slow"):
+            with pytest.raises(
+                StudentError, match=r"took more than 1\.5 s, the limit, .* too slow"
+            ):
                 student(1000 * POINTS)
             np.testing.assert_allclose(student(POINTS), [4.5, 5.5, 6.5])
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="Linux counts it")
 def test_threads_of_one_s_own_do_not_stretch_the_time():
-    """Threads that crowd one processor wait for each other; what the others ran is the function's own time."""
+    """Threads that crowd one processor wait for each other; what the others ran is the function's
+    own time.
+    """
     busy = """
 import os, threading, time
 import numpy as np
@@ -268,11 +297,14 @@ time.sleep(60)
 @pytest.mark.parametrize(
     ("answer", "expected"),
     [
-        ("np.array([3, 4])", (3.0, 4.0)), ("np.array([3.0, 0.5])", (3, 0.5)),
-        ("np.stack([p[0], p[1]])", (POINTS[0], POINTS[1])), ("np.longdouble(2.5)", 2.5),
-        ("p.astype(np.longdouble)", POINTS), ("(np.float32(3), 4)", (3.0, 4.0)),
+        ("np.array([3, 4])", (3.0, 4.0)),
+        ("np.array([3.0, 0.5])", (3, 0.5)),
+        ("np.stack([p[0], p[1]])", (POINTS[0], POINTS[1])),
+        ("np.longdouble(2.5)", 2.5),
+        ("p.astype(np.longdouble)", POINTS),
+        ("(np.float32(3), 4)", (3.0, 4.0)),
     ],
-)  # fmt: skip
+)
 def test_an_answer_in_other_clothes_is_an_answer(tmp_path, answer, expected):
     with written(tmp_path, f"return {answer}") as student:
         got = held_to_contract(student(POINTS), expected, "centroid")

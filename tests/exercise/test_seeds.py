@@ -1,4 +1,6 @@
-"""A teacher's own seed: other hidden inputs, the same marks for the same work, nothing for a table of answers."""
+"""A teacher's own seed: other hidden inputs, the same marks for the same work, nothing for a table
+of answers.
+"""
 
 import json
 from dataclasses import replace
@@ -67,9 +69,13 @@ def test_a_table_of_answers_is_worth_little_from_another_seed(exercise):
 
     assert grade_function(learning, exercise).is_full
     assert grade_function(learnt, exercise).is_full
-    hidden = [one for one in grade_function(learnt, exercise, seed=SEED).outcomes if not one.check.public]
+    hidden = [
+        one for one in grade_function(learnt, exercise, seed=SEED).outcomes if not one.check.public
+    ]
     asked, earned = sum(one.check.points for one in hidden), sum(one.points for one in hidden)
-    assert earned <= 0.6 * asked  # what is at the ends, such as no point at all, is the same for everybody
+    assert (
+        earned <= 0.6 * asked
+    )  # what is at the ends, such as no point at all, is the same for everybody
     drawn = [one for one in hidden if one.verdict.share == 0]
     assert drawn
 
@@ -88,7 +94,10 @@ def test_the_same_seed_gives_equal_bytes_and_every_report_names_it(tmp_path, mon
     assert {report["seed"] for result in results for report in result["reports"]} == {SEED}
     assert f"seed {SEED}." in (tmp_path / "one" / "summary.md").read_text()
     for path in sorted((tmp_path / "one").rglob("*.*")):
-        assert path.read_bytes() == (tmp_path / "two" / path.relative_to(tmp_path / "one")).read_bytes()
+        assert (
+            path.read_bytes()
+            == (tmp_path / "two" / path.relative_to(tmp_path / "one")).read_bytes()
+        )
 
 
 def test_marks_of_another_seed_are_not_kept(tmp_path, monkeypatch):
@@ -97,7 +106,10 @@ def test_marks_of_another_seed_are_not_kept(tmp_path, monkeypatch):
     graded = []
     for seed in (None, 1, 2):
         classroom.grade_class(
-            tmp_path / "in", tmp_path / "out", asked=Asked(seed=seed), progress=lambda name, *_: graded.append(name)
+            tmp_path / "in",
+            tmp_path / "out",
+            asked=Asked(seed=seed),
+            progress=lambda name, *_: graded.append(name),
         )
     assert len(graded) == 3 * 3
     assert json.loads(next((tmp_path / "out" / "students").iterdir()).read_text())["seed"] == 2

@@ -1,4 +1,6 @@
-"""What students hand in gets what it deserves: right solutions in any style full marks, wrong ones less and a true word."""
+"""What students hand in gets what it deserves: right solutions in any style full marks, wrong ones
+less and a true word.
+"""
 
 import re
 
@@ -40,5 +42,7 @@ def test_every_exercise_has_its_file():
 
 def test_no_solution_is_handed_in_twice():
     for path in FOLDER.glob("*.py"):
-        bodies = re.split(r"^def \w+\(.*\):\n", path.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
+        bodies = re.split(
+            r"^def \w+\(.*\):\n", path.read_text(encoding="utf-8"), flags=re.MULTILINE
+        )[1:]
         assert len(bodies) == len(set(bodies)), path.name

@@ -15,23 +15,32 @@ SIGNS = "\x1b[2J\x1b]0;mine\x07\x9b31m\x08\x00\u202e"
 IN_CODE = repr(SIGNS)[1:-1]
 FILES = {
     "raises": f"def centroid(p):\n    raise ValueError('{IN_CODE}seen')\n",
-    "prints": f"print('{IN_CODE}seen')\ndef centroid(p):\n    print('{IN_CODE}seen\\rover')\n    return p.sum(axis=0)\n",
+    "prints": (
+        f"print('{IN_CODE}seen')\ndef centroid(p):\n    print('{IN_CODE}seen\\rover')\n    return"
+        " p.sum(axis=0)\n"
+    ),
     "returns": f"def centroid(p):\n    return '{IN_CODE}seen'\n",
     "is of a class": f"def centroid(p):\n    return type('{IN_CODE[-6:]}seen', (), {{}})()\n",
-    "raises its own": f"def centroid(p):\n    raise type('{IN_CODE[:4]}seen', (Exception,), {{}})('{IN_CODE}')\n",
+    "raises its own": (
+        f"def centroid(p):\n    raise type('{IN_CODE[:4]}seen', (Exception,), {{}})('{IN_CODE}')\n"
+    ),
     "while it is read": f"raise KeyError('{IN_CODE}seen')\ndef centroid(p):\n    return p\n",
     "no Python": f"def centroid(p:\n'{SIGNS[:-2]}seen'\n",
     "in a comment": f"def centroid(p):\n    return 0\n# {SIGNS}seen",
-}  # fmt: skip
+}
 QUOTED = ("raises", "raises its own", "prints", "while it is read")
 """Those of which what they say is told."""
 
-pytestmark = pytest.mark.skipif(not best().holds, reason=f"nothing shuts submissions in here: {best().why}")
+pytestmark = pytest.mark.skipif(
+    not best().holds, reason=f"nothing shuts submissions in here: {best().why}"
+)
 
 
 @pytest.fixture
 def said(monkeypatch, capfd):
-    """Carries out a command, and returns all that the terminal was sent: lines of signs that can be seen."""
+    """Carries out a command, and returns all that the terminal was sent: lines of signs that can be
+    seen.
+    """
     monkeypatch.setattr(finding, "exercises", lambda: {"centroid": EXERCISE})
     monkeypatch.setattr(failing, "record_failing", lambda _, file, lesson: file.with_suffix(".rrd"))
 
@@ -61,9 +70,14 @@ def test_names_of_files_and_folders_are_written_out_too(tmp_path, said):
     odd = SIGNS.replace("\x00", "'\\")
     text = said("check", write(tmp_path / odd, "returns", f"{odd}.py"))
     command = text.partition("goes wrong: ")[2].splitlines()[0]
-    there = subprocess.run(["bash", "-c", f"printf %s {command.removeprefix('workbench replay ')}"], stdout=subprocess.PIPE,
-                           check=True).stdout  # fmt: skip
-    assert there.decode() == str(tmp_path / odd / f"{odd}.rrd"), "and a shell reads the name that it was"
+    there = subprocess.run(
+        ["bash", "-c", f"printf %s {command.removeprefix('workbench replay ')}"],
+        stdout=subprocess.PIPE,
+        check=True,
+    ).stdout
+    assert there.decode() == str(tmp_path / odd / f"{odd}.rrd"), (
+        "and a shell reads the name that it was"
+    )
     assert "\\x1b[2J" in said("check", tmp_path / f"{odd}.py")
 
 

@@ -1,4 +1,6 @@
-"""A student's file drives a lesson: what is said of it while it is edited, and when its function is called."""
+"""A student's file drives a lesson: what is said of it while it is edited, and when its function is
+called.
+"""
 
 import dataclasses
 
@@ -12,8 +14,8 @@ from workbench.exercise.finding import exercises
 from workbench.exercise.starter import write_starter
 from workbench.exercise.watching import GONE_AFTER, Watched
 from workbench.lesson import catalog
-from workbench.session import Session
-from workbench.timeline import Timeline
+from workbench.run.session import Session
+from workbench.run.timeline import Timeline
 
 SUMS = exercises()["sad_cost_volume"]
 RIGHT = """import numpy as np
@@ -116,7 +118,9 @@ def test_after_an_error_is_mended_the_step_is_kept(watched):
         assert (known < 5) == (text is BROKEN)
 
 
-@pytest.mark.parametrize("function", [*SUMS.alternatives, SUMS.mistakes[0].function], ids=lambda one: one.__name__)
+@pytest.mark.parametrize(
+    "function", [*SUMS.alternatives, SUMS.mistakes[0].function], ids=lambda one: one.__name__
+)
 def test_rounding_that_decides_between_equal_costs_is_no_first_difference(function):
     lesson = catalog()[SUMS.lesson]
     timeline = Timeline(driven(lesson, SUMS, function), lesson.params())
@@ -125,14 +129,18 @@ def test_rounding_that_decides_between_equal_costs_is_no_first_difference(functi
     assert (first_difference(timeline.known()) is None) == (function in SUMS.alternatives)
 
 
-# the run that is opened calls the function -----------------------------------------------------------------------------
+# the run that is opened calls the function --------------------------------------------------------
 
 
 @pytest.fixture
 def opened(monkeypatch):
-    """Carries out `show`, and returns the lesson, the params and the step that the page begins at."""
+    """Carries out `show`, and returns the lesson, the params and the step that the page begins
+    at.
+    """
     seen = []
-    monkeypatch.setattr("workbench.viewer.serving.serve", lambda *place, **options: seen.append((place, options)))
+    monkeypatch.setattr(
+        "workbench.viewer.serving.serve", lambda *place, **options: seen.append((place, options))
+    )
 
     def carry_out(*words: object):
         assert main(["show", *map(str, words)]) == 0
@@ -153,13 +161,13 @@ def test_the_run_that_is_opened_calls_the_function(exercise, opened, tmp_path):
         calls.append(args)
         return exercise.reference(*args)
 
-    run = lesson.run(params, **{exercise.contract.slot: counting})
+    run = lesson.form.states(params, {exercise.contract.slot: counting})
     assert next((True for _ in run if calls), False)
     preset = exercise.contract.preset
     assert step == (None if preset is None else lesson.preset(preset).step)
     if preset is not None:  # or else the default run would do
         calls.clear()
-        for _ in lesson.run(lesson.params(), **{exercise.contract.slot: counting}):
+        for _ in lesson.form.states(lesson.params(), {exercise.contract.slot: counting}):
             assert not calls
 
 
@@ -173,7 +181,9 @@ def test_an_unknown_preset_is_refused_in_one_line(monkeypatch):
     lesson = catalog()["icp"]
     wrong = dataclasses.replace(exercises()["match"].contract, preset="hoem")
     monkeypatch.setattr("lessons.icp.exercises.match.match", wrong)
-    with pytest.raises(InputError, match=r"^exercise match: lesson icp has no preset 'hoem'; did you mean home"):
+    with pytest.raises(
+        InputError, match=r"^exercise match: lesson icp has no preset 'hoem'; did you mean home"
+    ):
         finding._exercises_in(lesson)
 
 
@@ -181,7 +191,10 @@ def test_a_run_that_does_not_call_the_function_says_so():
     exercise = exercises()["point_to_plane_step"]
     lesson = catalog()["icp"]
     paired = driven(lesson, exercise, exercise.reference)
-    idle, calling = Timeline(paired, lesson.params()), Timeline(paired, lesson.preset("plane").params)
+    idle, calling = (
+        Timeline(paired, lesson.params()),
+        Timeline(paired, lesson.preset("plane").params),
+    )
     idle.extend()
     assert calls_it(idle) is None  # nobody knows yet
     assert calls_it(idle.complete()) is False

@@ -7,10 +7,13 @@ from hypothesis.extra import numpy as hnp
 from workbench.exercise.child.wire import WireError, lengths, pack, unpack
 
 ARRAYS = hnp.arrays(
-    st.sampled_from([np.float64, np.float32, np.int64, np.uint8, np.bool_]), hnp.array_shapes(min_dims=0, min_side=0)
+    st.sampled_from([np.float64, np.float32, np.int64, np.uint8, np.bool_]),
+    hnp.array_shapes(min_dims=0, min_side=0),
 )
 VALUES = st.recursive(
-    st.one_of(st.none(), st.booleans(), st.integers(-(2**62), 2**62), st.floats(), st.text(), ARRAYS),
+    st.one_of(
+        st.none(), st.booleans(), st.integers(-(2**62), 2**62), st.floats(), st.text(), ARRAYS
+    ),
     lambda inner: st.lists(inner, max_size=3),
     max_leaves=8,
 )
@@ -24,7 +27,11 @@ def through(message):
 
 def same(a, b) -> bool:
     if isinstance(a, (np.ndarray, np.generic)):
-        return type(b) is np.ndarray and b.dtype == a.dtype and np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+        return (
+            type(b) is np.ndarray
+            and b.dtype == a.dtype
+            and np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+        )
     if isinstance(a, list):
         return isinstance(b, list) and len(a) == len(b) and all(map(same, a, b))
     return type(a) is type(b) and (a == b or a != a)
@@ -59,7 +66,9 @@ def test_a_picture_as_nested_lists_crosses():
     assert arrived == {"rows": rows, "colours": colours, "numpy's": [0.0, 1.0, 2.0]}
 
 
-@pytest.mark.parametrize("value", [object(), {1: 2}, np.array([object()]), np.array(["a"]), 2**70, 1j, b"x"])
+@pytest.mark.parametrize(
+    "value", [object(), {1: 2}, np.array([object()]), np.array(["a"]), 2**70, 1j, b"x"]
+)
 def test_what_is_no_value_is_refused(value):
     with pytest.raises(WireError):
         pack({"value": value})

@@ -4,7 +4,8 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.affine import (
+from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions.affine import (
     Kind,
     decompose,
     from_homogeneous,
@@ -19,8 +20,7 @@ from workbench.geometry.affine import (
     transform_directions,
     translation,
 )
-from workbench.geometry.motions import apply, motion
-from workbench.geometry.rotations import rotation_from_axis_angle
+from workbench.geometry.motions.rotations import rotation_from_axis_angle
 
 few = settings(max_examples=40, deadline=None)
 number = st.floats(-3, 3)
@@ -31,10 +31,14 @@ P = np.random.default_rng(1).normal(size=(20, 3))
 
 
 def test_each_factor_does_what_it_says():
-    np.testing.assert_allclose(transform(translation(np.array([1.0, 2, 3])), P), P + np.array([1.0, 2, 3]))
+    np.testing.assert_allclose(
+        transform(translation(np.array([1.0, 2, 3])), P), P + np.array([1.0, 2, 3])
+    )
     np.testing.assert_allclose(transform(scaling(np.array([2.0, 3, -1])), P), P * [2, 3, -1])
     np.testing.assert_allclose(transform(shear("x", "z", 0.5), P), P + 0.5 * P[:, 2:] * [1, 0, 0])
-    np.testing.assert_allclose(transform(rotation("z", np.pi / 2), P), P[:, [1, 0, 2]] * [-1, 1, 1], atol=1e-15)
+    np.testing.assert_allclose(
+        transform(rotation("z", np.pi / 2), P), P[:, [1, 0, 2]] * [-1, 1, 1], atol=1e-15
+    )
     np.testing.assert_allclose(transform(reflection(np.array([0.0, 7.0, 0.0])), P), P * [1, -1, 1])
 
 
@@ -57,9 +61,13 @@ def test_shear_keeps_volume(amount):
 
 def test_directions_do_not_feel_translation():
     T = translation(np.array([5.0, 0, 0])) @ rotation("z", 1.0)
-    np.testing.assert_allclose(transform_directions(T, P), transform_directions(rotation("z", 1.0), P))
+    np.testing.assert_allclose(
+        transform_directions(T, P), transform_directions(rotation("z", 1.0), P)
+    )
     np.testing.assert_allclose(transform_directions(T, P), (homogeneous(P, 0.0) @ T.T)[:, :3])
-    np.testing.assert_allclose(transform(T, P[1:]) - transform(T, P[:-1]), transform_directions(T, P[1:] - P[:-1]))
+    np.testing.assert_allclose(
+        transform(T, P[1:]) - transform(T, P[:-1]), transform_directions(T, P[1:] - P[:-1])
+    )
 
 
 def test_homogeneous_there_and_back():
@@ -108,7 +116,13 @@ def test_a_rotation_is_found_again_under_a_stretch():
 
 
 @pytest.mark.parametrize(
-    "flat", [np.zeros((3, 3)), np.diag([1.0, 1, 0]), np.diag([1.0, -1, 0]), np.outer([1.0, 2, 3], [1, 1, 0])]
+    "flat",
+    [
+        np.zeros((3, 3)),
+        np.diag([1.0, 1, 0]),
+        np.diag([1.0, -1, 0]),
+        np.outer([1.0, 2, 3], [1, 1, 0]),
+    ],
 )
 def test_flat_maps_still_have_a_proper_rotation(flat):
     parts = decompose(motion(flat, np.zeros(3)))

@@ -1,12 +1,14 @@
-"""Circles in closed form: exact on exact points, moved with the points, biased as the theory says, equal to circle-fit's."""
+"""Circles in closed form: exact on exact points, moved with the points, biased as the theory says,
+equal to circle-fit's.
+"""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.fit_scenes import arc_points
-from workbench.geometry.algebraic_fits import ALGEBRAIC, fit_algebraic
+from lessons.fitting.fit_scenes import arc_points
+from workbench.geometry.shapes.algebraic_fits import ALGEBRAIC, fit_algebraic
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -49,7 +51,9 @@ def test_many_sets_are_each_alone():
 
 
 def test_biases_are_those_of_the_theory():
-    """Essential bias all round, of R = 1: Pratt 2 σ², Taubin σ², Hyper 0 (Al-Sharadqah and Chernov 2009, table 1)."""
+    """Essential bias all round, of R = 1: Pratt 2 σ², Taubin σ², Hyper 0 (Al-Sharadqah and Chernov
+    2009, table 1).
+    """
     p = arc_points(2 * np.pi, 60) + 0.05 * np.random.default_rng(0).normal(size=(20_000, 60, 2))
     means = {kind: fit_algebraic(p, kind)[:, 2].mean() - 1 for kind in ALGEBRAIC}
     for kind, theory in (("Kåsa", 0.0025), ("Pratt", 0.005), ("Taubin", 0.0025), ("Hyper", 0.0)):
@@ -66,7 +70,11 @@ def test_only_kasas_is_small_on_short_arcs():
 def test_scikit_images_circle_is_kasas():
     measure = pytest.importorskip("skimage.measure")
     p = arc_points(np.radians(90), 60) + 0.02 * np.random.default_rng(3).normal(size=(60, 2))
-    model = measure.CircleModel.from_estimate(p) if hasattr(measure.CircleModel, "from_estimate") else None
+    model = (
+        measure.CircleModel.from_estimate(p)
+        if hasattr(measure.CircleModel, "from_estimate")
+        else None
+    )
     if model is None:
         model = measure.CircleModel()
         model.estimate(p)

@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_motions import motions
-from workbench.geometry.alignment import (
+from workbench.geometry.motions import apply, exp_se3, exp_so3, inverse, motion, rotation_angle
+from workbench.geometry.motions.alignment import (
     align_affine,
     align_rigid,
     align_similarity,
@@ -18,7 +19,6 @@ from workbench.geometry.alignment import (
     rmse,
     similarity_scale,
 )
-from workbench.geometry.motions import apply, exp_se3, exp_so3, inverse, motion, rotation_angle
 
 SEEDS = st.integers(0, 10_000)
 ALIGN = {"rigid": align_rigid, "similarity": align_similarity, "affine": align_affine}
@@ -81,7 +81,9 @@ def test_rigid_agrees_with_scipy_with_and_without_weights(seed):
     weights = np.random.default_rng(seed).random(len(p_target))
     for w in (None, weights):
         mean_t, mean_s = (np.average(p, axis=0, weights=w) for p in (p_target, p_source))
-        R, _ = scipy.spatial.transform.Rotation.align_vectors(p_target - mean_t, p_source - mean_s, weights=w)
+        R, _ = scipy.spatial.transform.Rotation.align_vectors(
+            p_target - mean_t, p_source - mean_s, weights=w
+        )
         T = align_rigid(p_target, p_source, w)
         np.testing.assert_allclose(T[:3, :3], R.as_matrix(), atol=1e-8)
         np.testing.assert_allclose(T[:3, 3], mean_t - R.as_matrix() @ mean_s, atol=1e-8)
@@ -94,7 +96,9 @@ def test_a_weight_of_two_is_the_pair_twice_and_of_zero_not_at_all(seed):
     weights = np.array([0.0] * 5 + [2.0] * 5 + [1.0] * 20)
     rows = np.repeat(np.arange(30), weights.astype(int))
     for align in ALIGN.values():
-        np.testing.assert_allclose(align(p_target, p_source, weights), align(p_target[rows], p_source[rows]), atol=1e-9)
+        np.testing.assert_allclose(
+            align(p_target, p_source, weights), align(p_target[rows], p_source[rows]), atol=1e-9
+        )
 
 
 @settings(max_examples=40, deadline=None)
@@ -124,7 +128,8 @@ def test_far_from_the_origin_no_digits_are_lost(offset):
     p_target = p @ R.T + offset
     for align in ALIGN.values():
         T = align(p_target, p + offset)
-        # the points themselves carry 1e-10 at this offset; moments about the origin would be a degree off
+        # the points themselves carry 1e-10 at this offset; moments about the origin would be a
+        # degree off
         assert np.degrees(rotation_angle(nearest_rotation(T[:3, :3]) @ R.T)) < 1e-7
         assert rmse(T, p_target, p + offset) < 1e-6
 
@@ -133,9 +138,13 @@ def test_chunks_do_not_show(monkeypatch):
     p_target, p_source = cloud(3, 100), cloud(4, 100)
     weights = np.random.default_rng(5).random(100)
     n = p_target / np.linalg.norm(p_target, axis=1, keepdims=True)
-    whole = [f(p_target, p_source, weights) for f in ALIGN.values()] + [point_to_plane_step(p_target, p_source, n)]
-    monkeypatch.setattr("workbench.geometry.alignment.CHUNK", 7)
-    parts = [f(p_target, p_source, weights) for f in ALIGN.values()] + [point_to_plane_step(p_target, p_source, n)]
+    whole = [f(p_target, p_source, weights) for f in ALIGN.values()] + [
+        point_to_plane_step(p_target, p_source, n)
+    ]
+    monkeypatch.setattr("workbench.geometry.motions.alignment.CHUNK", 7)
+    parts = [f(p_target, p_source, weights) for f in ALIGN.values()] + [
+        point_to_plane_step(p_target, p_source, n)
+    ]
     np.testing.assert_allclose(whole, parts, atol=1e-12)
 
 
@@ -180,7 +189,7 @@ class TestDegenerate:
 
 
 def test_pairs_must_be_as_many_on_both_sides():
-    from workbench.geometry.alignment import _check_pairs
+    from workbench.geometry.motions.alignment import _check_pairs
 
     with pytest.raises(ValueError, match="3 and 4"):
         _check_pairs(np.zeros((3, 3)), np.zeros((4, 3)))
@@ -263,7 +272,9 @@ def test_the_angle_between_motions_is_a_distance_that_no_common_motion_changes(A
 @pytest.mark.parametrize("degrees", [0.0, 1e-7, 90.0, 180.0 - 1e-7, 180.0])
 def test_scale_and_shear_do_not_count_as_turning(degrees):
     turned = exp_so3(np.radians([0.0, degrees, 0.0]))
-    assert degrees_between(turned @ np.diag([2.0, 3.0, 0.5]), np.eye(3)) == pytest.approx(degrees, rel=1e-6, abs=1e-12)
+    assert degrees_between(turned @ np.diag([2.0, 3.0, 0.5]), np.eye(3)) == pytest.approx(
+        degrees, rel=1e-6, abs=1e-12
+    )
 
 
 def test_the_error_of_a_motion_is_what_was_added_to_the_truth():
@@ -271,20 +282,28 @@ def test_the_error_of_a_motion_is_what_was_added_to_the_truth():
     p = rng.normal(size=(50, 3))
     T_true = motion(exp_so3(rng.normal(size=3)), rng.normal(size=3))
     shifted = motion_error(motion(np.eye(3), np.array([0.3, 0.0, 0.4])) @ T_true, T_true, p)
-    assert (shifted.rotation, shifted.translation, shifted.displacement) == pytest.approx((0, 0.5, 0.5), abs=1e-9)
+    assert (shifted.rotation, shifted.translation, shifted.displacement) == pytest.approx(
+        (0, 0.5, 0.5), abs=1e-9
+    )
     centre = apply(T_true, p).mean(axis=0)
     turn = exp_so3(np.array([0.0, 0.0, np.radians(20)]))
     turned = motion_error(motion(turn, centre - turn @ centre) @ T_true, T_true, p)
     assert (turned.rotation, turned.translation) == pytest.approx((20, 0), abs=1e-9)
-    far = np.linalg.norm((apply(T_true, p) - centre)[:, :2], axis=1)  # a chord of 20 degrees at each radius
-    assert turned.displacement == pytest.approx(2 * np.sin(np.radians(10)) * np.sqrt(np.mean(far**2)))
+    far = np.linalg.norm(
+        (apply(T_true, p) - centre)[:, :2], axis=1
+    )  # a chord of 20 degrees at each radius
+    assert turned.displacement == pytest.approx(
+        2 * np.sin(np.radians(10)) * np.sqrt(np.mean(far**2))
+    )
     unknown = motion_error(T_true, None, p)
     assert np.isnan([unknown.rotation, unknown.translation, unknown.displacement]).all()
 
 
 @settings(max_examples=40, deadline=None)
 @given(SEEDS, st.floats(0.05, 20), motions(), st.floats(0, 0.5))
-def test_the_scale_is_that_of_the_similarity_and_noise_makes_there_and_back_less_than_one(seed, scale, T, noise):
+def test_the_scale_is_that_of_the_similarity_and_noise_makes_there_and_back_less_than_one(
+    seed, scale, T, noise
+):
     p = cloud(seed)
     q = scale * (apply(T, p) + noise * cloud(seed + 1))
     S = align_similarity(q, p)

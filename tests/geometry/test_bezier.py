@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BPoly
 
-from workbench.geometry.bezier import (
+from workbench.geometry.shapes.bezier import (
     bernstein,
     bezier_patch,
     de_casteljau,
@@ -41,7 +41,9 @@ def test_a_patch_is_scipys_polynomials_along_both_directions():
 def test_dividing_legs_gives_the_same_point(seed, u, v):
     control = a_net(seed)
     rows = np.stack([de_casteljau(row, v)[-1][0] for row in control])
-    np.testing.assert_allclose(de_casteljau(rows, u)[-1][0], bezier_patch(control, np.array([[u, v]]))[0], atol=1e-12)
+    np.testing.assert_allclose(
+        de_casteljau(rows, u)[-1][0], bezier_patch(control, np.array([[u, v]]))[0], atol=1e-12
+    )
 
 
 def test_a_patch_moves_with_its_net_and_stays_in_its_box():
@@ -55,7 +57,9 @@ def test_a_patch_moves_with_its_net_and_stays_in_its_box():
 def test_a_raised_curve_is_the_same_curve():
     control = np.random.default_rng(5).normal(size=(3, 2))
     for t in np.linspace(0, 1, 7):
-        np.testing.assert_allclose(de_casteljau(raised(control), t)[-1], de_casteljau(control, t)[-1], atol=1e-13)
+        np.testing.assert_allclose(
+            de_casteljau(raised(control), t)[-1], de_casteljau(control, t)[-1], atol=1e-13
+        )
 
 
 def test_weighted_arcs_are_circles_and_polynomial_ones_are_not():
@@ -65,7 +69,9 @@ def test_weighted_arcs_are_circles_and_polynomial_ones_are_not():
         p = np.concatenate([bernstein(len(arc) - 1, t) @ arc for arc in quarter_circles(rational)])
         off[rational] = np.abs(np.linalg.norm(p[:, :2], axis=1) / p[:, 2] - 1).max()
     assert off[True] < 1e-14
-    assert off[False] == pytest.approx(2.73e-4, rel=0.01)  # the known error of the usual cubic quarter
+    assert off[False] == pytest.approx(
+        2.73e-4, rel=0.01
+    )  # the known error of the usual cubic quarter
 
 
 @pytest.mark.parametrize(("rational", "most"), [(True, 1e-15), (False, 2.9e-4)])

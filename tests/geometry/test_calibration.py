@@ -1,20 +1,22 @@
-"""Zhang's constraints, poses and the linear lens, on exact pictures and beside the camera itself."""
+"""Zhang's constraints, poses and the linear lens, on exact pictures and beside the camera
+itself.
+"""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.boards import board_points
-from workbench.geometry.calibration import (
+from workbench.data.views.boards import board_points
+from workbench.geometry.cameras import intrinsics, project
+from workbench.geometry.cameras.calibration import (
     constraint_rows,
     intrinsics_from_constraints,
     linear_lens,
     pose_from_homography,
     reprojection_rms,
 )
-from workbench.geometry.cameras import intrinsics, project
-from workbench.geometry.distortion import Distortion
+from workbench.geometry.cameras.distortion import Distortion
 from workbench.geometry.motions import exp_so3, motion
 
 P = board_points()
@@ -26,7 +28,10 @@ def camera(rng: np.random.Generator) -> np.ndarray:
 
 
 def pose(rng: np.random.Generator) -> np.ndarray:
-    return motion(exp_so3(rng.uniform(-0.6, 0.6, 3)), np.array([*rng.uniform(-0.1, 0.1, 2), rng.uniform(0.3, 1.0)]))
+    return motion(
+        exp_so3(rng.uniform(-0.6, 0.6, 3)),
+        np.array([*rng.uniform(-0.1, 0.1, 2), rng.uniform(0.3, 1.0)]),
+    )
 
 
 def homography(K: np.ndarray, T: np.ndarray, scale: float = 1.0) -> np.ndarray:
@@ -41,7 +46,9 @@ def test_rows_are_products_with_b_and_0_for_the_camera(seed):
     B = S + S.T
     b = B[[0, 0, 1, 0, 1, 2], [0, 1, 1, 2, 2, 2]]
     h1, h2 = H[:, 0], H[:, 1]
-    np.testing.assert_allclose(constraint_rows(H) @ b, [h1 @ B @ h2, h1 @ B @ h1 - h2 @ B @ h2], atol=1e-12)
+    np.testing.assert_allclose(
+        constraint_rows(H) @ b, [h1 @ B @ h2, h1 @ B @ h1 - h2 @ B @ h2], atol=1e-12
+    )
     K = camera(rng)
     rows = constraint_rows(homography(K, pose(rng)))
     B = np.linalg.inv(K @ K.T)
@@ -105,8 +112,8 @@ def test_the_linear_lens_is_exact_where_camera_and_poses_are():
     K, lens = camera(rng), Distortion(k1=-0.2, k2=0.07)
     Ts = np.stack([pose(rng) for _ in range(3)])
     uv = np.stack([project(P, T, K, lens) for T in Ts])
-    np.testing.assert_allclose(linear_lens(K, Ts, P, uv), [-0.2, 0.07], atol=1e-10)
-    assert linear_lens(K, Ts, P, uv, terms=1).shape == (1,)
+    np.testing.assert_allclose(linear_lens(K, Ts, P, uv=uv), [-0.2, 0.07], atol=1e-10)
+    assert linear_lens(K, Ts, P, uv=uv, terms=1).shape == (1,)
 
 
 def test_the_rms_is_per_point():

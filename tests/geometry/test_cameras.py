@@ -28,7 +28,7 @@ from workbench.geometry.cameras import (
     sphere_outline,
     vanishing_points,
 )
-from workbench.geometry.distortion import NONE, Distortion, distort
+from workbench.geometry.cameras.distortion import NONE, Distortion, distort
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
 LENS = Distortion(-0.26637, -0.038589, 0.0017832, -0.00028122, 0.23839)
@@ -42,7 +42,9 @@ def any_motion(rng: np.random.Generator) -> np.ndarray:
 
 
 def seen_points(rng: np.random.Generator, T_camera_world: np.ndarray, n: int = 50) -> np.ndarray:
-    p_camera = rng.uniform([-0.5, -0.4, 1.0], [0.5, 0.4, 1.0], (n, 3)) * rng.uniform(0.5, 20, (n, 1))
+    p_camera = rng.uniform([-0.5, -0.4, 1.0], [0.5, 0.4, 1.0], (n, 3)) * rng.uniform(
+        0.5, 20, (n, 1)
+    )
     return apply(inverse(T_camera_world), p_camera)
 
 
@@ -53,7 +55,7 @@ def test_back_projection_inverts_projection(seed, lens):
     T_camera_world = any_motion(rng)
     p_world = seen_points(rng, T_camera_world)
     uv = project(p_world, T_camera_world, K, lens)
-    back = back_project(uv, depths(p_world, T_camera_world), T_camera_world, K, lens)
+    back = back_project(uv, depths(p_world, T_camera_world), T_camera_world, K=K, distortion=lens)
     np.testing.assert_allclose(back, p_world, atol=1e-9)
 
 
@@ -73,8 +75,8 @@ def test_rays_start_at_the_centre_and_meet_the_points_at_ray_length(seed, lens):
     T_camera_world = any_motion(rng)
     p_world = seen_points(rng, T_camera_world)
     uv = project(p_world, T_camera_world, K, lens)
-    center, n_world = pixel_rays(uv, T_camera_world, K, lens)
-    length = ray_lengths(uv, depths(p_world, T_camera_world), K, lens)
+    center, n_world = pixel_rays(uv, T_camera_world, K, distortion=lens)
+    length = ray_lengths(uv, depths(p_world, T_camera_world), K, distortion=lens)
     np.testing.assert_allclose(center + length[:, None] * n_world, p_world, atol=1e-9)
     np.testing.assert_allclose(np.linalg.norm(n_world, axis=1), 1.0, atol=1e-12)
     assert (length >= depths(p_world, T_camera_world)).all()
@@ -148,7 +150,9 @@ def test_look_at_puts_the_target_on_the_axis_and_up_upwards():
 @pytest.mark.parametrize("direction", [[0, 0, 1], [0, 0, -1], [0, 0, -3], [1, 0, 0]])
 def test_look_at_straight_up_and_down_is_still_a_rigid_motion(direction):
     T_camera_world = look_at(np.zeros(3), np.array(direction, dtype=float))
-    np.testing.assert_allclose(T_camera_world[:3, :3] @ T_camera_world[:3, :3].T, np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(
+        T_camera_world[:3, :3] @ T_camera_world[:3, :3].T, np.eye(3), atol=1e-12
+    )
     assert np.linalg.det(T_camera_world[:3, :3]) == pytest.approx(1.0)
 
 
@@ -160,7 +164,8 @@ def test_orthographic_is_the_limit_of_the_dolly_at_rate_one_over_factor():
     K_flat[:2, :2] /= depth
     flat = project_orthographic(p_world, T_camera_world, K_flat)
     gap = [
-        np.abs(project(p_world, *dolly(T_camera_world, K, depth, factor)) - flat).max() for factor in (1, 10, 100, 1000)
+        np.abs(project(p_world, *dolly(T_camera_world, K, depth, factor)) - flat).max()
+        for factor in (1, 10, 100, 1000)
     ]
     assert gap[0] > 20
     assert gap[3] < 0.1
@@ -188,13 +193,17 @@ def test_far_points_of_a_line_tend_to_its_vanishing_point(seed, lens):
     v_camera = np.append(rng.uniform(-0.4, 0.4, 2), 1.0)
     v_world = v_camera @ T_camera_world[:3, :3]
     far = rng.normal(size=(2, 3)) + 1e8 * v_world
-    limit = vanishing_points(np.stack([v_world, -3.0 * v_world]), T_camera_world, K, lens)
+    limit = vanishing_points(
+        np.stack([v_world, -3.0 * v_world]), T_camera_world, K, distortion=lens
+    )
     np.testing.assert_allclose(project(far, T_camera_world, K, lens), limit, atol=1e-3)
 
 
 def test_lines_parallel_to_the_picture_have_no_vanishing_point():
     assert np.isnan(
-        vanishing_points(np.array([[1.0, 2.0, 0.0], [1.0, 2.0, 1e-15], [0.0, 0.0, 0.0]]), np.eye(4), K)
+        vanishing_points(
+            np.array([[1.0, 2.0, 0.0], [1.0, 2.0, 1e-15], [0.0, 0.0, 0.0]]), np.eye(4), K
+        )
     ).all()
 
 
@@ -209,7 +218,9 @@ def test_the_outline_of_a_sphere_is_where_rays_graze_it_and_is_an_ellipse(seed):
     np.testing.assert_allclose(np.linalg.norm(to_center, axis=1), radius, atol=1e-12)
     np.testing.assert_allclose(np.einsum("ni,ni->n", to_center, to_camera), 0.0, atol=1e-12)
     u, v = normalize(project(outline, T_camera_world, K), K).T
-    conic = np.linalg.lstsq(np.column_stack([u * u, u * v, v * v, u, v]), np.ones(len(u)), rcond=None)
+    conic = np.linalg.lstsq(
+        np.column_stack([u * u, u * v, v * v, u, v]), np.ones(len(u)), rcond=None
+    )
     a, b, c = conic[0][:3]
     assert np.abs(np.column_stack([u * u, u * v, v * v, u, v]) @ conic[0] - 1).max() < 1e-9
     axes = np.abs(np.linalg.eigvalsh(np.array([[a, b / 2], [b / 2, c]])))
@@ -223,7 +234,9 @@ def test_inside_a_sphere_there_is_no_outline():
 
 
 def test_opengl_axes_are_half_a_turn_about_x():
-    np.testing.assert_array_equal(apply(OPENGL_FROM_OPENCV, np.array([1.0, 2.0, 3.0])), [1.0, -2.0, -3.0])
+    np.testing.assert_array_equal(
+        apply(OPENGL_FROM_OPENCV, np.array([1.0, 2.0, 3.0])), [1.0, -2.0, -3.0]
+    )
     np.testing.assert_array_equal(OPENGL_FROM_OPENCV @ OPENGL_FROM_OPENCV, np.eye(4))
 
 
@@ -248,7 +261,10 @@ def test_impossible_cameras_are_refused():
 
 def test_no_points_give_no_pixels():
     assert project(np.zeros((0, 3)), np.eye(4), K, LENS).shape == (0, 2)
-    assert back_project(np.zeros((0, 2)), np.zeros(0), np.eye(4), K, LENS).shape == (0, 3)
+    assert back_project(np.zeros((0, 2)), np.zeros(0), np.eye(4), K=K, distortion=LENS).shape == (
+        0,
+        3,
+    )
 
 
 def test_agrees_with_opencv():
@@ -258,19 +274,25 @@ def test_agrees_with_opencv():
     p_world = seen_points(rng, T_camera_world, 20_000)
     rotation = cv2.Rodrigues(T_camera_world[:3, :3])[0]
     for lens in (NONE, LENS):
-        theirs = cv2.projectPoints(p_world, rotation, T_camera_world[:3, 3], K, np.array(lens))[0][:, 0]
+        theirs = cv2.projectPoints(p_world, rotation, T_camera_world[:3, 3], K, np.array(lens))[0][
+            :, 0
+        ]
         np.testing.assert_allclose(project(p_world, T_camera_world, K, lens), theirs, atol=1e-7)
 
 
 def bow(rows: np.ndarray) -> float:
-    """The median over board rows of how far, in pixels, the middle corner is from the line through the outer ones."""
+    """The median over board rows of how far, in pixels, the middle corner is from the line through
+    the outer ones.
+    """
     way, middle = rows[..., -1, :] - rows[..., 0, :], rows[..., 4, :] - rows[..., 0, :]
     cross = way[..., 0] * middle[..., 1] - way[..., 1] * middle[..., 0]
     return float(np.median(np.abs(cross) / np.linalg.norm(way, axis=-1)))
 
 
 def test_a_real_calibration_projects_its_chessboards_onto_their_corners(shared_data):
-    """Thirteen photographs, 25 mm squares: the file's own K, lens and poses leave the error that it states."""
+    """Thirteen photographs, 25 mm squares: the file's own K, lens and poses leave the error that it
+    states.
+    """
     text = (shared_data / "calibration" / "left_intrinsics.yml").read_text()
 
     def matrix(name: str) -> np.ndarray:
@@ -289,7 +311,8 @@ def test_a_real_calibration_projects_its_chessboards_onto_their_corners(shared_d
         T_camera_board = motion(exp_so3(poses[view, :3]), poses[view, 3:])
         miss = project(p_board, T_camera_board, K_real, lens) - corners
         rms[view] = np.sqrt((miss**2).sum(axis=1).mean())
-    # The corners were found again, by another detector: one view of the thirteen differs more than a little.
+    # The corners were found again, by another detector: one view of the thirteen differs more than
+    # a little.
     assert np.sort(np.abs(rms / stated - 1))[:-1].max() < 0.05
     assert rms.max() < 1.3
     assert np.median(rms) < 0.21

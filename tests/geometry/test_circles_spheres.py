@@ -4,7 +4,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.circles_spheres import (
+from workbench.geometry.shapes.circles_spheres import (
     circle_from_points,
     costs_of_centers,
     fit_sphere,
@@ -35,7 +35,9 @@ def test_the_minimal_fit_recovers_the_sphere(d, seed):
 
 
 def test_a_known_circle_and_sphere():
-    np.testing.assert_allclose(circle_from_points(np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])), [0, 0, 1])
+    np.testing.assert_allclose(
+        circle_from_points(np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])), [0, 0, 1]
+    )
     four = np.array([[1.0, 0, 0], [-1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]) * 2 + [1.0, 2.0, 3.0]
     np.testing.assert_allclose(sphere_from_points(four), [1, 2, 3, 2])
 
@@ -55,7 +57,8 @@ def test_degenerate_samples_have_no_answer():
 
 def test_distances_are_negative_inside():
     np.testing.assert_allclose(
-        sphere_distances(np.array([0.0, 0.0, 2.0]), np.array([[0.0, 0.0], [3.0, 0.0], [0.0, 2.0]])), [-2, 1, 0]
+        sphere_distances(np.array([0.0, 0.0, 2.0]), np.array([[0.0, 0.0], [3.0, 0.0], [0.0, 2.0]])),
+        [-2, 1, 0],
     )
 
 
@@ -75,7 +78,9 @@ def test_the_fit_is_the_geometric_optimum(seed, d):
     p = on_sphere(rng, 40, np.append(rng.normal(size=d), 1.0)) + 0.05 * rng.normal(size=(40, d))
     weights = rng.random(40) + 0.1
     found = fit_sphere(p, weights)
-    oracle = scipy.optimize.least_squares(lambda s: np.sqrt(weights) * sphere_distances(s, p), found + 0.01)
+    oracle = scipy.optimize.least_squares(
+        lambda s: np.sqrt(weights) * sphere_distances(s, p), found + 0.01
+    )
     np.testing.assert_allclose(found, oracle.x, atol=1e-4)
 
 
@@ -94,7 +99,9 @@ def test_the_geometric_fit_beats_the_algebraic_one_on_a_noisy_arc():
 
 def test_a_start_is_refined_to_the_same_optimum():
     p = on_sphere(np.random.default_rng(4), 50, np.array([1.0, 2.0, 3.0])) + 0.01
-    np.testing.assert_allclose(fit_sphere(p, start=np.array([1.2, 1.9, 2.5])), fit_sphere(p), atol=1e-6)
+    np.testing.assert_allclose(
+        fit_sphere(p, start=np.array([1.2, 1.9, 2.5])), fit_sphere(p), atol=1e-6
+    )
 
 
 def test_too_few_points_are_refused():

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.clipping import clip_lines, plane_in_box, segments_inside
-from workbench.geometry.lines_planes import plane_from_points
+from workbench.geometry.shapes.lines_planes import plane_from_points
 
 LOW, HIGH = np.array([-1.0, -2.0, -0.5]), np.array([1.5, 1.0, 2.0])
 SEEDS = st.integers(0, 10_000)
@@ -30,7 +30,9 @@ def test_a_clipped_line_is_what_dense_points_of_it_show(angle, offset):
         np.testing.assert_allclose(parts @ line[:2] + offset, 0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize(("line", "count"), [([0.0, 1.0, 0.5], 1), ([1.0, 0.0, 0.5], 1), ([0.0, 1.0, 9.0], 0)])
+@pytest.mark.parametrize(
+    ("line", "count"), [([0.0, 1.0, 0.5], 1), ([1.0, 0.0, 0.5], 1), ([0.0, 1.0, 9.0], 0)]
+)
 def test_lines_along_the_sides(line, count):
     assert len(clip_lines(np.array([line]), LOW[:2], HIGH[:2])) == count
 
@@ -65,5 +67,9 @@ def test_a_plane_that_passes_by_has_no_corner():
 
 def test_only_whole_and_finite_segments_are_inside():
     inside = [[0.0, 0.0], [1.0, 2.0]]
-    ends = np.array([inside, [[0.0, 0.0], [1.0, 2.1]], [[np.nan, 0.0], [0.0, 0.0]], [[-0.1, 0.0], [0.0, 0.0]]])
-    np.testing.assert_array_equal(segments_inside(ends, np.zeros(2), np.array([1.0, 2.0])), [inside])
+    ends = np.array(
+        [inside, [[0.0, 0.0], [1.0, 2.1]], [[np.nan, 0.0], [0.0, 0.0]], [[-0.1, 0.0], [0.0, 0.0]]]
+    )
+    np.testing.assert_array_equal(
+        segments_inside(ends, np.zeros(2), np.array([1.0, 2.0])), [inside]
+    )

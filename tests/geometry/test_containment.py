@@ -1,12 +1,20 @@
-"""Inside tests: rays and solid angles agree, edges and corners decide for one face, overlaps count twice."""
+"""Inside tests: rays and solid angles agree, edges and corners decide for one face, overlaps count
+twice.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.data.measurables import sphere, two_spheres
-from workbench.data.rabbit import rabbit_mesh
-from workbench.data.solids import box
-from workbench.geometry.containment import columns, crossings, inside, winding_numbers, windings
+from lessons.measures.measurables import sphere, two_spheres
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.data.shapes.solids import box
+from workbench.geometry.meshes.containment import (
+    columns,
+    crossings,
+    inside,
+    winding_numbers,
+    windings,
+)
 
 RABBIT = rabbit_mesh(0.05)
 
@@ -27,7 +35,9 @@ def test_rays_and_solid_angles_agree():
 def test_turned_inside_out_the_winding_is_negative_and_inside_stays():
     p, faces = RABBIT
     q = around(p, 300, 1)
-    np.testing.assert_array_equal(windings(columns(p, faces[:, ::-1]), q), -windings(columns(p, faces), q))
+    np.testing.assert_array_equal(
+        windings(columns(p, faces[:, ::-1]), q), -windings(columns(p, faces), q)
+    )
     np.testing.assert_array_equal(inside(p, faces[:, ::-1], q), inside(p, faces, q))
 
 
@@ -43,7 +53,9 @@ def test_overlapping_spheres_wind_twice_and_are_one_solid():
 def test_rays_through_corners_edges_and_upright_faces_are_counted_once():
     cube = box((2.0, 2.0, 2.0))
     ticks = np.linspace(-1.5, 1.5, 13)  # the cube's own edges, its diagonals and walls among them
-    q = np.stack(np.meshgrid(ticks, ticks, [-0.5, 0.5, 1.5, 2.5], indexing="ij"), axis=-1).reshape(-1, 3)
+    q = np.stack(np.meshgrid(ticks, ticks, [-0.5, 0.5, 1.5, 2.5], indexing="ij"), axis=-1).reshape(
+        -1, 3
+    )
     found = windings(columns(cube.p, cube.faces), q)
     assert set(found.tolist()) == {0, 1}
     strictly = (np.abs(q[:, :2]) < 1).all(axis=1) & (q[:, 2] > 0) & (q[:, 2] < 2)
@@ -75,7 +87,9 @@ def test_points_beyond_the_mesh_and_no_points_at_all():
 def test_a_hole_leaves_the_generalised_winding_number_smooth():
     ball = sphere(3)
     with_hole = ball.faces[20:]
-    assert winding_numbers(ball.p, with_hole, np.zeros((1, 3)))[0] == pytest.approx(1 - 20 / 1280, abs=2e-3)
+    assert winding_numbers(ball.p, with_hole, np.zeros((1, 3)))[0] == pytest.approx(
+        1 - 20 / 1280, abs=2e-3
+    )
 
 
 @pytest.mark.parametrize("name", ["curvature/bunny.off", "shapes/bunny_npm.ply"])
@@ -83,5 +97,11 @@ def test_a_scan_agrees_with_solid_angles(shared_data, name):
     from workbench.data.files import read_mesh
 
     p, faces = read_mesh(shared_data / name)
-    q = around(p, 60, 3) if np.ptp(p) > 1 else np.random.default_rng(3).uniform(p.min(axis=0), p.max(axis=0), (60, 3))
-    np.testing.assert_allclose(winding_numbers(p, faces, q), windings(columns(p, faces), q), atol=0.02)
+    q = (
+        around(p, 60, 3)
+        if np.ptp(p) > 1
+        else np.random.default_rng(3).uniform(p.min(axis=0), p.max(axis=0), (60, 3))
+    )
+    np.testing.assert_allclose(
+        winding_numbers(p, faces, q), windings(columns(p, faces), q), atol=0.02
+    )

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from tests.geometry.views import view
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.camera_motions import rms_reprojection, sqpnp
-from workbench.geometry.control_points import epnp
+from workbench.geometry.cameras.camera_motions import rms_reprojection, sqpnp
+from workbench.geometry.cameras.control_points import epnp
 from workbench.geometry.motions import apply, exp_se3
+from workbench.geometry.motions.alignment import degrees_between
 
 PIXEL = 1 / 800
 
@@ -18,10 +18,14 @@ def views(n: int, count: int, *, sigma: float = PIXEL, flat: bool = False):
 
 
 def far(Ts: np.ndarray, Ts_true: np.ndarray) -> float:
-    return float(np.mean([degrees_between(T, T_true) > 5 for T, T_true in zip(Ts, Ts_true, strict=True)]))
+    return float(
+        np.mean([degrees_between(T, T_true) > 5 for T, T_true in zip(Ts, Ts_true, strict=True)])
+    )
 
 
-@pytest.mark.parametrize(("n", "flat"), [(5, False), (6, False), (60, False), (4, True), (12, True)])
+@pytest.mark.parametrize(
+    ("n", "flat"), [(5, False), (6, False), (60, False), (4, True), (12, True)]
+)
 def test_exact_points_give_the_pose_back(n, flat):
     Ts, p_world, xy = views(n, 50, sigma=0.0, flat=flat)
     np.testing.assert_allclose(epnp(p_world, xy), Ts, atol=1e-6)
@@ -33,7 +37,9 @@ def test_epnp_is_opencvs(n):
     Ts, p_world, xy = views(n, 300)
     errors, apart = [], []
     for T, p, seen, T_true in zip(epnp(p_world, xy), p_world, xy, Ts, strict=True):
-        _, turn, t = cv2.solvePnP(p[:, None], seen[:, None].copy(), np.eye(3), None, flags=cv2.SOLVEPNP_EPNP)
+        _, turn, t = cv2.solvePnP(
+            p[:, None], seen[:, None].copy(), np.eye(3), None, flags=cv2.SOLVEPNP_EPNP
+        )
         R = cv2.Rodrigues(turn)[0]
         apart.append(degrees_between(T[:3, :3], R))
         errors.append([degrees_between(T, T_true), degrees_between(R, T_true[:3, :3])])
@@ -47,7 +53,9 @@ def test_four_points_are_too_few_where_sqpnp_hardly_fails():
     """OpenCV 5.0.0's EPnP is over 5 degrees off in 29 % of these pictures, its SQPnP in 1.8 %."""
     Ts, p_world, xy = views(4, 400)
     assert 0.08 < far(epnp(p_world, xy), Ts) < 0.15
-    assert far(sqpnp(p_world, xy), Ts) < 0.018  # 5 or 6 of 400, by how the machine rounds; never as many as OpenCV's
+    assert (
+        far(sqpnp(p_world, xy), Ts) < 0.018
+    )  # 5 or 6 of 400, by how the machine rounds; never as many as OpenCV's
     exact = views(4, 400, sigma=0.0)
     assert 0.10 < far(epnp(*exact[1:]), Ts) < 0.2  # it is not the noise
     for n in (5, 6, 20):
@@ -56,7 +64,9 @@ def test_four_points_are_too_few_where_sqpnp_hardly_fails():
 
 
 def test_points_of_a_plane_have_three_control_points():
-    """OpenCV 5.0.0's EPnP, which takes four, is over 5 degrees off in 57 % of these pictures, its SQPnP in 1.5 %."""
+    """OpenCV 5.0.0's EPnP, which takes four, is over 5 degrees off in 57 % of these pictures, its
+    SQPnP in 1.5 %.
+    """
     Ts, p_world, xy = views(8, 200, flat=True)
     assert far(epnp(p_world, xy), Ts) < 0.04
 
@@ -72,13 +82,17 @@ def test_moving_the_world_moves_the_answer_and_side_by_side_is_one_by_one():
 
 def test_the_order_of_four_points_does_not_matter():
     _, p_world, xy = views(4, 100)
-    apart = np.abs(epnp(p_world, xy) - epnp(p_world[:, [2, 0, 3, 1]], xy[:, [2, 0, 3, 1]])).max(axis=(1, 2))
+    apart = np.abs(epnp(p_world, xy) - epnp(p_world[:, [2, 0, 3, 1]], xy[:, [2, 0, 3, 1]])).max(
+        axis=(1, 2)
+    )
     assert np.mean(apart < 1e-3) > 0.95  # of many null vectors rounding would choose
 
 
 def test_flat_and_solid_points_may_be_solved_side_by_side():
     solid, flat = views(8, 3), views(8, 3, flat=True)
-    p_world, xy = (np.concatenate([a, b])[[0, 3, 1, 4, 2, 5]] for a, b in zip(solid[1:], flat[1:], strict=True))
+    p_world, xy = (
+        np.concatenate([a, b])[[0, 3, 1, 4, 2, 5]] for a, b in zip(solid[1:], flat[1:], strict=True)
+    )
     assert rms_reprojection(epnp(p_world, xy), p_world, xy).max() < 5 * PIXEL
 
 
@@ -95,4 +109,6 @@ def test_what_cannot_be_solved_is_refused_or_comes_to_an_end():
     with pytest.raises(ValueError, match="one line"):
         epnp(np.linspace(0, 1, 6)[:, None] * [1.0, 2.0, 3.0], xy)
     assert np.isfinite(epnp(p_world, np.zeros((6, 2)))).all()  # all seen in one place
-    assert np.isfinite(epnp(p_world, np.random.default_rng(0).normal(size=(6, 2)))).all()  # seen anywhere
+    assert np.isfinite(
+        epnp(p_world, np.random.default_rng(0).normal(size=(6, 2)))
+    ).all()  # seen anywhere

@@ -1,4 +1,6 @@
-"""Angle defects and cotangents: exact cases, analytic surfaces, laws of scale and sign, Gauss-Bonnet, borders."""
+"""Angle defects and cotangents: exact cases, analytic surfaces, laws of scale and sign,
+Gauss-Bonnet, borders.
+"""
 
 import numpy as np
 import pytest
@@ -7,10 +9,9 @@ from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import CUBE, TETRAHEDRON, random_closed
 from workbench.data.files import read_mesh
-from workbench.data.surfaces import SURFACES, cylinder, plane, scaled, sphere, torus
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import cotangent_laplacian, mixed_areas
-from workbench.geometry.meshes import on_boundary, vertex_normals
+from workbench.data.shapes.surfaces import SURFACES, cylinder, plane, scaled, sphere, torus
+from workbench.geometry.meshes import curvature, on_boundary, vertex_normals
+from workbench.geometry.meshes.laplacian import cotangent_laplacian, mixed_areas
 from workbench.geometry.motions import exp_so3
 
 seeds = st.integers(0, 10_000)
@@ -31,9 +32,12 @@ def test_polyhedra_by_hand():
 
 
 def test_inscribed_spheres_have_exactly_their_mean_curvature():
-    # Where no triangle is obtuse, sum w |e|^2 / 2 r = 2 A / r: the cotangent formula is exact in the direction of n.
+    # Where no triangle is obtuse, sum w |e|^2 / 2 r = 2 A / r: the cotangent formula is exact in
+    # the direction of n.
     ball = sphere(600, radius=2.0, jitter=0.1, rng=np.random.default_rng(0))
-    outward = np.einsum("vx,vx->v", curvature.mean_curvature_normals(ball.p, ball.faces), ball.normals)
+    outward = np.einsum(
+        "vx,vx->v", curvature.mean_curvature_normals(ball.p, ball.faces), ball.normals
+    )
     np.testing.assert_allclose(outward, 2 / 2.0, rtol=1e-12)
 
 
@@ -48,7 +52,10 @@ def test_regular_torus_at_20k(K, H):
 
 
 def test_errors_of_a_regular_mesh_fall_with_the_square_of_its_edges():
-    errors = [relative(curvature.gaussian_curvature(s.p, s.faces), s.gaussian) for s in map(torus, (500, 2000, 8000))]
+    errors = [
+        relative(curvature.gaussian_curvature(s.p, s.faces), s.gaussian)
+        for s in map(torus, (500, 2000, 8000))
+    ]
     np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 2.0, atol=0.15)
 
 
@@ -84,7 +91,10 @@ def test_motion_scale_and_orientation(seed, scale):
     rng = np.random.default_rng(seed)
     p, faces = random_closed(rng, 40, spread=0.3)
     R = exp_so3(rng.uniform(-3, 3, 3))
-    here, there = curvature.curvatures(p, faces), curvature.curvatures(scale * p @ R.T + [3, 2, 1], faces)
+    here, there = (
+        curvature.curvatures(p, faces),
+        curvature.curvatures(scale * p @ R.T + [3, 2, 1], faces),
+    )
     np.testing.assert_allclose(there.gaussian * scale**2, here.gaussian, rtol=1e-7, atol=1e-7)
     np.testing.assert_allclose(there.mean * scale, here.mean, rtol=1e-7, atol=1e-7)
     turned = curvature.curvatures(p, faces[:, ::-1])
@@ -98,7 +108,9 @@ def test_motion_scale_and_orientation(seed, scale):
 def test_mean_curvature_normal_is_the_laplacian_of_position(seed):
     p, faces = random_closed(np.random.default_rng(seed), 40)
     true = (cotangent_laplacian(p, faces) @ p) / mixed_areas(p, faces)[:, None]
-    np.testing.assert_allclose(curvature.mean_curvature_normals(p, faces), true, rtol=1e-7, atol=1e-7)
+    np.testing.assert_allclose(
+        curvature.mean_curvature_normals(p, faces), true, rtol=1e-7, atol=1e-7
+    )
 
 
 @settings(max_examples=10, deadline=None)
@@ -118,12 +130,16 @@ def test_mean_curvature_normal_is_the_gradient_of_area(seed):
 @settings(max_examples=30, deadline=None)
 @given(seeds, st.integers(8, 60))
 def test_gauss_bonnet_on_any_closed_mesh(seed, count):
-    total, expected = curvature.gauss_bonnet(*random_closed(np.random.default_rng(seed), count, spread=0.9))
+    total, expected = curvature.gauss_bonnet(
+        *random_closed(np.random.default_rng(seed), count, spread=0.9)
+    )
     assert total == pytest.approx(expected, abs=1e-9)
     assert expected == pytest.approx(4 * np.pi)
 
 
-@pytest.mark.parametrize(("name", "chi"), [("torus", 0), ("plane", 1), ("saddle", 1), ("cylinder", 0), ("catenoid", 0)])
+@pytest.mark.parametrize(
+    ("name", "chi"), [("torus", 0), ("plane", 1), ("saddle", 1), ("cylinder", 0), ("catenoid", 0)]
+)
 def test_gauss_bonnet_with_holes_and_borders(name, chi):
     surface = SURFACES[name](3000, jitter=0.25, rng=np.random.default_rng(2))
     total, expected = curvature.gauss_bonnet(surface.p, surface.faces)

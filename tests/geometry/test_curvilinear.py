@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from workbench.geometry.curvilinear import (
+from workbench.geometry.shapes.curvilinear import (
     SYSTEMS,
     cartesian_from_spherical,
     cell_edges,
@@ -37,12 +37,30 @@ def test_they_are_in_their_ranges_and_zero_where_they_have_no_meaning(p):
 
 
 def test_axes_origin_and_signs_of_zeros():
-    p = np.array([[0, 0, 0], [0, 0, 2], [0, 0, -2], [-1, 0, 0], [-1, -0.0, 0], [-0.0, 0, 1], [-1, -1e-300, 0]], float)
+    p = np.array(
+        [
+            [0, 0, 0],
+            [0, 0, 2],
+            [0, 0, -2],
+            [-1, 0, 0],
+            [-1, -0.0, 0],
+            [-0.0, 0, 1],
+            [-1, -1e-300, 0],
+        ],
+        float,
+    )
     np.testing.assert_allclose(
         spherical_from_cartesian(p),
-        [[0, 0, 0], [2, 0, 0], [2, np.pi, 0], [1, np.pi / 2, np.pi], [1, np.pi / 2, np.pi], [1, 0, 0],
-         [1, np.pi / 2, np.pi]],
-    )  # fmt: skip
+        [
+            [0, 0, 0],
+            [2, 0, 0],
+            [2, np.pi, 0],
+            [1, np.pi / 2, np.pi],
+            [1, np.pi / 2, np.pi],
+            [1, 0, 0],
+            [1, np.pi / 2, np.pi],
+        ],
+    )
     assert spherical_from_cartesian(np.empty((0, 3))).shape == (0, 3)
 
 
@@ -60,7 +78,9 @@ def test_complex_numbers_say_the_same_in_chunks():
     p = np.random.default_rng(0).normal(size=(10_001, 3))
     flat = p[:, 0] + 1j * p[:, 1]
     np.testing.assert_allclose(spherical_from_cartesian(p)[:, 2], np.angle(flat))
-    np.testing.assert_allclose(spherical_from_cartesian(p)[:, 1], np.angle(p[:, 2] + 1j * np.abs(flat)))
+    np.testing.assert_allclose(
+        spherical_from_cartesian(p)[:, 1], np.angle(p[:, 2] + 1j * np.abs(flat))
+    )
 
 
 def test_half_of_all_azimuths_are_wrong_by_arctan():
@@ -80,7 +100,7 @@ def test_the_known_oracle_is_zero_near_the_axis():
 def test_cells_fill_their_solid(system):
     of = SYSTEMS[system]
     low, high = np.array(of.solid)
-    volume, product = volume_of_cells(of, low, high, 40)
+    volume, product = volume_of_cells(of, low, high, cells=40)
     assert volume == pytest.approx(of.volume, rel=1e-3)
     assert product == pytest.approx(np.prod(high - low))
 
@@ -93,7 +113,12 @@ def test_the_box_of_a_balls_coordinates_is_two_pi_squared():
 @pytest.mark.parametrize("system", sorted(SYSTEMS))
 def test_the_density_is_the_determinant_of_the_derivative(system):
     of, c, h = SYSTEMS[system], np.array([0.7, 0.9, 0.4]), 1e-5
-    J = np.column_stack([(of.to_points(c[None] + d) - of.to_points(c[None] - d))[0] / (2 * h) for d in h * np.eye(3)])
+    J = np.column_stack(
+        [
+            (of.to_points(c[None] + d) - of.to_points(c[None] - d))[0] / (2 * h)
+            for d in h * np.eye(3)
+        ]
+    )
     assert abs(np.linalg.det(J)) == pytest.approx(of.density(c[None])[0], rel=1e-8)
 
 
@@ -113,7 +138,9 @@ def test_what_is_written_is_read_again(c, convention):
 
 def test_one_triple_is_three_points():
     numbers = np.array([1.0, np.radians(50), np.radians(30)])
-    iso, mathematics, elevation = (cartesian_from_spherical(read_as(numbers, name)[None])[0] for name in CONVENTIONS)
+    iso, mathematics, elevation = (
+        cartesian_from_spherical(read_as(numbers, name)[None])[0] for name in CONVENTIONS
+    )
     np.testing.assert_allclose(iso[2], np.cos(np.radians(50)))
     np.testing.assert_allclose(mathematics[2], np.cos(np.radians(30)))
     np.testing.assert_allclose(elevation[2], np.sin(np.radians(30)))

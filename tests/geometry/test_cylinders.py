@@ -1,12 +1,14 @@
-"""Distances from cylinders: slopes by differences, five steps and no more, points that lie on one."""
+"""Distances from cylinders: slopes by differences, five steps and no more, points that lie on
+one.
+"""
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.truths.fitting import distances
-from workbench.geometry.cylinders import linearise_cylinder, retract_cylinder
 from workbench.geometry.motions import across
+from workbench.geometry.shapes.cylinders import linearise_cylinder, retract_cylinder
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -24,9 +26,13 @@ def test_the_slopes_are_those_of_the_distances(seed):
     residuals, jacobian = linearise_cylinder(cylinder, p)
     np.testing.assert_allclose(residuals, distances("cylinder", cylinder, p), atol=1e-12)
     for k, e in enumerate(np.eye(5)):
-        ahead, behind = (distances("cylinder", retract_cylinder(cylinder, s * h * e), p) for s in (1, -1))
+        ahead, behind = (
+            distances("cylinder", retract_cylinder(cylinder, s * h * e), p) for s in (1, -1)
+        )
         np.testing.assert_allclose(
-            jacobian[:, k], (ahead - behind) / (2 * h), atol=1e-5 / np.abs(residuals + cylinder[6]).min()
+            jacobian[:, k],
+            (ahead - behind) / (2 * h),
+            atol=1e-5 / np.abs(residuals + cylinder[6]).min(),
         )
 
 
@@ -35,7 +41,9 @@ def test_the_slopes_are_those_of_the_distances(seed):
 def test_a_step_keeps_the_direction_a_unit_vector(seed):
     rng = np.random.default_rng(seed)
     moved = retract_cylinder(a_cylinder(rng), rng.normal(size=5))
-    assert np.linalg.norm(moved[3:6]) == np.float64(1.0) or abs(np.linalg.norm(moved[3:6]) - 1) < 1e-12
+    assert (
+        np.linalg.norm(moved[3:6]) == np.float64(1.0) or abs(np.linalg.norm(moved[3:6]) - 1) < 1e-12
+    )
 
 
 def test_many_at_once_are_each_alone():
@@ -49,14 +57,20 @@ def test_many_at_once_are_each_alone():
 
 
 def test_seven_numbers_have_two_that_change_nothing():
-    """The redundant Jacobian's two zeros: a slide along the axis and the length of the direction."""
+    """The redundant Jacobian's two zeros: a slide along the axis and the length of the
+    direction.
+    """
     rng = np.random.default_rng(1)
     turn, z = rng.uniform(0, 2 * np.pi, 200), rng.uniform(-1, 1, 200)
     p = np.column_stack([np.cos(turn), np.sin(turn), z])
     cylinder, h = np.array([0.0, 0, 0, 0, 0, 1, 1]), 1e-6
     J = np.column_stack(
         [
-            (distances("cylinder", cylinder + h * e, p) - distances("cylinder", cylinder - h * e, p)) / (2 * h)
+            (
+                distances("cylinder", cylinder + h * e, p)
+                - distances("cylinder", cylinder - h * e, p)
+            )
+            / (2 * h)
             for e in np.eye(7)
         ]
     )

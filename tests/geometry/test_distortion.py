@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.distortion import (
+from workbench.geometry.cameras.distortion import (
     NONE,
     Distortion,
     distort,
@@ -26,7 +26,12 @@ def coefficients(most: float) -> st.SearchStrategy[float]:
 
 
 lenses = st.builds(
-    Distortion, coefficients(0.5), coefficients(0.3), coefficients(0.05), coefficients(0.05), coefficients(0.2)
+    Distortion,
+    coefficients(0.5),
+    coefficients(0.3),
+    coefficients(0.05),
+    coefficients(0.05),
+    coefficients(0.2),
 )
 seeds = st.integers(0, 2**32 - 1)
 
@@ -59,7 +64,9 @@ def test_the_jacobian_is_the_derivative_and_is_symmetric(lens, seed):
 
 @settings(max_examples=50, deadline=None)
 @given(lens=lenses, seed=seeds)
-@example(lens=Distortion(3.19, -0.8, 1.0, 0.0, -0.27), seed=0)  # folds across q, before it folds against it
+@example(
+    lens=Distortion(3.19, -0.8, 1.0, 0.0, -0.27), seed=0
+)  # folds across q, before it folds against it
 def test_the_jacobian_is_positive_inside_the_radius_and_singular_on_it(lens, seed):
     radius = invertible_radius(lens)
     inside = disc(np.random.default_rng(seed), min(radius, 3.0) * (1 - 1e-9))
@@ -82,7 +89,9 @@ def test_beyond_its_largest_picture_a_barrel_has_no_inverse():
     lens = Distortion(-0.3)
     rim = invertible_radius(lens)
     largest = distort(np.array([[rim, 0.0]]), *lens)[0, 0]
-    answers = undistort(np.array([[0.999 * largest, 0.0], [1.001 * largest, 0.0], [0.0, 5.0]]), lens)
+    answers = undistort(
+        np.array([[0.999 * largest, 0.0], [1.001 * largest, 0.0], [0.0, 5.0]]), lens
+    )
     assert np.isfinite(answers[0]).all()
     assert np.isnan(answers[1:]).all()
 

@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.robust import match_scene
-from workbench.geometry.epipolar import (
+from lessons.ransac.robust_scenes import match_scene
+from workbench.geometry.two_views.epipolar import (
     epipolar_constraints,
     epipolar_lines,
     epipoles,
@@ -17,7 +17,7 @@ from workbench.geometry.epipolar import (
     refine_fundamental,
     sampson_distances,
 )
-from workbench.geometry.homography import homogeneous
+from workbench.geometry.two_views.homography import homogeneous
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -55,7 +55,9 @@ def test_the_epipole_has_no_line_and_one_place_no_geometry():
 @given(seed=seeds)
 def test_the_sampson_distance_is_the_first_order_distance_to_the_constraint(seed):
     F, uv_first, uv_second = views(seed, 5, sigma=0.01)
-    for a, b, distance in zip(uv_first, uv_second, sampson_distances(F, uv_first, uv_second), strict=True):
+    for a, b, distance in zip(
+        uv_first, uv_second, sampson_distances(F, uv_first, uv_second), strict=True
+    ):
         gradient = np.concatenate([(F.T @ np.append(b, 1))[:2], (F @ np.append(a, 1))[:2]])
         moved = np.concatenate([a, b]) - distance * gradient / np.linalg.norm(gradient)
         left = sampson_distances(F, moved[None, :2], moved[None, 2:])[0]
@@ -68,7 +70,9 @@ def test_several_matrices_and_single_precision():
     rows = sampson_distances(many, uv_first, uv_second)
     for row, G in zip(rows, many, strict=True):
         np.testing.assert_allclose(row, sampson_distances(G, uv_first, uv_second))
-    single = sampson_distances(F.astype(np.float32), uv_first.astype(np.float32), uv_second.astype(np.float32))
+    single = sampson_distances(
+        F.astype(np.float32), uv_first.astype(np.float32), uv_second.astype(np.float32)
+    )
     assert single.dtype == np.float32
     np.testing.assert_allclose(single, rows[0], atol=2e-3)
 
@@ -81,7 +85,9 @@ def test_seven_matches_without_noise_give_the_matrix_among_few(seed):
     found = found[np.isfinite(found).all((1, 2))]
     assert len(found) in (1, 3)
     np.testing.assert_allclose(np.linalg.det(found), 0.0, atol=1e-9)
-    np.testing.assert_allclose(sampson_distances(found, uv_first[:7], uv_second[:7]), 0.0, atol=1e-4)
+    np.testing.assert_allclose(
+        sampson_distances(found, uv_first[:7], uv_second[:7]), 0.0, atol=1e-4
+    )
     assert np.abs(sampson_distances(found, uv_first, uv_second)).max(axis=1).min() < 0.05
     assert orientation_agrees(F[None], uv_first, uv_second)[0]
 
@@ -128,18 +134,23 @@ def test_a_match_of_weight_zero_does_not_count():
     weights = np.r_[np.zeros(3), np.ones(37)]
     for found in (
         fit_fundamental(uv_first, uv_second, weights),
-        refine_fundamental(F, uv_first, uv_second, weights),
+        refine_fundamental(F, uv_first, uv_second, weights=weights),
     ):
         same_up_to_sign(found, F, 1e-6)
 
 
 def test_eight_points_agree_with_skimage():
-    """Its normalisation differs a little, and so does the answer, but by far less than the noise."""
+    """Its normalisation differs a little, and so does the answer, but by far less than the
+    noise.
+    """
     from skimage.transform import FundamentalMatrixTransform
 
     _, uv_first, uv_second = views(5, 60, sigma=1.0)
     peer = FundamentalMatrixTransform.from_estimate(uv_first, uv_second).params
-    ours, theirs = (sampson_distances(F, uv_first, uv_second) for F in (fit_fundamental(uv_first, uv_second), peer))
+    ours, theirs = (
+        sampson_distances(F, uv_first, uv_second)
+        for F in (fit_fundamental(uv_first, uv_second), peer)
+    )
     np.testing.assert_allclose(np.abs(ours), np.abs(theirs), atol=2e-3)
 
 
@@ -149,7 +160,7 @@ def test_refinement_lowers_the_distances_and_stays_singular(seed):
     _, uv_first, uv_second = views(seed, 60, sigma=1.0)
     weights = np.random.default_rng(seed).random(60) + 0.1
     start = fit_fundamental(uv_first, uv_second, weights)
-    found = refine_fundamental(start, uv_first, uv_second, weights, steps=50)
+    found = refine_fundamental(start, uv_first, uv_second, weights=weights, steps=50)
 
     def cost(F):
         return float(weights @ sampson_distances(F, uv_first, uv_second) ** 2)
@@ -162,7 +173,9 @@ def test_refinement_lowers_the_distances_and_stays_singular(seed):
         W, Z = (np.eye(3) + 1e-5 * rng.normal(size=(3, 3)) for _ in range(2))
         near = np.linalg.qr(U @ W)[0] @ np.diag(s) @ np.linalg.qr((Vt @ Z).T)[0].T
         signs = [np.diag(x) for x in np.array(np.meshgrid([1, -1], [1, -1])).reshape(2, -1).T]
-        assert min(cost(U @ np.diag([*np.diag(sign), 1.0]) @ U.T @ near) for sign in signs) >= cost(found) * (1 - 1e-5)
+        assert min(cost(U @ np.diag([*np.diag(sign), 1.0]) @ U.T @ near) for sign in signs) >= cost(
+            found
+        ) * (1 - 1e-5)
 
 
 def test_refinement_beats_eight_points_against_the_truth():
@@ -171,10 +184,14 @@ def test_refinement_beats_eight_points_against_the_truth():
         scene = match_scene(np.random.default_rng(seed), count=200, outlier_ratio=0.0, sigma=1.0)
         linear = fit_fundamental(scene.p[:, :2], scene.p[:, 2:])
         refined = refine_fundamental(linear, scene.p[:, :2], scene.p[:, 2:])
-        errors.append([
-            np.sqrt(np.square(sampson_distances(F, scene.p_true[:, :2], scene.p_true[:, 2:])).mean())
-            for F in (linear, refined)
-        ])  # fmt: skip
+        errors.append(
+            [
+                np.sqrt(
+                    np.square(sampson_distances(F, scene.p_true[:, :2], scene.p_true[:, 2:])).mean()
+                )
+                for F in (linear, refined)
+            ]
+        )
     linear, refined = np.median(errors, axis=0)
     assert refined < 0.95 * linear
 

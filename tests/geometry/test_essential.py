@@ -5,17 +5,21 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.alignment import degrees_between
 from workbench.geometry.cameras import intrinsics
-from workbench.geometry.epipolar import fit_fundamental, fundamental_from_cameras, sampson_distances
-from workbench.geometry.essential import (
+from workbench.geometry.motions import angle_between, apply, exp_so3, motion, skew
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.two_views.epipolar import (
+    fit_fundamental,
+    fundamental_from_cameras,
+    sampson_distances,
+)
+from workbench.geometry.two_views.essential import (
     equal_singular_values,
     essential_from_fundamental,
     essential_to_poses,
     refine_motion,
 )
-from workbench.geometry.motions import angle_between, apply, exp_so3, motion, skew
-from workbench.geometry.triangulation import before_both, camera_matrix, triangulate
+from workbench.geometry.two_views.triangulation import before_both, camera_matrix, triangulate
 
 seeds = st.integers(0, 2**32 - 1)
 K = intrinsics(900.0, 512.0, 341.0)
@@ -42,7 +46,10 @@ def test_the_true_motion_is_one_of_four_and_alone_puts_points_in_front(seed):
     Ts = essential_to_poses(E)
     assert len(Ts) == 4
     counts = [
-        before_both(triangulate(camera_matrix(K, np.eye(4)), camera_matrix(L, one), uv_first, uv_second), one).sum()
+        before_both(
+            triangulate(camera_matrix(K, np.eye(4)), camera_matrix(L, one), uv_first, uv_second),
+            one,
+        ).sum()
         for one in Ts
     ]
     assert sorted(counts) == [0, 0, 0, len(p)]
@@ -62,7 +69,9 @@ def test_all_four_are_motions_of_any_matrix(seed):
         assert np.linalg.det(R) == pytest.approx(1)
         assert np.linalg.norm(t) == pytest.approx(1)
         G = skew(t) @ R
-        np.testing.assert_allclose(np.abs((G * nearest).sum()), np.linalg.norm(G) * np.linalg.norm(nearest), rtol=1e-9)
+        np.testing.assert_allclose(
+            np.abs((G * nearest).sum()), np.linalg.norm(G) * np.linalg.norm(nearest), rtol=1e-9
+        )
     Ts = essential_to_poses(E)
     np.testing.assert_allclose(
         essential_to_poses(-2.0 * E)[:, :3, :3].sum(axis=0), Ts[:, :3, :3].sum(axis=0), atol=1e-9
@@ -89,40 +98,61 @@ def test_refinement_lowers_the_distances_and_stays_at_the_truth_without_noise(se
 
     def cost(T_second_first: np.ndarray) -> float:
         return float(
-            np.square(sampson_distances(fundamental_from_cameras(K, L, T_second_first), uv_first, uv_second)).sum()
+            np.square(
+                sampson_distances(
+                    fundamental_from_cameras(K, L, T_second_first), uv_first, uv_second
+                )
+            ).sum()
         )
 
-    found = refine_motion(start, uv_first, uv_second, K, L)
+    found = refine_motion(start, uv_first, uv_second, K_first=K, K_second=L)
     assert np.linalg.norm(found[:3, 3]) == pytest.approx(1)
     assert cost(found) <= cost(T) + 1e-9
     for axis in np.eye(3):  # a minimum: every small step raises the cost
         for step in (1e-4, -1e-4):
-            assert cost(motion(exp_so3(step * axis) @ found[:3, :3], found[:3, 3])) >= cost(found) - 1e-9
+            assert (
+                cost(motion(exp_so3(step * axis) @ found[:3, :3], found[:3, 3]))
+                >= cost(found) - 1e-9
+            )
             assert cost(motion(found[:3, :3], found[:3, 3] + step * axis)) >= cost(found) - 1e-9
     T, _, uv_first, uv_second = pair(seed)
-    found = refine_motion(motion(exp_so3(np.full(3, 0.01)) @ T[:3, :3], T[:3, 3]), uv_first, uv_second, K, L)
+    found = refine_motion(
+        motion(exp_so3(np.full(3, 0.01)) @ T[:3, :3], T[:3, 3]),
+        uv_first,
+        uv_second,
+        K_first=K,
+        K_second=L,
+    )
     assert degrees_between(found, T) < 1e-5
     assert angle_between(found[:3, 3], T[:3, 3]) < 1e-6
 
 
 def test_a_motion_that_only_turns_is_refused():
     with pytest.raises(ValueError, match="without translation"):
-        refine_motion(np.eye(4), np.ones((9, 2)), np.ones((9, 2)), K, K)
+        refine_motion(np.eye(4), np.ones((9, 2)), np.ones((9, 2)), K_first=K, K_second=K)
 
 
 def test_the_fountains_motion(shared_data):
     found = np.load(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
     good = np.abs(found["gt_sampson"]) < 1
-    uv_first, uv_second, K_ = found["x1"][good].astype(float), found["x2"][good].astype(float), found["K1"]
+    uv_first, uv_second, K_ = (
+        found["x1"][good].astype(float),
+        found["x2"][good].astype(float),
+        found["K1"],
+    )
     E = essential_from_fundamental(fit_fundamental(uv_first, uv_second), K_, K_)
     Ts = essential_to_poses(E)
     P = camera_matrix(K_, np.eye(4))
-    counts = [before_both(triangulate(P, camera_matrix(K_, T), uv_first, uv_second), T).sum() for T in Ts]
+    counts = [
+        before_both(triangulate(P, camera_matrix(K_, T), uv_first, uv_second), T).sum() for T in Ts
+    ]
     assert sorted(counts) == [0, 0, 0, 1365]
-    T = refine_motion(Ts[int(np.argmax(counts))], uv_first, uv_second, K_, K_)
+    T = refine_motion(Ts[int(np.argmax(counts))], uv_first, uv_second, K_first=K_, K_second=K_)
     assert degrees_between(T[:3, :3], found["R_rel"]) < 0.05
     assert np.degrees(angle_between(T[:3, 3], found["t_rel"])) < 0.2
-    everything = triangulate(P, camera_matrix(K_, T), found["x1"].astype(float), found["x2"].astype(float))
+    everything = triangulate(
+        P, camera_matrix(K_, T), found["x1"].astype(float), found["x2"].astype(float)
+    )
     assert before_both(everything, T).sum() == pytest.approx(1428, abs=3)
 
 
@@ -136,7 +166,11 @@ def test_the_four_motions_come_in_one_order_whatever_basis_a_library_takes(seed)
     turn = np.eye(3)
     turn[:2, :2] = [[np.cos(seed), -np.sin(seed)], [np.sin(seed), np.cos(seed)]]
     signs = np.diag(rng.choice([-1.0, 1.0], 3))
-    other = (U @ turn @ signs, s, signs @ turn.T @ Vt)  # as good a decomposition, since two singular values are equal
+    other = (
+        U @ turn @ signs,
+        s,
+        signs @ turn.T @ Vt,
+    )  # as good a decomposition, since two singular values are equal
     np.testing.assert_allclose(other[0] @ np.diag(s) @ other[2], E, atol=1e-12)
     with unittest.mock.patch("numpy.linalg.svd", return_value=other):
         found = essential_to_poses(E)

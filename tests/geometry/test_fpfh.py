@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.data.rabbit import rabbit
-from workbench.geometry.fpfh import fpfh, pair_angles
+from workbench.data.shapes.rabbit import rabbit
+from workbench.geometry.features.fpfh import fpfh, pair_angles
 from workbench.geometry.motions import apply, exp_so3, motion
-from workbench.geometry.normals import point_normals
+from workbench.geometry.points.normals import point_normals
 
 
 def pairs(seed: int, count: int = 40) -> list[np.ndarray]:
@@ -21,7 +21,10 @@ def pairs(seed: int, count: int = 40) -> list[np.ndarray]:
 def test_the_published_pair():
     n_j = np.array([[0.3, 0.1, 0.95]])
     found = pair_angles(
-        np.zeros((1, 3)), np.array([[0.0, 0, 1]]), np.array([[0.02, 0.01, 0.003]]), n_j / np.linalg.norm(n_j)
+        np.zeros((1, 3)),
+        np.array([[0.0, 0, 1]]),
+        np.array([[0.02, 0.01, 0.003]]),
+        n_j / np.linalg.norm(n_j),
     )
     np.testing.assert_allclose(found, [[0.3177, 0.0492, -0.4360]], atol=1e-4)
 
@@ -61,7 +64,9 @@ def plainly(p: np.ndarray, n: np.ndarray, radius: float) -> np.ndarray:
                 own[i, 11 * k + min(10, max(0, int(np.floor(11 * x))))] += 100 / len([*near[i]])
     found = own.copy()
     for i in range(len(p)):
-        around = np.sum([own[j] / np.sum((p[j] - p[i]) ** 2) for j in near[i]], axis=0).reshape(3, 11)
+        around = np.sum([own[j] / np.sum((p[j] - p[i]) ** 2) for j in near[i]], axis=0).reshape(
+            3, 11
+        )
         found[i] += (100 * around / around.sum(axis=1, keepdims=True)).ravel()
     return found
 
@@ -74,15 +79,76 @@ def test_it_is_what_the_loops_give():
 
 OPEN3D = {  # compute_fpfh_feature of Open3D 0.20 within 0.15 m, at two of the points
     17: [
-        0.084, 0.343, 0.138, 0.279, 18.937, 103.116, 48.658, 15.374, 12.49, 0.331, 0.249, 10.854, 17.884, 17.738, 28.797,
-        30.449, 25.704, 31.621, 18.877, 7.782, 7.974, 2.32, 15.329, 18.703, 7.277, 32.21, 37.69, 5.423, 57.245, 14.225,
-        11.15, 0.436, 0.312,
+        0.084,
+        0.343,
+        0.138,
+        0.279,
+        18.937,
+        103.116,
+        48.658,
+        15.374,
+        12.49,
+        0.331,
+        0.249,
+        10.854,
+        17.884,
+        17.738,
+        28.797,
+        30.449,
+        25.704,
+        31.621,
+        18.877,
+        7.782,
+        7.974,
+        2.32,
+        15.329,
+        18.703,
+        7.277,
+        32.21,
+        37.69,
+        5.423,
+        57.245,
+        14.225,
+        11.15,
+        0.436,
+        0.312,
     ],
     250: [
-        0.0, 0.0, 0.0, 0.0, 1.053, 127.195, 71.752, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.746, 65.181, 94.798, 33.048,
-        3.01, 0.975, 0.242, 0.0, 0.0, 0.0, 0.0, 5.865, 168.287, 20.707, 2.014, 2.471, 0.656, 0.0, 0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        1.053,
+        127.195,
+        71.752,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        2.746,
+        65.181,
+        94.798,
+        33.048,
+        3.01,
+        0.975,
+        0.242,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        5.865,
+        168.287,
+        20.707,
+        2.014,
+        2.471,
+        0.656,
+        0.0,
+        0.0,
     ],
-}  # fmt: skip
+}
 
 
 def test_it_is_what_open3d_gives():

@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data import surfaces
-from workbench.geometry import geodesics, meshes
+from workbench.data.shapes import surfaces
+from workbench.geometry.meshes import geodesics
+from workbench.geometry.meshes import triangles as meshes
 
 
 def some_graph(seed, count=40, chance=0.12):
@@ -24,7 +25,9 @@ def test_distances_are_networkx_s(seed):
     edges, lengths, count = some_graph(seed)
     graph = networkx.Graph()
     graph.add_nodes_from(range(count))
-    graph.add_weighted_edges_from((int(a), int(b), w) for (a, b), w in zip(edges, lengths, strict=True))
+    graph.add_weighted_edges_from(
+        (int(a), int(b), w) for (a, b), w in zip(edges, lengths, strict=True)
+    )
     theirs = networkx.single_source_dijkstra_path_length(graph, 3)
     expected = [theirs.get(node, np.inf) for node in range(count)]
     np.testing.assert_allclose(geodesics.shortest_distances(edges, lengths, count, 3), expected)
@@ -42,7 +45,7 @@ def test_a_path_is_as_long_as_its_distance(seed):
     edges, lengths, count = some_graph(seed)
     d = geodesics.shortest_distances(edges, lengths, count, 0)
     goal = int(np.argmax(np.where(np.isfinite(d), d, -1)))
-    path = geodesics.shortest_path(edges, lengths, d, goal)
+    path = geodesics.shortest_path(edges, lengths, d, goal=goal)
     weight = geodesics.length_graph(edges, lengths, count)
     assert path[0] == 0
     assert path[-1] == goal
@@ -52,8 +55,10 @@ def test_a_path_is_as_long_as_its_distance(seed):
 def test_no_path_leads_out_of_reach():
     edges, lengths = np.array([[0, 1]]), np.array([1.0])
     d = geodesics.shortest_distances(edges, lengths, 3, 0)
-    assert len(geodesics.shortest_path(edges, lengths, d, 2)) == 0
-    assert geodesics.shortest_path(edges, lengths, np.array([0.0, 0.0, 1.0]), 2).tolist() == [2]  # wrong distances
+    assert len(geodesics.shortest_path(edges, lengths, d, goal=2)) == 0
+    assert geodesics.shortest_path(edges, lengths, np.array([0.0, 0.0, 1.0]), goal=2).tolist() == [
+        2
+    ]  # wrong distances
 
 
 @pytest.mark.parametrize(("neighbours", "worst"), [(4, 41.42), (8, 8.239), (16, 2.749)])
@@ -78,7 +83,7 @@ def test_other_numbers_of_neighbours_are_refused():
         geodesics.grid_edges(5, 6)
 
 
-# points on edges --------------------------------------------------------------------------------------------------------
+# points on edges ----------------------------------------------------------------------------------
 
 
 def test_points_on_edges_come_near_the_straight_way_over_a_flat_sheet():
@@ -103,13 +108,18 @@ def test_points_on_edges_are_joined_within_faces_only():
     assert len(edges) == 3 * own + len(ball.faces) * (3 * 4 + 3 * 2)
     assert len(np.unique(np.sort(edges, axis=1), axis=0)) == len(edges)
     mesh_edges = meshes.edges(ball.faces)
-    assert lengths.max() <= np.linalg.norm(ball.p[mesh_edges[:, 0]] - ball.p[mesh_edges[:, 1]], axis=1).max() + 1e-12
+    assert (
+        lengths.max()
+        <= np.linalg.norm(ball.p[mesh_edges[:, 0]] - ball.p[mesh_edges[:, 1]], axis=1).max() + 1e-12
+    )
     tangle = nodes[edges].mean(axis=1)
     assert np.linalg.norm(tangle, axis=1).min() > 0.9  # on the faces, not through the ball
 
 
 def test_over_a_cube_the_way_is_that_of_its_net():
-    """From a corner to the opposite one of a unit cube it is sqrt(5), over the middle of an edge."""
+    """From a corner to the opposite one of a unit cube it is sqrt(5), over the middle of an
+    edge.
+    """
     p = np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)])
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     faces = np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
@@ -119,7 +129,7 @@ def test_over_a_cube_the_way_is_that_of_its_net():
     assert d[7] >= np.sqrt(5) - 1e-12
 
 
-# walls ------------------------------------------------------------------------------------------------------------------
+# walls --------------------------------------------------------------------------------------------
 
 
 def test_the_way_round_a_wall():
@@ -135,8 +145,23 @@ def test_the_way_round_a_wall():
 
 def test_segments_that_cross_the_wall():
     tip = np.array([0.0, 0.3])
-    segments = np.array([
-        [[-0.1, 0.0], [0.1, 0.0]], [[-0.1, 0.29], [0.1, 0.29]], [[-0.1, 0.31], [0.1, 0.31]], [[-0.1, 0.2], [0.0, 0.3]],
-        [[-0.1, 0.0], [-0.2, 0.0]], [[0.0, 0.3], [0.0, 0.4]], [[0.0, 0.1], [0.0, 0.2]],
-    ])  # fmt: skip
-    assert geodesics.crosses_wall(segments, tip).tolist() == [True, True, False, False, False, False, True]
+    segments = np.array(
+        [
+            [[-0.1, 0.0], [0.1, 0.0]],
+            [[-0.1, 0.29], [0.1, 0.29]],
+            [[-0.1, 0.31], [0.1, 0.31]],
+            [[-0.1, 0.2], [0.0, 0.3]],
+            [[-0.1, 0.0], [-0.2, 0.0]],
+            [[0.0, 0.3], [0.0, 0.4]],
+            [[0.0, 0.1], [0.0, 0.2]],
+        ]
+    )
+    assert geodesics.crosses_wall(segments, tip).tolist() == [
+        True,
+        True,
+        False,
+        False,
+        False,
+        False,
+        True,
+    ]

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from tests.truths.coordinates import apart
-from workbench.geometry.globe import (
+from workbench.geometry.shapes.globe import (
     EARTH_RADIUS,
     PLANETS,
     Ellipsoid,
@@ -56,7 +56,9 @@ def test_known_ways():
 @pytest.mark.parametrize("course", [0.0, 0.7, np.pi / 2])
 def test_short_ways_are_exact_where_the_law_of_cosines_is_not(metres, course):
     lat = np.radians(48.0)
-    step = np.degrees(metres / EARTH_RADIUS * np.array([np.cos(course), np.sin(course) / np.cos(lat)]))
+    step = np.degrees(
+        metres / EARTH_RADIUS * np.array([np.cos(course), np.sin(course) / np.cos(lat)])
+    )
     a = np.array([48.0, 0.0])
     assert distance(a, a + step) == pytest.approx(metres, rel=1e-3 if metres > 10 else 1e-6)
     if metres == 1e-3:
@@ -68,7 +70,9 @@ def test_short_ways_are_exact_where_the_law_of_cosines_is_not(metres, course):
 def test_pyproj_says_the_same_of_a_sphere_and_a_little_else_of_the_earth():
     pyproj = pytest.importorskip("pyproj")
     rng = np.random.default_rng(0)
-    a, b = (np.column_stack([rng.uniform(-90, 90, 500), rng.uniform(-180, 180, 500)]) for _ in range(2))
+    a, b = (
+        np.column_stack([rng.uniform(-90, 90, 500), rng.uniform(-180, 180, 500)]) for _ in range(2)
+    )
     of_sphere = pyproj.Geod(a=EARTH_RADIUS, f=0.0).inv(a[:, 1], a[:, 0], b[:, 1], b[:, 0])[2]
     ours = great_circle_distance(a, b)
     np.testing.assert_allclose(ours, of_sphere, atol=1e-6)
@@ -98,11 +102,15 @@ def test_antipodes_have_no_way_and_no_middle():
 
 
 def test_the_mean_is_the_middle_on_both_sides_of_the_date_line_and_turns_with_the_globe():
-    np.testing.assert_allclose(mean_place(np.array([[0.0, 179.0], [0.0, -179.0]])), [0, 180], atol=1e-9)
+    np.testing.assert_allclose(
+        mean_place(np.array([[0.0, 179.0], [0.0, -179.0]])), [0, 180], atol=1e-9
+    )
     places = np.array([[10.0, 170.0], [-20.0, -150.0], [40.0, 160.0]])
     R = Rotation.from_rotvec([0.3, -0.8, 1.1]).as_matrix()
     turned = mean_place(places_of_units(units_of_places(places) @ R.T))
-    np.testing.assert_allclose(units_of_places(turned[None])[0], R @ units_of_places(mean_place(places)[None])[0])
+    np.testing.assert_allclose(
+        units_of_places(turned[None])[0], R @ units_of_places(mean_place(places)[None])[0]
+    )
 
 
 @given(PLACES)
@@ -116,7 +124,9 @@ def test_latitude_is_the_normals_angle():
     globe, latitude = Ellipsoid(2.0, 0.3), np.linspace(-1.5, 1.5, 11)
     rho, z = globe.meridian(latitude).T
     np.testing.assert_allclose((rho / 2.0) ** 2 + (z / 1.4) ** 2, 1)
-    np.testing.assert_allclose(np.arctan2(z / 1.4**2, rho / 2.0**2), latitude)  # the gradient of that
+    np.testing.assert_allclose(
+        np.arctan2(z / 1.4**2, rho / 2.0**2), latitude
+    )  # the gradient of that
     np.testing.assert_allclose(np.arctan2(z, rho), globe.geocentric(latitude))
 
 

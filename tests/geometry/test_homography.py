@@ -4,7 +4,7 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.homography import (
+from workbench.geometry.two_views.homography import (
     fit_homographies,
     fit_homography,
     four_in_general_position,
@@ -52,26 +52,37 @@ def test_weight_zero_is_absence_and_weight_two_is_twice():
     _, uv_a, uv_b = scene(7, 12, sigma=2.0)
     weights = np.array([0.0] * 2 + [1.0] * 5 + [2.0] * 5)
     rows = np.r_[2:12, 7:12]
-    for fit in (fit_homography, lambda a, b, w=None: refine_homography(fit_homography(a, b, w), a, b, w, steps=40)):
+    for fit in (
+        fit_homography,
+        lambda a, b, w=None: refine_homography(fit_homography(a, b, w), a, b, weights=w, steps=40),
+    ):
         ours, repeated = fit(uv_a, uv_b, weights), fit(uv_a[rows], uv_b[rows])
         tolerance = 0.05 if fit is fit_homography else 1e-3  # the normalisation sees all pixels
-        np.testing.assert_allclose(transform_pixels(ours, uv_a), transform_pixels(repeated, uv_a), atol=tolerance)
+        np.testing.assert_allclose(
+            transform_pixels(ours, uv_a), transform_pixels(repeated, uv_a), atol=tolerance
+        )
 
 
 def test_many_fitted_side_by_side_are_one_by_one():
     uv_a, uv_b = np.random.default_rng(0).uniform(0, 100, (2, 5, 12, 2))
     for H, a, b in zip(fit_homographies(uv_a, uv_b), uv_a, uv_b, strict=True):
-        np.testing.assert_allclose(H * np.sign(H[2, 2]), (one := fit_homography(a, b)) * np.sign(one[2, 2]), atol=1e-12)
+        np.testing.assert_allclose(
+            H * np.sign(H[2, 2]), (one := fit_homography(a, b)) * np.sign(one[2, 2]), atol=1e-12
+        )
 
 
 def test_it_agrees_with_skimage():
-    """Its normalisation differs a little, and so does the answer, but by far less than the noise."""
+    """Its normalisation differs a little, and so does the answer, but by far less than the
+    noise.
+    """
     from skimage.transform import ProjectiveTransform
 
     _, uv_a, uv_b = scene(5, 40, sigma=2.0)
     peer = ProjectiveTransform.from_estimate(uv_a, uv_b).params
     ours = fit_homography(uv_a, uv_b)
-    np.testing.assert_allclose(transform_pixels(ours, uv_a), transform_pixels(peer, uv_a), atol=2e-3)
+    np.testing.assert_allclose(
+        transform_pixels(ours, uv_a), transform_pixels(peer, uv_a), atol=2e-3
+    )
 
 
 def test_far_from_the_origin_nothing_is_lost():
@@ -109,7 +120,7 @@ def test_refinement_reaches_the_optimum_of_the_transfer_distance(seed):
     _, uv_a, uv_b = scene(seed, 40, sigma=2.0)
     weights = np.random.default_rng(seed).random(40) + 0.1
     start = fit_homography(uv_a, uv_b, weights)
-    found = refine_homography(start, uv_a, uv_b, weights, steps=30)
+    found = refine_homography(start, uv_a, uv_b, weights=weights, steps=30)
 
     def cost(H):
         return float(weights @ transfer_distances(H, uv_a, uv_b) ** 2)
@@ -119,7 +130,9 @@ def test_refinement_reaches_the_optimum_of_the_transfer_distance(seed):
         return (np.sqrt(weights)[:, None] * off).ravel()
 
     x_scale = np.array([1, 1, 100, 1, 1, 100, 1e-3, 1e-3])
-    oracle = scipy.optimize.least_squares(residuals, (start / start[2, 2]).ravel()[:8], x_scale=x_scale)
+    oracle = scipy.optimize.least_squares(
+        residuals, (start / start[2, 2]).ravel()[:8], x_scale=x_scale
+    )
     assert cost(found) <= cost(start) * (1 + 1e-12)
     assert cost(found) <= 2 * oracle.cost * (1 + 1e-6)
 
@@ -142,8 +155,11 @@ def test_a_grid_stays_a_grid_under_the_identity_and_goes_where_its_corners_go():
     size = np.array([640.0, 480.0])
     ends = warped_grid(np.eye(3), size, cells=4, pieces=3)
     assert len(ends) == 2 * 5 * 12
-    assert np.isclose(np.diff(ends, axis=1)[:, 0] / size, 0).any(axis=1).all()  # along the columns or the rows
+    assert (
+        np.isclose(np.diff(ends, axis=1)[:, 0] / size, 0).any(axis=1).all()
+    )  # along the columns or the rows
     H = np.array([[1.1, 0.1, 20], [-0.05, 0.9, 5], [1e-4, -2e-4, 1]])
     np.testing.assert_allclose(
-        warped_grid(H, size, cells=4, pieces=3), transform_pixels(H, ends.reshape(-1, 2)).reshape(-1, 2, 2)
+        warped_grid(H, size, cells=4, pieces=3),
+        transform_pixels(H, ends.reshape(-1, 2)).reshape(-1, 2, 2),
     )

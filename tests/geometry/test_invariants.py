@@ -4,10 +4,10 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.solids import house, solid
-from workbench.geometry.affine import perspective, reflection, scaling, shear, transform
-from workbench.geometry.invariants import changes, measure, signed_volume
+from workbench.data.shapes.solids import house, solid
+from workbench.geometry.meshes.invariants import changes, measure, signed_volume
 from workbench.geometry.motions import exp_se3
+from workbench.geometry.motions.affine import perspective, reflection, scaling, shear, transform
 
 SHAPES = ["house", "L block", "box"]
 twists = st.tuples(*[st.floats(-3, 3)] * 6).map(np.array)
@@ -15,7 +15,9 @@ twists = st.tuples(*[st.floats(-3, 3)] * 6).map(np.array)
 
 def kept(H: np.ndarray) -> dict[str, bool]:
     s = house()
-    return {c.name: c.kept for c in changes(measure(s.p, s.faces), measure(transform(H, s.p), s.faces))}
+    return {
+        c.name: c.kept for c in changes(measure(s.p, s.faces), measure(transform(H, s.p), s.faces))
+    }
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -28,7 +30,9 @@ def test_measures_agree_with_trimesh(shape):
     assert found.volume == pytest.approx(mesh.volume)
     assert found.area == pytest.approx(mesh.area)
     np.testing.assert_allclose(np.sort(found.lengths), np.sort(mesh.edges_unique_length))
-    np.testing.assert_allclose(found.angles, mesh.face_angles, atol=1e-7)  # trimesh loses digits in an arc cosine
+    np.testing.assert_allclose(
+        found.angles, mesh.face_angles, atol=1e-7
+    )  # trimesh loses digits in an arc cosine
 
 
 @settings(max_examples=40, deadline=None)
@@ -59,7 +63,10 @@ def test_what_survives_which_map(H, survivors):
 
 def test_amounts_are_what_was_done():
     s = house()
-    before, after = measure(s.p, s.faces), measure(transform(scaling(np.full(3, 1.5)), s.p), s.faces)
+    before, after = (
+        measure(s.p, s.faces),
+        measure(transform(scaling(np.full(3, 1.5)), s.p), s.faces),
+    )
     amounts = {c.name: c.amount for c in changes(before, after)}
     assert amounts["edge lengths"] == pytest.approx(0.5)
     assert amounts["area"] == pytest.approx(1.25)
@@ -70,7 +77,9 @@ def test_amounts_are_what_was_done():
 @given(st.lists(st.floats(-2, 2), min_size=9, max_size=9))
 def test_volume_goes_with_the_determinant(row):
     s, A = house(), np.array(row).reshape(3, 3)
-    assert signed_volume(s.p @ A.T, s.faces) == pytest.approx(np.linalg.det(A) * signed_volume(s.p, s.faces), abs=1e-12)
+    assert signed_volume(s.p @ A.T, s.faces) == pytest.approx(
+        np.linalg.det(A) * signed_volume(s.p, s.faces), abs=1e-12
+    )
 
 
 def test_volume_far_from_the_origin():

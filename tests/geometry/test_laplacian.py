@@ -1,4 +1,6 @@
-"""The cotangent Laplacian and mixed areas: exact on linear functions and spheres, known spectra, independent sums."""
+"""The cotangent Laplacian and mixed areas: exact on linear functions and spheres, known spectra,
+independent sums.
+"""
 
 import numpy as np
 import pytest
@@ -7,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import random_closed
-from workbench.data.surfaces import plane, sphere, torus
-from workbench.geometry.laplacian import cotangent_laplacian, eigenpairs, mixed_areas
+from workbench.data.shapes.surfaces import plane, sphere, torus
 from workbench.geometry.meshes import face_angles, face_areas, on_boundary
+from workbench.geometry.meshes.laplacian import cotangent_laplacian, eigenpairs, mixed_areas
 
 seeds = st.integers(0, 10_000)
 
@@ -33,7 +35,9 @@ def cotangents_one_by_one(p, faces):
 @given(seeds)
 def test_laplacian_is_the_textbook_sum(seed):
     p, faces = random_closed(np.random.default_rng(seed), 25)
-    np.testing.assert_allclose(cotangent_laplacian(p, faces).toarray(), cotangents_one_by_one(p, faces), atol=1e-8)
+    np.testing.assert_allclose(
+        cotangent_laplacian(p, faces).toarray(), cotangents_one_by_one(p, faces), atol=1e-8
+    )
 
 
 @settings(max_examples=20, deadline=None)
@@ -92,7 +96,8 @@ def test_mixed_area_of_one_triangle():
 
 
 def test_mixed_areas_are_voronoi_areas():
-    # Inside a flat mesh without obtuse corners they are the cells that scipy's Voronoi diagram finds.
+    # Inside a flat mesh without obtuse corners they are the cells that scipy's Voronoi diagram
+    # finds.
     flat = plane(81, jitter=0.05, rng=np.random.default_rng(0))
     p = flat.p[:, :2]
     faces = scipy.spatial.Delaunay(p).simplices.astype(np.int64)
@@ -119,7 +124,10 @@ def test_spectrum_of_the_sphere():
 
 def test_spectrum_agrees_with_a_dense_solver():
     ring = torus(400, jitter=0.2, rng=np.random.default_rng(1))
-    L, M = cotangent_laplacian(ring.p, ring.faces).toarray(), np.diag(mixed_areas(ring.p, ring.faces))
+    L, M = (
+        cotangent_laplacian(ring.p, ring.faces).toarray(),
+        np.diag(mixed_areas(ring.p, ring.faces)),
+    )
     true = scipy.linalg.eigh(L, M, eigvals_only=True)[:12]
     np.testing.assert_allclose(eigenpairs(ring.p, ring.faces, 12)[0], true, atol=1e-9)
 

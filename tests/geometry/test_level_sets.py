@@ -1,13 +1,15 @@
-"""Level sets: marching cubes outwards, exact on planes, second order on curved surfaces, places made by a function."""
+"""Level sets: marching cubes outwards, exact on planes, second order on curved surfaces, places
+made by a function.
+"""
 
 import numpy as np
 import pytest
 
+from workbench.geometry.fields.signed_distances import torus_sdf
+from workbench.geometry.fields.voxels import Grid, marched_surface
 from workbench.geometry.level_sets import edge_crossings, level_lines, level_surface
-from workbench.geometry.measures import encloses, signed_volume
 from workbench.geometry.meshes import euler_characteristic
-from workbench.geometry.signed_distances import torus_sdf
-from workbench.geometry.voxels import Grid, marched_surface
+from workbench.geometry.meshes.measures import encloses, signed_volume
 
 
 def cube(n: int) -> Grid:
@@ -26,7 +28,9 @@ def test_crossings_of_linear_fields_are_exact_and_do_not_depend_on_the_order():
     cross = f_a * f_b < 0
     p = edge_crossings(a[cross], b[cross], f_a[cross], f_b[cross])
     np.testing.assert_allclose(p @ n, 0.1, atol=1e-12)
-    np.testing.assert_allclose(p, edge_crossings(b[cross], a[cross], f_b[cross], f_a[cross]), atol=1e-12)
+    np.testing.assert_allclose(
+        p, edge_crossings(b[cross], a[cross], f_b[cross], f_a[cross]), atol=1e-12
+    )
 
 
 def test_zero_at_both_ends_is_the_middle():
@@ -42,7 +46,9 @@ def test_a_closed_surface_comes_back_outwards_and_with_its_hole():
 
 
 def test_half_the_edge_is_a_quarter_of_the_error():
-    errors = [np.abs(torus_sdf(level_surface(*torus(n))[0], 0.6, 0.25)).mean() for n in (16, 32, 64)]
+    errors = [
+        np.abs(torus_sdf(level_surface(*torus(n))[0], 0.6, 0.25)).mean() for n in (16, 32, 64)
+    ]
     np.testing.assert_allclose(np.array(errors[:-1]) / errors[1:], 4, rtol=0.15)
 
 

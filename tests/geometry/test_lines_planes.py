@@ -3,14 +3,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.lines_planes import (
+from workbench.geometry.motions import exp_so3
+from workbench.geometry.shapes.lines_planes import (
     angle_between_planes,
     fit_hyperplane,
     hyperplane_distances,
     line_from_points,
     plane_from_points,
 )
-from workbench.geometry.motions import exp_so3
 
 seeds = st.integers(0, 2**32 - 1)
 MINIMAL = {2: line_from_points, 3: plane_from_points}
@@ -28,7 +28,8 @@ def test_the_minimal_fit_passes_through_its_points(d, seed):
 
 def test_the_normal_follows_the_turn_of_the_points():
     np.testing.assert_allclose(
-        plane_from_points(np.array([[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]])), [0, 0, 1, -2]
+        plane_from_points(np.array([[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]])),
+        [0, 0, 1, -2],
     )
     np.testing.assert_allclose(line_from_points(np.array([[0.0, 3.0], [1.0, 3.0]])), [0, 1, -3])
 
@@ -93,7 +94,9 @@ def test_the_fit_equals_the_smallest_principal_direction_and_minimal_fit():
     normal = np.linalg.svd(p - p.mean(0))[2][-1]
     assert abs(fit_hyperplane(p)[:3] @ normal) == pytest.approx(1.0)
     three = rng.normal(size=(3, 3))
-    assert angle_between_planes(fit_hyperplane(three), plane_from_points(three)) == pytest.approx(0.0, abs=1e-7)
+    assert angle_between_planes(fit_hyperplane(three), plane_from_points(three)) == pytest.approx(
+        0.0, abs=1e-7
+    )
 
 
 def test_weight_zero_is_absence_and_weight_two_is_twice():

@@ -5,9 +5,9 @@ import pytest
 import scipy
 
 from workbench.algorithms.transport import best_assignment
-from workbench.data.rabbit import rabbit
-from workbench.geometry import keypoints, matching
-from workbench.geometry.shape_context import context_costs, shape_contexts
+from workbench.data.shapes.rabbit import rabbit
+from workbench.geometry.features import keypoints, matching
+from workbench.geometry.features.shape_context import context_costs, shape_contexts
 
 
 def test_nearest_both_ways_are_scipys(monkeypatch):
@@ -19,20 +19,26 @@ def test_nearest_both_ways_are_scipys(monkeypatch):
         found = matching.nearest_both_ways(a, b)
         np.testing.assert_array_equal(found.index, D.argmin(axis=1))
         np.testing.assert_array_equal(found.back, D.argmin(axis=0))
-        np.testing.assert_allclose(np.column_stack([found.distance, found.second]), np.sort(D, axis=1)[:, :2])
+        np.testing.assert_allclose(
+            np.column_stack([found.distance, found.second]), np.sort(D, axis=1)[:, :2]
+        )
 
 
 def test_planted_matches_are_found_and_nothing_else():
     rng = np.random.default_rng(1)
     a = 10 * rng.normal(size=(50, 8))
     order = rng.permutation(30)
-    b = np.concatenate([a[order] + 0.01 * rng.normal(size=(30, 8)), 10 * rng.normal(size=(20, 8)) + 300])
+    b = np.concatenate(
+        [a[order] + 0.01 * rng.normal(size=(30, 8)), 10 * rng.normal(size=(20, 8)) + 300]
+    )
     found = matching.mutual_matches(a, b, 0.5)
     right = np.full(50, -1)
     right[order] = np.arange(30)
     np.testing.assert_array_equal(found, right)
     kept = matching.filtered(matching.nearest_both_ways(a, b), "both", 0.5)
-    np.testing.assert_array_equal(kept, np.column_stack([np.flatnonzero(right >= 0), right[right >= 0]]))
+    np.testing.assert_array_equal(
+        kept, np.column_stack([np.flatnonzero(right >= 0), right[right >= 0]])
+    )
 
 
 def test_each_filter_keeps_part_of_the_one_before():
@@ -55,8 +61,12 @@ def test_what_cannot_be_matched_is_refused():
 def test_the_response_turns_with_the_picture_and_edges_are_negative():
     image = np.random.default_rng(3).uniform(0, 255, (30, 40))
     found = keypoints.harris_response(image)
-    np.testing.assert_allclose(keypoints.harris_response(np.rot90(image)), np.rot90(found), rtol=1e-9, atol=1e-6)
-    np.testing.assert_allclose(keypoints.harris_response(0.5 * image + 20), found / 16, rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(
+        keypoints.harris_response(np.rot90(image)), np.rot90(found), rtol=1e-9, atol=1e-6
+    )
+    np.testing.assert_allclose(
+        keypoints.harris_response(0.5 * image + 20), found / 16, rtol=1e-9, atol=1e-6
+    )
     edge = np.where(np.arange(30) < 15, 0.0, 200.0) * np.ones((30, 1))
     assert keypoints.harris_response(edge).max() < 1e-6
     slanted = 200.0 * (np.add.outer(np.arange(40), np.arange(40)) < 40)
@@ -64,17 +74,26 @@ def test_the_response_turns_with_the_picture_and_edges_are_negative():
     square = np.zeros((30, 30))
     square[10:20, 10:20] = 200
     corners = keypoints.strongest(keypoints.harris_response(square), 10)
-    assert {tuple(c) for c in corners.tolist()} == {(11, 11), (18, 11), (11, 18), (18, 18)}  # inside the bright square
+    assert {tuple(c) for c in corners.tolist()} == {
+        (11, 11),
+        (18, 11),
+        (11, 18),
+        (18, 18),
+    }  # inside the bright square
 
 
 def test_patches_do_not_see_brightness_or_contrast():
     image = np.random.default_rng(4).uniform(0, 255, (40, 40))
     uv = np.array([[10, 12], [20, 25]])
-    np.testing.assert_allclose(keypoints.patches(0.6 * image + 30, uv, 9), keypoints.patches(image, uv, 9), atol=1e-9)
+    np.testing.assert_allclose(
+        keypoints.patches(0.6 * image + 30, uv, 9), keypoints.patches(image, uv, 9), atol=1e-9
+    )
 
 
 OPEN3D = [175, 198, 282, 309, 310, 318, 339, 366, 416, 682]
-"""compute_iss_keypoints of Open3D 0.20: an oracle to distrust, its spread is about the neighbours' mean."""
+"""compute_iss_keypoints of Open3D 0.20: an oracle to distrust, its spread is about the neighbours'
+mean.
+"""
 
 
 def test_iss_keypoints_are_those_of_loops_about_the_point_and_not_open3ds():
@@ -89,7 +108,11 @@ def test_iss_keypoints_are_those_of_loops_about_the_point_and_not_open3ds():
             if len(near) > 5 and w[1] < 0.975 * w[2] and w[0] < 0.975 * w[1]:
                 least[i] = w[0]
         around = tree.query_ball_point(p, np.full(len(p), 0.12))
-        return {i for i in range(len(p)) if least[i] > max((least[j] for j in around[i] if j != i), default=0.0)}
+        return {
+            i
+            for i in range(len(p))
+            if least[i] > max((least[j] for j in around[i] if j != i), default=0.0)
+        }
 
     found = set(keypoints.iss_keypoints(p, 0.2, 0.12).tolist())
     assert found == by(False)
@@ -104,7 +127,9 @@ def test_shape_contexts_ignore_scale_and_along_the_tangent_a_turn():
     for along in (False, True):
         own = shape_contexts(p, along_tangent=along)
         np.testing.assert_allclose(own.sum(axis=1), 1)
-        assert np.diag(context_costs(own, shape_contexts(7 * p + 3, along_tangent=along))).max() < 0.05
+        assert (
+            np.diag(context_costs(own, shape_contexts(7 * p + 3, along_tangent=along))).max() < 0.05
+        )
         turned = np.diag(context_costs(own, shape_contexts(p @ R.T, along_tangent=along))).mean()
         assert (turned < 0.02) if along else (turned > 0.3)
 
@@ -117,18 +142,25 @@ def test_outlines_are_assigned_as_scipy_does():
     least = cost[scipy.optimize.linear_sum_assignment(cost)].sum()
     assert cost[rows, columns].sum() == pytest.approx(least)
     plainly = [
-        [0.5 * sum((x - y) ** 2 / (x + y) for x, y in zip(f, g, strict=True) if x + y) for g in b] for f in a[:3]
+        [0.5 * sum((x - y) ** 2 / (x + y) for x, y in zip(f, g, strict=True) if x + y) for g in b]
+        for f in a[:3]
     ]
     np.testing.assert_allclose(cost[:3], plainly, atol=1e-12)
 
 
 def test_a_distance_that_is_the_ratio_times_the_second_is_not_less():
-    """In integers nothing is left to rounding: 1 is not less than half of 2, wherever the descriptors lie."""
+    """In integers nothing is left to rounding: 1 is not less than half of 2, wherever the
+    descriptors lie.
+    """
     for offset in (0.0, 100.0, -7.0):
         b = np.array([[1.0, 0], [0, 2], [9, 0]]) + offset
         a = np.full((1, 2), offset)
         assert matching.mutual_matches(a, b, 0.5).tolist() == [-1]
         assert matching.mutual_matches(a, b, 0.51).tolist() == [0]
         found = matching.nearest_both_ways(a, b[[1, 1, 0]])
-        assert (found.index.tolist(), found.distance.tolist(), found.second.tolist()) == ([2], [1.0], [2.0])
+        assert (found.index.tolist(), found.distance.tolist(), found.second.tolist()) == (
+            [2],
+            [1.0],
+            [2.0],
+        )
         assert matching.nearest_both_ways(a, b[[1, 1]]).index.tolist() == [0]

@@ -6,10 +6,10 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data import surfaces
-from workbench.data.rabbit import rabbit_mesh
-from workbench.data.solids import house, l_block
-from workbench.geometry.measures import (
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.data.shapes.solids import house, l_block
+from workbench.geometry.meshes.measures import (
     area_centroid,
     encloses,
     signed_volume,
@@ -29,16 +29,23 @@ seeds = st.integers(0, 2**32 - 1)
 def test_motions_keep_and_sizes_multiply(seed):
     p, faces = RABBIT
     rng = np.random.default_rng(seed)
-    factor, moved = rng.uniform(0.1, 10), p @ exp_so3(rng.normal(size=3) * 2).T + rng.normal(size=3) * 100
+    factor, moved = (
+        rng.uniform(0.1, 10),
+        p @ exp_so3(rng.normal(size=3) * 2).T + rng.normal(size=3) * 100,
+    )
     assert signed_volume(moved, faces) == pytest.approx(signed_volume(p, faces), rel=1e-9)
     assert surface_area(moved, faces) == pytest.approx(surface_area(p, faces), rel=1e-9)
     assert signed_volume(factor * p, faces) == pytest.approx(factor**3 * signed_volume(p, faces))
     assert surface_area(factor * p, faces) == pytest.approx(factor**2 * surface_area(p, faces))
     assert signed_volume(p, faces[:, ::-1]) == pytest.approx(-signed_volume(p, faces))
-    assert volume_about(p, faces, 50 * rng.normal(size=3)) == pytest.approx(signed_volume(p, faces), rel=1e-7)
+    assert volume_about(p, faces, 50 * rng.normal(size=3)) == pytest.approx(
+        signed_volume(p, faces), rel=1e-7
+    )
 
 
-@pytest.mark.parametrize("mesh", [RABBIT, (house().p, house().faces), (l_block().p, l_block().faces)])
+@pytest.mark.parametrize(
+    "mesh", [RABBIT, (house().p, house().faces), (l_block().p, l_block().faces)]
+)
 def test_trimesh_measures_the_same(mesh):
     p, faces = mesh
     theirs = trimesh.Trimesh(p, faces, process=False)
@@ -54,7 +61,9 @@ def test_a_torus_of_many_blocks_comes_close_to_its_closed_form():
     assert len(ring.faces) > 30_000
     assert surface_area(ring.p, ring.faces) == pytest.approx(4 * np.pi**2 * 0.4, rel=4e-4)
     assert signed_volume(ring.p, ring.faces) == pytest.approx(2 * np.pi**2 * 0.16, rel=2e-3)
-    assert tetrahedra(ring.p, ring.faces, np.ones(3)).sum() == pytest.approx(signed_volume(ring.p, ring.faces))
+    assert tetrahedra(ring.p, ring.faces, np.ones(3)).sum() == pytest.approx(
+        signed_volume(ring.p, ring.faces)
+    )
 
 
 def test_far_from_the_origin_no_digits_are_lost():

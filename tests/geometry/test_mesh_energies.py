@@ -5,8 +5,9 @@ import pytest
 import trimesh
 
 from tests.geometry.mesh_zoo import CUBE, random_closed, strip
-from workbench.data.surfaces import sphere
-from workbench.geometry.mesh_energies import (
+from workbench.data.shapes.surfaces import sphere
+from workbench.geometry.meshes import edges
+from workbench.geometry.meshes.mesh_energies import (
     edge_energy,
     face_pairs,
     fold_angles,
@@ -15,7 +16,6 @@ from workbench.geometry.mesh_energies import (
     scattered,
     umbrella,
 )
-from workbench.geometry.meshes import edges
 
 
 def energies(p: np.ndarray, faces: np.ndarray) -> dict[str, tuple[float, np.ndarray]]:
@@ -33,7 +33,9 @@ def test_gradients_are_those_of_differences(name, mesh):
     p, faces = random_closed(rng, 40) if mesh == "closed" else strip(6)
     p = p + 0.1 * rng.normal(size=p.shape)
     slope = energies(p, faces)[name][1]
-    for i, axis in [(int(i), int(axis)) for i in rng.choice(len(p), 8, replace=False) for axis in range(3)]:
+    for i, axis in [
+        (int(i), int(axis)) for i in rng.choice(len(p), 8, replace=False) for axis in range(3)
+    ]:
         step = np.zeros_like(p)
         step[i, axis] = 1e-6
         ahead, behind = (energies(p + sign * step, faces)[name][0] for sign in (1, -1))
@@ -61,10 +63,14 @@ def test_the_laplacian_is_the_mean_of_neighbours_minus_itself():
 def test_folds_and_pairs_are_those_of_trimesh():
     p, faces = random_closed(np.random.default_rng(4), 50)
     mesh, pairs = trimesh.Trimesh(p, faces, process=False), face_pairs(faces)
-    theirs = dict(zip(map(frozenset, mesh.face_adjacency.tolist()), mesh.face_adjacency_angles, strict=True))
+    theirs = dict(
+        zip(map(frozenset, mesh.face_adjacency.tolist()), mesh.face_adjacency_angles, strict=True)
+    )
     angles = fold_angles(p, faces, pairs)
     assert len(pairs) == len(theirs)
-    np.testing.assert_allclose(angles, [theirs[frozenset(pair)] for pair in pairs.tolist()], atol=1e-7)
+    np.testing.assert_allclose(
+        angles, [theirs[frozenset(pair)] for pair in pairs.tolist()], atol=1e-7
+    )
     assert normal_energy(p, faces, pairs)[0] == pytest.approx((1 - np.cos(angles)).mean())
 
 
@@ -77,7 +83,9 @@ def test_a_cube_and_a_flat_strip():
     assert len(face_pairs(faces)) == 9  # those of the border have one face
     pairs = face_pairs(np.array([[0, 1, 2], [1, 0, 3]]))
     back = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 1, 1e-9]])
-    assert fold_angles(back, np.array([[0, 1, 2], [1, 0, 3]]), pairs)[0] == pytest.approx(np.pi, abs=1e-6)
+    assert fold_angles(back, np.array([[0, 1, 2], [1, 0, 3]]), pairs)[0] == pytest.approx(
+        np.pi, abs=1e-6
+    )
 
 
 def test_a_face_without_area_moves_nothing():

@@ -1,4 +1,6 @@
-"""Triangle meshes: measures against trimesh and laws; borders, rings and chi; what is refused, and with which words."""
+"""Triangle meshes: measures against trimesh and laws; borders, rings and chi; what is refused, and
+with which words.
+"""
 
 import numpy as np
 import pytest
@@ -9,9 +11,9 @@ from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import CUBE, TETRAHEDRON, random_closed, strip
 from workbench.data.files import read_mesh
-from workbench.data.surfaces import SURFACES, plane, torus
+from workbench.data.shapes.surfaces import SURFACES, plane, torus
 from workbench.errors import InputError
-from workbench.geometry import meshes
+from workbench.geometry.meshes import triangles as meshes
 from workbench.geometry.motions import exp_so3
 
 seeds = st.integers(0, 10_000)
@@ -29,7 +31,9 @@ def test_angles_and_areas_follow_motion_and_scale(seed, scale, shift):
         meshes.face_angles(moved, faces), meshes.face_angles(p, faces), atol=1e3 * tolerance, rtol=0
     )
     np.testing.assert_allclose(
-        meshes.face_areas(moved, faces), scale**2 * meshes.face_areas(p, faces), rtol=1e3 * tolerance
+        meshes.face_areas(moved, faces),
+        scale**2 * meshes.face_areas(p, faces),
+        rtol=1e3 * tolerance,
     )
 
 
@@ -79,17 +83,27 @@ def test_vertex_normals_follow_the_surface(name):
 def test_angle_weights_do_not_see_how_a_side_is_cut():
     # Every corner of a cube, three or more triangles of three square sides meeting there.
     p, faces = CUBE
-    np.testing.assert_allclose(meshes.vertex_normals(p, faces), (2 * p - 1) / np.sqrt(3), atol=1e-12)
+    np.testing.assert_allclose(
+        meshes.vertex_normals(p, faces), (2 * p - 1) / np.sqrt(3), atol=1e-12
+    )
 
 
 def test_border_of_a_strip_and_of_closed_meshes():
     p, faces = strip(4)
     assert meshes.on_boundary(faces, len(p)).all()
     assert len(meshes.boundary_edges(faces)) == len(p)
-    for name, open_ends in (("sphere", 0), ("torus", 0), ("cylinder", 2), ("catenoid", 2), ("plane", 1)):
+    for name, open_ends in (
+        ("sphere", 0),
+        ("torus", 0),
+        ("cylinder", 2),
+        ("catenoid", 2),
+        ("plane", 1),
+    ):
         surface = SURFACES[name](400)
         border = meshes.on_boundary(surface.faces, len(surface.p))
-        np.testing.assert_array_equal(np.flatnonzero(border), np.unique(meshes.boundary_edges(surface.faces)))
+        np.testing.assert_array_equal(
+            np.flatnonzero(border), np.unique(meshes.boundary_edges(surface.faces))
+        )
         assert border.any() == (open_ends > 0), name
 
 
@@ -102,7 +116,8 @@ def test_a_border_goes_round_with_the_surface_on_its_left():
 
 
 @pytest.mark.parametrize(
-    ("name", "chi"), [("sphere", 2), ("torus", 0), ("cylinder", 0), ("catenoid", 0), ("plane", 1), ("saddle", 1)]
+    ("name", "chi"),
+    [("sphere", 2), ("torus", 0), ("cylinder", 0), ("catenoid", 0), ("plane", 1), ("saddle", 1)],
 )
 def test_euler_characteristic_of_known_surfaces(name, chi):
     surface = SURFACES[name](500)
@@ -122,7 +137,9 @@ def test_one_ring_inside_and_on_the_border():
     v = surface.p[ring] - surface.p[12]
     turns = np.cross(v, np.roll(v, -1, axis=0))[:, 2]
     assert (turns > 0).all()
-    np.testing.assert_array_equal(np.sort(ring), np.sort(meshes.adjacency(surface.faces, 25).tocsr()[[12]].indices))
+    np.testing.assert_array_equal(
+        np.sort(ring), np.sort(meshes.adjacency(surface.faces, 25).tocsr()[[12]].indices)
+    )
     ring_faces, ring = meshes.one_ring(surface.faces, 2)
     assert len(ring) == len(ring_faces) + 1
     border = set(map(tuple, np.sort(meshes.boundary_edges(surface.faces), axis=1).tolist()))
@@ -141,7 +158,9 @@ def test_welding_closes_seams_and_keeps_the_shape():
     p, faces = TETRAHEDRON
     soup = p[faces].reshape(-1, 3)
     loose = np.vstack([soup, [[9.0, 9.0, 9.0]]])
-    apart = np.vstack([np.arange(12).reshape(-1, 3), [[0, 3, 1]]])  # vertices 0 and 3 are at one place
+    apart = np.vstack(
+        [np.arange(12).reshape(-1, 3), [[0, 3, 1]]]
+    )  # vertices 0 and 3 are at one place
     assert meshes.on_boundary(apart[:4], 13).any()
     kept, renamed = meshes.welded(loose, apart)
     assert len(kept) == len(renamed) == 4
@@ -212,8 +231,15 @@ def test_vertices_within_some_edges_are_those_of_scipys_shortest_paths(seed, ste
 
 def test_distinct_rows_are_those_that_numpy_finds():
     rng = np.random.default_rng(4)
-    for rows in (rng.integers(0, 3, (200, 3)), rng.normal(size=(50, 2)).round(), np.zeros((0, 3)), np.ones((1, 2))):
+    for rows in (
+        rng.integers(0, 3, (200, 3)),
+        rng.normal(size=(50, 2)).round(),
+        np.zeros((0, 3)),
+        np.ones((1, 2)),
+    ):
         first, name = meshes.distinct_rows(rows)
-        found, inverse = np.unique(rows, axis=0, return_inverse=True) if len(rows) else (rows, np.empty(0, int))
+        found, inverse = (
+            np.unique(rows, axis=0, return_inverse=True) if len(rows) else (rows, np.empty(0, int))
+        )
         np.testing.assert_array_equal(rows[first], found)
         np.testing.assert_array_equal(name, inverse.reshape(-1))

@@ -1,4 +1,6 @@
-"""Distances in a space: axioms by hypothesis, scipy beside them, Mahalanobis and its robust covariance."""
+"""Distances in a space: axioms by hypothesis, scipy beside them, Mahalanobis and its robust
+covariance.
+"""
 
 import numpy as np
 import pytest
@@ -6,9 +8,17 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry import metrics
+from workbench.geometry.points import metrics
 
-METRICS = (("euclid", 2), ("manhattan", 2), ("chebyshev", 2), ("p", 1.5), ("p", 6), ("p-sum", 0.5), ("mahalanobis", 2))
+METRICS = (
+    ("euclid", 2),
+    ("manhattan", 2),
+    ("chebyshev", 2),
+    ("p", 1.5),
+    ("p", 6),
+    ("p-sum", 0.5),
+    ("mahalanobis", 2),
+)
 C = np.array([[1.0, 0.9], [0.9, 1.0]])
 
 
@@ -21,7 +31,7 @@ def some(seed, count=60, dims=2):
 def test_metrics_keep_the_axioms(seed, which):
     d = metrics.distance_of(which[0], order=which[1], covariance=C)
     a, b, c = some(seed)
-    excess, sides = metrics.triangle_excess(d, a, b, c)
+    excess, sides = metrics.triangle_excess(d, a, b, c=c)
     assert (excess <= 1e-9 * sides.max()).all()
     np.testing.assert_allclose(d(a, b), d(b, a))
     assert (d(a, a) == 0).all()
@@ -29,25 +39,33 @@ def test_metrics_keep_the_axioms(seed, which):
 
 
 @pytest.mark.parametrize(
-    ("metric", "order", "share"), [("squared", 2, 0.242), ("cosine", 2, 0.337), ("p", 0.5, 0.156), ("p-sum", 2, 0.242)]
+    ("metric", "order", "share"),
+    [("squared", 2, 0.242), ("cosine", 2, 0.337), ("p", 0.5, 0.156), ("p-sum", 2, 0.242)],
 )
 def test_shares_of_broken_triangles(metric, order, share):
     a, b, c = np.random.default_rng(0).random((3, 50_000, 2))
-    excess, _ = metrics.triangle_excess(metrics.distance_of(metric, order=order), a, b, c)
+    excess, _ = metrics.triangle_excess(metrics.distance_of(metric, order=order), a, b, c=c)
     assert (excess > 1e-12).mean() == pytest.approx(share, abs=0.006)
 
 
 def test_squares_break_it_where_the_angle_at_b_is_obtuse():
     a, b, c = some(3, 500)
-    excess, _ = metrics.triangle_excess(metrics.distance_of("squared"), a, b, c)
-    np.testing.assert_allclose(excess, -2 * ((a - b) * (c - b)).sum(axis=1), atol=1e-9)  # the law of cosines
+    excess, _ = metrics.triangle_excess(metrics.distance_of("squared"), a, b, c=c)
+    np.testing.assert_allclose(
+        excess, -2 * ((a - b) * (c - b)).sum(axis=1), atol=1e-9
+    )  # the law of cosines
 
 
 @pytest.mark.parametrize(
     ("metric", "theirs"),
-    [("euclid", "euclidean"), ("manhattan", "cityblock"), ("chebyshev", "chebyshev"), ("squared", "sqeuclidean"),
-     ("cosine", "cosine")],
-)  # fmt: skip
+    [
+        ("euclid", "euclidean"),
+        ("manhattan", "cityblock"),
+        ("chebyshev", "chebyshev"),
+        ("squared", "sqeuclidean"),
+        ("cosine", "cosine"),
+    ],
+)
 def test_scipy_agrees(metric, theirs):
     a, b, _ = some(1, 20, 4)
     found = metrics.distance_of(metric)(a[:, None], b[None])
@@ -62,10 +80,12 @@ def test_a_vector_without_length_has_the_cosine_distance_one():
 
 def test_without_a_covariance_mahalanobis_is_euclid():
     a, b, _ = some(2)
-    np.testing.assert_allclose(metrics.distance_of("mahalanobis")(a, b), np.linalg.norm(a - b, axis=1))
+    np.testing.assert_allclose(
+        metrics.distance_of("mahalanobis")(a, b), np.linalg.norm(a - b, axis=1)
+    )
 
 
-# Mahalanobis ------------------------------------------------------------------------------------------------------------
+# Mahalanobis --------------------------------------------------------------------------------------
 
 
 @settings(deadline=None, max_examples=20)
@@ -76,9 +96,13 @@ def test_mahalanobis_beside_scipy_and_under_any_change_of_units(seed, dims):
     S = A @ A.T + 0.1 * np.eye(dims)
     found = metrics.mahalanobis(p, mean, S)
     inverse = np.linalg.inv(S)
-    np.testing.assert_allclose(found, [scipy.spatial.distance.mahalanobis(x, mean, inverse) for x in p], rtol=1e-6)
+    np.testing.assert_allclose(
+        found, [scipy.spatial.distance.mahalanobis(x, mean, inverse) for x in p], rtol=1e-6
+    )
     B = rng.normal(size=(dims, dims)) + 3 * np.eye(dims)
-    np.testing.assert_allclose(metrics.mahalanobis(p @ B.T, B @ mean, B @ S @ B.T), found, rtol=1e-6)
+    np.testing.assert_allclose(
+        metrics.mahalanobis(p @ B.T, B @ mean, B @ S @ B.T), found, rtol=1e-6
+    )
     W = metrics.whitening(S)
     np.testing.assert_allclose(W @ S @ W.T, np.eye(dims), atol=1e-9)
 
@@ -89,7 +113,12 @@ def test_no_variance_in_some_direction_is_refused():
 
 
 def test_chi_squared():
-    assert [round(metrics.share_within(2, d), 3) for d in (1, 2, 3, 10)] == [0.954, 0.865, 0.739, 0.053]
+    assert [round(metrics.share_within(2, d), 3) for d in (1, 2, 3, 10)] == [
+        0.954,
+        0.865,
+        0.739,
+        0.053,
+    ]
     assert metrics.radius_of_share(0.95, 2) == pytest.approx(2.4477, abs=1e-4)
     assert metrics.share_within(metrics.radius_of_share(0.7, 5), 5) == pytest.approx(0.7)
 

@@ -50,7 +50,9 @@ def test_exp_gives_a_rotation_as_scipy_does(w):
     R = exp_so3(w)
     np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-14)
     assert np.linalg.det(R) == pytest.approx(1)
-    np.testing.assert_allclose(R, scipy.spatial.transform.Rotation.from_rotvec(w).as_matrix(), atol=1e-14)
+    np.testing.assert_allclose(
+        R, scipy.spatial.transform.Rotation.from_rotvec(w).as_matrix(), atol=1e-14
+    )
 
 
 @settings(max_examples=40, deadline=None)
@@ -69,7 +71,9 @@ def test_the_angle_is_exact_at_both_ends(w):
     assert rotation_angle(exp_so3(w)) == pytest.approx(np.linalg.norm(w), rel=1e-9, abs=1e-15)
 
 
-@pytest.mark.parametrize("axis", np.vstack([np.eye(3), -np.eye(3), [[1, 1, 0], [1, -1, 1], [-1, 2, -3]]]))
+@pytest.mark.parametrize(
+    "axis", np.vstack([np.eye(3), -np.eye(3), [[1, 1, 0], [1, -1, 1], [-1, 2, -3]]])
+)
 def test_exactly_half_a_turn(axis):
     axis = axis / np.linalg.norm(axis)
     R = 2 * np.outer(axis, axis) - np.eye(3)
@@ -92,7 +96,9 @@ def test_exp_of_a_twist_is_the_matrix_exponential(w, v):
     v = v / 1e3
     generator = np.zeros((4, 4))
     generator[:3, :3], generator[:3, 3] = skew(w), v
-    np.testing.assert_allclose(exp_se3(np.concatenate([v, w])), scipy.linalg.expm(generator), atol=1e-12)
+    np.testing.assert_allclose(
+        exp_se3(np.concatenate([v, w])), scipy.linalg.expm(generator), atol=1e-12
+    )
 
 
 @settings(max_examples=40, deadline=None)
@@ -106,7 +112,9 @@ def test_log_of_a_motion_gives_it_back(T):
 def test_inverse_and_composition(T_a_b, T_b_c, p_c):
     np.testing.assert_allclose(inverse(T_a_b) @ T_a_b, np.eye(4), atol=1e-12)
     np.testing.assert_allclose(inverse(T_a_b @ T_b_c), inverse(T_b_c) @ inverse(T_a_b), atol=1e-9)
-    np.testing.assert_allclose(apply(T_a_b @ T_b_c, p_c), apply(T_a_b, apply(T_b_c, p_c)), atol=1e-9)
+    np.testing.assert_allclose(
+        apply(T_a_b @ T_b_c, p_c), apply(T_a_b, apply(T_b_c, p_c)), atol=1e-9
+    )
 
 
 @settings(max_examples=20, deadline=None)
@@ -117,7 +125,9 @@ def test_one_point_moves_as_many_do(T):
     assert apply(T, np.empty((0, 3))).shape == (0, 3)
 
 
-@given(w=arrays(float, 3, elements=st.floats(-3, 3)), p=arrays(float, 3, elements=st.floats(-10, 10)))
+@given(
+    w=arrays(float, 3, elements=st.floats(-3, 3)), p=arrays(float, 3, elements=st.floats(-10, 10))
+)
 def test_a_turn_about_a_point_leaves_it_and_turns_as_much(w, p):
     T = turn_about(p, exp_so3(w))
     np.testing.assert_allclose(apply(T, p), p, atol=1e-12)

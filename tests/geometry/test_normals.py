@@ -7,11 +7,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.normals import _least_directions, _neighbourhoods, on_a_line, point_normals, surface_variation
+from workbench.geometry.points.normals import (
+    _least_directions,
+    _neighbourhoods,
+    on_a_line,
+    point_normals,
+    surface_variation,
+)
 
 
 def angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.abs(np.einsum("ij,ij->i", a, b))))
+    return np.degrees(
+        np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.abs(np.einsum("ij,ij->i", a, b)))
+    )
 
 
 def sphere(n: int, seed: int = 0) -> np.ndarray:
@@ -45,10 +53,14 @@ def test_the_closed_form_agrees_with_eigh(seed):
     rng = np.random.default_rng(seed)
     X = rng.standard_normal((200, 8, 3)) * 10.0 ** rng.uniform(-4, 1, (200, 1, 3))
     C = np.einsum("nki,nkj->nij", X, X)
-    found = _least_directions(np.stack([C[:, i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]))
+    found = _least_directions(
+        np.stack([C[:, i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))])
+    )
     np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0, atol=1e-9)
     values = np.linalg.eigvalsh(C)
-    quotient = np.einsum("ni,nij,nj->n", found, C, found)  # Rayleigh: how much worse than the best direction
+    quotient = np.einsum(
+        "ni,nij,nj->n", found, C, found
+    )  # Rayleigh: how much worse than the best direction
     assert np.all(quotient - values[:, 0] <= 1e-10 * values[:, 2])
 
 
@@ -107,14 +119,18 @@ def lines(p: np.ndarray) -> np.ndarray:
 def test_points_on_rings_lie_on_lines_and_points_on_a_surface_do_not():
     rng = np.random.default_rng(0)
     angle = np.linspace(0, 2 * np.pi, 400, endpoint=False)
-    rings = np.concatenate([r * np.column_stack([np.cos(angle), np.sin(angle), 0 * angle]) for r in (8.0, 10.0)])
+    rings = np.concatenate(
+        [r * np.column_stack([np.cos(angle), np.sin(angle), 0 * angle]) for r in (8.0, 10.0)]
+    )
     plane, lump = rng.uniform(-1, 1, (600, 3)) * [1, 1, 0], rng.normal(size=(600, 3))
     assert lines(rings + 0.005 * rng.normal(size=rings.shape)).all()
     assert lines(plane).mean() < 0.03
     assert lines(lump).mean() < 0.1
     assert lines(np.ones((20, 3))).all()
     mixed = np.concatenate([plane, rings])
-    np.testing.assert_array_equal(point_normals(mixed, spread=True), point_normals(mixed) * ~lines(mixed)[:, None])
+    np.testing.assert_array_equal(
+        point_normals(mixed, spread=True), point_normals(mixed) * ~lines(mixed)[:, None]
+    )
     np.testing.assert_array_equal(point_normals(rings, spread=True), point_normals(rings))
 
 

@@ -57,7 +57,9 @@ def test_a_rectangle_goes_round_its_middle_once():
 def test_a_circle_is_round_closed_and_evenly_divided():
     points = circle(12)
     np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1, atol=1e-12)
-    np.testing.assert_allclose(np.diff(np.unwrap(np.arctan2(points[:, 1], points[:, 0]))), np.pi / 6, atol=1e-12)
+    np.testing.assert_allclose(
+        np.diff(np.unwrap(np.arctan2(points[:, 1], points[:, 0]))), np.pi / 6, atol=1e-12
+    )
 
 
 def test_the_rings_of_a_sphere_lie_on_it():

@@ -1,4 +1,6 @@
-"""Principal axes: against eigh, laws of moving and mirroring, closed-form variances, and clouds that leave axes open."""
+"""Principal axes: against eigh, laws of moving and mirroring, closed-form variances, and clouds
+that leave axes open.
+"""
 
 import numpy as np
 import pytest
@@ -6,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_motions import motions
-from workbench.data.clouds import box_surface
 from workbench.data.files import read_cloud, read_mesh
-from workbench.data.rabbit import rabbit
+from workbench.data.shapes.clouds import box_surface
+from workbench.data.shapes.rabbit import rabbit
 from workbench.geometry.meshes import corners, face_areas
 from workbench.geometry.motions import apply
-from workbench.geometry.principal_axes import (
+from workbench.geometry.motions.principal_axes import (
     canonical_signs,
     centroid_and_covariance,
     degrees_between_axes,
@@ -44,7 +46,9 @@ def test_far_from_the_origin_no_digit_of_the_axes_is_lost(offset):
     assert away.max() < 1e-5
     mean, raw = (p + offset).mean(axis=0), (p + offset).T @ (p + offset) / len(p)
     vectors = np.linalg.eigh(raw - np.outer(mean, mean))[1][:, ::-1]
-    assert (degrees_between_axes(vectors, principal_axes(p)).max() > 0.1) == (offset == 1e6)  # the usual way
+    assert (degrees_between_axes(vectors, principal_axes(p)).max() > 0.1) == (
+        offset == 1e6
+    )  # the usual way
 
 
 @settings(max_examples=40, deadline=None)
@@ -57,11 +61,17 @@ def test_axes_are_those_of_the_covariance_right_handed_and_move_with_the_cloud(s
     assert np.linalg.det(V) == pytest.approx(1)
     assert values[0] >= values[1] >= values[2]
     np.testing.assert_allclose(values, np.linalg.eigvalsh(np.cov(p.T))[::-1], rtol=1e-9)
-    np.testing.assert_allclose(degrees_between_axes(principal_axes(apply(T, p)), T[:3, :3] @ V), 0.0, atol=1e-5)
+    np.testing.assert_allclose(
+        degrees_between_axes(principal_axes(apply(T, p)), T[:3, :3] @ V), 0.0, atol=1e-5
+    )
 
 
 @settings(max_examples=40, deadline=None)
-@given(SEEDS, motions(), st.sampled_from([(a, b, c) for a in (1, -1) for b in (1, -1) for c in (1, -1)]))
+@given(
+    SEEDS,
+    motions(),
+    st.sampled_from([(a, b, c) for a in (1, -1) for b in (1, -1) for c in (1, -1)]),
+)
 def test_signs_by_third_moments_move_with_the_cloud_whatever_signs_come_in(seed, T, signs):
     p = lump(seed)
     V = canonical_signs(principal_axes(p), p)
@@ -115,7 +125,9 @@ def test_a_box_without_height_is_a_plate():
     assert np.abs(principal_axes(p)[2, 2]) == pytest.approx(1)
 
 
-@pytest.mark.parametrize("p", [np.ones((1, 3)), np.ones((5, 3)), np.outer(np.arange(4.0), [1.0, 2.0, 2.0])])
+@pytest.mark.parametrize(
+    "p", [np.ones((1, 3)), np.ones((5, 3)), np.outer(np.arange(4.0), [1.0, 2.0, 2.0])]
+)
 def test_where_directions_are_open_a_frame_comes_all_the_same(p):
     V = principal_axes(p)
     np.testing.assert_allclose(V.T @ V, np.eye(3), atol=1e-12)
@@ -123,9 +135,14 @@ def test_where_directions_are_open_a_frame_comes_all_the_same(p):
     assert np.isfinite(canonical_signs(V, p)).all()
 
 
-@pytest.mark.parametrize("p", [np.empty((0, 3)), np.array([[np.nan, 0, 0], [1, 1, 1]]), np.array([[np.inf, 0, 0]])])
+@pytest.mark.parametrize(
+    "p", [np.empty((0, 3)), np.array([[np.nan, 0, 0], [1, 1, 1]]), np.array([[np.inf, 0, 0]])]
+)
 def test_clouds_without_axes_are_refused(p):
-    with pytest.raises(ValueError, match=r"no centroid|not a finite"), np.errstate(invalid="ignore"):
+    with (
+        pytest.raises(ValueError, match=r"no centroid|not a finite"),
+        np.errstate(invalid="ignore"),
+    ):
         principal_axes(p)
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from workbench.geometry.projective import angle_between_rays, cross_ratio, map_lines, meet
+from workbench.geometry.shapes.projective import angle_between_rays, cross_ratio, map_lines, meet
 
 VECTORS = arrays(np.float64, (5, 3), elements=st.floats(-10, 10))
 H = np.array([[1.0, 0.2, 0.1], [-0.1, 1.0, 0.3], [0.3, 0.5, 1.0]])
@@ -21,13 +21,17 @@ def test_it_is_the_cross_product_and_lies_on_both(a, b):
 
 
 def test_parallels_meet_at_infinity():
-    np.testing.assert_array_equal(meet(np.array([[0.0, 1, 0]]), np.array([[0.0, 1, -1]])), [[-1, 0, 0]])
+    np.testing.assert_array_equal(
+        meet(np.array([[0.0, 1, 0]]), np.array([[0.0, 1, -1]])), [[-1, 0, 0]]
+    )
 
 
 @pytest.mark.parametrize(("degrees", "metres"), [(1.0, 57.3), (0.01, 5730), (1e-6, 57.3e6)])
 def test_lines_a_metre_apart_meet_far_away(degrees, metres):
     angle = np.radians(degrees)
-    x, y, w = meet(np.array([[0.0, 1, 0]]), np.array([[np.sin(angle), np.cos(angle), -np.cos(angle)]]))[0]
+    x, y, w = meet(
+        np.array([[0.0, 1, 0]]), np.array([[np.sin(angle), np.cos(angle), -np.cos(angle)]])
+    )[0]
     assert x / w == pytest.approx(metres, rel=1e-3)
     assert y == 0
 
@@ -57,4 +61,6 @@ def test_no_ray_has_no_angle():
     zero, one = np.zeros((1, 3)), np.ones((1, 3))
     assert np.isnan(angle_between_rays(zero, one)).all()
     assert np.isnan(angle_between_rays(np.full((1, 3), np.inf), one)).all()
-    np.testing.assert_allclose(angle_between_rays(np.array([[1.0, 0, 0]]), np.array([[0.0, 2, 0]])), np.pi / 2)
+    np.testing.assert_allclose(
+        angle_between_rays(np.array([[1.0, 0, 0]]), np.array([[0.0, 2, 0]])), np.pi / 2
+    )

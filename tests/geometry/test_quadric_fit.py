@@ -1,4 +1,6 @@
-"""Quadric fits: exact on quadrics, convergent on irregular meshes, steady under noise, nan where nothing fits."""
+"""Quadric fits: exact on quadrics, convergent on irregular meshes, steady under noise, nan where
+nothing fits.
+"""
 
 import numpy as np
 import pytest
@@ -7,11 +9,11 @@ from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import TETRAHEDRON
 from tests.geometry.test_curvature import relative
-from workbench.data.surfaces import SURFACES, plane, torus, with_noise
-from workbench.geometry import quadric_fit
-from workbench.geometry.curvature import curvatures
+from workbench.data.shapes.surfaces import SURFACES, plane, torus, with_noise
+from workbench.geometry.meshes import quadric_fit
+from workbench.geometry.meshes.curvature import curvatures
+from workbench.geometry.meshes.quadric_fit import fit_quadrics
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.quadric_fit import fit_quadrics
 
 
 def errors(surface, **options):
@@ -20,7 +22,9 @@ def errors(surface, **options):
 
 
 def test_jittered_torus_at_20k_and_convergence():
-    coarse, fine = (errors(torus(n, jitter=0.2, rng=np.random.default_rng(0))) for n in (2000, 20_000))
+    coarse, fine = (
+        errors(torus(n, jitter=0.2, rng=np.random.default_rng(0))) for n in (2000, 20_000)
+    )
     assert fine[0] < 0.01
     assert fine[1] < 0.01
     # Ten times the vertices: edges 3.2 times shorter, and the error falls at least as much.
@@ -42,7 +46,8 @@ def test_borders_get_an_answer_too(name):
 @settings(max_examples=15, deadline=None)
 @given(st.integers(0, 10_000))
 def test_curvature_of_a_quadric_at_its_summit_is_exact(seed):
-    # Over the summit's own tangent plane the surface is a quadric, which the fit reproduces; any pose, any bend.
+    # Over the summit's own tangent plane the surface is a quadric, which the fit reproduces; any
+    # pose, any bend.
     rng = np.random.default_rng(seed)
     flat = plane(121, jitter=0.2, rng=rng)
     a, b, c = rng.uniform(-0.4, 0.4, 3)
@@ -59,11 +64,14 @@ def test_curvature_of_a_quadric_at_its_summit_is_exact(seed):
     assert K[middle] == pytest.approx(4 * a * c - b * b, abs=1e-9)
     assert H[middle] == pytest.approx(-(a + c), abs=1e-9)
     k1, k2 = fit.principal_curvatures()
-    np.testing.assert_allclose([k2[middle], k1[middle]], np.linalg.eigvalsh([[-2 * a, -b], [-b, -2 * c]]), atol=1e-7)
+    np.testing.assert_allclose(
+        [k2[middle], k1[middle]], np.linalg.eigvalsh([[-2 * a, -b], [-b, -2 * c]]), atol=1e-7
+    )
 
 
 def test_a_slope_in_the_frame_is_accounted_for():
-    # Over the horizontal the saddle is a quadric everywhere, steep or not: with upright frames every vertex is exact.
+    # Over the horizontal the saddle is a quadric everywhere, steep or not: with upright frames
+    # every vertex is exact.
     surface = SURFACES["saddle"](200, bend=2.0, jitter=0.2, rng=np.random.default_rng(5))
     upright = np.broadcast_to([0.0, 0.0, 1.0], surface.p.shape)
     turned = surface.p @ exp_so3(np.array([0, 0, 0.4])).T
@@ -108,7 +116,9 @@ def test_blocks_do_not_show():
     whole = fit_quadrics(ring.p, ring.faces).coefficients
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(quadric_fit, "BLOCK", 10**9)
-        np.testing.assert_allclose(fit_quadrics(ring.p, ring.faces).coefficients, whole, rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(
+            fit_quadrics(ring.p, ring.faces).coefficients, whole, rtol=1e-9, atol=1e-9
+        )
 
 
 def test_agrees_with_least_squares_one_by_one():
@@ -137,7 +147,9 @@ def test_too_few_neighbours_or_a_conic_give_nan():
     line = np.c_[np.linspace(0, 1, 8), np.zeros(8), np.zeros(8)]
     flat = np.vstack([line, line + np.array([0, 1, 0])])
     strip = np.array([[k, k + 1, k + 9] for k in range(7)] + [[k, k + 9, k + 8] for k in range(7)])
-    assert np.isnan(fit_quadrics(flat, strip, rings=3).coefficients).all()  # two parallel lines are a conic
+    assert np.isnan(
+        fit_quadrics(flat, strip, rings=3).coefficients
+    ).all()  # two parallel lines are a conic
 
 
 def test_no_ring_is_refused():

@@ -1,4 +1,6 @@
-"""The picture: against rays cast at every pixel, with and without a lens, and cut at the near plane."""
+"""The picture: against rays cast at every pixel, with and without a lens, and cut at the near
+plane.
+"""
 
 import numpy as np
 import pytest
@@ -6,11 +8,25 @@ import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.data.street import BALL_CENTER, BALL_RADIUS, street, street_items, street_map
-from workbench.geometry.cameras import camera_center, depths, intrinsics, look_at, pixel_rays, project
+from workbench.data.views.street import BALL_CENTER, BALL_RADIUS, street, street_items, street_map
+from workbench.geometry.cameras import (
+    camera_center,
+    depths,
+    intrinsics,
+    look_at,
+    pixel_rays,
+    project,
+)
+from workbench.geometry.cameras.distortion import NONE, Distortion
+from workbench.geometry.cameras.raster import (
+    Image,
+    MeshItem,
+    PointItem,
+    SegmentItem,
+    in_sight,
+    render,
+)
 from workbench.geometry.clipping import clip_segments, clip_to_rectangle, clip_triangles
-from workbench.geometry.distortion import NONE, Distortion
-from workbench.geometry.raster import Image, MeshItem, PointItem, SegmentItem, in_sight, render
 
 WIDTH, HEIGHT = 64, 48
 K = intrinsics(50.0, 31.5, 23.5)
@@ -25,12 +41,15 @@ def all_pixels(width: int = WIDTH, height: int = HEIGHT) -> np.ndarray:
     return np.column_stack([u.ravel(), v.ravel()]).astype(float)
 
 
-def cast(p: np.ndarray, faces: np.ndarray, T_camera_world: np.ndarray, lens: Distortion, near: float):
-    """On every pixel's ray the depth of the nearest triangle, how safely it is hit or missed, and which (-1: none).
+def cast(
+    p: np.ndarray, faces: np.ndarray, T_camera_world: np.ndarray, lens: Distortion, near: float
+):
+    """On every pixel's ray the depth of the nearest triangle, how safely it is hit or missed, and
+    which (-1: none).
 
     Source: Möller and Trumbore 1997.
     """
-    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, lens)
+    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     n_world = n_world / (n_world @ T_camera_world[2, :3])[:, None]  # one metre of depth per unit
     nearest, margin = np.full(len(n_world), np.inf), np.full(len(n_world), np.inf)
     which = np.full(len(n_world), -1)
@@ -48,7 +67,11 @@ def cast(p: np.ndarray, faces: np.ndarray, T_camera_world: np.ndarray, lens: Dis
         nearest = np.minimum(nearest, depth_there)
         clear = np.abs(np.minimum(np.minimum(x, y), 1 - x - y))
         margin = np.minimum(margin, np.where(z > 0, np.minimum(clear, np.abs(z - near)), np.inf))
-    return nearest.reshape(HEIGHT, WIDTH), margin.reshape(HEIGHT, WIDTH), which.reshape(HEIGHT, WIDTH)
+    return (
+        nearest.reshape(HEIGHT, WIDTH),
+        margin.reshape(HEIGHT, WIDTH),
+        which.reshape(HEIGHT, WIDTH),
+    )
 
 
 @settings(max_examples=30, deadline=None)
@@ -66,29 +89,36 @@ def test_depth_is_what_a_ray_through_each_pixel_meets(seed, lens):
         sure = margin > 1e-4  # a pixel whose centre is not on an edge
         assert sure.mean() > 0.9
         np.testing.assert_allclose(image.depth[sure], depth[sure], rtol=1e-9)
-    else:  # edges are polygons within a fraction of a pixel of the curve: away from them the same triangle is met
+    else:  # edges are polygons within a fraction of a pixel of the curve: away from them the same triangle is met  # noqa: E501
         inside = scipy.ndimage.minimum_filter(which, 3) == scipy.ndimage.maximum_filter(which, 3)
         nearest, furthest = (
-            f(depth, 3, mode="nearest") for f in (scipy.ndimage.minimum_filter, scipy.ndimage.maximum_filter)
+            f(depth, 3, mode="nearest")
+            for f in (scipy.ndimage.minimum_filter, scipy.ndimage.maximum_filter)
         )
         between = (image.depth >= nearest * (1 - 1e-2)) & (image.depth <= furthest * (1 + 1e-2))
-        assert between[inside].mean() > 0.99  # what is thinner than a pixel may be hit by one and missed by the other
+        assert (
+            between[inside].mean() > 0.99
+        )  # what is thinner than a pixel may be hit by one and missed by the other
 
 
 @pytest.mark.parametrize("lens", [NONE, BARREL, Distortion(0.2, 0.05)])
 def test_a_floor_under_the_camera_fills_every_pixel_below_the_horizon(lens):
-    """Two triangles, 200 m wide, cross the near plane; every ray that meets the floor must find it at its depth."""
+    """Two triangles, 200 m wide, cross the near plane; every ray that meets the floor must find it
+    at its depth.
+    """
     T_camera_world = look_at(np.array([0.0, 0.0, 1.5]), np.array([0.0, 10.0, 0.5]))
     p = np.array([[-100.0, -100, 0], [100, -100, 0], [100, 100, 0], [-100, 100, 0]])
     item = MeshItem(p, np.array([[0, 1, 2], [0, 2, 3]]), np.concatenate([RED, BLUE]))
     image = render([item], T_camera_world, K, WIDTH, HEIGHT, lens)
-    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, lens)
+    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     with np.errstate(divide="ignore"):
         hit = origin - origin[2] / n_world[:, 2:] * n_world
     depth = depths(hit, T_camera_world)
     sure = (n_world[:, 2] < -0.1) & (np.abs(hit[:, :2]).max(axis=1) < 99)
     assert sure.mean() > 0.4
-    np.testing.assert_allclose(image.depth.ravel()[sure], depth[sure], rtol=1e-9 if lens is NONE else 5e-3)
+    np.testing.assert_allclose(
+        image.depth.ravel()[sure], depth[sure], rtol=1e-9 if lens is NONE else 5e-3
+    )
     above = n_world[:, 2] > 0.02
     assert np.isinf(image.depth.ravel()[above]).all()
 
@@ -97,8 +127,10 @@ def test_a_floor_under_the_camera_fills_every_pixel_below_the_horizon(lens):
 def test_the_ball_of_the_street_is_seen_at_the_depth_of_a_sphere(lens):
     T_camera_world = look_at(np.array([0.5, -0.5, 1.6]), BALL_CENTER)
     ball = street().solids["ball"]
-    image = render([MeshItem(ball.p_world, ball.faces, ball.colors)], T_camera_world, K, WIDTH, HEIGHT, lens)
-    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, lens)
+    image = render(
+        [MeshItem(ball.p_world, ball.faces, ball.colors)], T_camera_world, K, WIDTH, HEIGHT, lens
+    )
+    origin, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     along = n_world @ (BALL_CENTER - origin)
     miss = np.linalg.norm(origin + along[:, None] * n_world - BALL_CENTER, axis=1)
     hit = miss < 0.9 * BALL_RADIUS
@@ -132,7 +164,9 @@ def test_a_segment_is_an_unbroken_line_on_its_projected_points(lens):
     ends = np.array([[[-1.0, -0.5, 2.0], [1.5, 1.0, 4.0]]])
     image = render([SegmentItem(ends, RED)], np.eye(4), K, WIDTH, HEIGHT, lens)
     share = np.linspace(0, 1, 400)[:, None]
-    u, v = np.floor(project((1 - share) * ends[0, 0] + share * ends[0, 1], np.eye(4), K, lens) + 0.5).T.astype(int)
+    u, v = np.floor(
+        project((1 - share) * ends[0, 0] + share * ends[0, 1], np.eye(4), K, lens) + 0.5
+    ).T.astype(int)
     inside = (u >= 0) & (u < WIDTH) & (v >= 0) & (v < HEIGHT)
     drawn = np.isfinite(image.depth)
     assert drawn[:, np.unique(u[inside])].any(axis=0).all()
@@ -164,12 +198,16 @@ def test_the_nearer_of_two_wins_whatever_the_order_and_lines_win_from_their_surf
     np.testing.assert_array_equal(image.colors[24, 32], BLUE[0])
     assert image.depth[24, 32] == pytest.approx(3.0)
     hidden = SegmentItem(line.p_world + np.array([0, 0, 0.1]), BLUE)
-    np.testing.assert_array_equal(render([hidden, near], np.eye(4), K, WIDTH, HEIGHT).colors[24, 32], RED[0])
+    np.testing.assert_array_equal(
+        render([hidden, near], np.eye(4), K, WIDTH, HEIGHT).colors[24, 32], RED[0]
+    )
 
 
 def test_widths_are_in_pixels():
     for width in (1, 2, 3, 5):
-        image = render([PointItem(np.array([[0.0, 0.0, 2.0]]), RED, width)], np.eye(4), K, WIDTH, HEIGHT)
+        image = render(
+            [PointItem(np.array([[0.0, 0.0, 2.0]]), RED, width)], np.eye(4), K, WIDTH, HEIGHT
+        )
         assert np.isfinite(image.depth).any(axis=0).sum() == width
         assert np.isfinite(image.depth).any(axis=1).sum() == width
 
@@ -179,10 +217,17 @@ def test_a_given_camera_model_draws_instead():
     item = MeshItem(np.array([[0.0, 0, 2], [1, 0, 2], [0, 1, 2]]), np.array([[0, 1, 2]]), RED)
     ours = render([item], np.eye(4), K, WIDTH, HEIGHT)
     shifted = render(
-        [item], np.eye(4), K, WIDTH, HEIGHT, to_pixels=lambda p: project(p, np.eye(4), K) - np.array([10.0, 5.0])
+        [item],
+        np.eye(4),
+        K,
+        WIDTH,
+        HEIGHT,
+        to_pixels=lambda p: project(p, np.eye(4), K) - np.array([10.0, 5.0]),
     )
     np.testing.assert_array_equal(shifted.colors[:-5, :-10], ours.colors[5:, 10:])
-    nowhere = render([item], np.eye(4), K, WIDTH, HEIGHT, to_pixels=lambda p: np.full((len(p), 2), np.nan))
+    nowhere = render(
+        [item], np.eye(4), K, WIDTH, HEIGHT, to_pixels=lambda p: np.full((len(p), 2), np.nan)
+    )
     assert np.isinf(nowhere.depth).all()
 
 
@@ -192,7 +237,7 @@ def test_a_lens_that_folds_leaves_its_dark_rim_empty():
     p = np.array([[-100.0, -100, 0], [100, -100, 0], [100, 100, 0], [-100, 100, 0]])
     item = MeshItem(p, np.array([[0, 1, 2], [0, 2, 3]]), np.concatenate([RED, RED]))
     image = render([item], T_camera_world, K, WIDTH, HEIGHT, lens)
-    _, n_world = pixel_rays(all_pixels(), T_camera_world, K, lens)
+    _, n_world = pixel_rays(all_pixels(), T_camera_world, K, distortion=lens)
     blind = np.isnan(n_world[:, 0]).reshape(HEIGHT, WIDTH)
     assert 0.1 < blind.mean() < 0.9
     assert (np.isfinite(image.depth) != blind).mean() > 0.93
@@ -221,8 +266,12 @@ def test_nothing_and_degenerate_things_leave_the_background():
     ]
     for lens in (NONE, BARREL):
         for item in nothing:
-            assert same(render([item], np.eye(4), K, WIDTH, HEIGHT, lens, background=(1, 2, 3)), empty), item
-    dot = render([SegmentItem(np.array([[[0.0, 0, 2], [0, 0, 2]]]), RED)], np.eye(4), K, WIDTH, HEIGHT)
+            assert same(
+                render([item], np.eye(4), K, WIDTH, HEIGHT, lens, background=(1, 2, 3)), empty
+            ), item
+    dot = render(
+        [SegmentItem(np.array([[[0.0, 0, 2], [0, 0, 2]]]), RED)], np.eye(4), K, WIDTH, HEIGHT
+    )
     assert np.isfinite(dot.depth).sum() == 1
 
 
@@ -297,9 +346,18 @@ def test_points_in_sight_are_those_that_nothing_stands_before():
     T_camera_world = look_at(np.array([0.5, -3.0, 1.7]), np.array([0.3, 8.0, 1.0]))
     K_street, eye = intrinsics(260.0, 159.5, 119.5), camera_center(T_camera_world)
     p, n = (one[:600] for one in street_map())
-    p = np.concatenate([p[((eye - p) * n).sum(axis=1) > 0], eye + np.array([[0.0, -4.0, 0.0], [0.0, 0.0, 0.0]])])
-    shown = in_sight(p, T_camera_world, K_street, render(street_items(), T_camera_world, K_street, 320, 240).depth)
-    a, b, c = np.concatenate([one.p_world[one.faces] for one in street().solids.values()]).transpose(1, 0, 2)
+    p = np.concatenate(
+        [p[((eye - p) * n).sum(axis=1) > 0], eye + np.array([[0.0, -4.0, 0.0], [0.0, 0.0, 0.0]])]
+    )
+    shown = in_sight(
+        p,
+        T_camera_world,
+        K_street,
+        depth=render(street_items(), T_camera_world, K_street, 320, 240).depth,
+    )
+    a, b, c = np.concatenate(
+        [one.p_world[one.faces] for one in street().solids.values()]
+    ).transpose(1, 0, 2)
     free = []
     for v in p[:-2] - eye:  # eye + s v = a + g (b - a) + h (c - a), by Cramer's rule
         across, from_a = np.cross(v, c - a), eye - a
@@ -314,7 +372,9 @@ def test_points_in_sight_are_those_that_nothing_stands_before():
     assert 50 < met.sum() < len(met) - 50
     assert (shown[:-2] & ~met).mean() < 0.01  # at an edge
     near = np.linalg.norm(p[:-2] - eye, axis=1) < 13.0
-    assert shown[:-2][met & near].mean() > 0.9  # what leans, far away, has too many depths in a pixel
+    assert (
+        shown[:-2][met & near].mean() > 0.9
+    )  # what leans, far away, has too many depths in a pixel
     assert not shown[-2:].any()  # behind the camera, and in it
 
 

@@ -4,11 +4,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.test_essential import K, L, pair
-from workbench.geometry.alignment import degrees_between
-from workbench.geometry.homography import transform_pixels
+from workbench.geometry.cameras.stereo import StereoCamera
 from workbench.geometry.motions import exp_so3, motion
-from workbench.geometry.rectification import fitted, growth, rectify, torn, warp
-from workbench.geometry.stereo import StereoCamera
+from workbench.geometry.motions.alignment import degrees_between
+from workbench.geometry.two_views.homography import transform_pixels
+from workbench.geometry.two_views.rectification import fitted, growth, rectify, torn, warp
 
 seeds = st.integers(0, 2**32 - 1)
 SIZE = (1024, 683)
@@ -30,9 +30,15 @@ def test_rows_correspond_and_disparity_is_depth(seed):
     d = (uv - st_)[:, 0]
     assert (d < 0).all() == found.second_is_left
     assert (d > 0).all() == (not found.second_is_left)
-    camera = StereoCamera(found.K[0, 0], found.K[0, 2], found.K[1, 2], float(np.linalg.norm(T[:3, 3])))
-    np.testing.assert_allclose(camera.depth(np.abs(d)), (p @ found.R_rectified_first.T)[:, 2], atol=1e-6)
-    np.testing.assert_allclose(found.R_rectified_second @ T[:3, :3], found.R_rectified_first, atol=1e-12)
+    camera = StereoCamera(
+        found.K[0, 0], found.K[0, 2], found.K[1, 2], float(np.linalg.norm(T[:3, 3]))
+    )
+    np.testing.assert_allclose(
+        camera.depth(np.abs(d)), (p @ found.R_rectified_first.T)[:, 2], atol=1e-6
+    )
+    np.testing.assert_allclose(
+        found.R_rectified_second @ T[:3, :3], found.R_rectified_first, atol=1e-12
+    )
 
 
 def test_a_second_camera_on_the_left_stays_upright_unless_asked_not_to():
@@ -48,7 +54,9 @@ def test_a_second_camera_on_the_left_stays_upright_unless_asked_not_to():
 
 
 def test_pictures_grow_and_tear_on_the_way_ahead():
-    grown = [growth(rectify(beside(heading), K, K).H_first, SIZE) for heading in (0, 17, 45, 55, 72, 89)]
+    grown = [
+        growth(rectify(beside(heading), K, K).H_first, SIZE) for heading in (0, 17, 45, 55, 72, 89)
+    ]
     assert grown[0] == pytest.approx(1)
     assert (np.diff(grown[:4]) > 0).all()
     assert grown[2] == pytest.approx(9.5, abs=0.5)
@@ -78,7 +86,9 @@ def test_fitted_pictures_are_inside_and_keep_their_rows(seed):
         uv = transform_pixels(one, corners)
         assert (uv > -1).all()
         assert (uv < [400, 300]).all()
-    np.testing.assert_allclose(transform_pixels(H, uv_first)[:, 1], transform_pixels(G, uv_second)[:, 1], atol=1e-7)
+    np.testing.assert_allclose(
+        transform_pixels(H, uv_first)[:, 1], transform_pixels(G, uv_second)[:, 1], atol=1e-7
+    )
 
 
 def test_a_warped_picture_has_its_colours_where_its_pixels_go():
@@ -99,19 +109,32 @@ def test_opencv_turns_the_cameras_alike():
         T = pair(seed)[0]
         T[:3, 3] *= [1.0, 0.2, 0.3]
         ours = rectify(T, K, K)
-        theirs = cv2.stereoRectify(K, np.zeros((5, 1)), K, np.zeros((5, 1)), SIZE, T[:3, :3], T[:3, 3:])
-        assert degrees_between(ours.R_rectified_first, theirs[0]) < 0.5  # it halves the turn, we the angle of the axes
+        theirs = cv2.stereoRectify(
+            K, np.zeros((5, 1)), K, np.zeros((5, 1)), SIZE, T[:3, :3], T[:3, 3:]
+        )
+        assert (
+            degrees_between(ours.R_rectified_first, theirs[0]) < 0.5
+        )  # it halves the turn, we the angle of the axes
 
 
 def test_the_fountains_rows(shared_data):
     found = np.load(shared_data / "ransac" / "fountain-P11" / "gt_and_matches.npz")
     good = np.abs(found["gt_sampson"]) < 1
-    uv_first, uv_second, K_ = found["x1"][good].astype(float), found["x2"][good].astype(float), found["K1"]
+    uv_first, uv_second, K_ = (
+        found["x1"][good].astype(float),
+        found["x2"][good].astype(float),
+        found["K1"],
+    )
     T = motion(found["R_rel"], found["t_rel"])
     ours = rectify(T, K_, K_)
-    rows = transform_pixels(ours.H_first, uv_first)[:, 1] - transform_pixels(ours.H_second, uv_second)[:, 1]
+    rows = (
+        transform_pixels(ours.H_first, uv_first)[:, 1]
+        - transform_pixels(ours.H_second, uv_second)[:, 1]
+    )
     assert np.sqrt(np.square(rows).mean()) < 0.25
     assert ours.second_is_left
     cv2 = pytest.importorskip("cv2")
-    theirs = cv2.stereoRectify(K_, np.zeros((5, 1)), K_, np.zeros((5, 1)), SIZE, T[:3, :3], T[:3, 3:])
+    theirs = cv2.stereoRectify(
+        K_, np.zeros((5, 1)), K_, np.zeros((5, 1)), SIZE, T[:3, :3], T[:3, 3:]
+    )
     assert degrees_between(ours.R_rectified_first, theirs[0]) < 0.02

@@ -5,7 +5,9 @@ from workbench.geometry.refinement import levenberg_marquardt
 
 
 def rosenbrock(x):
-    return np.array([10 * (x[1] - x[0] ** 2), 1 - x[0]]), np.array([[-20 * x[0], 10.0], [-1.0, 0.0]])
+    return np.array([10 * (x[1] - x[0] ** 2), 1 - x[0]]), np.array(
+        [[-20 * x[0], 10.0], [-1.0, 0.0]]
+    )
 
 
 def test_it_finds_the_valley_floor():
@@ -16,14 +18,19 @@ def test_it_finds_the_valley_floor():
 
 def test_it_agrees_with_scipy_where_the_residual_is_not_zero():
     rng = np.random.default_rng(0)
-    x, y = np.linspace(0, 3, 40), 2.0 * np.exp(-1.3 * np.linspace(0, 3, 40)) + 0.05 * rng.normal(size=40)
+    x, y = (
+        np.linspace(0, 3, 40),
+        2.0 * np.exp(-1.3 * np.linspace(0, 3, 40)) + 0.05 * rng.normal(size=40),
+    )
 
     def model(q):
         e = np.exp(-q[1] * x)
         return q[0] * e - y, np.column_stack([e, -q[0] * x * e])
 
     found = levenberg_marquardt(model, np.add, np.array([1.0, 1.0]), tolerance=1e-14, steps=50)
-    oracle = scipy.optimize.least_squares(lambda q: model(q)[0], [1.0, 1.0], xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    oracle = scipy.optimize.least_squares(
+        lambda q: model(q)[0], [1.0, 1.0], xtol=1e-14, ftol=1e-14, gtol=1e-14
+    )
     np.testing.assert_allclose(found, oracle.x, atol=1e-7)
 
 

@@ -1,4 +1,6 @@
-"""Mending keeps the surface: the same triangles at the same places, now a mesh that can be measured."""
+"""Mending keeps the surface: the same triangles at the same places, now a mesh that can be
+measured.
+"""
 
 import numpy as np
 import pytest
@@ -7,9 +9,9 @@ from hypothesis import strategies as st
 
 from tests.geometry.mesh_zoo import CUBE, TETRAHEDRON, random_closed, strip
 from workbench.errors import InputError
-from workbench.geometry.curvature import gauss_bonnet
 from workbench.geometry.meshes import check_mesh, edges, euler_characteristic, face_areas
-from workbench.geometry.repair import oriented, split_where_sheets_touch, without_repeats
+from workbench.geometry.meshes.curvature import gauss_bonnet
+from workbench.geometry.meshes.repair import oriented, split_where_sheets_touch, without_repeats
 
 few = settings(max_examples=15, deadline=None)
 
@@ -91,11 +93,15 @@ def test_half_and_half_is_mended_as_well():
 
 def test_a_moebius_strip_is_left_and_refused():
     turn = 2 * np.pi * np.arange(8) / 8
-    across = np.stack([np.cos(turn / 2) * np.cos(turn), np.cos(turn / 2) * np.sin(turn), np.sin(turn / 2)], 1)
+    across = np.stack(
+        [np.cos(turn / 2) * np.cos(turn), np.cos(turn / 2) * np.sin(turn), np.sin(turn / 2)], 1
+    )
     middle = np.stack([np.cos(turn), np.sin(turn), 0 * turn], 1)
     p = np.vstack([middle - 0.3 * across, middle + 0.3 * across])
     i, j = np.arange(7), np.arange(1, 8)
-    faces = np.concatenate([np.stack([i, j, j + 8], 1), np.stack([i, j + 8, i + 8], 1), [[7, 8, 0], [7, 0, 15]]])
+    faces = np.concatenate(
+        [np.stack([i, j, j + 8], 1), np.stack([i, j + 8, i + 8], 1), [[7, 8, 0], [7, 0, 15]]]
+    )
     assert len(edges(faces)) == 32
     np.testing.assert_array_equal(oriented(faces), faces)
     np.testing.assert_array_equal(split_where_sheets_touch(p, faces)[1], faces)

@@ -1,4 +1,6 @@
-"""Numbers for rotations: gradients by differences, scipy's rotations, what is continuous, and how turns are spread."""
+"""Numbers for rotations: gradients by differences, scipy's rotations, what is continuous, and how
+turns are spread.
+"""
 
 import numpy as np
 import pytest
@@ -7,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from workbench.geometry.rotation_outputs import (
+from workbench.geometry.motions.rotation_outputs import (
     IN_PLANE,
     IN_SPACE,
     Representation,
@@ -16,11 +18,18 @@ from workbench.geometry.rotation_outputs import (
     rotation_from_six,
 )
 
-ALL = [*((name, one, 2) for name, one in IN_PLANE.items()), *((name, one, 3) for name, one in IN_SPACE.items())]
-every = pytest.mark.parametrize(("representation", "d"), [(one, d) for _, one, d in ALL], ids=[n for n, _, _ in ALL])
+ALL = [
+    *((name, one, 2) for name, one in IN_PLANE.items()),
+    *((name, one, 3) for name, one in IN_SPACE.items()),
+]
+every = pytest.mark.parametrize(
+    ("representation", "d"), [(one, d) for _, one, d in ALL], ids=[n for n, _, _ in ALL]
+)
 
 
-def differences(representation: Representation, y: np.ndarray, slope: np.ndarray, h: float = 1e-6) -> np.ndarray:
+def differences(
+    representation: Representation, y: np.ndarray, slope: np.ndarray, h: float = 1e-6
+) -> np.ndarray:
     """The gradient of sum(slope * decode(y)) by central differences."""
     found = np.empty_like(y)
     for k in range(y.shape[1]):
@@ -34,29 +43,41 @@ def differences(representation: Representation, y: np.ndarray, slope: np.ndarray
 def test_every_pullback_is_that_of_differences(representation, d):
     rng = np.random.default_rng(3)
     y = rng.normal(size=(40, len(representation.start)))
-    y[:4] = representation.start  # no turn, where a rotation vector is zero and a matrix has equal singular values
+    y[:4] = (
+        representation.start
+    )  # no turn, where a rotation vector is zero and a matrix has equal singular values
     slope = rng.normal(size=(40, d, d))
-    np.testing.assert_allclose(representation.pullback(y, slope), differences(representation, y, slope), atol=2e-7)
+    np.testing.assert_allclose(
+        representation.pullback(y, slope), differences(representation, y, slope), atol=2e-7
+    )
 
 
 def test_rotation_vectors_have_their_gradient_up_to_half_a_turn():
     vector, rng = IN_SPACE["axis-angle"], np.random.default_rng(4)
     axes = rng.normal(size=(7, 3))
-    y = axes / np.linalg.norm(axes, axis=1, keepdims=True) * np.array([[1e-9, 1e-5, 0.999e-3, 1.001e-3, 1, 3, np.pi]]).T
+    y = (
+        axes
+        / np.linalg.norm(axes, axis=1, keepdims=True)
+        * np.array([[1e-9, 1e-5, 0.999e-3, 1.001e-3, 1, 3, np.pi]]).T
+    )
     slope = rng.normal(size=(7, 3, 3))
-    np.testing.assert_allclose(vector.pullback(y, slope), differences(vector, y, slope), rtol=0, atol=2e-9)
+    np.testing.assert_allclose(
+        vector.pullback(y, slope), differences(vector, y, slope), rtol=0, atol=2e-9
+    )
 
 
 @every
 def test_the_numbers_of_a_rotation_mean_it_and_start_means_no_turn(representation, d):
-    R, _ = random_rotations(50, d, np.pi, np.random.default_rng(0))
+    R, _ = random_rotations(50, d, np.pi, rng=np.random.default_rng(0))
     np.testing.assert_allclose(representation.decode(representation.numbers(R)), R, atol=1e-12)
     np.testing.assert_array_equal(representation.decode(representation.start[None])[0], np.eye(d))
 
 
 @every
 def test_whatever_is_put_out_means_a_rotation(representation, d):
-    R = representation.decode(3 * np.random.default_rng(1).normal(size=(60, len(representation.start))))
+    R = representation.decode(
+        3 * np.random.default_rng(1).normal(size=(60, len(representation.start)))
+    )
     np.testing.assert_allclose(R @ R.swapaxes(1, 2), np.tile(np.eye(d), (60, 1, 1)), atol=1e-12)
     np.testing.assert_allclose(np.linalg.det(R), 1, atol=1e-12)
 
@@ -65,13 +86,19 @@ def test_they_mean_what_scipy_says():
     y = np.random.default_rng(2).normal(size=(30, 4))
     vectors = y[:, :3]
     np.testing.assert_allclose(
-        IN_SPACE["quaternion"].decode(y), Rotation.from_quat(y[:, [1, 2, 3, 0]]).as_matrix(), atol=1e-13
+        IN_SPACE["quaternion"].decode(y),
+        Rotation.from_quat(y[:, [1, 2, 3, 0]]).as_matrix(),
+        atol=1e-13,
     )
     np.testing.assert_allclose(
-        IN_SPACE["axis-angle"].decode(vectors), Rotation.from_rotvec(vectors).as_matrix(), atol=1e-13
+        IN_SPACE["axis-angle"].decode(vectors),
+        Rotation.from_rotvec(vectors).as_matrix(),
+        atol=1e-13,
     )
     np.testing.assert_allclose(
-        IN_SPACE["Euler"].decode(vectors), Rotation.from_euler("xyz", vectors).as_matrix(), atol=1e-13
+        IN_SPACE["Euler"].decode(vectors),
+        Rotation.from_euler("xyz", vectors).as_matrix(),
+        atol=1e-13,
     )
 
 
@@ -94,18 +121,25 @@ def test_vectors_that_span_no_plane_give_what_is_not_finite():
 
 
 def test_only_vectors_of_unit_length_columns_and_entries_are_continuous():
-    """Two rotations a hundredth of a degree apart, to either side of half a turn: their numbers are near, or far."""
+    """Two rotations a hundredth of a degree apart, to either side of half a turn: their numbers are
+    near, or far.
+    """
     near = np.radians(179.995)
-    flat = np.stack([np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]) for a in (near, -near)])
+    flat = np.stack(
+        [np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]) for a in (near, -near)]
+    )
     axes = np.eye(3)[2]
     solid = Rotation.from_rotvec([near * axes, -near * axes]).as_matrix()
-    jumps = {name: np.abs(np.diff(one.numbers(flat if d == 2 else solid), axis=0)).max() for name, one, d in ALL}
+    jumps = {
+        name: np.abs(np.diff(one.numbers(flat if d == 2 else solid), axis=0)).max()
+        for name, one, d in ALL
+    }
     assert {name for name, jump in jumps.items() if jump < 1e-3} == {"cosine and sine", "6D", "9D"}
     assert min(jump for jump in jumps.values() if jump > 1e-3) > 1.9
 
 
 def test_angles_between_rotations_are_those_of_scipy():
-    R, other = (random_rotations(100, 3, np.pi, np.random.default_rng(k))[0] for k in (5, 6))
+    R, other = (random_rotations(100, 3, np.pi, rng=np.random.default_rng(k))[0] for k in (5, 6))
     theirs = np.degrees((Rotation.from_matrix(R) * Rotation.from_matrix(other).inv()).magnitude())
     np.testing.assert_allclose(degrees_apart(R, other), theirs, atol=1e-5)
     np.testing.assert_allclose(degrees_apart(R, R), 0, atol=1e-6)
@@ -117,13 +151,13 @@ def test_angles_between_rotations_are_those_of_scipy():
 
 @pytest.mark.parametrize("largest", [0.5, 2.0, np.pi])
 def test_turns_are_spread_as_all_rotations_are(largest):
-    R, w = random_rotations(4000, 3, largest, np.random.default_rng(7))
+    R, w = random_rotations(4000, 3, largest, rng=np.random.default_rng(7))
     np.testing.assert_allclose(R, Rotation.from_rotvec(w).as_matrix(), atol=1e-12)
     a = np.linalg.norm(w, axis=1)
     assert a.max() <= largest
     theirs = Rotation.random(40_000, random_state=8).magnitude()
     assert scipy.stats.ks_2samp(a, theirs[theirs <= largest]).pvalue > 0.01
     np.testing.assert_allclose((w / a[:, None]).mean(axis=0), 0, atol=0.04)
-    flat, a = random_rotations(500, 2, largest, np.random.default_rng(7))
+    flat, a = random_rotations(500, 2, largest, rng=np.random.default_rng(7))
     assert np.abs(a).max() <= largest
     np.testing.assert_allclose(flat[:, :, 0], np.column_stack([np.cos(a), np.sin(a)]))

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from workbench.geometry.motions import exp_so3, log_so3, rotation_angle
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.rotations import (
     EULER_ORDERS,
     axis_angle_from_rotation,
     euler_axes,
@@ -29,9 +29,14 @@ settings.load_profile("few")
 
 angle = st.floats(-np.pi, np.pi)
 triples = st.tuples(angle, angle, angle).map(np.array)
-# Rotations near the identity and near half a turn are where formulas break: they are drawn on purpose.
-sizes = st.one_of(st.floats(0, 1e-6), st.floats(1e-6, np.pi), st.floats(0, 1e-6).map(lambda e: np.pi - e))
-directions = st.tuples(*[st.floats(-1, 1)] * 3).map(np.array).filter(lambda v: np.linalg.norm(v) > 1e-3)
+# Rotations near the identity and near half a turn are where formulas break: they are drawn on
+# purpose.
+sizes = st.one_of(
+    st.floats(0, 1e-6), st.floats(1e-6, np.pi), st.floats(0, 1e-6).map(lambda e: np.pi - e)
+)
+directions = (
+    st.tuples(*[st.floats(-1, 1)] * 3).map(np.array).filter(lambda v: np.linalg.norm(v) > 1e-3)
+)
 rotations = st.builds(rotation_from_axis_angle, directions, sizes)
 orders = st.sampled_from(EULER_ORDERS)
 
@@ -64,7 +69,9 @@ def test_euler_angles_agree_with_scipy_away_from_lock(order, angles):
     np.testing.assert_allclose(euler_to_matrix(found, order), R, atol=2e-12)
     if gimbal_margin(angles, order) > 1e-3:
         difference = found - Rotation.from_matrix(R).as_euler(order)
-        np.testing.assert_allclose(np.sin(difference / 2), 0, atol=1e-10)  # -pi and pi are one angle
+        np.testing.assert_allclose(
+            np.sin(difference / 2), 0, atol=1e-10
+        )  # -pi and pi are one angle
 
 
 @pytest.mark.parametrize("order", EULER_ORDERS)
@@ -91,7 +98,9 @@ def test_a_whole_family_of_triples_is_one_rotation_in_lock(outer, order, turn):
 @given(triples, orders)
 def test_every_rotation_has_two_triples(angles, order):
     other = other_triple(angles, order)
-    np.testing.assert_allclose(euler_to_matrix(other, order), euler_to_matrix(angles, order), atol=1e-14)
+    np.testing.assert_allclose(
+        euler_to_matrix(other, order), euler_to_matrix(angles, order), atol=1e-14
+    )
     assert np.abs(other - angles).max() > 3
 
 
@@ -109,7 +118,8 @@ def test_euler_axes_are_the_derivatives_of_the_rotation(angles, order):
 
 
 @pytest.mark.parametrize(
-    ("order", "middle", "margin"), [("xyz", 90, 0.0), ("XYZ", 0, 1.0), ("zxz", 0, 0.0), ("ZXZ", 30, 0.5)]
+    ("order", "middle", "margin"),
+    [("xyz", 90, 0.0), ("XYZ", 0, 1.0), ("zxz", 0, 0.0), ("ZXZ", 30, 0.5)],
 )
 def test_gimbal_margin(order, middle, margin):
     angles = np.radians([20.0, middle, -50.0])
@@ -119,7 +129,9 @@ def test_gimbal_margin(order, middle, margin):
 
 @given(triples)
 def test_extrinsic_is_intrinsic_read_backwards(angles):
-    np.testing.assert_allclose(euler_to_matrix(angles, "xyz"), euler_to_matrix(angles[::-1], "ZYX"), atol=1e-15)
+    np.testing.assert_allclose(
+        euler_to_matrix(angles, "xyz"), euler_to_matrix(angles[::-1], "ZYX"), atol=1e-15
+    )
 
 
 def test_turning_about_the_bodys_own_axis_multiplies_on_the_right():
@@ -132,7 +144,7 @@ def test_turning_about_the_bodys_own_axis_multiplies_on_the_right():
 
 @pytest.mark.parametrize("order", ["", "xx", "xxy", "xyZ", "abc", "wxyz"])
 def test_unknown_orders_are_refused(order):
-    from workbench.geometry.rotations import _letters
+    from workbench.geometry.motions.rotations import _letters
 
     with pytest.raises(ValueError, match="not an Euler order"):
         _letters(order)
@@ -142,13 +154,17 @@ def test_unknown_orders_are_refused(order):
 def test_rodrigues_is_the_matrix_exponential(axis, turn):
     n = axis / np.linalg.norm(axis)
     N = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
-    np.testing.assert_allclose(rotation_from_axis_angle(axis, turn), scipy.linalg.expm(turn * N), atol=1e-12)
+    np.testing.assert_allclose(
+        rotation_from_axis_angle(axis, turn), scipy.linalg.expm(turn * N), atol=1e-12
+    )
 
 
 @given(directions, sizes, st.floats(0.1, 1e6))
 def test_the_length_of_the_axis_does_not_matter(axis, turn, length):
     np.testing.assert_allclose(
-        rotation_from_axis_angle(axis * length, turn), rotation_from_axis_angle(axis, turn), atol=1e-14
+        rotation_from_axis_angle(axis * length, turn),
+        rotation_from_axis_angle(axis, turn),
+        atol=1e-14,
     )
 
 
@@ -219,7 +235,9 @@ def test_slerp_agrees_with_scipy():
         ends = Rotation.random(2, rng=rng)
         a, b = ends.as_quat(scalar_first=True)
         expected = scipy.spatial.transform.Slerp([0, 1], ends)(times).as_matrix()
-        np.testing.assert_allclose([matrix_from_quaternion(slerp(a, b, t)) for t in times], expected, atol=1e-13)
+        np.testing.assert_allclose(
+            [matrix_from_quaternion(slerp(a, b, t)) for t in times], expected, atol=1e-13
+        )
 
 
 @given(rotations, rotations)
@@ -227,10 +245,14 @@ def test_slerp_does_not_care_for_the_sign_but_the_great_circle_does(A, B):
     p, q = quaternion_from_matrix(A), quaternion_from_matrix(B)
     if abs(p @ q) > 1e-3:
         np.testing.assert_allclose(
-            matrix_from_quaternion(slerp(p, -q, 0.3)), matrix_from_quaternion(slerp(p, q, 0.3)), atol=1e-12
+            matrix_from_quaternion(slerp(p, -q, 0.3)),
+            matrix_from_quaternion(slerp(p, q, 0.3)),
+            atol=1e-12,
         )
     turn = 2 * np.arccos(np.clip(p @ q, -1, 1))
-    turned = [rotation_angle(A.T @ matrix_from_quaternion(great_circle(p, -q, t))) for t in (0.25, 0.5)]
+    turned = [
+        rotation_angle(A.T @ matrix_from_quaternion(great_circle(p, -q, t))) for t in (0.25, 0.5)
+    ]
     if 0.1 < turn < np.pi:
         assert turned[0] == pytest.approx(0.25 * (2 * np.pi - turn), abs=1e-9)
 

@@ -1,14 +1,16 @@
-"""Points and lines by chance: even on surfaces and in cubes, scipy's Sobol, binomial errors, Crofton."""
+"""Points and lines by chance: even on surfaces and in cubes, scipy's Sobol, binomial errors,
+Crofton.
+"""
 
 import numpy as np
 import pytest
 import scipy
 
-from workbench.data.rabbit import rabbit_mesh
-from workbench.data.solids import box
-from workbench.geometry.measures import area_centroid, surface_area
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.data.shapes.solids import box
 from workbench.geometry.meshes import face_areas
-from workbench.geometry.sampling import (
+from workbench.geometry.meshes.measures import area_centroid, surface_area
+from workbench.geometry.points.sampling import (
     ball_share,
     line_crossings,
     lines_through_ball,
@@ -32,7 +34,9 @@ def test_points_are_spread_over_faces_as_these_are_large():
 
 def test_the_mean_of_points_is_the_middle_of_the_surface():
     p, faces = rabbit_mesh(0.05)
-    q = points_on_faces(p, faces, unit_points(27_000, 3, "stratified", np.random.default_rng(1)))
+    q = points_on_faces(
+        p, faces, unit_points(27_000, 3, "stratified", rng=np.random.default_rng(1))
+    )
     assert np.linalg.norm(q.mean(axis=0) - area_centroid(p, faces)) < 0.005
 
 
@@ -54,9 +58,11 @@ def test_the_sequence_of_sobol_is_scipys():
 
 @pytest.mark.parametrize(("draw", "count"), [("stratified", 64), ("Sobol", 64)])
 def test_one_point_lies_in_each_of_so_many_boxes(draw, count):
-    u = unit_points(count, 3, draw, np.random.default_rng(2))
+    u = unit_points(count, 3, draw, rng=np.random.default_rng(2))
     assert len(u) == count
-    cuts = {"stratified": [(4, 4, 4)], "Sobol": [(64, 1, 1), (1, 64, 1), (1, 1, 64), (8, 8, 1)]}[draw]
+    cuts = {"stratified": [(4, 4, 4)], "Sobol": [(64, 1, 1), (1, 64, 1), (1, 1, 64), (8, 8, 1)]}[
+        draw
+    ]
     for cut in cuts:  # Sobol: the first two coordinates are a (0, m, 2)-net
         assert len(np.unique(np.floor(np.array(cut) * u), axis=0)) == count
     assert u.min() >= 0
@@ -66,7 +72,9 @@ def test_one_point_lies_in_each_of_so_many_boxes(draw, count):
 def test_chance_has_the_binomial_error():
     right = 1.0
     rng, box_volume = np.random.default_rng(4), 4.0
-    found = np.array([volume_by_chance(rng.random(200) < right / box_volume, box_volume) for _ in range(2000)])
+    found = np.array(
+        [volume_by_chance(rng.random(200) < right / box_volume, box_volume) for _ in range(2000)]
+    )
     assert found[:, 0].mean() == pytest.approx(right, abs=0.02)
     assert found[:, 0].std() == pytest.approx(found[:, 1].mean(), rel=0.06)
     with pytest.raises(ValueError, match="no points"):
@@ -74,19 +82,23 @@ def test_chance_has_the_binomial_error():
 
 
 def test_the_ball_fills_less_and_less_of_its_cube():
-    np.testing.assert_allclose([ball_share(d) for d in (1, 2, 3, 4)], [1, np.pi / 4, np.pi / 6, np.pi**2 / 32])
+    np.testing.assert_allclose(
+        [ball_share(d) for d in (1, 2, 3, 4)], [1, np.pi / 4, np.pi / 6, np.pi**2 / 32]
+    )
     assert ball_share(20) == pytest.approx(2.46e-8, rel=1e-2)
 
 
 def test_lines_are_isotropic_and_tell_the_area():
     p, faces = rabbit_mesh(0.05)
-    ends = lines_through_ball(4000, np.zeros(3), 1.0, np.random.default_rng(5))
+    ends = lines_through_ball(4000, np.zeros(3), 1.0, rng=np.random.default_rng(5))
     np.testing.assert_allclose(np.linalg.norm(ends, axis=2), 1)
     line, places = line_crossings(p, faces, ends)
     counts = np.bincount(line, minlength=4000)
     assert (counts % 2 == 0).all()  # a closed mesh is left as often as it is entered
     area = 2 * np.pi * counts.mean()
-    assert area == pytest.approx(surface_area(p, faces), abs=4 * 2 * np.pi * counts.std() / np.sqrt(4000))
+    assert area == pytest.approx(
+        surface_area(p, faces), abs=4 * 2 * np.pi * counts.std() / np.sqrt(4000)
+    )
     o, d = ends[line, 0], ends[line, 1] - ends[line, 0]
     assert np.linalg.norm(np.cross(places - o, d), axis=1).max() < 1e-9
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from workbench.data.files import read_cloud, read_pose
 from workbench.geometry.motions import apply, exp_so3, motion
-from workbench.geometry.shape_distances import (
+from workbench.geometry.points.shape_distances import (
     DEFINITIONS,
     Definition,
     chamfer,
@@ -60,7 +60,9 @@ def test_each_definition_is_what_its_name_says(seed, n, m):
 @given(seeds, counts, counts)
 def test_hausdorff_agrees_with_scipy(seed, n, m):
     p_a, p_b = clouds(seed, n, m)
-    both = max(scipy.spatial.distance.directed_hausdorff(p, q)[0] for p, q in ((p_a, p_b), (p_b, p_a)))
+    both = max(
+        scipy.spatial.distance.directed_hausdorff(p, q)[0] for p, q in ((p_a, p_b), (p_b, p_a))
+    )
     assert hausdorff(p_a, p_b) == pytest.approx(both, rel=1e-12)
 
 
@@ -104,7 +106,9 @@ def test_f_score_by_hand():
 def test_chamfer_is_no_metric_even_without_squares():
     a, b, c = np.zeros((2, 3)), np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[1.0, 0, 0]] * 2)
     for definition in DEFINITIONS:
-        ab, bc, ac = (nearest_both_ways(p, q).chamfer(definition) for p, q in ((a, b), (b, c), (a, c)))
+        ab, bc, ac = (
+            nearest_both_ways(p, q).chamfer(definition) for p, q in ((a, b), (b, c), (a, c))
+        )
         assert ac >= 2 * (ab + bc) - 1e-12, definition
     assert chamfer(a, c) == pytest.approx(2.0)
     assert chamfer(a, b) + chamfer(b, c) == pytest.approx(1.0)
@@ -168,4 +172,7 @@ def test_two_scans_of_the_bunny_overlap_as_documented(shared_data):
     T_target_source = read_pose(shared_data / "icp" / "bun.conf", *scans)
     near = nearest_both_ways(apply(T_target_source, p_source), p_target)
     assert np.mean(near.d_a <= 1e-3) == pytest.approx(0.91, abs=0.01)
-    assert near.chamfer("mean of distances") < nearest_both_ways(p_source, p_target).chamfer("mean of distances") / 3
+    assert (
+        near.chamfer("mean of distances")
+        < nearest_both_ways(p_source, p_target).chamfer("mean of distances") / 3
+    )

@@ -1,12 +1,14 @@
-"""SIFT's keypoints: what a turn and a stretch do to them, a blob of known size, and pictures without any."""
+"""SIFT's keypoints: what a turn and a stretch do to them, a blob of known size, and pictures
+without any.
+"""
 
 import numpy as np
 import pytest
 import scipy
 
-from workbench.data.turned_pictures import motorcycle_levels, turned
-from workbench.geometry.matching import filtered, nearest_both_ways
-from workbench.geometry.sift import Sift, sift, turned_patch
+from lessons.features.turned_pictures import motorcycle_levels, turned
+from workbench.geometry.features.matching import filtered, nearest_both_ways
+from workbench.geometry.features.sift import Sift, sift, turned_patch
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +25,9 @@ def test_keypoints_turn_with_the_picture(still, quarter):
     assert len(i) > 100
     middle = (np.array(image.shape[::-1]) - 1) / 2
     c, s = np.cos(angle), np.sin(angle)
-    places = (still.uv[i] - middle) @ np.array([[c, s], [-s, c]]) + (middle[::-1] if quarter else middle)
+    places = (still.uv[i] - middle) @ np.array([[c, s], [-s, c]]) + (
+        middle[::-1] if quarter else middle
+    )
     assert np.mean(np.linalg.norm(places - found.uv[j], axis=1) < 1) > 0.9
     off = (found.angle[j] - still.angle[i] - angle + np.pi) % (2 * np.pi) - np.pi
     assert np.median(np.abs(off)) < np.radians(2)
@@ -39,7 +43,9 @@ def test_brightness_and_contrast_do_not_count(still):
 
 @pytest.mark.parametrize("size", [3.0, 4.0, 6.0])
 def test_a_blob_is_found_where_it_is_as_large_as_it_is(size):
-    """Its size is the finer of two Gaussians that differ by a third of an octave; the blob lies between them."""
+    """Its size is the finer of two Gaussians that differ by a third of an octave; the blob lies
+    between them.
+    """
     v, u = np.mgrid[:81, :101]
     found = sift(200 * np.exp(-((u - 60.3) ** 2 + (v - 33.2) ** 2) / (2 * size**2)))
     np.testing.assert_allclose(found.uv, np.broadcast_to([60.3, 33.2], found.uv.shape), atol=0.1)
@@ -48,7 +54,9 @@ def test_a_blob_is_found_where_it_is_as_large_as_it_is(size):
 
 
 def test_directions_are_those_of_the_grey_levels():
-    """A blob on a ramp has the ramp's direction, from u towards v: on the average of many within a fifth of a bin."""
+    """A blob on a ramp has the ramp's direction, from u towards v: on the average of many within a
+    fifth of a bin.
+    """
     v, u = np.mgrid[-40:41, -40:41].astype(float)
     offs = []
     for angle in np.radians(np.arange(0, 360, 7)):
@@ -70,8 +78,12 @@ def test_a_flat_picture_has_no_keypoints():
 def test_a_turned_patch_is_the_pixels_themselves_or_those_of_the_turned_picture():
     image = scipy.ndimage.gaussian_filter(np.random.default_rng(2).uniform(0, 255, (61, 61)), 3)
     middle = np.array([30.0, 30.0])
-    np.testing.assert_allclose(turned_patch(image, np.array([20.0, 32.0]), 0.0, 5.0, 11), image[27:38, 15:26])
+    np.testing.assert_allclose(
+        turned_patch(image, np.array([20.0, 32.0]), 0.0, half=5.0, side=11), image[27:38, 15:26]
+    )
     for angle in (0.0, 0.7, np.pi / 2, -2.0):
         np.testing.assert_allclose(
-            turned_patch(turned(image, angle), middle, angle, 8.0, 17), image[22:39, 22:39], atol=2.0
+            turned_patch(turned(image, angle), middle, angle, half=8.0, side=17),
+            image[22:39, 22:39],
+            atol=2.0,
         )

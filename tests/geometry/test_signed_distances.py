@@ -7,10 +7,10 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.data import solids, surfaces
-from workbench.data.rabbit import rabbit_mesh
+from workbench.data.shapes import solids, surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.fields.signed_distances import box_sdf, face_tree, mesh_sdf, torus_sdf
 from workbench.geometry.motions import exp_so3
-from workbench.geometry.signed_distances import box_sdf, face_tree, mesh_sdf, torus_sdf
 
 HALF = np.array([0.5, 0.35, 0.25])
 
@@ -64,7 +64,9 @@ def test_a_mesh_is_as_far_as_the_nearest_of_all_its_triangles():
 def test_a_box_of_twelve_triangles_has_the_boxs_distances():
     made, q = solids.box((1.0, 0.7, 0.5)), some(500, 3)
     p = made.p - [0, 0, 0.25]
-    np.testing.assert_allclose(mesh_sdf(face_tree(p, made.faces, closed=True), q), box_sdf(q, HALF), atol=1e-12)
+    np.testing.assert_allclose(
+        mesh_sdf(face_tree(p, made.faces, closed=True), q), box_sdf(q, HALF), atol=1e-12
+    )
 
 
 def test_distances_move_with_the_mesh():
@@ -83,7 +85,9 @@ def test_an_open_mesh_has_no_negative_distances():
 @pytest.mark.parametrize("corner", [0.0, 1e-9])
 def test_a_single_triangle_and_one_without_area(corner):
     p = np.array([[0.0, 0, 0], [1, 0, 0], [0.5, corner, 0]])
-    found = mesh_sdf(face_tree(p, np.array([[0, 1, 2]]), closed=False), np.array([[0.5, 0, 2], [3, 0, 0.0]]))
+    found = mesh_sdf(
+        face_tree(p, np.array([[0, 1, 2]]), closed=False), np.array([[0.5, 0, 2], [3, 0, 0.0]])
+    )
     np.testing.assert_allclose(found, [2, 2], atol=1e-8)
 
 

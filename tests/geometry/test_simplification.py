@@ -1,17 +1,21 @@
-"""Coarser and finer meshes: what stays the same when edges are halved, and how many vertices clusters leave."""
+"""Coarser and finer meshes: what stays the same when edges are halved, and how many vertices
+clusters leave.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.data import surfaces
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.measures import encloses, signed_volume, surface_area
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.geometry.meshes import euler_characteristic
-from workbench.geometry.simplification import clustered, halved
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
+from workbench.geometry.meshes.simplification import clustered, halved
 
 
 @pytest.mark.parametrize(
-    "made", [surfaces.torus(60), surfaces.sphere(42), surfaces.cylinder(60)], ids=["torus", "sphere", "cylinder"]
+    "made",
+    [surfaces.torus(60), surfaces.sphere(42), surfaces.cylinder(60)],
+    ids=["torus", "sphere", "cylinder"],
 )
 def test_halved_edges_change_no_area_volume_or_topology(made):
     p, faces = halved(made.p, made.faces)

@@ -6,8 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.geometry.cameras import project
-from workbench.geometry.motions import motion
-from workbench.geometry.stereo import (
+from workbench.geometry.cameras.stereo import (
     StereoCamera,
     depth_cloud,
     depth_from_disparity,
@@ -16,6 +15,7 @@ from workbench.geometry.stereo import (
     disparity_from_depth,
     points_on_ray,
 )
+from workbench.geometry.motions import motion
 
 cameras = st.builds(
     StereoCamera,
@@ -46,7 +46,9 @@ def test_two_cameras_that_project_a_point_tell_its_depth(camera, seed):
     depth = depth_from_disparity(d + camera.doffs, camera.f, camera.baseline)
     assert np.allclose(depth, p_camera[:, 2], rtol=1e-7)
     assert np.array_equal(camera.depth(d), depth)
-    assert np.allclose(disparity_from_depth(depth, camera.f, camera.baseline), d + camera.doffs, rtol=1e-7)
+    assert np.allclose(
+        disparity_from_depth(depth, camera.f, camera.baseline), d + camera.doffs, rtol=1e-7
+    )
 
 
 @given(st.floats(0.01, 500), st.floats(1.01, 50))
@@ -65,22 +67,30 @@ def test_zero_is_infinitely_far_and_only_nan_is_unknown():
 
 def test_one_pixel_costs_more_the_further_away():
     depth = np.array([1.0, 5.0, 20.0])
-    error = depth_uncertainty(depth, 700.0, 0.12, 1.0)
+    error = depth_uncertainty(depth, 700.0, 0.12, disparity_error=1.0)
     assert error == pytest.approx([0.0119, 0.2976, 4.762], rel=1e-3)
-    near, far = depth_interval(disparity_from_depth(depth, 700.0, 0.12), 700.0, 0.12, 1.0)
-    assert far - near == pytest.approx([0.0238, 0.597, 10.1], rel=0.01)  # exact: longer on the far side
+    near, far = depth_interval(
+        disparity_from_depth(depth, 700.0, 0.12), 700.0, 0.12, disparity_error=1.0
+    )
+    assert far - near == pytest.approx(
+        [0.0238, 0.597, 10.1], rel=0.01
+    )  # exact: longer on the far side
     assert (far - depth > depth - near).all()
 
 
 @given(st.floats(0.5, 50), st.floats(100, 2000), st.floats(0.02, 1.0))
 def test_the_uncertainty_is_the_slope_of_depth(depth, f, baseline):
     d, h = disparity_from_depth(np.array([depth]), f, baseline), 1e-6
-    slope = (depth_from_disparity(d - h, f, baseline) - depth_from_disparity(d + h, f, baseline)) / (2 * h)
-    assert depth_uncertainty(np.array([depth]), f, baseline, 1.0) == pytest.approx(slope, rel=1e-4)
+    slope = (
+        depth_from_disparity(d - h, f, baseline) - depth_from_disparity(d + h, f, baseline)
+    ) / (2 * h)
+    assert depth_uncertainty(np.array([depth]), f, baseline, disparity_error=1.0) == pytest.approx(
+        slope, rel=1e-4
+    )
 
 
 def test_an_error_larger_than_the_disparity_reaches_infinity():
-    near, far = depth_interval(np.array([0.4]), 700.0, 0.12, 1.0)
+    near, far = depth_interval(np.array([0.4]), 700.0, 0.12, disparity_error=1.0)
     assert np.isfinite(near).all()
     assert far[0] == np.inf
 
@@ -128,7 +138,9 @@ def test_nothing_known_is_an_empty_cloud():
     assert not seen.any()
 
 
-@pytest.mark.parametrize(("f", "baseline"), [(0.0, 0.1), (-5.0, 0.1), (100.0, 0.0), (np.inf, 0.1), (100.0, np.nan)])
+@pytest.mark.parametrize(
+    ("f", "baseline"), [(0.0, 0.1), (-5.0, 0.1), (100.0, 0.0), (np.inf, 0.1), (100.0, np.nan)]
+)
 def test_impossible_cameras_are_refused(f, baseline):
     with pytest.raises(ValueError, match="positive and finite"):
         StereoCamera(f, 0.0, 0.0, baseline)

@@ -4,12 +4,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.views import triples
-from workbench.geometry.camera_motions import reprojection_errors
+from workbench.geometry.cameras.camera_motions import reprojection_errors
+from workbench.geometry.cameras.three_points import (
+    p3p,
+    quartics,
+    solution_counts,
+    three_point_lengths,
+    unit_rays,
+)
 from workbench.geometry.motions import apply, exp_se3, inverse
-from workbench.geometry.three_points import p3p, quartics, solution_counts, three_point_lengths, unit_rays
 
 OTHERS_COUNT = (0, 106, 3563, 11, 320)
-"""How many of `triples(4000)` have no, one, ..., four solutions, by poselib 2.0.5 and by OpenCV 5.0.0's solveP3P alike."""
+"""How many of `triples(4000)` have no, one, ..., four solutions, by poselib 2.0.5 and by OpenCV
+5.0.0's solveP3P alike.
+"""
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +34,10 @@ def test_each_triple_has_as_many_solutions_as_poselib_finds(many):
     poselib = pytest.importorskip("poselib", reason="poselib is not installed")
     _, p_world, xy, _, of_sample = many
     ours = np.bincount(of_sample, minlength=4000)
-    theirs = [len(poselib.p3p(list(rays), list(p))) for rays, p in zip(unit_rays(xy), p_world, strict=True)]
+    theirs = [
+        len(poselib.p3p(list(rays), list(p)))
+        for rays, p in zip(unit_rays(xy), p_world, strict=True)
+    ]
     np.testing.assert_array_equal(ours, theirs)
 
 
@@ -54,7 +65,9 @@ def test_every_solution_sees_the_points_where_they_were_seen(many):
     assert errors.max() < 1e-6  # also: none of them is behind
     np.testing.assert_allclose(np.linalg.det(Ts[:, :3, :3]), 1.0)
     np.testing.assert_allclose(
-        Ts[:, :3, :3] @ np.swapaxes(Ts[:, :3, :3], 1, 2), np.eye(3)[None].repeat(len(Ts), 0), atol=1e-9
+        Ts[:, :3, :3] @ np.swapaxes(Ts[:, :3, :3], 1, 2),
+        np.eye(3)[None].repeat(len(Ts), 0),
+        atol=1e-9,
     )
 
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from tests.geometry.test_essential import K, L, pair
 from workbench.geometry.cameras import normalize
 from workbench.geometry.motions import motion
-from workbench.geometry.triangulation import (
+from workbench.geometry.two_views.triangulation import (
     before_both,
     camera_matrix,
     midpoints,
@@ -24,7 +24,9 @@ def test_exact_pixels_give_the_points_in_both_ways(seed):
     P, Q = camera_matrix(K, np.eye(4)), camera_matrix(L, T)
     np.testing.assert_allclose(triangulate(P, Q, uv_first, uv_second), p, atol=1e-7)
     np.testing.assert_allclose(triangulate(-3 * P, 0.1 * Q, uv_first, uv_second), p, atol=1e-7)
-    np.testing.assert_allclose(midpoints(T, normalize(uv_first, K), normalize(uv_second, L)), p, atol=1e-8)
+    np.testing.assert_allclose(
+        midpoints(T, normalize(uv_first, K), normalize(uv_second, L)), p, atol=1e-8
+    )
     assert before_both(p, T).all()
 
 
@@ -37,7 +39,9 @@ def test_covariances_are_what_repetition_shows():
     found = triangulate(P, Q, *(x + sigma * rng.normal(size=(n, 2)) for x in uv))
     predicted = triangulation_covariances(P, Q, p[None], sigma)[0]
     np.testing.assert_allclose(np.cov(found.T), predicted, atol=0.06 * predicted[2, 2])
-    assert np.sqrt(predicted[2, 2]) == pytest.approx(8**2 / 900 * sigma * np.sqrt(2), rel=0.02)  # Z² sigma_d / (f b)
+    assert np.sqrt(predicted[2, 2]) == pytest.approx(
+        8**2 / 900 * sigma * np.sqrt(2), rel=0.02
+    )  # Z² sigma_d / (f b)
 
 
 def test_depth_errors_go_with_one_over_the_baseline_and_some_land_behind():
@@ -47,7 +51,10 @@ def test_depth_errors_go_with_one_over_the_baseline_and_some_land_behind():
         Q = camera_matrix(K, motion(np.eye(3), np.array([-baseline, 0.0, 0.0])))
         uv = [np.divide(*np.split(p_h, [2])) for p_h in (P @ [*p, 1], Q @ [*p, 1])]
         z = triangulate(P, Q, *(x + rng.normal(size=(3000, 2)) for x in uv))[:, 2]
-        spread[baseline], behind[baseline] = (np.percentile(z, 75) - np.percentile(z, 25)) / 1.349, (z < 0).mean()
+        spread[baseline], behind[baseline] = (
+            (np.percentile(z, 75) - np.percentile(z, 25)) / 1.349,
+            (z < 0).mean(),
+        )
     assert spread[1.0] == pytest.approx(0.10, abs=0.01)
     assert spread[0.5] == pytest.approx(0.20, abs=0.02)
     assert behind[1.0] == behind[0.5] == 0

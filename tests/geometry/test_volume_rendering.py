@@ -1,11 +1,13 @@
-"""What rays see: gradients by differences, laws of light, and media of which the answer is known."""
+"""What rays see: gradients by differences, laws of light, and media of which the answer is
+known.
+"""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from workbench.geometry.volume_rendering import ray_weights, samples_on, seen, through_seen
+from workbench.geometry.cameras.volume_rendering import ray_weights, samples_on, seen, through_seen
 
 
 def medium(seed: int, rays: int = 4, samples: int = 9) -> tuple[np.ndarray, np.ndarray]:
@@ -18,7 +20,7 @@ def medium(seed: int, rays: int = 4, samples: int = 9) -> tuple[np.ndarray, np.n
 def test_gradients_by_density_and_colour_are_those_of_differences(behind):
     density, color = medium(1)
     slope = np.random.default_rng(2).normal(size=(4, 3))
-    by_density, by_color = through_seen(slope, density, color, 0.13, behind)
+    by_density, by_color = through_seen(slope, density, color, spacing=0.13, behind=behind)
 
     def value(density: np.ndarray, color: np.ndarray) -> np.ndarray:
         return (slope * seen(ray_weights(density, 0.13), color, behind)).sum(axis=1)
@@ -40,7 +42,9 @@ def test_weights_and_what_passes_add_up_to_one(seed, spacing):
     density, _ = medium(seed)
     weights = ray_weights(density, spacing)
     assert np.all(weights >= 0)
-    np.testing.assert_allclose(weights.sum(axis=1) + np.exp(-spacing * density.sum(axis=1)), 1, atol=1e-12)
+    np.testing.assert_allclose(
+        weights.sum(axis=1) + np.exp(-spacing * density.sum(axis=1)), 1, atol=1e-12
+    )
 
 
 def test_a_sample_cut_in_two_sees_the_same():
@@ -54,7 +58,9 @@ def test_a_wall_hides_what_stands_behind_it_and_nothing_is_seen_of_nothing():
     density = np.array([[0.0, 1e6, 3.0, 3.0], [0, 0, 0, 0]])
     np.testing.assert_allclose(ray_weights(density, 0.1), [[0, 1, 0, 0], [0, 0, 0, 0]], atol=1e-12)
     color = np.broadcast_to([0.2, 0.5, 0.7], (2, 4, 3))
-    np.testing.assert_allclose(seen(ray_weights(density, 0.1), color, 0.9), [[0.2, 0.5, 0.7], [0.9] * 3], atol=1e-12)
+    np.testing.assert_allclose(
+        seen(ray_weights(density, 0.1), color, 0.9), [[0.2, 0.5, 0.7], [0.9] * 3], atol=1e-12
+    )
 
 
 def test_weights_of_thin_fog_keep_their_digits():
@@ -66,7 +72,9 @@ def test_samples_lie_in_equal_parts_of_the_way():
     p, d = np.array([[1.0, 2.0], [0, 0]]), np.array([[0.6, 0.8], [0, 1]])
     q, spacing = samples_on(p, d, (1.0, 3.0), 4)
     assert spacing == 0.5
-    np.testing.assert_allclose(np.linalg.norm(q - p[:, None], axis=2), np.tile([1.25, 1.75, 2.25, 2.75], (2, 1)))
+    np.testing.assert_allclose(
+        np.linalg.norm(q - p[:, None], axis=2), np.tile([1.25, 1.75, 2.25, 2.75], (2, 1))
+    )
     shifted, _ = samples_on(p, d, (1.0, 3.0), 4, np.random.default_rng(0).random((2, 4)))
     t = np.linalg.norm(shifted - p[:, None], axis=2)
     assert np.all(np.floor((t - 1) / spacing) == np.arange(4))

@@ -1,14 +1,13 @@
-"""Voxels: occupancy by columns and by points agree, counts and surfaces measure the same, areas do not converge."""
+"""Voxels: occupancy by columns and by points agree, counts and surfaces measure the same, areas do
+not converge.
+"""
 
 import numpy as np
 import pytest
 
-from workbench.data.measurables import sphere, two_spheres
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.containment import inside
-from workbench.geometry.measures import encloses, signed_volume, surface_area
-from workbench.geometry.meshes import euler_characteristic
-from workbench.geometry.voxels import (
+from lessons.measures.measurables import sphere, two_spheres
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.fields.voxels import (
     Grid,
     counted_area,
     counted_surface,
@@ -18,10 +17,15 @@ from workbench.geometry.voxels import (
     occupied,
     windings_on,
 )
+from workbench.geometry.meshes import euler_characteristic
+from workbench.geometry.meshes.containment import inside
+from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
 
 
 def grid_around(p: np.ndarray, cells: int, seed: int = 0) -> Grid:
-    return grid_over(p.min(axis=0), p.max(axis=0), cells, np.random.default_rng(seed).random(3))
+    return grid_over(
+        p.min(axis=0), p.max(axis=0), cells, shift=np.random.default_rng(seed).random(3)
+    )
 
 
 def test_columns_fill_the_cells_whose_middles_are_inside():
@@ -35,7 +39,9 @@ def test_columns_fill_the_cells_whose_middles_are_inside():
 def test_a_grid_smaller_than_the_mesh_knows_its_own_cells():
     p, faces = rabbit_mesh(0.05)
     grid = Grid(np.array([-0.1, -0.1, -0.1]), np.full(3, 0.05), (5, 6, 7))
-    np.testing.assert_array_equal(occupied(p, faces, grid), inside(p, faces, grid.centres()).reshape(grid.shape))
+    np.testing.assert_array_equal(
+        occupied(p, faces, grid), inside(p, faces, grid.centres()).reshape(grid.shape)
+    )
 
 
 def test_where_solids_overlap_the_winding_is_two():
@@ -61,7 +67,9 @@ def test_one_cell():
     p, faces = counted_surface(bits, Grid(np.zeros(3), spacing, (1, 1, 1)))
     np.testing.assert_array_equal([p.min(axis=0), p.max(axis=0)], [[0, 0, 0], [1, 2, 3]])
     p, faces = marched_surface(bits, Grid(np.zeros(3), spacing, (1, 1, 1)))
-    assert signed_volume(p, faces) == pytest.approx(1.0)  # an octahedron with half-axes of half a spacing
+    assert signed_volume(p, faces) == pytest.approx(
+        1.0
+    )  # an octahedron with half-axes of half a spacing
 
 
 def test_no_cell_at_all():
@@ -71,14 +79,16 @@ def test_no_cell_at_all():
     with pytest.raises(ValueError, match="no cell"):
         marched_surface(bits, grid)
     with pytest.raises(ValueError, match="cells"):
-        grid_over(np.zeros(3), np.zeros(3), 8, np.zeros(3))
+        grid_over(np.zeros(3), np.zeros(3), 8, shift=np.zeros(3))
 
 
 def test_a_ball_the_volume_converges_and_no_area_of_bits_does():
     ball = sphere(4)
     for cells, within in ((16, 0.03), (64, 0.005)):
         bits = occupied(ball.p, ball.faces, grid := grid_around(ball.p, cells))
-        assert counted_volume(bits, grid.spacing) == pytest.approx(signed_volume(ball.p, ball.faces), rel=within)
+        assert counted_volume(bits, grid.spacing) == pytest.approx(
+            signed_volume(ball.p, ball.faces), rel=within
+        )
         assert counted_area(bits, grid.spacing) / ball.area == pytest.approx(1.5, abs=0.02)
         p, faces = marched_surface(bits, grid)
         assert signed_volume(p, faces) > 0

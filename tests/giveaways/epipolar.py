@@ -1,4 +1,6 @@
-"""Which sentences would tell the answers of the questions in the epipolar lesson, as patterns; case does not matter."""
+"""Which sentences would tell the answers of the questions in the epipolar lesson, as patterns; case
+does not matter.
+"""
 
 GIVEAWAYS = {
     "predict-four": (

@@ -1,4 +1,6 @@
-"""Which sentences would tell the answers of the questions in the pose lesson, as patterns; case does not matter."""
+"""Which sentences would tell the answers of the questions in the pose lesson, as patterns; case
+does not matter.
+"""
 
 INNOCENT = {
     "predict-wrong": r"the noise is half a pixel",

@@ -1,4 +1,6 @@
-"""What is handed out, run as the services run it: below a folder laid out as theirs, and held to their documented files."""
+"""What is handed out, run as the services run it: below a folder laid out as theirs, and held to
+their documented files.
+"""
 
 import base64
 import io
@@ -34,7 +36,9 @@ HANGS = "def invert_rigid(T):\n    while True: pass\n"
 
 @pytest.fixture(scope="module")
 def bare(tmp_path_factory) -> str:
-    """Return a Python that has what a service installs, numpy and scipy, and Pillow, and nothing else."""
+    """Return a Python that has what a service installs, numpy and scipy, and Pillow, and nothing
+    else.
+    """
     folder = tmp_path_factory.mktemp("bare")
     for package in (numpy, scipy, PIL):
         place = Path(package.__path__[0])
@@ -42,24 +46,31 @@ def bare(tmp_path_factory) -> str:
             if (place.parent / name).exists():
                 (folder / name).symlink_to(place.parent / name)
     script = folder / "python"
-    script.write_text(f'#!/bin/sh\nPYTHONPATH="$PYTHONPATH:{folder}" exec {os.path.realpath(sys.executable)} -S "$@"\n')
+    script.write_text(
+        f'#!/bin/sh\nPYTHONPATH="$PYTHONPATH:{folder}" exec {os.path.realpath(sys.executable)} -S'
+        ' "$@"\n'
+    )
     script.chmod(0o755)
     return str(script)
 
 
-# gradescope -----------------------------------------------------------------------------------------------------------
+# gradescope ---------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
 def gradescope(tmp_path_factory):
     out = tmp_path_factory.mktemp("gradescope")
     wanted = ["invert_rigid", "iterations_needed"]
-    write(assigned(wanted, service="gradescope", weights=["invert_rigid=30"], due="2027-03-31"), out)
+    write(
+        assigned(wanted, service="gradescope", weights=["invert_rigid=30"], due="2027-03-31"), out
+    )
     return out
 
 
 def scored(gradescope: Path, python: str, root: Path, submitted: dict[str, str] | Path) -> dict:
-    """Return what a submission's results.json says; it is there, and is what Gradescope documents."""
+    """Return what a submission's results.json says; it is there, and is what Gradescope
+    documents.
+    """
     if not isinstance(submitted, Path):
         folder = root / "handed in"
         folder.mkdir()
@@ -76,12 +87,16 @@ def scored(gradescope: Path, python: str, root: Path, submitted: dict[str, str] 
 def test_the_zip_has_what_gradescope_asks_for_at_its_root(gradescope):
     with zipfile.ZipFile(gradescope / "autograder.zip") as archive:
         names = archive.namelist()
-        modes = {entry.filename: stat.filemode(entry.external_attr >> 16) for entry in archive.infolist()}
+        modes = {
+            entry.filename: stat.filemode(entry.external_attr >> 16) for entry in archive.infolist()
+        }
         requirements = archive.read("requirements.txt").decode()
         assert archive.read("run_autograder").startswith(b"#!")
     assert modes["setup.sh"] == modes["run_autograder"] == "-rwxr-xr-x"
     assert [line.partition("==")[0] for line in requirements.splitlines()] == ["numpy", "scipy"]
-    assert not [name for name in names if "viewer" in name or "lessons/icp" in name or name.startswith("/")]
+    assert not [
+        name for name in names if "viewer" in name or "lessons/icp" in name or name.startswith("/")
+    ]
     again = files(read(assigned(["invert_rigid"], service="gradescope").text()))
     assert again == files(assigned(["invert_rigid"], service="gradescope"))
 
@@ -93,14 +108,20 @@ def test_gradescope_gives_the_samples_what_they_deserve(gradescope, bare, tmp_pa
     hidden = [test for test in found["tests"] if test["visibility"] == "after_due_date"]
     checks = [c for n in ("invert_rigid", "iterations_needed") for c in exercises()[n].checks]
     assert len(hidden) == (sum(not c.public for c in checks) if sample == "full" else 0)
-    if sample == "none":  # that a function is not written yet is said once, and not by each of its checks
+    if (
+        sample == "none"
+    ):  # that a function is not written yet is said once, and not by each of its checks
         assert [test["name"] for test in found["tests"]] == ["invert_rigid", "iterations_needed"]
-        assert all(test["output"].endswith(f"{test['name']} is not written yet") for test in found["tests"])
+        assert all(
+            test["output"].endswith(f"{test['name']} is not written yet") for test in found["tests"]
+        )
 
 
 def test_gradescope_says_once_what_was_not_handed_in(gradescope, bare, tmp_path):
     right = (gradescope / "teacher" / "full" / "my_invert_rigid.py").read_text()
-    found = scored(gradescope, bare, tmp_path, {"my_invert_rigid.py": right, "notes.py": "x = 1", "b.txt": "x"})
+    found = scored(
+        gradescope, bare, tmp_path, {"my_invert_rigid.py": right, "notes.py": "x = 1", "b.txt": "x"}
+    )
     assert json.dumps(found).count("iterations_needed: not handed in") == 1
     assert found["output"].splitlines() == [
         "iterations_needed: not handed in",
@@ -109,14 +130,19 @@ def test_gradescope_says_once_what_was_not_handed_in(gradescope, bare, tmp_path)
     ]
     missing = [test for test in found["tests"] if test["name"] == "iterations_needed"]
     assert [test["score"] for test in missing] == [0]
-    assert found["score"] == sum(test["max_score"] for test in found["tests"]) - missing[0]["max_score"]
+    assert (
+        found["score"]
+        == sum(test["max_score"] for test in found["tests"]) - missing[0]["max_score"]
+    )
 
 
 def test_gradescope_takes_a_file_of_any_name_and_says_what_is_missing(gradescope, bare, tmp_path):
     found = scored(gradescope, bare, tmp_path, {"Homework 3 (final).PY": WRONG})
     assert 0 <= found["score"] < 30
     assert "seen (4, 4)" in found["output"]
-    assert any("iterations_needed" in test["name"] and test["score"] == 0 for test in found["tests"])
+    assert any(
+        "iterations_needed" in test["name"] and test["score"] == 0 for test in found["tests"]
+    )
 
 
 @pytest.mark.parametrize(
@@ -128,7 +154,9 @@ def test_gradescope_takes_a_file_of_any_name_and_says_what_is_missing(gradescope
         ({"a.py": "x = 1", "b.py": "y = 1"}, "b.py: defines no function invert_rigid"),
     ],
 )
-def test_gradescope_has_results_for_what_cannot_be_graded(gradescope, bare, tmp_path, submitted, said):
+def test_gradescope_has_results_for_what_cannot_be_graded(
+    gradescope, bare, tmp_path, submitted, said
+):
     found = scored(gradescope, bare, tmp_path, submitted)
     assert found["score"] == 0
     assert said in found["output"]
@@ -139,9 +167,12 @@ def test_gradescope_has_results_where_the_grader_is_ended(gradescope, bare, tmp_
     (tmp_path / "in" / "a.py").write_text(HANGS)
     root = lay_out_gradescope(tmp_path / "autograder", gradescope, tmp_path / "in")
     running = subprocess.Popen(
-        [root / "run_autograder", root], env=os.environ | {"GRADER_PYTHON": bare}, start_new_session=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
+        [root / "run_autograder", root],
+        env=os.environ | {"GRADER_PYTHON": bare},
+        start_new_session=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
     results, end = root / "results" / "results.json", time.monotonic() + 120
     while not (results.exists() and "ran out of time" in results.read_text()):
         assert time.monotonic() < end
@@ -161,7 +192,9 @@ def test_gradescope_has_results_where_the_grader_breaks(gradescope, bare, tmp_pa
         (root / "source" / "packages" / "workbench" / "errors.py").unlink()
     if broken == "no sandbox":
         settings = json.loads((root / "source" / "assignment.json").read_text())
-        (root / "source" / "assignment.json").write_text(json.dumps(settings | {"sandbox": "landlock"}))
+        (root / "source" / "assignment.json").write_text(
+            json.dumps(settings | {"sandbox": "landlock"})
+        )
         walls = root / "source" / "packages" / "workbench" / "exercise" / "sandbox" / "isolation.py"
         walls.write_text(walls.read_text() + "\ndef _tried(wall): return 'not in this container'\n")
     found = run(root / "run_autograder", root, "/nowhere/python" if broken == "no Python" else bare)
@@ -185,10 +218,12 @@ def invert_rigid(T):
         except Exception: pass
     print("GOT", got)
     return T
-"""
+"""  # noqa: E501
 
 
-@pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="another user is started by root")
+@pytest.mark.skipif(
+    os.name != "posix" or os.geteuid() != 0, reason="another user is started by root"
+)
 def test_in_a_container_another_user_is_a_wall(tmp_path):
     write(assigned(["invert_rigid"], service="gradescope", sandbox="user"), tmp_path / "out")
     (tmp_path / "in").mkdir()
@@ -210,8 +245,11 @@ def test_the_image_is_set_up_with_a_python_that_is_new_enough(gradescope, tmp_pa
         (commands / name).chmod(0o755)
     told = subprocess.run(
         ["bash", root / "source" / "setup.sh", root / "source", tmp_path / "place"],
-        env=os.environ | {"PATH": f"{commands}:{os.environ['PATH']}"}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        env=os.environ | {"PATH": f"{commands}:{os.environ['PATH']}"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert told.returncode == 0, told.stderr
     log = (tmp_path / "log").read_text()
     assert f"--python {sys.version_info.major}.{sys.version_info.minor} {tmp_path}/place" in log
@@ -219,21 +257,28 @@ def test_the_image_is_set_up_with_a_python_that_is_new_enough(gradescope, tmp_pa
     assert "Submissions are shut in by: " in told.stdout
 
 
-# prairielearn ---------------------------------------------------------------------------------------------------------
+# prairielearn -------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
 def prairielearn(tmp_path_factory):
     out = tmp_path_factory.mktemp("prairielearn")
     dates = {"release": "2027-03-01", "due": "2027-03-31T18:00"}
-    write(assigned(["invert_rigid", "match"], service="prairielearn", weights=["match=5"], **dates), out)
+    write(
+        assigned(["invert_rigid", "match"], service="prairielearn", weights=["match=5"], **dates),
+        out,
+    )
     return out
 
 
-def submitted(prairielearn: Path, python: str, folder: Path, text: str, exercise: str = "invert_rigid") -> dict:
-    """Return what a submission's results.json says; it is there, and is what PrairieLearn documents."""
+def submitted(
+    prairielearn: Path, python: str, folder: Path, text: str, exercise: str = "invert_rigid"
+) -> dict:
+    """Return what a submission's results.json says; it is there, and is what PrairieLearn
+    documents.
+    """
     (folder / "mine.py").write_text(text)
-    root = lay_out_prairielearn(folder / "grade", prairielearn, exercise, folder / "mine.py")
+    root = lay_out_prairielearn(folder / "grade", prairielearn, exercise, file=folder / "mine.py")
     found = run(root / "serverFilesCourse" / "geometry-workbench" / "run.sh", root, python)
     jsonschema.validate(found, PRAIRIELEARN)
     assert (root / "results" / "results.json").stat().st_size < 1_000_000
@@ -248,7 +293,10 @@ def test_a_question_is_what_prairielearn_documents(prairielearn):
         grader = info["externalGradingOptions"]
         entry = prairielearn / grader["entrypoint"].removeprefix("/grade/")
         assert entry.stat().st_mode & stat.S_IXUSR
-        assert entry.relative_to(prairielearn / "serverFilesCourse").parts[0] + "/" in grader["serverFilesCourse"]
+        assert (
+            entry.relative_to(prairielearn / "serverFilesCourse").parts[0] + "/"
+            in grader["serverFilesCourse"]
+        )
         page = (folder / "question.html").read_text()
         assert f'source-file-name="my_{name}.py"' in page
         assert "raise NotImplementedError" in (folder / f"my_{name}.py").read_text()
@@ -262,15 +310,22 @@ def test_a_question_is_what_prairielearn_documents(prairielearn):
 
 
 @pytest.mark.parametrize(("sample", "score"), [("full", 1), ("none", 0)])
-def test_prairielearn_gives_the_samples_what_they_deserve(prairielearn, bare, tmp_path, sample, score):
+def test_prairielearn_gives_the_samples_what_they_deserve(
+    prairielearn, bare, tmp_path, sample, score
+):
     found = submitted(
-        prairielearn, bare, tmp_path, (prairielearn / "teacher" / sample / "my_invert_rigid.py").read_text()
+        prairielearn,
+        bare,
+        tmp_path,
+        (prairielearn / "teacher" / sample / "my_invert_rigid.py").read_text(),
     )
     assert found["score"] == score
     assert found["gradable"] is True
 
 
-def test_prairielearn_shows_the_failing_case_and_nothing_of_hidden_checks(prairielearn, bare, tmp_path):
+def test_prairielearn_shows_the_failing_case_and_nothing_of_hidden_checks(
+    prairielearn, bare, tmp_path
+):
     found = submitted(prairielearn, bare, tmp_path, WRONG)
     assert 0 <= found["score"] < 1
     assert "seen (4, 4)" in found["output"]
@@ -290,7 +345,7 @@ def test_prairielearn_takes_no_attempt_for_what_cannot_be_graded(prairielearn, b
     assert "line 1" in found["format_errors"][0]
 
 
-# the command ----------------------------------------------------------------------------------------------------------
+# the command --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -323,7 +378,7 @@ def test_what_cannot_be_handed_out_is_one_line(tmp_path, monkeypatch, capsys, wo
     assert sorted(path.name for path in tmp_path.iterdir()) == ["full"]
 
 
-# what grading needs ---------------------------------------------------------------------------------------------------
+# what grading needs -------------------------------------------------------------------------------
 
 BLOCKED = """
 import runpy, sys
@@ -339,7 +394,7 @@ class Here:
 sys.meta_path[:] = map(Here, sys.meta_path)
 sys.argv[:] = sys.argv[1:]
 runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
-"""
+"""  # noqa: E501
 
 
 def test_what_grading_needs_is_written_down_once():

@@ -6,7 +6,7 @@ from typing import Any
 from lessons.chamfer_emd.lesson import lesson
 from lessons.chamfer_emd.state import Params, State
 from tests.runs import finished
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 
 def timeline(params: Params) -> Timeline:

@@ -5,11 +5,22 @@ from typing import TypeVar
 from lessons.curvature.lesson import lesson
 from lessons.curvature.state import Params, State, Study, at_stage
 from tests.runs import finished
+from workbench.run.timeline import Timeline
 from workbench.scene import Field, Mesh, Scene
-from workbench.timeline import Timeline
 
 Kind = TypeVar("Kind")
-STAGES = ["mesh", "ring", "defect", "gaussian", "normal", "mean", "principal", "quadric", "total", "finer"]
+STAGES = [
+    "mesh",
+    "ring",
+    "defect",
+    "gaussian",
+    "normal",
+    "mean",
+    "principal",
+    "quadric",
+    "total",
+    "finer",
+]
 
 
 def timeline(params: Params) -> Timeline:

@@ -8,8 +8,8 @@ import numpy as np
 from lessons.disparity.lesson import lesson, run
 from lessons.disparity.state import Params, State
 from tests.runs import finished
-from workbench.algorithms.disparity import Stage
-from workbench.timeline import Timeline
+from workbench.algorithms.stereo.disparity import Stage
+from workbench.run.timeline import Timeline
 
 
 def timeline(params: Params) -> Timeline:

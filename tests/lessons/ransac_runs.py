@@ -6,7 +6,7 @@ from typing import TypeVar
 import numpy as np
 
 from lessons.ransac.lesson import lesson
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 Kind = TypeVar("Kind")
 

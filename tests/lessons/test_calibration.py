@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from lessons.calibration import presets
-from lessons.calibration.lesson import lesson, run
+from lessons.calibration.lesson import draw, lesson, run
 from lessons.calibration.state import Ending, Params, State
 from tests.runs import finished
 from tests.truths.calibration import deviation_of_f, rms_of, worst_ray
-from workbench.algorithms.board_adjustment import Stop
+from workbench.algorithms.least_squares.board_adjustment import Stop
+from workbench.certain import sure
 from workbench.errors import InputError
-from workbench.geometry import calibration
+from workbench.geometry.cameras import calibration
 from workbench.scene import Caption, Mesh, Picture, Points, Segments, Table, caption_of
 
 SQRT2 = np.sqrt(2)
@@ -40,22 +41,30 @@ def sd_of(params: Params) -> float:
 
 
 def ending(params: Params, kind: str) -> tuple[State, Ending]:
-    found = next(state for state in states(params) if state.ending is not None and state.ending.kind == kind)
+    found = next(
+        state for state in states(params) if state.ending is not None and state.ending.kind == kind
+    )
     assert found.ending is not None
     return found, found.ending
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("name", "f", "sd", "rms", "worst"),
     [
-        ("home", 535.6, 1.57, 0.276, 4.1), ("few", 533.2, 3.6, 0.244, 8.5), ("pinhole", 554.5, 7.9, 1.28, 164),
-        ("middle", 537.3, 5.7, 0.274, 82_400), ("bad", 531.9, 2.9, 0.413, 14.6), ("dropped", 534.1, 2.04, 0.265, 6.3),
-        ("cauchy", 534.0, 1.6, 0.466, 3.9), ("stretched", 539.0, 1.71, 0.304, 11.6), ("bent", 526.2, 1.72, 0.313, 17.0),
+        ("home", 535.6, 1.57, 0.276, 4.1),
+        ("few", 533.2, 3.6, 0.244, 8.5),
+        ("pinhole", 554.5, 7.9, 1.28, 164),
+        ("middle", 537.3, 5.7, 0.274, 82_400),
+        ("bad", 531.9, 2.9, 0.413, 14.6),
+        ("dropped", 534.1, 2.04, 0.265, 6.3),
+        ("cauchy", 534.0, 1.6, 0.466, 3.9),
+        ("stretched", 539.0, 1.71, 0.304, 11.6),
+        ("bent", 526.2, 1.72, 0.313, 17.0),
     ],
-)  # fmt: skip
+)
 def test_the_presets_end_where_they_should(name, f, sd, rms, worst):
     last = end(preset(name))
     assert f_of(last) == pytest.approx(f, abs=0.1)
@@ -63,7 +72,9 @@ def test_the_presets_end_where_they_should(name, f, sd, rms, worst):
     assert last.rms == pytest.approx(rms, rel=0.01)
     assert last.worst_in_picture == pytest.approx(worst, rel=0.02)
     assert last.now.K is not None
-    assert worst_ray(last.now.K, tuple(last.now.lens)) == pytest.approx(last.worst_in_picture, rel=1e-4)
+    assert worst_ray(last.now.K, tuple(last.now.lens)) == pytest.approx(
+        last.worst_in_picture, rel=1e-4
+    )
     np.testing.assert_allclose(rms_of(last), last.per_view, rtol=1e-9)
 
 
@@ -80,12 +91,16 @@ def test_the_closed_form_knows_no_lens():
     assert poses.rms == pytest.approx(4.88, abs=0.01)
     assert lens.rms == pytest.approx(4.58, abs=0.01)
     assert abs(lens.now.lens.k1) < 0.03
-    assert [state.rms for state in home[11:15]] == pytest.approx([1.13, 0.554, 0.318, 0.276], abs=0.01)
+    assert [state.rms for state in home[11:15]] == pytest.approx(
+        [1.13, 0.554, 0.318, 0.276], abs=0.01
+    )
     assert home[0].rms > 1.8 * SQRT2 * 0.2
 
 
 def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
-    """What Levenberg-Marquardt was cut off at, f = 613 px after 30 iterations, is no answer of the method."""
+    """What Levenberg-Marquardt was cut off at, f = 613 px after 30 iterations, is no answer of the
+    method.
+    """
     cv2 = pytest.importorskip("cv2", reason="opencv-python-headless is not installed")
     last = end(presets.FLAT)
     found = last.now.adjustment
@@ -93,7 +108,9 @@ def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
     assert found.stop is Stop.CONVERGED
     assert f_of(last) == pytest.approx(493.26, abs=0.05)
     assert last.rms == pytest.approx(0.27804, abs=1e-5)
-    p = np.column_stack([last.subject.p_board[:, :2], np.zeros(len(last.subject.p_board))]).astype(np.float32)
+    p = np.column_stack([last.subject.p_board[:, :2], np.zeros(len(last.subject.p_board))]).astype(
+        np.float32
+    )
     rms, K, *_ = cv2.calibrateCamera(
         [p] * len(last.subject.uv),
         [uv.astype(np.float32)[:, None] for uv in last.subject.uv],
@@ -108,7 +125,11 @@ def test_boards_hardly_tilted_come_to_rest_where_opencv_does():
 
 
 def test_of_a_long_refinement_every_tenth_iteration_is_shown_and_the_last():
-    shown = [one.now.adjustment for one in states(presets.FLAT) if one.now.phase == "refine" and one.ending is None]
+    shown = [
+        one.now.adjustment
+        for one in states(presets.FLAT)
+        if one.now.phase == "refine" and one.ending is None
+    ]
     numbers = [one.iteration for one in shown if one is not None]
     assert numbers[:31] == [*range(1, 31), 40]
     assert all(number % 10 == 0 for number in numbers[30:-1])
@@ -120,8 +141,12 @@ def test_a_refinement_that_its_limit_ended_says_so_to_the_end():
     cut = list(run(Params(tilt=2.0, seed=2)))
     assert cut[-1].now.adjustment is not None
     assert cut[-1].now.adjustment.stop is Stop.MAX_ITERATIONS
-    for state in (cut[-4], cut[-2], cut[-1]):  # the last iteration, without the worst view, how well all is known
-        assert "not at rest" in caption_of(lesson.draw(state)).text
+    for state in (
+        cut[-4],
+        cut[-2],
+        cut[-1],
+    ):  # the last iteration, without the worst view, how well all is known
+        assert "not at rest" in caption_of(draw(state)).text
 
 
 @pytest.mark.parametrize(("tilt", "median", "sd"), [(2, 195, 270), (10, 6, 9), (30, 1.2, 1.7)])
@@ -129,7 +154,9 @@ def test_f_over_the_tilt(tilt, median, sd):
     """The rms says nothing of it: medians over seeds."""
     ends = [list(run(Params(tilt=float(tilt), seed=seed)))[-1] for seed in range(5)]
     assert np.median([abs(f_of(one) - 536) for one in ends]) == pytest.approx(median, rel=0.6)
-    assert np.median([one.now.adjustment.deviations[0] for one in ends]) == pytest.approx(sd, rel=0.3)  # type: ignore[union-attr]
+    assert np.median([sure(one.now.adjustment).deviations[0] for one in ends]) == pytest.approx(
+        sd, rel=0.3
+    )
     assert np.median([one.rms for one in ends]) == pytest.approx(0.275, abs=0.006)
 
 
@@ -172,7 +199,9 @@ def test_more_terms_fit_better_and_promise_nothing_outside():
     assert end(middle).rms <= few.rms
     assert few.worst_in_picture < 60
     _, known = ending(middle, "known")
-    unseen = np.isnan(known.deviation)  # the lens that was found folds there: no ray is seen at these pixels
+    unseen = np.isnan(
+        known.deviation
+    )  # the lens that was found folds there: no ray is seen at these pixels
     assert unseen[[0, 0, -1, -1], [0, -1, 0, -1]].all()
     assert 0.3 < unseen.mean() < 0.9
     assert not unseen[12, 16]
@@ -180,7 +209,7 @@ def test_more_terms_fit_better_and_promise_nothing_outside():
 
 def test_four_things_are_called_the_error():
     views, _ = ending(Params(), "views")
-    table = lesson.draw(views)["names"]
+    table = draw(views)["names"]
     assert isinstance(table, Table)
     point, coordinate, length, tutorial = (float(row[1].removesuffix(" px")) for row in table.rows)
     assert point == pytest.approx(views.rms, abs=0.001)
@@ -189,16 +218,19 @@ def test_four_things_are_called_the_error():
     assert tutorial == pytest.approx(point / np.sqrt(54), abs=0.002)
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("name", "right"), [("flat-rms", 0), ("noise-rms", 0.276), ("views", 2), ("larger", 1), ("bent-error", 2)]
+    ("name", "right"),
+    [("flat-rms", 0), ("noise-rms", 0.276), ("views", 2), ("larger", 1), ("bent-error", 2)],
 )
 def test_the_answers(name, right):
     question = next(question for question in lesson.questions if question.name == name)
     assert question.answer(states(question.params)) == pytest.approx(right, abs=0.001)
-    assert abs(right - {"noise-rms": 0.2, "views": 3}.get(name, 9)) > question.tolerance  # the usual wrong answer
+    assert (
+        abs(right - {"noise-rms": 0.2, "views": 3}.get(name, 9)) > question.tolerance
+    )  # the usual wrong answer
 
 
 def test_two_views_determine_k_and_not_well():
@@ -207,11 +239,11 @@ def test_two_views_determine_k_and_not_well():
     assert f_of(two[2]) == pytest.approx(519, abs=1)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def captions(**slots) -> list[Caption]:
-    return [caption_of(lesson.draw(state)) for state in run(Params(), **slots)]
+    return [caption_of(draw(state)) for state in run(Params(), **slots)]
 
 
 def test_rows_drive_the_closed_form():
@@ -229,7 +261,9 @@ def test_rows_drive_the_closed_form():
     ],
 )
 def test_poses_that_are_none_are_told(change, said):
-    told = captions(pose_from_homography=lambda K, H: change(calibration.pose_from_homography(K, H)))
+    told = captions(
+        pose_from_homography=lambda K, H: change(calibration.pose_from_homography(K, H))
+    )
     assert said in told[presets.POSES].text
     assert told[presets.POSES].tone == "wrong"
 
@@ -237,7 +271,7 @@ def test_poses_that_are_none_are_told(change, said):
 def test_the_rms_of_the_slot_is_drawn_and_told():
     told = list(run(Params(), reprojection_rms=lambda residuals: 7.25))
     assert {state.rms for state in told} == {7.25}
-    assert "7.25 px" in caption_of(lesson.draw(told[12])).text
+    assert "7.25 px" in caption_of(draw(told[12])).text
 
 
 def test_corners_at_depth_0_are_refused():
@@ -245,7 +279,7 @@ def test_corners_at_depth_0_are_refused():
         list(run(Params(), pose_from_homography=lambda K, H: np.zeros((4, 4))))
 
 
-# knobs and pictures ---------------------------------------------------------------------------------------------------
+# knobs and pictures -------------------------------------------------------------------------------
 
 
 def test_leaving_out():
@@ -258,7 +292,7 @@ def test_leaving_out():
 def test_the_view_that_is_clicked_is_shown():
     shown = states(Params(shown=5))[presets.POSES]
     assert shown.subject.views[shown.shown] == 5
-    scene, other = lesson.draw(shown), lesson.draw(states(Params())[presets.POSES])
+    scene, other = draw(shown), draw(states(Params())[presets.POSES])
     picture, another = scene["picture"], other["picture"]
     assert isinstance(picture, Picture)
     assert isinstance(another, Picture)
@@ -271,7 +305,7 @@ def test_the_view_that_is_clicked_is_shown():
 
 def test_corners_in_the_picture_lie_where_squares_meet():
     """Around a measured corner the photograph has dark and light in turn."""
-    scene = lesson.draw(states(Params())[0])
+    scene = draw(states(Params())[0])
     picture = scene["picture"]
     assert isinstance(picture, Picture)
     image, subject = picture.rgb()[..., 0].astype(float), states(Params())[0].subject
@@ -287,7 +321,7 @@ def test_corners_in_the_picture_lie_where_squares_meet():
 def test_residuals_are_drawn_from_the_corner_twenty_times_as_long():
     worst = int(np.argmax(states(Params())[presets.POSES].per_view))
     state = states(Params(shown=worst))[presets.POSES]
-    scene = lesson.draw(state)
+    scene = draw(state)
     picture, corners, residuals = scene["picture"], scene["corners"], scene["residuals"]
     assert isinstance(picture, Picture)
     assert isinstance(corners, Points)

@@ -1,4 +1,6 @@
-"""The lesson on Chamfer and earth mover's: every claim of its page, presets and questions in numbers, slots, own clouds."""
+"""The lesson on Chamfer and earth mover's: every claim of its page, presets and questions in
+numbers, slots, own clouds.
+"""
 
 import itertools
 
@@ -13,8 +15,8 @@ from lessons.chamfer_emd.lesson import lesson, run
 from lessons.chamfer_emd.presets import ONE_WAY, QUESTIONS, nearer_side
 from lessons.chamfer_emd.state import Params, State
 from tests.lessons.chamfer_emd_runs import line, preset, scene, states, timeline
-from workbench.algorithms.flow import Stop, flow
-from workbench.geometry.shape_distances import chamfer
+from workbench.algorithms.transport.flow import Stop, flow
+from workbench.geometry.points.shape_distances import chamfer
 from workbench.scene import Curve, Scalar, Table
 
 
@@ -68,7 +70,9 @@ class TestPresets:
         assert squared(now.to_source) == "0.39 m²"
         assert last.numbers.to_source < 0.01  # lowering both sides fills the missing part
         assert last.flow.p_moving[:, 0].max() > 0.9
-        assert found[-1].right.numbers.earth_movers < 0.01 < 0.6 < found[0].right.numbers.earth_movers
+        assert (
+            found[-1].right.numbers.earth_movers < 0.01 < 0.6 < found[0].right.numbers.earth_movers
+        )
 
     def test_one_way_from_the_source_sees_nothing_missing(self):
         found = states(ONE_WAY)
@@ -86,7 +90,14 @@ class TestPresets:
 
     def test_shuffled(self):
         now = preset("shuffled")[0].left.numbers
-        assert now.chamfer == now.earth_movers == now.hausdorff == now.to_target == now.to_source == 0.0
+        assert (
+            now.chamfer
+            == now.earth_movers
+            == now.hausdorff
+            == now.to_target
+            == now.to_source
+            == 0.0
+        )
         assert all(value == 0.0 for value in now.definitions.values())
         assert squared(now.index_mse) == "2.3 m²"
         assert len(preset("shuffled")) == 1
@@ -151,7 +162,11 @@ class TestPage:
         assert all(number in lesson.text() for number in shown)
 
     def test_no_metric(self):
-        zero, pair, one = np.zeros((1, 3)), np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[1.0, 0, 0]])
+        zero, pair, one = (
+            np.zeros((1, 3)),
+            np.array([[0.0, 0, 0], [1, 0, 0]]),
+            np.array([[1.0, 0, 0]]),
+        )
         assert chamfer(zero, pair) + chamfer(pair, one) < chamfer(zero, one)
 
     def test_the_astray_limit_is_the_default(self):
@@ -159,7 +174,8 @@ class TestPage:
 
 
 @pytest.mark.parametrize(
-    ("name", "right"), [("predict-spread", 1), ("predict-flip", 1), ("predict-missing", 100), ("predict-outlier", 2)]
+    ("name", "right"),
+    [("predict-spread", 1), ("predict-flip", 1), ("predict-missing", 100), ("predict-outlier", 2)],
 )
 def test_questions_have_the_answer_that_the_run_gives(name, right):
     question = next(q for q in QUESTIONS if q.name == name)
@@ -215,15 +231,19 @@ class TestPicture:
         there = shown["left/to target"].ends
         assert np.array_equal(there[:, 0], p)
         np.testing.assert_allclose(
-            np.linalg.norm(there[:, 1] - there[:, 0], axis=1), scipy.spatial.distance.cdist(p, p_target).min(axis=1)
+            np.linalg.norm(there[:, 1] - there[:, 0], axis=1),
+            scipy.spatial.distance.cdist(p, p_target).min(axis=1),
         )
         back = shown["left/to source"].ends
         assert np.array_equal(back[:, 0], p_target)
         np.testing.assert_allclose(
-            np.linalg.norm(back[:, 1] - back[:, 0], axis=1), scipy.spatial.distance.cdist(p, p_target).min(axis=0)
+            np.linalg.norm(back[:, 1] - back[:, 0], axis=1),
+            scipy.spatial.distance.cdist(p, p_target).min(axis=0),
         )
         pairs = shown["right/pairs"].ends
-        assert np.linalg.norm(pairs[:, 1] - pairs[:, 0], axis=1).mean() == pytest.approx(state.right.flow.value)
+        assert np.linalg.norm(pairs[:, 1] - pairs[:, 0], axis=1).mean() == pytest.approx(
+            state.right.flow.value
+        )
         assert {tuple(q) for q in pairs[:, 1]} == {tuple(q) for q in p_target}
         for path, primitive in shown.items():
             if path.startswith(("left/", "right/")) and not isinstance(primitive, (Scalar, Curve)):
@@ -247,7 +267,9 @@ class TestPicture:
             assert len(np.unique(matched[:, 1, 0])) == n
             assert len(matched) == n if n == m else len(matched) >= m
             order = np.argsort(shown["right/target row"].p[:, 0])
-            angles = np.arctan2(*(state.clouds.p_target - state.clouds.p_target.mean(axis=0)).T[[2, 0]])[order]
+            angles = np.arctan2(
+                *(state.clouds.p_target - state.clouds.p_target.mean(axis=0)).T[[2, 0]]
+            )[order]
             assert (np.diff(angles) >= -1e-6).all()
 
     def test_the_end_state_shows_where_the_mass_astray_belongs(self):
@@ -288,32 +310,54 @@ class TestPicture:
         table = scene(Params(), 8)["numbers"]
         assert isinstance(table, Table)
         names = " ".join(row[0] for row in table.rows)
-        for word in ("mean of squares", "sum of squares", "sum of distances", "only source", "only target", "exact",
-                     "Sinkhorn, blur 0.05 m", "Hausdorff", "F-score", "index"):  # fmt: skip
+        for word in (
+            "mean of squares",
+            "sum of squares",
+            "sum of distances",
+            "only source",
+            "only target",
+            "exact",
+            "Sinkhorn, blur 0.05 m",
+            "Hausdorff",
+            "F-score",
+            "index",
+        ):
             assert word in names
         assert len(scene(Params(), 8)["yardsticks"].rows) == 5
 
     def test_captions_say_both_changes(self):
         text = timeline(Params())[8].caption.text
         before, now = states(Params())[7], states(Params())[8]
-        assert f"{squared(before.left.numbers.chamfer)} → {squared(now.left.numbers.chamfer)}" in text
-        assert f"{metres(before.right.numbers.earth_movers)} → {metres(now.right.numbers.earth_movers)}" in text
+        assert (
+            f"{squared(before.left.numbers.chamfer)} → {squared(now.left.numbers.chamfer)}" in text
+        )
+        assert (
+            f"{metres(before.right.numbers.earth_movers)} →"
+            f" {metres(now.right.numbers.earth_movers)}" in text
+        )
         assert timeline(Params())[-1].caption.tone == "wrong"
-        assert timeline(lesson.preset("idle").params)[-1].caption.tone == "info"  # one side alone was asked for
+        assert (
+            timeline(lesson.preset("idle").params)[-1].caption.tone == "info"
+        )  # one side alone was asked for
         assert {timeline(preset.params)[0].caption.tone for preset in lesson.presets} == {"info"}
         assert timeline(Params(start="larger", amount=0.05))[-1].caption.tone == "good"
 
     def test_an_end_state_that_covers_its_target_looks_covered(self):
-        """Every target point's disc has a source dot in it, drawn smaller and nearer to the viewer: a dot in a ring."""
+        """Every target point's disc has a source dot in it, drawn smaller and nearer to the viewer:
+        a dot in a ring.
+        """
         last = states(Params())[-1].right
         shown = scene(Params(), -1)
         target, source = shown["right/target"], shown["right/source"]
         assert source.radius < 0.6 * target.radius
         assert (source.p[:, 1] < target.p[:, 1].min() - 0.01).all()
         seen = np.linalg.norm(
-            (source.p - target.p[last.matching.i_b[np.argsort(last.matching.i_a)]])[:, [0, 2]], axis=1
+            (source.p - target.p[last.matching.i_b[np.argsort(last.matching.i_a)]])[:, [0, 2]],
+            axis=1,
         )
-        assert np.mean(seen < target.radius - source.radius) == pytest.approx(1 - last.numbers.astray, abs=0.03)
+        assert np.mean(seen < target.radius - source.radius) == pytest.approx(
+            1 - last.numbers.astray, abs=0.03
+        )
 
     def test_clumps_look_like_clumps(self):
         shown, p = scene(Params(), -1), states(Params())[-1].left.flow.p_moving
@@ -321,7 +365,9 @@ class TestPicture:
         dot = shown["left/source"].radius
         area = sum(len(disc.p) * (disc.radius / dot) ** 2 for disc in discs)
         shared = (scipy.spatial.distance.cdist(p, p) < 1e-3).sum(axis=1) > 1
-        assert shared.sum() <= area <= 2 * shared.sum()  # an area for each point, rounded up to a power of two
+        assert (
+            shared.sum() <= area <= 2 * shared.sum()
+        )  # an area for each point, rounded up to a power of two
         assert shared.sum() > 40
         assert not [path for path in shown if path.startswith("right/clumps")]
 
@@ -330,7 +376,9 @@ class TestPicture:
         heights = [shown[f"left/{name}"].p[:, 1] for name in ("target", "source", "clumps of 8")]
         idle = state.left.served == 0
         levels = [heights[1][~idle], heights[1][idle], heights[2], heights[0]]
-        assert all(front.max() < behind.min() - 1e-3 for front, behind in itertools.pairwise(levels))
+        assert all(
+            front.max() < behind.min() - 1e-3 for front, behind in itertools.pairwise(levels)
+        )
 
     def test_numbers_never_have_an_exponent(self):
         assert [squared(x) for x in (99.96, 3243.0, 0.0, 2.34, 9.96)] == [

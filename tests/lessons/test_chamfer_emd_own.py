@@ -14,7 +14,7 @@ from tests.lessons.chamfer_emd_runs import states, timeline
 from workbench.algorithms.transport import earth_movers
 from workbench.errors import InputError
 from workbench.exercise.candidate import Candidate
-from workbench.geometry.shape_distances import chamfer, one_sided
+from workbench.geometry.points.shape_distances import chamfer, one_sided
 
 
 class TestSlots:
@@ -32,7 +32,9 @@ class TestSlots:
         for one, two in zip(ours, theirs, strict=True):
             np.testing.assert_allclose(two.left.flow.p_moving, one.left.flow.p_moving, atol=1e-9)
             np.testing.assert_allclose(two.right.flow.p_moving, one.right.flow.p_moving, atol=1e-9)
-            assert two.right.numbers.earth_movers == pytest.approx(one.right.numbers.earth_movers, rel=1e-9)
+            assert two.right.numbers.earth_movers == pytest.approx(
+                one.right.numbers.earth_movers, rel=1e-9
+            )
 
     def test_a_wrong_chamfer_leads_the_left_flow_elsewhere(self):
         params = Params(points=20, steps=6)
@@ -48,7 +50,9 @@ class TestSlots:
         params = Params(points=20, steps=40)
         ours, wrong = list(run(params)), list(run(params, earth_movers=by_index))
         assert np.abs(wrong[-1].right.flow.p_moving - ours[-1].right.flow.p_moving).max() > 0.5
-        home = wrong[-1].right.flow.p_moving - wrong[-1].clouds.p_target  # every point to the one with its own index
+        home = (
+            wrong[-1].right.flow.p_moving - wrong[-1].clouds.p_target
+        )  # every point to the one with its own index
         assert np.linalg.norm(home, axis=1).max() < 0.3
         assert wrong[-1].right.flow.value < 0.1 < ours[-1].right.numbers.index_mse
 
@@ -116,15 +120,26 @@ class TestOwnClouds:
         assert clouds.p_source.shape == (40, 3)
         assert np.abs(clouds.p_target).max() < 1.1
         assert clouds.scale == pytest.approx(2 / 96, rel=0.05)
-        assert clouds.p_source[:, 0].mean() - clouds.p_target[:, 0].mean() == pytest.approx(30 * clouds.scale, abs=0.2)
+        assert clouds.p_source[:, 0].mean() - clouds.p_target[:, 0].mean() == pytest.approx(
+            30 * clouds.scale, abs=0.2
+        )
         assert "b.xyz" in timeline(params)[0].caption.text
         assert "unit of your files" in timeline(params)[0].caption.text
 
-    @pytest.mark.parametrize("start", ["blob", "bunched", "part missing", "doubled points", "shuffled rows", "larger"])
+    @pytest.mark.parametrize(
+        "start", ["blob", "bunched", "part missing", "doubled points", "shuffled rows", "larger"]
+    )
     def test_an_own_target_takes_the_built_in_changes(self, tmp_path, start):
         target = self.write(tmp_path, "a.xyz", np.random.default_rng(1).normal(size=(60, 3)))
         for source_points in (0, 25):
-            params = Params(target=target, start=start, amount=0.5, points=40, source_points=source_points, steps=3)
+            params = Params(
+                target=target,
+                start=start,
+                amount=0.5,
+                points=40,
+                source_points=source_points,
+                steps=3,
+            )
             assert len(states(params)) >= 1
 
     def test_equal_points_do_not_divide_by_zero(self, tmp_path):
@@ -142,7 +157,9 @@ class TestOwnClouds:
 
     def test_two_real_scans(self, shared_data):
         folder = shared_data / "icp"
-        params = Params(target=folder / "bun000.ply", source=folder / "bun045.ply", points=100, steps=20)
+        params = Params(
+            target=folder / "bun000.ply", source=folder / "bun045.ply", points=100, steps=20
+        )
         first, last = states(params)[0], states(params)[-1]
         assert last.right.numbers.earth_movers < 0.3 * first.right.numbers.earth_movers
         assert last.left.numbers.chamfer < 0.3 * first.left.numbers.chamfer

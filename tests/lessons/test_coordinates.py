@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.coordinates.lesson import TURNS, lesson, moments, run
+from lessons.coordinates.lesson import TURNS, draw, lesson, moments, run
+from lessons.coordinates.placing import Walked
 from lessons.coordinates.state import Params
 from tests.runs import finished
 from tests.truths.coordinates import CAPS, EARTH, fastest, in_caps, straight_over_shortest
-from workbench.algorithms.placing import Walked
 from workbench.errors import InputError
-from workbench.geometry.curvilinear import spherical_from_cartesian
-from workbench.geometry.globe import great_circle_distance
+from workbench.geometry.shapes.curvilinear import spherical_from_cartesian
+from workbench.geometry.shapes.globe import great_circle_distance
 from workbench.scene import Curve, Label, Points, Segments, caption_of
 
 
@@ -35,10 +35,10 @@ def last_of(params: Params, **slots: Any) -> Any:
 
 
 def tone(name: str) -> str:
-    return caption_of(lesson.draw(of(name)[-1])).tone
+    return caption_of(draw(of(name)[-1])).tone
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_past_the_axis_one_coordinate_turns_half_round_within_two_steps():
@@ -49,11 +49,15 @@ def test_past_the_axis_one_coordinate_turns_half_round_within_two_steps():
         assert tone(name) == "good"
     steps = np.abs(np.diff(last("cartesian").c, axis=0))
     assert steps.max() == pytest.approx(0.075)
-    assert caption_of(lesson.draw(of("home")[20])).text.endswith("changed φ by 79.5°.")  # where the page sends a reader
+    assert caption_of(draw(of("home")[20])).text.endswith(
+        "changed φ by 79.5°."
+    )  # where the page sends a reader
 
 
 def test_a_mount_locks_at_the_zenith_as_the_page_says():
-    """Of direction by pan and tilt: sizes 1 and cos(tilt), so that panning is lost at the zenith and nothing else."""
+    """Of direction by pan and tilt: sizes 1 and cos(tilt), so that panning is lost at the zenith
+    and nothing else.
+    """
 
     def direction(pan: float, tilt: float) -> np.ndarray:
         return np.array([np.cos(tilt) * np.cos(pan), np.cos(tilt) * np.sin(pan), np.sin(tilt)])
@@ -62,10 +66,12 @@ def test_a_mount_locks_at_the_zenith_as_the_page_says():
     page = lesson.page.read_text(encoding="utf-8")
     for tilt, said in ((45, "0.71 at 45°"), (89, "0.017 at 89°"), (90, "0 at 90°")):
         at, d = np.radians(tilt), 1e-5
-        J = np.column_stack([
-            (direction(0.3 + d, at) - direction(0.3 - d, at)) / (2 * d),
-            (direction(0.3, at + d) - direction(0.3, at - d)) / (2 * d),
-        ])  # fmt: skip
+        J = np.column_stack(
+            [
+                (direction(0.3 + d, at) - direction(0.3 - d, at)) / (2 * d),
+                (direction(0.3, at + d) - direction(0.3, at - d)) / (2 * d),
+            ]
+        )
         sizes = np.linalg.svd(J, compute_uv=False)
         np.testing.assert_allclose(sizes, [1.0, np.cos(at)], atol=1e-6)
         assert float(said.split()[0]) == pytest.approx(sizes[1], abs=0.005)
@@ -86,7 +92,10 @@ def test_one_triple_is_three_points():
     state = next(state for state in of("conventions") if type(state.now).__name__ == "Readings")
     p = state.now.p
     np.testing.assert_allclose(p["mathematics"], lesson.preset("conventions").params.point)
-    assert min(np.linalg.norm(p[a] - p[b]) for a, b in (("ISO", "mathematics"), ("ISO", "elevation"))) > 0.1
+    assert (
+        min(np.linalg.norm(p[a] - p[b]) for a, b in (("ISO", "mathematics"), ("ISO", "elevation")))
+        > 0.1
+    )
 
 
 def test_angles_drawn_evenly_are_not_even():
@@ -100,26 +109,40 @@ def test_the_mean_of_a_banana_is_short(sigma, short):
     now = last_of(replace(lesson.preset("banana").params, bearing_noise=sigma)).now
     assert 10 - now.mean[0] == pytest.approx(short, abs=0.06)
     assert np.linalg.norm(now.debiased - now.true) < 0.12
-    assert np.linalg.norm(now.expected - now.true) == pytest.approx(10 * (1 - np.exp(-(np.radians(sigma) ** 2) / 2)))
+    assert np.linalg.norm(now.expected - now.true) == pytest.approx(
+        10 * (1 - np.exp(-(np.radians(sigma) ** 2) / 2))
+    )
 
 
-@pytest.mark.parametrize(("name", "more"), [("great-circle", 11.9), ("anchorage", 33.6), ("equator", 0.0)])
+@pytest.mark.parametrize(
+    ("name", "more"), [("great-circle", 11.9), ("anchorage", 33.6), ("equator", 0.0)]
+)
 def test_straight_on_the_map_costs(name, more):
     now = of(name)[-2].now
     assert 100 * (now.straight_length / now.direct - 1) == pytest.approx(more, abs=0.06)
-    assert 100 * (straight_over_shortest(of(name)[0].subject.degrees) - 1) == pytest.approx(more, abs=0.06)
+    assert 100 * (straight_over_shortest(of(name)[0].subject.degrees) - 1) == pytest.approx(
+        more, abs=0.06
+    )
 
 
 def test_how_much_longer_is_said_with_digits_that_mean_something():
-    said = [caption_of(lesson.draw(of(name)[-2])).text for name in ("great-circle", "equator", "dateline")]
-    assert [text.rsplit(", ", 1)[1] for text in said] == ["11.9 % more.", "less than 0.01 % more.", "3,157 % more."]
+    said = [caption_of(draw(of(name)[-2])).text for name in ("great-circle", "equator", "dateline")]
+    assert [text.rsplit(", ", 1)[1] for text in said] == [
+        "11.9 % more.",
+        "less than 0.01 % more.",
+        "3,157 % more.",
+    ]
 
 
 def test_the_means_of_numbers():
     assert last("dateline").apart / 1e3 == pytest.approx(16_455, abs=1)
     assert last("great-circle").apart > 2e6
     assert last("equator").apart < 1e4
-    assert [tone(name) for name in ("dateline", "great-circle", "equator")] == ["wrong", "wrong", "good"]
+    assert [tone(name) for name in ("dateline", "great-circle", "equator")] == [
+        "wrong",
+        "wrong",
+        "good",
+    ]
     assert last("dateline").direct / 1e3 == pytest.approx(1150, abs=10)  # as the question says
 
 
@@ -129,15 +152,22 @@ def test_latitudes_differ_most_half_way():
     assert off.max() == pytest.approx(0.192, abs=1e-3)
     assert now.apart.max() / 1e3 == pytest.approx(21.4, abs=0.1)
     assert np.degrees(now.latitude[off.argmax()]) == pytest.approx(45)
-    assert np.degrees(np.max(last("saturn").latitude - last("saturn").geocentric)) == pytest.approx(5.9, abs=0.05)
+    assert np.degrees(np.max(last("saturn").latitude - last("saturn").geocentric)) == pytest.approx(
+        5.9, abs=0.05
+    )
 
 
 @pytest.mark.parametrize(
-    ("name", "miss", "rate"), [("zenith", 1.0, 3282), ("keyhole", 0.1, 32_828), ("wide", 30.0, 99.2)]
+    ("name", "miss", "rate"),
+    [("zenith", 1.0, 3282), ("keyhole", 0.1, 32_828), ("wide", 30.0, 99.2)],
 )
 def test_the_pan_axis_turns_without_bound(name, miss, rate):
     now = last(name)
-    assert np.degrees(now.pan_peak) == pytest.approx(rate, rel=1e-3) == pytest.approx(fastest(miss)[0], rel=1e-3)
+    assert (
+        np.degrees(now.pan_peak)
+        == pytest.approx(rate, rel=1e-3)
+        == pytest.approx(fastest(miss)[0], rel=1e-3)
+    )
     assert np.degrees(now.sight_peak) == pytest.approx(fastest(miss)[1])
     assert tone(name) == "good"
     assert len(of(name)) < 40
@@ -191,7 +221,7 @@ def test_every_stage_ends_at_its_last_step():
         assert of(preset.name)[-1].last
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -216,7 +246,7 @@ def test_answers_are_read_off_the_run():
     assert asked["predict-poles"].answer(of("even")) == pytest.approx(13.4, abs=2)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def by_arctan(p: np.ndarray) -> np.ndarray:
@@ -228,41 +258,52 @@ def by_arctan(p: np.ndarray) -> np.ndarray:
 
 def test_wrong_angles_are_told_by_the_walk_and_by_the_camera():
     walked = last_of(Params(), spherical_from_cartesian=by_arctan)
-    assert caption_of(lesson.draw(walked)).tone == "wrong"
+    assert caption_of(draw(walked)).tone == "wrong"
     first = next(run(Params(stage="mount"), spherical_from_cartesian=by_arctan))
-    assert caption_of(lesson.draw(first)).tone == "wrong"
+    assert caption_of(draw(first)).tone == "wrong"
 
 
 def test_wrong_meetings_are_told():
-    for wrong in (lambda a, b: a + b, lambda a, b: np.full((1, 3), np.nan), lambda a, b: np.zeros((1, 3))):
+    for wrong in (
+        lambda a, b: a + b,
+        lambda a, b: np.full((1, 3), np.nan),
+        lambda a, b: np.zeros((1, 3)),
+    ):
         state = last_of(Params(stage="projective"), meet=wrong)
-        assert caption_of(lesson.draw(state)).tone == "wrong"
+        assert caption_of(draw(state)).tone == "wrong"
     by_w = lambda a, b: np.cross(a, b) / np.cross(a, b)[:, 2:]  # noqa: E731
     with np.errstate(all="ignore"):
-        found = [caption_of(lesson.draw(state)).tone for state in run(Params(stage="projective"), meet=by_w)]
+        found = [
+            caption_of(draw(state)).tone for state in run(Params(stage="projective"), meet=by_w)
+        ]
     assert [k for k, tone in enumerate(found) if tone == "wrong"] == [11]
 
 
 def test_ways_are_as_long_as_they_are_measured():
     for value in (1e3, 0.0, np.nan):
         found: list[Any]
-        *found, _ = run(Params(stage="globe"), great_circle_distance=lambda a, b, radius, v=value: np.full(len(a), v))
+        *found, _ = run(
+            Params(stage="globe"),
+            great_circle_distance=lambda a, b, radius, v=value: np.full(len(a), v),
+        )
         np.testing.assert_equal(found[-1].now.circle_length, 192 * value)
-        assert [caption_of(lesson.draw(state)).tone for state in found] == ["info"] + 16 * ["wrong"]
-    assert great_circle_distance(np.zeros((1, 2)), np.array([[0.0, 90.0]]))[0] == pytest.approx(EARTH * np.pi / 2)
+        assert [caption_of(draw(state)).tone for state in found] == ["info"] + 16 * ["wrong"]
+    assert great_circle_distance(np.zeros((1, 2)), np.array([[0.0, 90.0]]))[0] == pytest.approx(
+        EARTH * np.pi / 2
+    )
 
 
-# pictures -------------------------------------------------------------------------------------------------------------
+# pictures -----------------------------------------------------------------------------------------
 
 
 def test_what_leaves_the_picture_is_an_arrow():
-    shown = [("point" in lesson.draw(state), "arrow" in lesson.draw(state)) for state in of("weights")[:-1]]
+    shown = [("point" in draw(state), "arrow" in draw(state)) for state in of("weights")[:-1]]
     assert shown[0] == (True, False)
     assert shown[-1] == (False, True)
 
 
 def test_the_globe_turns_its_way_to_the_eye():
-    scene = lesson.draw(of("dateline")[-1])
+    scene = draw(of("dateline")[-1])
     label = scene["name/0"]
     assert isinstance(label, Label)
     assert label.T_world_object is not None
@@ -274,7 +315,7 @@ def test_the_globe_turns_its_way_to_the_eye():
 
 def test_pictures_of_the_eye_are_what_the_eye_computed():
     state = of("near-far")[3]
-    picture = lesson.draw(state)["perspective"]
+    picture = draw(state)["perspective"]
     assert isinstance(picture, Segments)
     corners = np.unique(picture.ends.reshape(-1, 3)[:, [0, 2]].round(6), axis=0)
     seen = np.unique(state.now.perspective.round(6), axis=0)
@@ -282,7 +323,7 @@ def test_pictures_of_the_eye_are_what_the_eye_computed():
 
 
 def test_the_plumb_line_is_drawn_at_its_latitude():
-    scene = lesson.draw(of("latitude")[9])
+    scene = draw(of("latitude")[9])
     plumb, place = scene["plumb"], scene["place"]
     assert isinstance(plumb, Segments)
     assert isinstance(place, Points)

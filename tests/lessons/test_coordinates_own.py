@@ -1,4 +1,6 @@
-"""Own places and own objects in the coordinates lesson, real scans, and files that must be refused."""
+"""Own places and own objects in the coordinates lesson, real scans, and files that must be
+refused.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -10,7 +12,7 @@ from lessons.coordinates.lesson import lesson, run
 from lessons.coordinates.state import Params
 from workbench.data.files import read_cloud
 from workbench.errors import InputError
-from workbench.geometry.curvilinear import spherical_from_cartesian
+from workbench.geometry.shapes.curvilinear import spherical_from_cartesian
 from workbench.scene import caption_of
 
 
@@ -61,7 +63,11 @@ def test_an_own_object_takes_the_houses_place(tmp_path):
 
 @pytest.mark.parametrize(
     ("content", "words"),
-    [(np.ones((9, 3)), "no depth"), (np.eye(3)[[0, 2, 0, 2]], "no depth"), (np.ones((1, 3)), "1 point")],
+    [
+        (np.ones((9, 3)), "no depth"),
+        (np.eye(3)[[0, 2, 0, 2]], "no depth"),
+        (np.ones((1, 3)), "1 point"),
+    ],
 )
 def test_objects_without_depth_are_refused(tmp_path, content, words):
     np.save(tmp_path / "flat.npy", content)
@@ -95,7 +101,9 @@ def test_a_real_vehicle_scan_as_a_range_image_shows_no_rings(shared_data):
     elevation = np.pi / 2 - polar[r > 0]
     counts = np.sort(np.histogram(elevation, 200)[0])[::-1]
     needed = int(np.searchsorted(np.cumsum(counts), 0.9 * counts.sum())) + 1
-    assert 120 < needed < 180  # of 200 bins, for 90 % of the points; a scanner of 64 rings would need some 60
+    assert (
+        120 < needed < 180
+    )  # of 200 bins, for 90 % of the points; a scanner of 64 rings would need some 60
     assert len(steps_of_real(shared_data / "icp" / "car_cloud400.csv", "z")) == 17
 
 

@@ -5,15 +5,23 @@ import dataclasses
 import numpy as np
 import pytest
 
-from lessons.curvature.lesson import lesson
+from lessons.curvature.lesson import draw, lesson
 from lessons.curvature.presets import DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL, UNFOLDING
 from lessons.curvature.state import Params, at_stage
-from tests.lessons.curvature_runs import STAGES, at, preset, scene, study_in, surface_field, timeline
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import mixed_areas
-from workbench.geometry.normals import surface_variation
+from tests.lessons.curvature_runs import (
+    STAGES,
+    at,
+    preset,
+    scene,
+    study_in,
+    surface_field,
+    timeline,
+)
+from workbench.geometry.meshes import curvature
+from workbench.geometry.meshes.laplacian import mixed_areas
+from workbench.geometry.points.normals import surface_variation
+from workbench.run.timeline import Timeline
 from workbench.scene import caption_of
-from workbench.timeline import Timeline
 
 
 def test_stages_come_in_the_order_of_the_page():
@@ -21,12 +29,16 @@ def test_stages_come_in_the_order_of_the_page():
     assert [stage for stage in stages if stage != "unfolding"] == STAGES
     assert stages[2:DEFECT] == ["unfolding"] * len(UNFOLDING)
     assert [stages[step] for step in (DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL)] == [
-        "defect", "gaussian", "mean", "principal", "total"
-    ]  # fmt: skip
+        "defect",
+        "gaussian",
+        "mean",
+        "principal",
+        "total",
+    ]
     assert stages[lesson.first_step] == "gaussian"
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_cylinder_has_no_gaussian_curvature_and_h_one():
@@ -71,7 +83,7 @@ def test_a_defect_taken_for_k_is_far_too_small_and_smaller_on_finer_meshes():
     outside = [np.percentile(state.now.K, 90) for state in (wrong, finer)]
     assert outside[0] / outside[1] == pytest.approx(4, rel=0.15)
     for stage in ("gaussian", "finer"):
-        assert caption_of(lesson.draw(at(preset("no-area"), stage))).tone == "wrong"
+        assert caption_of(draw(at(preset("no-area"), stage))).tone == "wrong"
         assert caption_of(scene(preset("no-area"), stage)).tone == "info"  # it is meant to be
 
 
@@ -99,7 +111,7 @@ def test_two_pi_on_the_border_adds_pi_for_each_of_its_vertices():
     state = at(preset("border-2pi"), "total")
     border = int(state.subject.border.sum())
     assert state.now.total == pytest.approx(2 * np.pi + np.pi * border)
-    caption = caption_of(lesson.draw(at(preset("border-2pi"), "total")))
+    caption = caption_of(draw(at(preset("border-2pi"), "total")))
     assert caption.tone == "wrong"
     assert f"each of the {border} border vertices" in caption.text
     right = at(dataclasses.replace(preset("border-2pi"), mistake="none"), "total")
@@ -127,8 +139,11 @@ def test_noise_is_amplified_and_more_so_on_finer_meshes():
 def test_irregular_meshes_do_not_help_formulas_but_fits():
     state = at(preset("irregular"), "finer")
     study = study_in(state)
-    np.testing.assert_allclose((np.linalg.norm(state.subject.p[:, :2], axis=1) - 1) ** 2 + state.subject.p[:, 2] ** 2,
-                               0.16, rtol=1e-9)  # fmt: skip
+    np.testing.assert_allclose(
+        (np.linalg.norm(state.subject.p[:, :2], axis=1) - 1) ** 2 + state.subject.p[:, 2] ** 2,
+        0.16,
+        rtol=1e-9,
+    )
     assert (study.K > 0.08).all()
     assert (study.K < 0.11).all()
     assert (study.H > 0.07).all()
@@ -146,12 +161,18 @@ def test_dents_do_not_change_the_sum(name, sum_over_pi):
     assert caption_of(scene(preset(name), "total")).tone == "good"
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("name", "answer"),
-    [("which-rolled", 0), ("which-double", 2), ("which-sides", 1), ("which-finer", 2), ("which-sum", 4)],
+    [
+        ("which-rolled", 0),
+        ("which-double", 2),
+        ("which-sides", 1),
+        ("which-finer", 2),
+        ("which-sum", 4),
+    ],
 )
 def test_answers(name, answer):
     question = next(question for question in lesson.questions if question.name == name)
@@ -165,7 +186,7 @@ def test_answers_are_read_off_the_run():
     assert asked["which-finer"].answer(timeline(Params()).states()) == 0
 
 
-# the page -------------------------------------------------------------------------------------------------------------
+# the page -----------------------------------------------------------------------------------------
 
 
 def test_numbers_of_the_page():
@@ -189,7 +210,7 @@ def test_the_fit_stays_level_with_its_vertex():
     assert state.errors["K"] > 0.08
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def states_with(params=None, **slots):
@@ -221,4 +242,6 @@ def test_a_borders_rows_of_a_students_function_may_hold_anything():
         return curvature.angle_defects(p, faces) / mixed_areas(p, faces)
 
     states = states_with(preset("border"), gaussian_curvature=everywhere)
-    assert at_stage(states, "gaussian").errors["K"] == pytest.approx(at(preset("border"), "gaussian").errors["K"])
+    assert at_stage(states, "gaussian").errors["K"] == pytest.approx(
+        at(preset("border"), "gaussian").errors["K"]
+    )

@@ -41,7 +41,9 @@ def test_the_flat_ring_keeps_lengths_and_angles_and_shows_the_defect():
         ends = gap.ends[[0, -1], [0, 1]] - fan.p[0]
         ends -= (ends @ n)[:, None] * n
         cosine = ends[0] @ ends[1] / np.prod(np.linalg.norm(ends, axis=1))
-        assert np.arccos(np.clip(cosine, -1, 1)) == pytest.approx(abs(now.defects[now.vertex]), rel=1e-3)
+        assert np.arccos(np.clip(cosine, -1, 1)) == pytest.approx(
+            abs(now.defects[now.vertex]), rel=1e-3
+        )
 
 
 def test_a_ring_unfolds_from_the_surface_and_bends_no_triangle():
@@ -55,7 +57,9 @@ def test_a_ring_unfolds_from_the_surface_and_bends_no_triangle():
             p = part(Mesh, ring.flattened(now, share), "flat ring").p
             turned, n = np.concatenate([[0.0], np.cumsum(now.angles)]), now.normals[now.vertex]
             overlaps = now.defects[now.vertex] < 0
-            spokes = p[1:] - p[0] - 0.02 * overlaps * share * ring.edge_length(now) * np.outer(turned, n)
+            spokes = (
+                p[1:] - p[0] - 0.02 * overlaps * share * ring.edge_length(now) * np.outer(turned, n)
+            )
             along = spokes / np.linalg.norm(spokes, axis=1, keepdims=True)
             turns = np.arccos(np.einsum("nx,nx->n", along[1:], along[:-1]))
             np.testing.assert_allclose(turns, now.angles, atol=1e-6)

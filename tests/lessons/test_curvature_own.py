@@ -1,4 +1,6 @@
-"""Own meshes in the curvature lesson: how they are mended, stood up and said to be, and which are refused."""
+"""Own meshes in the curvature lesson: how they are mended, stood up and said to be, and which are
+refused.
+"""
 
 import dataclasses
 from pathlib import Path
@@ -15,8 +17,8 @@ from tests.lessons.curvature_runs import STAGES, at, part, surface_field, timeli
 from workbench.data.files import read_mesh
 from workbench.errors import InputError
 from workbench.knobs import with_own_files
+from workbench.run.timeline import Timeline
 from workbench.scene import Curve, Scalar, caption_of
-from workbench.timeline import Timeline
 
 
 @pytest.mark.parametrize(("name", "chi"), [("bunny", 2), ("fertility", -6)])
@@ -30,7 +32,11 @@ def test_scans_are_enlarged_and_their_sum_is_theirs(shared_data, name, chi):
     assert abs(state.subject.p.min(axis=0) + state.subject.p.max(axis=0)).max() < 1e-9
     assert state.subject.up == "y"
     assert np.ptp(state.subject.p[:, 2]) == pytest.approx(state.subject.enlarged * np.ptp(p[:, 1]))
-    for stage in ("gaussian", "mean", "defect"):  # the colours tell most vertices apart, and the caption says so
+    for stage in (
+        "gaussian",
+        "mean",
+        "defect",
+    ):  # the colours tell most vertices apart, and the caption says so
         field = surface_field(Params(mesh=shared_data / "curvature" / f"{name}.off"), stage)
         assert np.mean(np.abs(field.values) <= field.high) == pytest.approx(0.9, abs=0.015)
         assert np.std(np.clip(field.values / field.high, -1, 1)) > 0.2
@@ -46,7 +52,9 @@ def test_scans_are_enlarged_and_their_sum_is_theirs(shared_data, name, chi):
 
 def test_a_soup_is_welded(tmp_path):
     ball = trimesh.creation.icosphere(2)
-    soup = trimesh.Trimesh(ball.triangles.reshape(-1, 3), np.arange(3 * len(ball.faces)).reshape(-1, 3), process=False)
+    soup = trimesh.Trimesh(
+        ball.triangles.reshape(-1, 3), np.arange(3 * len(ball.faces)).reshape(-1, 3), process=False
+    )
     soup.export(tmp_path / "ball.stl")
     state = at(Params(mesh=tmp_path / "ball.stl"), "total")
     assert len(state.subject.p) == len(ball.vertices)
@@ -77,9 +85,19 @@ BALL = trimesh.creation.icosphere(1)
             "10 faces turned round to agree with the others",
             2,
         ),
-        (BALL.vertices, np.vstack([BALL.faces, BALL.faces[3:5]]), "2 faces listed twice left out", 2),
+        (
+            BALL.vertices,
+            np.vstack([BALL.faces, BALL.faces[3:5]]),
+            "2 faces listed twice left out",
+            2,
+        ),
         (np.vstack([BALL.vertices, [[9.0, 9.0, 9.0]]]), BALL.faces, "", 2),
-        (np.vstack([BALL.vertices, BALL.vertices + 5]), np.vstack([BALL.faces, BALL.faces + 42]), "", 4),
+        (
+            np.vstack([BALL.vertices, BALL.vertices + 5]),
+            np.vstack([BALL.faces, BALL.faces + 42]),
+            "",
+            4,
+        ),
         (BALL.vertices, BALL.faces[1:], "", 1),
     ],
     ids=["sheets touch", "turned", "twice", "unused", "two pieces", "open"],
@@ -135,7 +153,9 @@ def test_which_axis_points_up_is_kept_with_an_own_mesh():
 
 def test_minus_y_stands_it_on_its_head(tmp_path):
     params = written(tmp_path, *tower("y"))
-    one, two = (timeline(dataclasses.replace(params, up=up)).states()[0].subject for up in ("y", "-y"))
+    one, two = (
+        timeline(dataclasses.replace(params, up=up)).states()[0].subject for up in ("y", "-y")
+    )
     np.testing.assert_allclose(two.p[:, 2], -one.p[:, 2], atol=1e-9)
 
 

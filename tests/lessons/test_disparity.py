@@ -1,4 +1,6 @@
-"""The disparity lesson: what its page, presets and questions claim, in numbers; own pairs; slots that drive the run."""
+"""The disparity lesson: what its page, presets and questions claim, in numbers; own pairs; slots
+that drive the run.
+"""
 
 from dataclasses import replace
 
@@ -41,10 +43,20 @@ from tests.lessons.disparity_runs import (
     truth_of,
     visible_in,
 )
-from workbench.algorithms.disparity import Stage
-from workbench.geometry.stereo import depth_from_disparity
-from workbench.picking import picked
-from workbench.scene import Caption, Curve, Field, Label, Picture, Points, Primitive, Scalar, Segments
+from workbench.algorithms.stereo.disparity import Stage
+from workbench.geometry.cameras.stereo import depth_from_disparity
+from workbench.run.picking import picked
+from workbench.scene import (
+    Caption,
+    Curve,
+    Field,
+    Label,
+    Picture,
+    Points,
+    Primitive,
+    Scalar,
+    Segments,
+)
 
 
 def edge(picture: Primitive, side: str) -> np.ndarray:
@@ -58,18 +70,25 @@ class TestPresets:
         assert of_stage(found, Stage.COMPARE).wrong == pytest.approx(0.74, abs=0.005)
         assert of_stage(found, Stage.AGGREGATE).wrong == pytest.approx(0.12, abs=0.005)
         assert found[LAST_CHOICE].wrong == pytest.approx(0.02, abs=0.005)
-        hidden_and_given_up = np.isnan(of_stage(found, Stage.CHECK).disparity[~visible_in(found[0])]).mean()
+        hidden_and_given_up = np.isnan(
+            of_stage(found, Stage.CHECK).disparity[~visible_in(found[0])]
+        ).mean()
         assert hidden_and_given_up == pytest.approx(0.8, abs=0.03)
 
     def test_textureless_is_flat_and_wrong_at_a_low_cost(self):
-        bare, home = preset("textureless")[LAST_CHOICE], states(replace(BARE, pixel=(20, 60)))[LAST_CHOICE]
+        bare, home = (
+            preset("textureless")[LAST_CHOICE],
+            states(replace(BARE, pixel=(20, 60)))[LAST_CHOICE],
+        )
         assert bare.stage is Stage.AGGREGATE
         assert off_in(bare, *BARE_PART) > 0.9
         u, v = bare.setup.pixel
         assert truth_of(bare)[v, u] == pytest.approx(7.54, abs=0.01)
         flat, valley = bare.costs, home.costs
         assert np.nanmax(flat) < 0.3 * np.nanmedian(valley)  # low, whatever the shift
-        assert np.nanmin(valley) < 0.4 * np.nanmedian(valley)  # beside a texture one shift stands out
+        assert np.nanmin(valley) < 0.4 * np.nanmedian(
+            valley
+        )  # beside a texture one shift stands out
         assert np.nanmin(flat) > 0.55 * np.nanmedian(flat)
 
     def test_textureless_and_jumps_forbidden(self):
@@ -98,7 +117,9 @@ class TestPresets:
         u, v = state.setup.pixel
         seen = visible_in(state)
         assert not seen[v, u]
-        assert not seen[10:110, 71:76].any()  # the band left of the second post, which begins at u = 77
+        assert not seen[
+            10:110, 71:76
+        ].any()  # the band left of the second post, which begins at u = 77
         assert seen[10:110, 78:90].all()
         dropped = np.isnan(state.disparity[~seen]).mean()
         assert dropped == pytest.approx(0.8, abs=0.03)
@@ -139,7 +160,10 @@ class TestPresets:
         last = preset("one-pixel")[LAST]
         assert last.disparity_error == 1.0
         for depth, moved in ((1.0, 0.0125), (5.0, 0.3125), (20.0, 5.0)):
-            here = np.abs(last.setup.f * last.setup.pair.camera.baseline - truth_of(last) * depth) < 1e-6
+            here = (
+                np.abs(last.setup.f * last.setup.pair.camera.baseline - truth_of(last) * depth)
+                < 1e-6
+            )
             assert here.sum() > 1500
             assert depth * depth / (640 * 0.125) == pytest.approx(moved)
         found = boards(last)
@@ -216,7 +240,12 @@ class TestQuestions:
         answer = self.answer("nearer")
         assert answer == pytest.approx(20 - 80 / 5, abs=0.03)
         assert abs(20 - 80 / 5 - answer) <= question.tolerance
-        tangent, other_side, with_z, with_z_squared = 20**2 / 80, 80 / 3 - 20, 20 * 0.012, 400 * 0.012
+        tangent, other_side, with_z, with_z_squared = (
+            20**2 / 80,
+            80 / 3 - 20,
+            20 * 0.012,
+            400 * 0.012,
+        )
         for wrong in (tangent, other_side, with_z, with_z_squared, 0.012, 16.0):
             assert abs(wrong - answer) > question.tolerance
             assert question.reply(wrong)
@@ -278,15 +307,30 @@ class TestPicture:
     def test_what_a_step_shows(self):
         scene = timeline(HOME)[10].scene
         for path, kind in {
-            "cloud": Points, "candidates": Points, "chosen": Points, "truth": Points, "ray": Segments, "swept": Segments,
-            "left/picture": Picture, "right/picture": Picture, "map/disparity": Picture, "map/slice": Picture,
+            "cloud": Points,
+            "candidates": Points,
+            "chosen": Points,
+            "truth": Points,
+            "ray": Segments,
+            "swept": Segments,
+            "left/picture": Picture,
+            "right/picture": Picture,
+            "map/disparity": Picture,
+            "map/slice": Picture,
             "windows": Picture,
-            "costs": Curve, "costs/truth": Curve, "wrong": Scalar, "unknown": Scalar, "lowest": Scalar, "energy": Scalar,
+            "costs": Curve,
+            "costs/truth": Curve,
+            "wrong": Scalar,
+            "unknown": Scalar,
+            "lowest": Scalar,
+            "energy": Scalar,
             "caption": Caption,
-        }.items():  # fmt: skip
+        }.items():
             assert isinstance(scene[path], kind), path
         assert "swept" not in timeline(HOME)[LAST].scene
-        assert {"bars", "law", "error/predicted", "error/measured"} <= timeline(HOME)[LAST].scene.keys()
+        assert {"bars", "law", "error/predicted", "error/measured"} <= timeline(HOME)[
+            LAST
+        ].scene.keys()
 
     def test_the_pictures_stand_upright_before_the_eye_and_a_click_finds_the_pixel(self):
         for params in (HOME, MOTORCYCLE):
@@ -301,7 +345,9 @@ class TestPicture:
                 assert picture.T_world_object[2, 1] < -0.8  # rows run down
                 place = picture.places(np.array([31.0, 47.0]))
                 assert picked(picture, eye, place - eye) == (31, 47)
-            across = np.linalg.norm(edge(scene["right/picture"], "right") - edge(scene["left/picture"], "left"))
+            across = np.linalg.norm(
+                edge(scene["right/picture"], "right") - edge(scene["left/picture"], "left")
+            )
             across /= (picture.T_world_object[:3, 3] - eye) @ ahead / np.linalg.norm(ahead)
         assert (
             across / (2 * np.tan(np.radians(22.5))) * 727 > 640
@@ -310,7 +356,9 @@ class TestPicture:
     def test_the_row_crosses_both_pictures_and_holds_the_pixel_and_its_partner(self):
         for params, beside in ((HOME, 0), (preset("rows-off")[0].setup.params, ROWS_OFF)):
             step = timeline(params)[LAST_CHOICE]
-            left, right, row = (step.scene[path] for path in ("left/picture", "right/picture", "row"))
+            left, right, row = (
+                step.scene[path] for path in ("left/picture", "right/picture", "row")
+            )
             assert isinstance(left, Picture)
             assert isinstance(right, Picture)
             assert isinstance(row, Segments)
@@ -324,8 +372,12 @@ class TestPicture:
             ):
                 window = step.scene[path]
                 assert isinstance(window, Segments)
-                assert np.allclose(window.ends.mean(axis=(0, 1)), picture.places(np.array(at)), atol=0.02), path
-        assert "right/truth" not in timeline(lesson.preset("occlusion").params)[CHECKED].scene  # nothing is seen there
+                assert np.allclose(
+                    window.ends.mean(axis=(0, 1)), picture.places(np.array(at)), atol=0.02
+                ), path
+        assert (
+            "right/truth" not in timeline(lesson.preset("occlusion").params)[CHECKED].scene
+        )  # nothing is seen there
         assert "right/truth" not in timeline(lesson.preset("exchanged").params)[CHECKED].scene
 
     def test_whatever_the_depth_it_fits_the_stage_and_is_measured_in_metres(self):
@@ -337,13 +389,17 @@ class TestPicture:
             assert 2 <= len(marks) <= 5
             for mark in marks:
                 assert isinstance(mark, Label)
-                assert mark.p[2] == pytest.approx(scale * float(mark.text.removesuffix(" m")), abs=0.06)
+                assert mark.p[2] == pytest.approx(
+                    scale * float(mark.text.removesuffix(" m")), abs=0.06
+                )
 
     def test_no_posed_thing_stands_under_another(self):
         for step in (timeline(HOME)[10], timeline(HOME)[LAST]):
             paths = set(step.scene)
             assert not [
-                p for p in paths if p.rsplit("/", 1)[0] in paths - {p} and p.startswith(("chosen", "swept", "cloud"))
+                p
+                for p in paths
+                if p.rsplit("/", 1)[0] in paths - {p} and p.startswith(("chosen", "swept", "cloud"))
             ]
 
     def test_candidates_are_on_the_ray_and_the_cloud_is_where_the_truth_is(self):

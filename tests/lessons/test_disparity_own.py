@@ -20,19 +20,21 @@ from lessons.disparity.presets import (
 )
 from lessons.disparity.state import Params
 from tests.lessons.disparity_runs import states, timeline
-from workbench.algorithms.cost_volume import sad_cost_volume
-from workbench.algorithms.disparity_map import winner_takes_all
+from workbench.algorithms.stereo.cost_volume import sad_cost_volume
+from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.errors import InputError
 from workbench.knobs import make, with_own_files
 from workbench.page.legend import legend_html
+from workbench.run.timeline import Timeline
 from workbench.scene import Field, Points
-from workbench.timeline import Timeline
 
 
 class TestSlots:
     def test_depth(self):
         wrong = list(run(PLANES, depth=lambda d, f, baseline: d * f * baseline))
-        assert np.allclose(wrong[DEPTH].depth, states(PLANES)[DEPTH].disparity * 15.0, equal_nan=True)
+        assert np.allclose(
+            wrong[DEPTH].depth, states(PLANES)[DEPTH].disparity * 15.0, equal_nan=True
+        )
         assert np.array_equal(wrong[20].disparity, states(PLANES)[20].disparity)
         assert np.array_equal(wrong[20].depth, wrong[20].disparity * 15.0)
 
@@ -59,11 +61,17 @@ class TestSlots:
         assert list(run(PLANES, cost_volume=mirrored))[LAST_CHOICE].wrong > 0.9
 
     def test_choose(self):
-        found = list(run(PLANES, choose=lambda cost: winner_takes_all(-np.where(np.isfinite(cost), cost, 0.0))))
+        found = list(
+            run(
+                PLANES,
+                choose=lambda cost: winner_takes_all(-np.where(np.isfinite(cost), cost, 0.0)),
+            )
+        )
         assert found[LAST_CHOICE].wrong > 0.9
         same = list(run(PLANES, choose=lambda cost: np.argmin(cost, axis=0)))
         assert all(
-            np.array_equal(a.disparity, b.disparity, equal_nan=True) for a, b in zip(same, states(PLANES), strict=True)
+            np.array_equal(a.disparity, b.disparity, equal_nan=True)
+            for a, b in zip(same, states(PLANES), strict=True)
         )
 
     def test_a_function_of_the_wrong_shape_ends_the_run_with_a_reason(self):
@@ -89,10 +97,20 @@ class TestOwnPairs:
 
     def test_a_preset_keeps_a_pair_and_how_it_is_read(self, files):
         left, right = files
-        mine = Params(left=left, right=right, shrink=2, doffs=3.0, own_focal_length=500.0, own_baseline=0.2, window=9)
+        mine = Params(
+            left=left,
+            right=right,
+            shrink=2,
+            doffs=3.0,
+            own_focal_length=500.0,
+            own_baseline=0.2,
+            window=9,
+        )
         kept = with_own_files(lesson.preset("motorcycle").params, mine)
         of_pair = ("left", "right", "shrink", "doffs", "own_focal_length", "own_baseline")
-        assert [getattr(kept, name) for name in of_pair] == [getattr(mine, name) for name in of_pair]
+        assert [getattr(kept, name) for name in of_pair] == [
+            getattr(mine, name) for name in of_pair
+        ]
         assert kept.window == 3
 
     @pytest.mark.parametrize("known", [{}, {"own_focal_length": 300.0}, {"own_baseline": 0.1}])
@@ -104,17 +122,32 @@ class TestOwnPairs:
         for step in (own[10], own[DEPTH], own[LAST]):
             assert step.caption.tone == "info"
             for path, primitive in step.scene.items():
-                said = [getattr(primitive, name, "") for name in ("text", "unit", "x_label", "y_label")]
-                said += [getattr(getattr(primitive, name, None), "unit", "") for name in ("color", "image")]
+                said = [
+                    getattr(primitive, name, "") for name in ("text", "unit", "x_label", "y_label")
+                ]
+                said += [
+                    getattr(getattr(primitive, name, None), "unit", "")
+                    for name in ("color", "image")
+                ]
                 said += [cell for row in getattr(primitive, "rows", ()) for cell in row]
-                assert not [words for words in said if re.search(r"(^|\d )m\b", str(words))], (path, said)
+                assert not [words for words in said if re.search(r"(^|\d )m\b", str(words))], (
+                    path,
+                    said,
+                )
             assert not {"law", "error/predicted"} & step.scene.keys()
             assert "grid" not in legend_html(step.scene, lesson.view.grid)
         cloud = own[LAST].scene["cloud"]
         assert isinstance(cloud, Points)
         assert isinstance(cloud.color, Field)
-        assert (cloud.color.unit, cloud.name) == ("%", "depth cloud by its error; its size is made up")
-        metric = states(Params(left=files[0], right=files[1], shrink=2, own_focal_length=300.0, own_baseline=0.1))
+        assert (cloud.color.unit, cloud.name) == (
+            "%",
+            "depth cloud by its error; its size is made up",
+        )
+        metric = states(
+            Params(
+                left=files[0], right=files[1], shrink=2, own_focal_length=300.0, own_baseline=0.1
+            )
+        )
         assert np.array_equal(own[DEPTH].state.disparity, metric[DEPTH].disparity, equal_nan=True)
 
     @pytest.mark.parametrize("known", [{}, {"own_focal_length": 300.0, "own_baseline": 0.1}])
@@ -128,7 +161,10 @@ class TestOwnPairs:
         cones = [shared_data / "stereo" / "cones" / name for name in ("im2.png", "im6.png")]
         for shrink in (3, 6):
             for pair, noticed in ((cones, False), (cones[::-1], True)):
-                assert setup_of(Params(left=pair[0], right=pair[1], shrink=shrink)).seem_exchanged is noticed
+                assert (
+                    setup_of(Params(left=pair[0], right=pair[1], shrink=shrink)).seem_exchanged
+                    is noticed
+                )
         assert not setup_of(MOTORCYCLE).seem_exchanged
         assert setup_of(replace(MOTORCYCLE, mistake="pictures exchanged")).seem_exchanged
 
@@ -169,7 +205,9 @@ class TestOwnPairs:
             assert found.failure is None
             assert (found.stopped is None) == (words is None)
             assert words is None or words in str(found.stopped)
-        assert f"{MOST_CELLS:,}" in str(Timeline(lesson, replace(MOTORCYCLE, shrink=1)).complete().stopped)
+        assert f"{MOST_CELLS:,}" in str(
+            Timeline(lesson, replace(MOTORCYCLE, shrink=1)).complete().stopped
+        )
 
     def test_a_changed_file_is_read_again(self, files):
         left, right = files

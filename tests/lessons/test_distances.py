@@ -1,4 +1,6 @@
-"""Every claim of the distances lesson in numbers: presets, questions, page, slots and what is refused."""
+"""Every claim of the distances lesson in numbers: presets, questions, page, slots and what is
+refused.
+"""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -14,9 +16,10 @@ from lessons.distances.state import Ball, Found, Front, Landmarks, Params, Scatt
 from tests.runs import finished
 from tests.truths.distances import errors, true_distances
 from workbench.errors import InputError
-from workbench.geometry import geodesics, metrics
+from workbench.geometry.meshes import geodesics
+from workbench.geometry.points import metrics
+from workbench.run.timeline import Timeline
 from workbench.scene import Mesh, Points, Segments, Table, caption_of
-from workbench.timeline import Timeline
 
 
 def states(params):
@@ -37,7 +40,7 @@ def goal(params) -> tuple[float, float]:
     return presets.to_goal(states(params))
 
 
-# the plane ------------------------------------------------------------------------------------------------------------
+# the plane ----------------------------------------------------------------------------------------
 
 
 def test_other_metrics_have_other_nearest_points():
@@ -68,7 +71,9 @@ def test_the_point_that_is_said_to_be_nearest_is(name, mine, straight):
 
 
 def test_dijkstra_needs_no_triangle_inequality_and_returns_a_metric():
-    """Weights (u + 0.1)^4 break it for many triples; what comes out is Floyd's and Warshall's, and a metric."""
+    """Weights (u + 0.1)^4 break it for many triples; what comes out is Floyd's and Warshall's, and
+    a metric.
+    """
     rng, n = np.random.default_rng(0), 60
     edges = np.stack(np.triu_indices(n, 1), axis=1)
     w = (rng.random(len(edges)) + 0.1) ** 4
@@ -81,7 +86,8 @@ def test_dijkstra_needs_no_triangle_inequality_and_returns_a_metric():
 
 
 @pytest.mark.parametrize(
-    ("metric", "share"), [("euclid", 0), ("squared", 0.24), ("cosine", 0.34), ("p", 0.156), ("p-sum", 0)]
+    ("metric", "share"),
+    [("euclid", 0), ("squared", 0.24), ("cosine", 0.34), ("p", 0.156), ("p-sum", 0)],
 )
 def test_which_of_them_are_metrics(metric, share):
     trials = now(Trials, Params(stage="axioms", metric=metric))
@@ -96,7 +102,9 @@ def test_a_scatter_is_made_round():
     round_ = run[3].now
     assert isinstance(round_, Scatter)
     np.testing.assert_allclose(np.cov(round_.p.T), np.eye(2), atol=1e-9)
-    np.testing.assert_allclose(np.linalg.norm(round_.p, axis=1), round_.d)  # Mahalanobis' distance is Euclid's now
+    np.testing.assert_allclose(
+        np.linalg.norm(round_.p, axis=1), round_.d
+    )  # Mahalanobis' distance is Euclid's now
     np.testing.assert_allclose(np.linalg.norm(round_.rim, axis=1), 2.4477, atol=1e-4)
     np.testing.assert_allclose(np.mean(run[1].now.p, axis=0), 0, atol=1e-12)
     assert now(Scatter, preset("whiten"), 4).flagged.mean() == pytest.approx(0.05, abs=0.03)
@@ -121,20 +129,27 @@ def test_outliers_hide_themselves_and_are_found_by_the_closest_half():
 
 def test_the_right_landmark_by_the_ellipse_of_the_measurement():
     seen = [now(Landmarks, replace(preset("stereo"), seed=seed)) for seed in range(4)]
-    assert np.mean([np.mean(one.euclid == one.true) for one in seen]) == pytest.approx(0.60, abs=0.06)
-    assert np.mean([np.mean(one.mahalanobis == one.true) for one in seen]) == pytest.approx(0.95, abs=0.03)
+    assert np.mean([np.mean(one.euclid == one.true) for one in seen]) == pytest.approx(
+        0.60, abs=0.06
+    )
+    assert np.mean([np.mean(one.mahalanobis == one.true) for one in seen]) == pytest.approx(
+        0.95, abs=0.03
+    )
 
 
-# grids ------------------------------------------------------------------------------------------------------------------
+# grids --------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("params", "worst", "mean", "way"),
     [
-        (Params(), 8.24, 4.1, 4.1), (preset("staircase"), 41.4, 31, 39), (Params(neighbours="16"), 2.75, 1.0, 0.5),
-        (preset("marching"), 10.0, 4.9, 6.1), (Params(neighbours="march", grid=81), 6.0, 2.9, 3.6),
+        (Params(), 8.24, 4.1, 4.1),
+        (preset("staircase"), 41.4, 31, 39),
+        (Params(neighbours="16"), 2.75, 1.0, 0.5),
+        (preset("marching"), 10.0, 4.9, 6.1),
+        (Params(neighbours="march", grid=81), 6.0, 2.9, 3.6),
     ],
-)  # fmt: skip
+)
 def test_errors_round_the_wall(params, worst, mean, way):
     found = now(Found, params)
     assert 100 * found.worst == pytest.approx(worst, abs=0.4)
@@ -142,7 +157,9 @@ def test_errors_round_the_wall(params, worst, mean, way):
     d, true = goal(params)
     assert true == pytest.approx(np.hypot(0.3, 0.3) + np.hypot(0.3, 0.5), abs=0.012)
     assert 100 * (d / true - 1) == pytest.approx(way, abs=0.6)
-    np.testing.assert_allclose(errors(states(params)[-1]), found.error[np.isfinite(found.error)], atol=1e-12)
+    np.testing.assert_allclose(
+        errors(states(params)[-1]), found.error[np.isfinite(found.error)], atol=1e-12
+    )
 
 
 def test_the_error_along_edges_stays_and_that_of_marching_falls():
@@ -151,16 +168,23 @@ def test_the_error_along_edges_stays_and_that_of_marching_falls():
         np.testing.assert_allclose(study[name], worst, atol=0.012)
     np.testing.assert_allclose(study["marching"], [15.0, 12.1, 8.0, 5.3, 3.3], atol=0.06)
     np.testing.assert_allclose(study["marching, exact disc"][1:], [8.0, 3.6, 1.7, 0.8], atol=0.06)
-    assert study["marching"][1] > study["8 neighbours"][1]  # coarse grids: Dijkstra is nearer the truth
+    assert (
+        study["marching"][1] > study["8 neighbours"][1]
+    )  # coarse grids: Dijkstra is nearer the truth
 
 
-@pytest.mark.parametrize(("side", "marching", "said"), [(41, 10.0, "nearer to the truth"), (81, 6.0, "farther off")])
+@pytest.mark.parametrize(
+    ("side", "marching", "said"), [(41, 10.0, "nearer to the truth"), (81, 6.0, "farther off")]
+)
 def test_marching_is_held_against_eight_neighbours_on_the_same_grid(side, marching, said):
     params = Params(neighbours="march", grid=side)
     found = now(Found, params)
     assert 100 * found.worst == pytest.approx(marching, abs=0.4)
     assert found.eight == now(Found, Params(grid=side)).worst == pytest.approx(0.082, abs=0.0005)
-    assert f"Ways to 8 neighbours are {said} on this grid" in caption_of(finished("distances", params)[-1].scene).text
+    assert (
+        f"Ways to 8 neighbours are {said} on this grid"
+        in caption_of(finished("distances", params)[-1].scene).text
+    )
 
 
 def test_a_disc_of_exact_distances_helps_everywhere():
@@ -187,7 +211,7 @@ def test_the_wall_is_not_walked_through():
             assert min(a[1], b[1]) >= subject.tip[1] - 1e-9
 
 
-# surfaces ---------------------------------------------------------------------------------------------------------------
+# surfaces -----------------------------------------------------------------------------------------
 
 
 def test_over_a_sphere():
@@ -200,7 +224,9 @@ def test_over_a_sphere():
     assert (np.diff(study["heat"]) < 0).all()
     assert study["heat"][-1] == pytest.approx(2.07, abs=0.05)
     assert study["3 points on each edge"][-1] == pytest.approx(1.16, abs=0.03)
-    assert (np.diff(study["3 points on each edge"][1:]) > 0).all()  # nor do a fixed number of points converge
+    assert (
+        np.diff(study["3 points on each edge"][1:]) > 0
+    ).all()  # nor do a fixed number of points converge
 
 
 def test_obtuse_triangles_and_their_edges_flipped():
@@ -211,8 +237,13 @@ def test_obtuse_triangles_and_their_edges_flipped():
         for one in (wrung, flipped)
     ]
     np.testing.assert_allclose(off, [[19.9, 20.0, 48.5], [1.45, 1.31, 5.01]], atol=0.06)
-    np.testing.assert_array_equal(*(states(preset(name))[0].subject.p for name in ("wrung", "delaunay")))
-    texts = [caption_of(finished("distances", preset(name))[3].scene).text for name in ("wrung", "delaunay")]
+    np.testing.assert_array_equal(
+        *(states(preset(name))[0].subject.p for name in ("wrung", "delaunay"))
+    )
+    texts = [
+        caption_of(finished("distances", preset(name))[3].scene).text
+        for name in ("wrung", "delaunay")
+    ]
     assert "848 edges have a negative weight" in texts[0]
     assert "negative" not in texts[1]
     assert texts[1].endswith("Right to 2 %.")
@@ -221,20 +252,26 @@ def test_obtuse_triangles_and_their_edges_flipped():
 def test_distances_below_zero_are_told(tmp_path):
     import trimesh
 
-    from workbench.data.rabbit import rabbit_mesh
+    from workbench.data.shapes.rabbit import rabbit_mesh
 
     p, faces = rabbit_mesh(0.05)
     trimesh.Trimesh(p * [1, 1, 6], faces, process=False).export(tmp_path / "tall.ply")
     tall = Params(stage="surface", method="heat", mesh=tmp_path / "tall.ply", source=590)
-    before, mended = (Timeline(lesson, replace(tall, delaunay=flip)).complete() for flip in (False, True))
+    before, mended = (
+        Timeline(lesson, replace(tall, delaunay=flip)).complete() for flip in (False, True)
+    )
     assert "72 % of the distances are below 0." in caption_of(before[3].scene).text
     assert mended.states()[3].now.below == 0
     assert "below 0" not in caption_of(mended[3].scene).text
 
 
 def test_the_time_of_heat():
-    plain, early, late = (now(Found, params) for params in (preset("heat"), preset("early"), presets.LATE))
-    assert tuple(round(100 * float(np.nanmean(np.abs(one.error))), 1) for one in (plain, early, late)) == (
+    plain, early, late = (
+        now(Found, params) for params in (preset("heat"), preset("early"), presets.LATE)
+    )
+    assert tuple(
+        round(100 * float(np.nanmean(np.abs(one.error))), 1) for one in (plain, early, late)
+    ) == (
         1.9,
         26.0,
         8.4,
@@ -263,7 +300,10 @@ def test_heat_distance_is_no_metric():
     assert np.median(found.asymmetry) == pytest.approx(0.014, abs=0.0005)
     assert found.asymmetry.max() == pytest.approx(0.17, abs=0.005)
     run = finished("distances", preset("heat"))
-    assert [caption_of(run[step].scene).tone for step in (-2, -1)] == ["good", "info"]  # right, and no metric
+    assert [caption_of(run[step].scene).tone for step in (-2, -1)] == [
+        "good",
+        "info",
+    ]  # right, and no metric
     table = finished("distances", preset("heat"))[-1].scene["metric"]
     assert isinstance(table, Table)
 
@@ -273,7 +313,9 @@ def test_the_reference_of_the_rabbit_is_near_that_of_more_points():
 
     subject = subject_of(preset("heat"))
     nodes, edges, lengths = geodesics.with_points_on_edges(subject.p, subject.faces, 7)
-    finer = geodesics.shortest_distances(edges, lengths, len(nodes), subject.source)[: len(subject.p)]
+    finer = geodesics.shortest_distances(edges, lengths, len(nodes), subject.source)[
+        : len(subject.p)
+    ]
     known = now(Found, preset("heat")).truth
     off = known[finer > 0.1] / finer[finer > 0.1] - 1
     assert (off > -1e-9).all() or off.min() > -2e-3  # other points, not the same ones and more
@@ -287,17 +329,25 @@ def test_one_edge_ruins_the_ways_over_a_roll():
     d, true = goal(presets.SHORTCUT)
     assert states(presets.SHORTCUT)[0].subject.shortcuts.sum() == 1
     assert (round(d, 2), round(true, 2)) == (2.54, 6.42)
-    np.testing.assert_allclose(true_distances(states(preset("roll"))[-1]), now(Found, preset("roll")).truth, atol=1e-4)
+    np.testing.assert_allclose(
+        true_distances(states(preset("roll"))[-1]), now(Found, preset("roll")).truth, atol=1e-4
+    )
 
 
-# questions --------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("name", "answer", "within"),
-    [("finer", 2, 0.1), ("two-sigma", 86.5, 1.5), ("twenty", 19 / np.sqrt(20), 0.05), ("squares", 24.2, 1.5),
-     ("longer", 2, 0.1), ("shortcut", 2.54, 0.01)],
-)  # fmt: skip
+    [
+        ("finer", 2, 0.1),
+        ("two-sigma", 86.5, 1.5),
+        ("twenty", 19 / np.sqrt(20), 0.05),
+        ("squares", 24.2, 1.5),
+        ("longer", 2, 0.1),
+        ("shortcut", 2.54, 0.01),
+    ],
+)
 def test_answers(name, answer, within):
     question = next(question for question in lesson.questions if question.name == name)
     assert question.answer(states(question.params)) == pytest.approx(answer, abs=within)
@@ -310,7 +360,7 @@ def test_answers_are_read_off_the_run():
     assert asked["squares"].answer(states(preset("half"))) == pytest.approx(15.6, abs=1.5)
 
 
-# slots, and what is refused -----------------------------------------------------------------------------------------------
+# slots, and what is refused -----------------------------------------------------------------------
 
 
 def with_slots(params, **slots):
@@ -321,14 +371,25 @@ def test_slots_drive_the_run():
     def hops(edges, lengths, count, source):
         return np.where(np.arange(count) == source, 0.0, 1.0)
 
-    for params in (Params(grid=11), Params(stage="surface", points=42), Params(stage="roll", points=100, k=6)):
+    for params in (
+        Params(grid=11),
+        Params(stage="surface", points=42),
+        Params(stage="roll", points=100, k=6),
+    ):
         found = with_slots(params, shortest_distances=hops)[-1].now
         assert set(np.unique(found.d)) == {0.0, 1.0}
-    run = with_slots(Params(grid=21, wall=0.0, neighbours="march"), eikonal_update=lambda a, b, h: np.minimum(a, b) + h)
+    run = with_slots(
+        Params(grid=21, wall=0.0, neighbours="march"),
+        eikonal_update=lambda a, b, h: np.minimum(a, b) + h,
+    )
     assert 100 * run[-1].now.worst == pytest.approx(41.4, abs=0.1)  # Manhattan's
-    run = with_slots(Params(stage="whiten", points=50), mahalanobis=lambda p, mean, C: np.full(len(p), 7.0))
+    run = with_slots(
+        Params(stage="whiten", points=50), mahalanobis=lambda p, mean, C: np.full(len(p), 7.0)
+    )
     assert (run[4].now.d == 7).all()
-    run = with_slots(preset("stereo"), mahalanobis=lambda p, mean, C: np.linalg.norm(p - mean, axis=1))
+    run = with_slots(
+        preset("stereo"), mahalanobis=lambda p, mean, C: np.linalg.norm(p - mean, axis=1)
+    )
     np.testing.assert_array_equal(run[-1].now.mahalanobis, run[-1].now.euclid)
 
 
@@ -343,11 +404,20 @@ def test_answers_that_are_no_distances_are_told():
 
 
 def test_nodes_that_nobody_reaches_are_told():
-    run = with_slots(Params(grid=11), shortest_distances=lambda e, w, n, s: np.where(np.arange(n) == s, 0.0, np.inf))
+    run = with_slots(
+        Params(grid=11),
+        shortest_distances=lambda e, w, n, s: np.where(np.arange(n) == s, 0.0, np.inf),
+    )
     assert isinstance(run[-1].now, Found)
-    caption = caption_of(Timeline(lesson, Params(grid=11), {
-        "shortest_distances": lambda e, w, n, s: np.where(np.arange(n) == s, 0.0, np.inf)
-    }).complete()[-1].scene)  # fmt: skip
+    caption = caption_of(
+        Timeline(
+            lesson,
+            Params(grid=11),
+            {"shortest_distances": lambda e, w, n, s: np.where(np.arange(n) == s, 0.0, np.inf)},
+        )
+        .complete()[-1]
+        .scene
+    )
     assert "1 of" in caption.text
 
 
@@ -360,7 +430,11 @@ def test_what_cannot_be_is_said():
 
 
 def test_a_click_moves_the_source():
-    for params in (Params(source=5), Params(stage="surface", source=17), Params(stage="roll", points=300, source=9)):
+    for params in (
+        Params(source=5),
+        Params(stage="surface", source=17),
+        Params(stage="roll", points=300, source=9),
+    ):
         subject, found = states(params)[-1].subject, now(Found, params)
         assert subject.source == params.source
         assert found.d[params.source] == found.truth[params.source] == 0

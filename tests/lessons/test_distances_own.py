@@ -1,4 +1,6 @@
-"""Own meshes and clouds in the distances lesson: how they are read, said to be, and which are refused."""
+"""Own meshes and clouds in the distances lesson: how they are read, said to be, and which are
+refused.
+"""
 
 import dataclasses
 
@@ -10,8 +12,8 @@ from lessons.distances.lesson import lesson
 from lessons.distances.state import Found, Params, State
 from workbench.errors import InputError
 from workbench.geometry.graphs import components, graph_of
+from workbench.run.timeline import Timeline
 from workbench.scene import caption_of
-from workbench.timeline import Timeline
 
 
 def last(params) -> State:
@@ -88,7 +90,7 @@ def test_pieces_that_no_way_joins(tmp_path):
     assert np.isfinite(heat.mean)
 
 
-# real data ------------------------------------------------------------------------------------------------------------
+# real data ----------------------------------------------------------------------------------------
 
 
 def test_heat_on_a_scanned_bunny(shared_data):

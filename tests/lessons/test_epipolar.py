@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.epipolar.lesson import lesson, run
+from lessons.epipolar.lesson import draw, lesson, run
 from lessons.epipolar.presets import DEPTH, depth_sigma
 from lessons.epipolar.state import Params
 from tests.runs import finished
@@ -15,8 +15,8 @@ from tests.truths.epipolar import apart, errors, sampson, true_fundamental
 from workbench.algorithms.two_views import Followed
 from workbench.errors import InputError
 from workbench.geometry.motions import apply
-from workbench.geometry.rectification import growth
-from workbench.geometry.rotations import rotation_about
+from workbench.geometry.motions.rotations import rotation_about
+from workbench.geometry.two_views.rectification import growth
 from workbench.scene import Caption, Points, Segments, caption_of
 
 
@@ -37,14 +37,16 @@ def at(name: str, stage: str) -> Any:
 
 
 def end(name: str) -> Caption:
-    return caption_of(lesson.draw(of(name)[-1]))  # not as it is shown: what breaks on purpose is shown calmly
+    return caption_of(
+        draw(of(name)[-1])
+    )  # not as it is shown: what breaks on purpose is shown calmly
 
 
 def clean(state: Any) -> float:
     return sampson(state.now.F, state.views.clean[:60])
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_home_finds_the_motion():
@@ -58,8 +60,14 @@ def test_home_finds_the_motion():
     kinds = [state.now.stage for state in of("home")]
     assert kinds[:8] == 6 * ["ray"] + ["plane", "pencil"]
     assert [kinds[k] for k in (8, 9, 10, 11, 12, 16, 17)] == [
-        "equations", "rank three", "rank two", "essential", "pose", "points", "refined",
-    ]  # fmt: skip  # where the page's links go
+        "equations",
+        "rank three",
+        "rank two",
+        "essential",
+        "pose",
+        "points",
+        "refined",
+    ]  # where the page's links go
 
 
 def test_refining_the_pose_helps_more_than_refining_f():
@@ -129,7 +137,9 @@ def test_a_short_baseline_costs_direction_and_depth():
     assert sampson(short.now.F, short.views.matches) < 1.2 * sampson(home.now.F, home.views.matches)
     assert (errors(short) or (9, 9))[0] < 1
     assert (errors(short) or (0, 0))[1] > 5
-    sigmas = [depth_sigma(next(run(Params(heading=0.0, baseline=b)))) for b in (1.0, 0.5, 0.1, 0.02)]
+    sigmas = [
+        depth_sigma(next(run(Params(heading=0.0, baseline=b)))) for b in (1.0, 0.5, 0.1, 0.02)
+    ]
     assert sigmas == pytest.approx([0.11, 0.22, 1.07, 5.4], rel=0.03)
 
 
@@ -142,46 +152,70 @@ def test_far_away_there_is_a_rotation_and_hardly_more():
             ahead = (last.now.p_first[:, 2] > 0) & (
                 apply(last.now.T_second_first, last.now.p_first)[:, 2] > 0
             )  # before both cameras, after refinement
-            sigma = np.sqrt(2) * 0.5 * z / (420 * np.cos(np.radians(20)))  # of Z over Z, beside each other, 1 m apart
+            sigma = (
+                np.sqrt(2) * 0.5 * z / (420 * np.cos(np.radians(20)))
+            )  # of Z over Z, beside each other, 1 m apart
             line = sampson(last.now.F, last.views.matches)
-            ends.append((*(errors(last) or (9, 9)), ahead.mean(), np.median(sigma), line, last.parallax, z.min()))
+            ends.append(
+                (
+                    *(errors(last) or (9, 9)),
+                    ahead.mean(),
+                    np.median(sigma),
+                    line,
+                    last.parallax,
+                    z.min(),
+                )
+            )
     far, home = (np.median(found[name], axis=0) for name in ("far", "home"))
     assert far[0] < 1.3 * home[0] < 0.4  # degrees of rotation: as good
     assert far[1] > 45 > 20 * home[1]  # of direction
     assert far[2] < 0.8 < 1 == home[2]  # of the points in front
     assert 0.35 < far[3] < 0.7  # of its depth is the uncertainty of a point, by parallax alone
     assert far[4] < 1.1 * home[4]  # px from their lines
-    assert 1.2 < far[5] < 1.8 < 40 < home[5]  # px of parallax: little more than the noise of both pixels, 0.7
+    assert (
+        1.2 < far[5] < 1.8 < 40 < home[5]
+    )  # px of parallax: little more than the noise of both pixels, 0.7
     assert min(row[6] for row in found["far"]) > 180  # baselines
     points = of("far")[16]
     assert points.now.stage == "points"
     assert max(points.now.in_front) < 60
-    assert f"parallax is {points.parallax:.2f} px" in caption_of(lesson.draw(points)).text
+    assert f"parallax is {points.parallax:.2f} px" in caption_of(draw(points)).text
     assert end("far").tone == "wrong"
 
 
 def test_what_is_far_is_drawn_as_a_model():
     state = of("far")[16]
-    scene = lesson.draw(state)
-    seen = {name: scene[name] for name in ("true points", "points", "direction/camera", "direction/true camera")}
+    scene = draw(state)
+    seen = {
+        name: scene[name]
+        for name in ("true points", "points", "direction/camera", "direction/true camera")
+    }
     true, estimated = seen["true points"], seen["points"]
     assert isinstance(true, Points)
     assert isinstance(estimated, Points)
     np.testing.assert_allclose(50 * true.p, state.views.p_first, rtol=1e-12)
-    nearest = np.linalg.norm(estimated.p[:, None] - state.length * state.now.p_first / 50, axis=2).min(axis=1)
+    nearest = np.linalg.norm(
+        estimated.p[:, None] - state.length * state.now.p_first / 50, axis=2
+    ).min(axis=1)
     assert nearest.max() < 1e-9
-    for path, T in (("direction/camera", state.T_second_first), ("direction/true camera", state.T_true)):
+    for path, T in (
+        ("direction/camera", state.T_second_first),
+        ("direction/true camera", state.T_true),
+    ):
         pointer = seen[path]
         assert isinstance(pointer, Segments)
         way = pointer.ends[0, 1] - pointer.ends[0, 0]
         np.testing.assert_allclose(
             way / np.linalg.norm(way), -T[:3, :3].T @ T[:3, 3] / np.linalg.norm(T[:3, 3]), atol=1e-9
         )
-    assert "direction/camera" not in lesson.draw(of("home")[16])  # there it is seen
-    marks = lesson.draw(of("far")[3])["marks"]
+    assert "direction/camera" not in draw(of("home")[16])  # there it is seen
+    marks = draw(of("far")[3])["marks"]
     assert isinstance(marks, Points)
     np.testing.assert_allclose(marks.p[:, 2], [3, 4, 6, 8])
-    assert [label for label in lesson.draw(of("far")[3]) if label.startswith("mark/")] == ["mark/150", "mark/300"]
+    assert [label for label in draw(of("far")[3]) if label.startswith("mark/")] == [
+        "mark/150",
+        "mark/300",
+    ]
 
 
 def test_ahead_the_epipole_is_in_the_picture_and_rows_cannot_be_had():
@@ -215,12 +249,15 @@ def test_a_wrong_focal_length_hides_in_the_motion():
     off = []
     for seed in range(8):
         wrong, fine = (
-            steps_of(run(replace(lesson.preset("wrong-f").params, f_error=e, seed=seed))) for e in (20.0, 0.0)
+            steps_of(run(replace(lesson.preset("wrong-f").params, f_error=e, seed=seed)))
+            for e in (20.0, 0.0)
         )
         np.testing.assert_array_equal(wrong[10].now.F, fine[10].now.F)
         off.append(((errors(wrong[-1]) or (0, 0))[0], (errors(fine[-1]) or (0, 0))[0]))
-        for values in ([state.to_lines(state.views.matches) for state in (wrong[-1], fine[-1])],
-                       [np.sqrt(np.square(state.disparities[:, 1]).mean()) for state in (wrong[-1], fine[-1])]):  # fmt: skip
+        for values in (
+            [state.to_lines(state.views.matches) for state in (wrong[-1], fine[-1])],
+            [np.sqrt(np.square(state.disparities[:, 1]).mean()) for state in (wrong[-1], fine[-1])],
+        ):
             assert values[0] == pytest.approx(values[1], rel=0.1)
     wrong, fine = np.median(off, axis=0)
     assert wrong > 1 > 5 * fine
@@ -232,7 +269,7 @@ def test_without_noise_all_is_exact():
     assert max(errors(last) or (9, 9)) < 1e-4
     assert at("exact", "equations").now.singular_values[8] < 1e-12
     np.testing.assert_allclose(last.length * last.now.p_first, last.views.p_first, atol=1e-6)
-    assert "rank two already" in caption_of(lesson.draw(of("exact")[9])).text
+    assert "rank two already" in caption_of(draw(of("exact")[9])).text
 
 
 def test_every_run_ends_with_its_rectification():
@@ -242,12 +279,17 @@ def test_every_run_ends_with_its_rectification():
         assert len(of(preset.name)) < 40
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("name", "answer", "within"),
-    [("predict-four", 1, 0), ("predict-baseline", 21.6, 0.2), ("predict-plane", 2, 0), ("predict-f", 0, 0)],
+    [
+        ("predict-four", 1, 0),
+        ("predict-baseline", 21.6, 0.2),
+        ("predict-plane", 2, 0),
+        ("predict-f", 0, 0),
+    ],
 )
 def test_answers(name, answer, within):
     question = next(question for question in lesson.questions if question.name == name)
@@ -263,18 +305,18 @@ def test_answers_are_read_off_the_run():
     assert DEPTH == 8  # as the question says
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def last_tone(**slots: Any) -> str:
     *_, state = run(Params(), **slots)
-    return caption_of(lesson.draw(state)).tone
+    return caption_of(draw(state)).tone
 
 
 def test_wrong_functions_show():
-    from workbench.geometry.epipolar import fit_fundamental
-    from workbench.geometry.essential import essential_to_poses
-    from workbench.geometry.triangulation import triangulate
+    from workbench.geometry.two_views.epipolar import fit_fundamental
+    from workbench.geometry.two_views.essential import essential_to_poses
+    from workbench.geometry.two_views.triangulation import triangulate
 
     transposed = steps_of(run(Params(), eight_point=lambda a, b: fit_fundamental(a, b).T))
     assert transposed[10].to_lines(transposed[10].views.matches) > 3
@@ -291,17 +333,17 @@ def test_wrong_functions_show():
     with pytest.raises(InputError, match="eight_point"):
         steps_of(run(Params(), eight_point=lambda a, b: np.full((3, 3), np.inf)))
     nothing = steps_of(run(Params(), triangulate=lambda P, Q, a, b: np.full((len(a), 3), np.nan)))
-    assert all(lesson.draw(state) for state in nothing)
+    assert all(draw(state) for state in nothing)
 
 
-# pictures -------------------------------------------------------------------------------------------------------------
+# pictures -----------------------------------------------------------------------------------------
 
 
 def test_the_followed_pixel_is_where_one_clicks():
     for pixel in ((0, 0), (719, 719), (100, 200)):
         first = next(run(Params(pixel=pixel)))
         assert first.uv_first.tolist() == [min(pixel[0], 479), min(pixel[1], 319)]
-        scene = lesson.draw(first)
+        scene = draw(first)
         dot, picture = scene["first/pixel"], scene["first/picture"]
         assert isinstance(dot, Points)
         np.testing.assert_allclose(dot.p[0], picture.places(first.uv_first, 0.12), atol=1e-9)  # type: ignore[union-attr]
@@ -315,7 +357,7 @@ def test_rectified_lines_are_level():
         assert np.ptp(lines.ends[..., 2], axis=1).max() < 0.02
     state = of("sideways")[3]
     assert isinstance(state.now, Followed)
-    shown = lesson.draw(state)["marks"]
+    shown = draw(state)["marks"]
     assert isinstance(shown, Points)
     np.testing.assert_allclose(shown.p[:, 2], [3, 4, 6, 8])
 
@@ -323,8 +365,12 @@ def test_rectified_lines_are_level():
 def test_ellipsoids_are_longer_the_shorter_the_baseline():
     lengths = []
     for baseline in (1.0, 0.1):
-        found = next(state for state in run(Params(baseline=baseline, noise=0.05)) if state.now.stage == "points")
-        shown = lesson.draw(found)["uncertainty"]
+        found = next(
+            state
+            for state in run(Params(baseline=baseline, noise=0.05))
+            if state.now.stage == "points"
+        )
+        shown = draw(found)["uncertainty"]
         assert isinstance(shown, Segments)
         lengths.append(np.linalg.norm(shown.ends[:, 0] - shown.ends[:, 1], axis=1).max())
     assert lengths[1] > 3 * lengths[0]

@@ -1,11 +1,13 @@
-"""Own matches in the epipolar lesson: the fountain's, matches without pictures or truth, and files that are refused."""
+"""Own matches in the epipolar lesson: the fountain's, matches without pictures or truth, and files
+that are refused.
+"""
 
 from typing import Any
 
 import numpy as np
 import pytest
 
-from lessons.epipolar.lesson import lesson, run
+from lessons.epipolar.lesson import draw, run
 from lessons.epipolar.state import Params
 from tests.truths.epipolar import errors
 from workbench.errors import InputError
@@ -18,7 +20,9 @@ def fountain(folder, tmp_path, **left_out: bool):
     good = np.abs(found["gt_sampson"]) < 1
     arrays = {name: found[name] for name in ("K1", "K2", "R_rel", "t_rel") if name not in left_out}
     np.savez(tmp_path / "fountain.npz", x1=found["x1"][good], x2=found["x2"][good], **arrays)
-    first, second = (folder / "ransac" / "fountain-P11" / f"{n}_third.jpg" for n in ("0004", "0005"))
+    first, second = (
+        folder / "ransac" / "fountain-P11" / f"{n}_third.jpg" for n in ("0004", "0005")
+    )
     return {"own_matches": tmp_path / "fountain.npz", "first_image": first, "second_image": second}
 
 
@@ -31,7 +35,7 @@ def test_the_fountain(shared_data, tmp_path):
     assert np.sqrt(np.square(last.disparities[:, 1]).mean()) < 0.25
     assert last.now.rectification.second_is_left
     assert max(last.now.in_front) == 1365
-    scene = lesson.draw(last)
+    scene = draw(last)
     assert caption_of(scene).tone == "good"
     picture = scene["first/rectified"]
     assert isinstance(picture, Picture)
@@ -51,21 +55,23 @@ def test_without_a_true_motion_nobody_is_judged(shared_data, tmp_path):
         next(run(Params(**arrays)))
     found: list[Any] = list(run(Params(**arrays, intrinsics=tmp_path / "k.txt")))
     assert found[0].now.stage == "equations"
-    assert {caption_of(lesson.draw(state)).tone for state in found} == {"info"}
-    assert "made up" in caption_of(lesson.draw(next(s for s in found if s.now.stage == "points"))).text
+    assert {caption_of(draw(state)).tone for state in found} == {"info"}
+    assert "made up" in caption_of(draw(next(s for s in found if s.now.stage == "points"))).text
 
 
 def test_matches_alone_have_white_pictures(tmp_path):
     views = next(run(Params())).views
     np.savetxt(tmp_path / "m.txt", views.matches)
     (tmp_path / "k.txt").write_text("420 420 239.5 159.5")
-    found: list[Any] = list(run(Params(own_matches=tmp_path / "m.txt", intrinsics=tmp_path / "k.txt")))
+    found: list[Any] = list(
+        run(Params(own_matches=tmp_path / "m.txt", intrinsics=tmp_path / "k.txt"))
+    )
     T, true = found[-1].now.T_second_first, views.T_second_first
     assert true is not None
     np.testing.assert_allclose(T[:3, :3], true[:3, :3], atol=0.02)
-    scene = lesson.draw(found[0])
+    scene = draw(found[0])
     assert isinstance(scene["first/picture"], Picture)
-    assert isinstance(lesson.draw(found[-1])["second/rectified"], Picture)
+    assert isinstance(draw(found[-1])["second/rectified"], Picture)
 
 
 @pytest.mark.parametrize(
@@ -88,4 +94,4 @@ def test_matches_at_one_place_do_not_crash(tmp_path):
     (tmp_path / "m.txt").write_text("100 100 110 100\n" * 12)
     (tmp_path / "k.txt").write_text("420 420 239.5 159.5")
     for state in run(Params(own_matches=tmp_path / "m.txt", intrinsics=tmp_path / "k.txt")):
-        assert caption_of(lesson.draw(state)).text
+        assert caption_of(draw(state)).text

@@ -7,7 +7,17 @@ import numpy as np
 import pytest
 
 from lessons.features.lesson import lesson, run
-from lessons.features.presets import FLIPPED, HOME, OUTLINE_X, ROOT, SMALL, TURNED, kept, kept_count, kept_share
+from lessons.features.presets import (
+    FLIPPED,
+    HOME,
+    OUTLINE_X,
+    ROOT,
+    SMALL,
+    TURNED,
+    kept,
+    kept_count,
+    kept_share,
+)
 from tests.runs import finished
 from tests.truths.features import home, share
 from workbench.errors import InputError
@@ -62,7 +72,10 @@ def test_random_signs_in_one_scan_are_worse_than_in_both():
     assert kept_count(states(both)) > 190
     assert 0.1 < green(both) < 0.2 < green(HOME)
     assert home(states(both)[-1].now)
-    drawn = [max(s.now.iteration for s in states(params) if s.now.phase == "refit") for params in (HOME, both)]
+    drawn = [
+        max(s.now.iteration for s in states(params) if s.now.phase == "refit")
+        for params in (HOME, both)
+    ]
     assert drawn[1] > 3 * drawn[0]
 
 
@@ -87,7 +100,8 @@ def test_patches_forgive_small_turns_only():
     patches = lesson.preset("patches").params
     found = {turn: green(replace(patches, turn=float(turn))) for turn in (0, 10, 15, 20)}
     assert found == {
-        turn: pytest.approx(share, abs=0.01) for turn, share in {0: 0.9, 10: 0.87, 15: 0.75, 20: 0.33}.items()
+        turn: pytest.approx(share, abs=0.01)
+        for turn, share in {0: 0.9, 10: 0.87, 15: 0.75, 20: 0.33}.items()
     }
     assert green(TURNED) < 0.05
     question = next(one for one in lesson.questions if one.name == "thirty")

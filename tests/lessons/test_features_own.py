@@ -1,4 +1,6 @@
-"""Own scans and pictures in the features lesson: real ones of known pose, any unit and start, and files that are refused."""
+"""Own scans and pictures in the features lesson: real ones of known pose, any unit and start, and
+files that are refused.
+"""
 
 from dataclasses import replace
 from typing import Any
@@ -10,14 +12,14 @@ from PIL import Image
 from lessons.features.lesson import run
 from lessons.features.state import Params
 from tests.truths.features import home, moved
-from workbench.data.clouds import pair
 from workbench.data.files import read_cloud, read_image, read_pose
-from workbench.data.stereo import grey
+from workbench.data.shapes.clouds import pair
+from workbench.data.views.stereo import grey
 from workbench.errors import InputError
-from workbench.geometry.keypoints import harris_response, patches, strongest
-from workbench.geometry.matching import filtered, nearest_both_ways
+from workbench.geometry.features.keypoints import harris_response, patches, strongest
+from workbench.geometry.features.matching import filtered, nearest_both_ways
+from workbench.geometry.features.sift import sift
 from workbench.geometry.motions import exp_so3, inverse, motion
-from workbench.geometry.sift import sift
 
 
 def final(params: Params) -> Any:
@@ -35,7 +37,9 @@ def own(tmp_path) -> Params:
     np.savez(tmp_path / "target.npz", p=scale * made.p_target)
     np.savez(tmp_path / "source.npz", p=scale * made.p_source)
     np.savetxt(tmp_path / "truth.txt", T)
-    return Params(target=tmp_path / "target.npz", source=tmp_path / "source.npz", truth=tmp_path / "truth.txt")
+    return Params(
+        target=tmp_path / "target.npz", source=tmp_path / "source.npz", truth=tmp_path / "truth.txt"
+    )
 
 
 def test_own_scans_of_any_unit_and_start_come_home(own):
@@ -58,10 +62,20 @@ def test_own_scans_that_cannot_be_used_are_refused(own, tmp_path):
         np.savez(tmp_path / f"{name}.npz", p=p)
     (tmp_path / "text.xyz").write_text("these are no points")
     for name, said in (
-        ("point.npz", "one place"), ("few.npz", "20 at least"), ("many.npz", "raise voxel"), ("text.xyz", r"text\.xyz")
-    ):  # fmt: skip
+        ("point.npz", "one place"),
+        ("few.npz", "20 at least"),
+        ("many.npz", "raise voxel"),
+        ("text.xyz", r"text\.xyz"),
+    ):
         with pytest.raises(InputError, match=said):
-            final(replace(own, source=tmp_path / name, truth=None, voxel=10.0 if "many" not in name else 1.0))
+            final(
+                replace(
+                    own,
+                    source=tmp_path / name,
+                    truth=None,
+                    voxel=10.0 if "many" not in name else 1.0,
+                )
+            )
     with pytest.raises(InputError, match="pairs"):
         final(replace(own, source=None, truth=None))
 
@@ -69,9 +83,15 @@ def test_own_scans_that_cannot_be_used_are_refused(own, tmp_path):
 def test_own_pictures_are_matched_and_refused(tmp_path):
     levels = np.random.default_rng(1).integers(0, 255, (30, 40)).astype(np.uint8)
     picture = Image.fromarray(levels).resize((900, 300), Image.Resampling.BICUBIC)
-    for name, shown in (("a", picture), ("b", picture.crop((15, 6, 900, 300))), ("tiny", picture.resize((60, 60)))):
+    for name, shown in (
+        ("a", picture),
+        ("b", picture.crop((15, 6, 900, 300))),
+        ("tiny", picture.resize((60, 60))),
+    ):
         shown.save(tmp_path / f"{name}.png")
-    pictures = Params(part="pictures", turn=0, first_image=tmp_path / "a.png", second_image=tmp_path / "b.png")
+    pictures = Params(
+        part="pictures", turn=0, first_image=tmp_path / "a.png", second_image=tmp_path / "b.png"
+    )
     last = final(pictures)
     assert last.right is None
     assert last.first.shape == (100, 300)
@@ -82,7 +102,10 @@ def test_own_pictures_are_matched_and_refused(tmp_path):
     assert len(off) > 20
     assert np.mean(np.abs(off - [5, 2]).max(axis=1) <= 1) > 0.9
     Image.new("L", (200, 100)).save(tmp_path / "flat.png")
-    assert final(replace(pictures, second_image=tmp_path / "flat.png", describe="SIFT")).phase == "corners"
+    assert (
+        final(replace(pictures, second_image=tmp_path / "flat.png", describe="SIFT")).phase
+        == "corners"
+    )
     with pytest.raises(InputError, match="80 at least"):
         final(replace(pictures, second_image=tmp_path / "tiny.png"))
     with pytest.raises(InputError, match="pairs"):
@@ -98,7 +121,13 @@ def test_bunny_scans_come_home_from_any_start(shared_data, tmp_path, start):
     np.savez(tmp_path / "source.npz", p=moved(T, read_cloud(files[1])))
     np.savetxt(tmp_path / "truth.txt", read_pose(folder / "bun.conf", *files) @ inverse(T))
     last = final(
-        Params(target=files[0], source=tmp_path / "source.npz", truth=tmp_path / "truth.txt", up="y", seed=start)
+        Params(
+            target=files[0],
+            source=tmp_path / "source.npz",
+            truth=tmp_path / "truth.txt",
+            up="y",
+            seed=start,
+        )
     )
     assert last.scans.error(last.T_before).rotation < 0.5
     assert last.error.rotation < 0.1
@@ -120,13 +149,18 @@ def test_a_car_finds_its_lidar_scans(shared_data):
 
 
 def kept_near_lines(F, uv, descriptors, ratio):
-    """How many matches each filter keeps of two pictures, and the share of them within 2 px of their true line."""
+    """How many matches each filter keeps of two pictures, and the share of them within 2 px of
+    their true line.
+    """
     near, found = nearest_both_ways(*descriptors), {}
     for how in ("nearest", "ratio", "mutual", "both"):
         first, second = filtered(near, how, ratio).T
         a, b = (np.column_stack([at, np.ones(len(at))]) for at in (uv[0][first], uv[1][second]))
         n = a @ F.T
-        found[how] = np.mean(np.abs((n * b).sum(axis=1)) < 2 * np.hypot(n[:, 0], n[:, 1])), len(first)
+        found[how] = (
+            np.mean(np.abs((n * b).sum(axis=1)) < 2 * np.hypot(n[:, 0], n[:, 1])),
+            len(first),
+        )
     return found
 
 
@@ -141,7 +175,9 @@ def test_corners_of_the_fountain_lie_on_each_others_lines_and_sift_is_no_better(
     assert of["both"][0] > of["mutual"][0] > of["nearest"][0] + 0.1
     patch_share, patch_count = kept_near_lines(F, uv, described, 0.8)["both"]
     found = [sift(image) for image in images]
-    sift_share, sift_count = kept_near_lines(F, [s.uv for s in found], [s.descriptors for s in found], 0.8)["both"]
+    sift_share, sift_count = kept_near_lines(
+        F, [s.uv for s in found], [s.descriptors for s in found], 0.8
+    )["both"]
     assert patch_share == pytest.approx(0.97, abs=0.005)
     assert sift_share == pytest.approx(0.96, abs=0.005)
     assert patch_count > 500 > 400 > sift_count > 300

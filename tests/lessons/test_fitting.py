@@ -13,7 +13,7 @@ from tests.runs import finished
 from tests.truths.fitting import cost, least, plane_error, straight, wider
 from workbench.algorithms.least_squares import Stop, Walked
 from workbench.errors import InputError
-from workbench.geometry.circles_spheres import linearise_sphere
+from workbench.geometry.shapes.circles_spheres import linearise_sphere
 from workbench.scene import Curve, Points, Segments, Table, caption_of
 
 
@@ -37,7 +37,7 @@ def tone(name: str) -> str:
     return caption_of(lesson.draw(of(name)[-1])).tone
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_home_goes_down_and_says_what_it_is_worth():
@@ -61,7 +61,9 @@ def test_where_errors_are_independent_repetition_agrees():
 def test_where_neighbours_err_alike_it_does_not():
     assert wider(of("alike")[-1]) == pytest.approx(3.7, abs=0.1)
     assert tone("alike") == "wrong"
-    assert "too narrow" not in caption_of(lesson.draw(of("alike")[10])).text  # where the preset opens
+    assert (
+        "too narrow" not in caption_of(lesson.draw(of("alike")[10])).text
+    )  # where the preset opens
 
 
 def test_on_twenty_degrees_radii_scatter_to_one_side():
@@ -91,7 +93,9 @@ def test_the_escape_is_a_straight_line_of_equal_cost():
 
 
 def test_undamped_it_jumps():
-    """From one start: the first step of Gauss-Newton raises the sum eightfold, and in five the circle is a line."""
+    """From one start: the first step of Gauss-Newton raises the sum eightfold, and in five the
+    circle is a line.
+    """
     kept = [now for now in moments("jumps") if now.phase in ("start", "accepted")]
     assert [now.cost for now in kept[:4]] == pytest.approx([147.8, 1198.6, 7.677, 6.385], rel=1e-3)
     assert kept[4].unknown[2] == pytest.approx(427e3, rel=2e-3)
@@ -108,7 +112,9 @@ def test_damped_it_comes_home_from_there():
 
 def test_a_radius_below_zero_is_nonsense_and_said_to_be():
     assert last("twenty").predicted[0] < 0
-    assert "The covariance said −0.229 m to 3.01 m" in caption_of(lesson.draw(of("twenty")[-1])).text
+    assert (
+        "The covariance said −0.229 m to 3.01 m" in caption_of(lesson.draw(of("twenty")[-1])).text
+    )
     assert "no circle has a radius below 0" in caption_of(lesson.draw(of("twenty")[-1])).text
 
 
@@ -126,8 +132,12 @@ def test_basins():
 def test_closed_forms_over_arcs():
     now = last("short-arc")
     kasa = dict(zip(now.arcs, (row[0] for row in now.medians), strict=True))
-    assert [kasa[arc] for arc in (90, 60, 45, 30)] == pytest.approx([0.96, 0.83, 0.60, 0.26], abs=0.02)
-    others = np.array([row[1:] for arc, row in zip(now.arcs, now.medians, strict=True) if arc >= 30])
+    assert [kasa[arc] for arc in (90, 60, 45, 30)] == pytest.approx(
+        [0.96, 0.83, 0.60, 0.26], abs=0.02
+    )
+    others = np.array(
+        [row[1:] for arc, row in zip(now.arcs, now.medians, strict=True) if arc >= 30]
+    )
     assert np.abs(others - 1).max() < 0.05
 
 
@@ -147,7 +157,17 @@ def test_a_coin():
 
 
 def test_over_many_coins_kasas_is_small_and_the_others_are_not():
-    coins = [(335, 43), (155, 51), (276, 52), (337, 125), (348, 186), (102, 196), (154, 198), (46, 260), (114, 266)]
+    coins = [
+        (335, 43),
+        (155, 51),
+        (276, 52),
+        (337, 125),
+        (348, 186),
+        (102, 196),
+        (154, 198),
+        (46, 260),
+        (114, 266),
+    ]
     found = []
     for coin in coins:
         *_, end = run(Params(stage="coin", arc=60.0, coin=coin))
@@ -177,14 +197,21 @@ def test_the_plane_turns_on_edge_above_a_quarter():
 
 
 def test_losses_on_one_plane():
-    errors = {name: 1e3 * plane_error(last(name).now.estimate) for name in ("drift", "tukey", "cascade")}
+    errors = {
+        name: 1e3 * plane_error(last(name).now.estimate) for name in ("drift", "tukey", "cascade")
+    }
     assert errors == {
         "drift": pytest.approx(39.3, abs=0.5),
         "tukey": pytest.approx(157, abs=1),
         "cascade": pytest.approx(2.4, abs=0.1),
     }
     assert 1e3 * of("drift")[-1].plane_errors[1] == pytest.approx(132, abs=1)
-    assert [tone(name) for name in ("drift", "tukey", "cascade", "edge-on")] == ["wrong", "wrong", "good", "wrong"]
+    assert [tone(name) for name in ("drift", "tukey", "cascade", "edge-on")] == [
+        "wrong",
+        "wrong",
+        "good",
+        "wrong",
+    ]
 
 
 def test_gauss_newton_is_quick_where_residuals_are_small():
@@ -200,14 +227,18 @@ def test_gauss_newton_is_quick_where_residuals_are_small():
 
 
 def kept(found: tuple[Any, ...]) -> list[Any]:
-    return [s.now.now for s in found if isinstance(s.now, Walked) and s.now.now.phase in ("start", "accepted")]
+    return [
+        s.now.now
+        for s in found
+        if isinstance(s.now, Walked) and s.now.now.phase in ("start", "accepted")
+    ]
 
 
 def test_runs_are_short():
     assert all(len(of(preset.name)) < 60 for preset in lesson.presets)
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -231,10 +262,12 @@ def test_answers_are_read_off_the_run():
     assert asked["predict-end"].answer(of("home")) == 0
     assert asked["predict-tukey"].answer(of("cascade")) == 0
     assert asked["predict-tukey"].answer(of("drift")) == 1
-    assert asked["predict-alike"].answer(states(replace(ALIKE, errors="independent"))) == pytest.approx(0.82, abs=0.05)
+    assert asked["predict-alike"].answer(
+        states(replace(ALIKE, errors="independent"))
+    ) == pytest.approx(0.82, abs=0.05)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def end_of(params: Params, **slots: Any) -> Any:
@@ -245,7 +278,9 @@ def end_of(params: Params, **slots: Any) -> Any:
 def test_a_wrong_linear_problem_ends_elsewhere():
     def squared(circle, p):
         v = p - circle[:2]
-        return (v**2).sum(1) - circle[2] ** 2, np.column_stack([-2 * v, np.full(len(p), -2 * circle[2])])
+        return (v**2).sum(1) - circle[2] ** 2, np.column_stack(
+            [-2 * v, np.full(len(p), -2 * circle[2])]
+        )
 
     def uphill(circle, p):
         residuals, jacobian = linearise_sphere(circle, p)
@@ -278,7 +313,7 @@ def test_wrong_weights_show_in_the_plane():
         list(run(lesson.preset("drift").params, huber_weights=lambda r, c: np.zeros(len(r))))
 
 
-# pictures -------------------------------------------------------------------------------------------------------------
+# pictures -----------------------------------------------------------------------------------------
 
 
 def test_feet_lie_on_the_shape_and_tangents_touch_it():
@@ -328,12 +363,18 @@ def test_contours_are_where_centres_are_equally_good():
     state = of("home")[0]
     valley = lesson.draw(state)["valley"]
     assert isinstance(valley, Segments)
-    costs = np.array([cost_of_centre(state.subject.p, at) for at in valley.ends[::7, :, :2].mean(axis=1)])
+    costs = np.array(
+        [cost_of_centre(state.subject.p, at) for at in valley.ends[::7, :, :2].mean(axis=1)]
+    )
     octaves = np.log2(costs / costs.max())
     assert np.median(np.abs(octaves - octaves.round())) < 0.01
-    assert np.percentile(np.abs(octaves - octaves.round()), 97) < 0.05  # the innermost are a few cells wide
+    assert (
+        np.percentile(np.abs(octaves - octaves.round()), 97) < 0.05
+    )  # the innermost are a few cells wide
     assert len(np.unique(octaves.round())) >= 7
-    assert all(lesson.draw(other)["valley"] is valley for other in of("escape")[::4])  # the same points, made once
+    assert all(
+        lesson.draw(other)["valley"] is valley for other in of("escape")[::4]
+    )  # the same points, made once
     assert "valley" not in lesson.draw(of("sphere")[0])
 
 
@@ -343,22 +384,33 @@ def test_the_way_goes_down_across_the_contours(name):
     p = walked[0].subject.p
     down = [cost_of_centre(p, unknown[:2]) for unknown in walked[-1].now.kept[:8]]
     assert (np.diff(down) < 1e-6).all()
-    assert len(walked[-1].now.kept) == 1 + sum(state.now.now.phase == "accepted" for state in walked)
+    assert len(walked[-1].now.kept) == 1 + sum(
+        state.now.now.phase == "accepted" for state in walked
+    )
     between_both = [cost_of_centre(p, np.array([x, 0.0])) for x in np.linspace(0.3, 2.5, 12)]
     assert max(between_both) > 2.5 * max(between_both[0], between_both[-1])  # a hill
 
 
 def test_each_kind_of_step_is_seen_on_the_contours():
     far = Params(start=(0.9, 0.6, 0.0), start_radius=0.3, arc=45.0)
-    seen = {state.now.now.phase: (state, lesson.draw(state)) for state in states(far) if isinstance(state.now, Walked)}
-    for phase, color, name in (("tried", "highlight", "trial"), ("rejected", "wrong", "taken back")):
+    seen = {
+        state.now.now.phase: (state, lesson.draw(state))
+        for state in states(far)
+        if isinstance(state.now, Walked)
+    }
+    for phase, color, name in (
+        ("tried", "highlight", "trial"),
+        ("rejected", "wrong", "taken back"),
+    ):
         state, scene = seen[phase]
         step, circle = scene["way/step"], scene["trial"]
         assert isinstance(step, Segments)
         assert isinstance(circle, Segments)
         assert step.color == circle.color == color
         assert circle.name == name
-        np.testing.assert_allclose(step.ends[0, :, :2], [state.now.now.unknown[:2], state.now.now.trial[:2]])
+        np.testing.assert_allclose(
+            step.ends[0, :, :2], [state.now.now.unknown[:2], state.now.now.trial[:2]]
+        )
     assert "way/step" not in seen["accepted"][1]
     assert len(seen["rejected"][0].now.taken_back) >= 1
     centres = seen["rejected"][1]["way/taken back"]

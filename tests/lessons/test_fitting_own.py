@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from lessons.fitting.fit_scenes import arc_points, cap_points, pipe_points
 from lessons.fitting.lesson import lesson, run
 from lessons.fitting.state import Params
 from workbench.algorithms.least_squares import Walked
 from workbench.data.files import read_cloud
-from workbench.data.fit_scenes import arc_points, cap_points, pipe_points
 from workbench.errors import InputError
-from workbench.geometry.lines_planes import angle_between_planes, fit_hyperplane
+from workbench.geometry.shapes.lines_planes import angle_between_planes, fit_hyperplane
 from workbench.scene import caption_of
 
 
@@ -42,13 +42,19 @@ def test_an_own_rim_keeps_its_unit(tmp_path):
 @pytest.mark.parametrize(("shape", "places"), [("sphere", cap_points), ("cylinder", pipe_points)])
 def test_own_points_in_space(tmp_path, shape, places):
     p = 5 + 2 * places(np.radians(200), 200) + 0.01 * np.random.default_rng(0).normal(size=(200, 3))
-    found = steps(Params(shape=shape, cloud=written(tmp_path, p), start=(0.2, 0.1, 0.0), start_tilt=20.0))
+    found = steps(
+        Params(shape=shape, cloud=written(tmp_path, p), start=(0.2, 0.1, 0.0), start_tilt=20.0)
+    )
     ended = [state for state in found if isinstance(state.now, Walked)][-1]
     assert ended.now.now.unknown[-1] * ended.subject.scale == pytest.approx(2.0, rel=0.02)
 
 
 def test_rivals_and_starts_take_own_points_too(tmp_path):
-    path = written(tmp_path, arc_points(2.0, 40) + 0.01 * np.random.default_rng(0).normal(size=(40, 2)), "rim.txt")
+    path = written(
+        tmp_path,
+        arc_points(2.0, 40) + 0.01 * np.random.default_rng(0).normal(size=(40, 2)),
+        "rim.txt",
+    )
     assert len(steps(Params(stage="algebraic", cloud=path))) == 5
     assert steps(Params(stage="basin", cloud=path))[-1].now.now.done.any()
 
@@ -62,8 +68,16 @@ def test_rivals_and_starts_take_own_points_too(tmp_path):
         ("".join(f"{k},{2 * k}\n" for k in range(9)), {}, "on a line"),
         ("1,2\n3,4\n5,six\n7,8\n9,1\n2,2\n", {}, "two numbers"),
         ("1,2\n3,nan\n5,6\n7,8\n9,1\n2,2\n", {}, "finite"),
-        ("".join(f"{k},{k * k},{k % 3}\n" for k in range(9)), {}, "3 columns, and a circle needs 2"),
-        ("".join(f"{k},{k * k}\n" for k in range(9)), {"stage": "robust"}, "2 columns, and a plane needs 3"),
+        (
+            "".join(f"{k},{k * k},{k % 3}\n" for k in range(9)),
+            {},
+            "3 columns, and a circle needs 2",
+        ),
+        (
+            "".join(f"{k},{k * k}\n" for k in range(9)),
+            {"stage": "robust"},
+            "2 columns, and a plane needs 3",
+        ),
         ("".join(f"{k},{k * k}\n" for k in range(9)), {"stage": "line"}, "not used"),
         ("".join(f"{k},{k * k},0\n" for k in range(9)), {"shape": "sphere"}, "on a plane"),
     ],
@@ -89,7 +103,9 @@ def test_own_photographs(tmp_path):
 
 
 def test_a_kinect_plane_has_errors_that_are_alike(shared_data):
-    """Halves of a plane differ by many times what independent errors allow; cells of 10 cm are off together."""
+    """Halves of a plane differ by many times what independent errors allow; cells of 10 cm are off
+    together.
+    """
     p = read_cloud(shared_data / "ransac" / "capture0001.pcd")
     rng = np.random.default_rng(0)
     some = p[rng.choice(len(p), 4000, replace=False)]
@@ -112,7 +128,8 @@ def test_a_kinect_plane_has_errors_that_are_alike(shared_data):
         along = q @ axes[:, axis]
         half = along < np.median(along)
         promised = max(
-            np.degrees(sigma / np.sqrt(h.sum() * np.linalg.eigvalsh(np.cov(q[h].T))[1])) for h in (half, ~half)
+            np.degrees(sigma / np.sqrt(h.sum() * np.linalg.eigvalsh(np.cov(q[h].T))[1]))
+            for h in (half, ~half)
         )
         off = np.degrees(angle_between_planes(fit_hyperplane(q[half]), fit_hyperplane(q[~half])))
         assert off > 8 * promised

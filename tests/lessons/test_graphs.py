@@ -1,4 +1,6 @@
-"""Every claim of the graphs lesson in numbers: presets, questions, page, slots and what is refused."""
+"""Every claim of the graphs lesson in numbers: presets, questions, page, slots and what is
+refused.
+"""
 
 import dataclasses
 
@@ -10,12 +12,12 @@ from lessons.graphs.lesson import lesson
 from lessons.graphs.presets import SIGN
 from lessons.graphs.state import Grown, Mode, Params
 from tests.runs import finished
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 from workbench.errors import InputError
+from workbench.run.timeline import Timeline
 from workbench.scene import Classes, Curve, Points, Segments, caption_of
-from workbench.timeline import Timeline
 
 
 def states(params):
@@ -42,13 +44,15 @@ def right(params, step=-1) -> int:
     return correct
 
 
-# graphs ---------------------------------------------------------------------------------------------------------------
+# graphs -------------------------------------------------------------------------------------------
 
 
 def test_neighbour_is_not_mutual():
     grown = [state.now for state in states(preset("one-way"))]
     assert [one.k for one in grown] == [1, 2, 3, 4, 5, 6]
-    np.testing.assert_allclose([grown[k].one_way for k in (0, 2, 5)], [0.391, 0.248, 0.179], atol=0.002)
+    np.testing.assert_allclose(
+        [grown[k].one_way for k in (0, 2, 5)], [0.391, 0.248, 0.179], atol=0.002
+    )
     assert [one.count for one in grown[:3]] == [457, 73, 1]
     assert round(grown[2].one_way * 4500) == 1114
     mutual = dataclasses.replace(preset("one-way"), k=3, join="mutual")
@@ -60,7 +64,10 @@ def test_one_way_edges_are_drawn_apart():
     both, one = scene["edges"], scene["one-way edges"]
     assert isinstance(both, Segments)
     assert isinstance(one, Segments)
-    assert (len(both.ends), len(one.ends)) == (457, 1043 - 457)  # as many pairs as components with one neighbour each
+    assert (len(both.ends), len(one.ends)) == (
+        457,
+        1043 - 457,
+    )  # as many pairs as components with one neighbour each
 
 
 def test_given_edges_join_components_one_by_one():
@@ -70,7 +77,7 @@ def test_given_edges_join_components_one_by_one():
     assert (np.diff(counts) < 0).all()
 
 
-# cuts -----------------------------------------------------------------------------------------------------------------
+# cuts ---------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
@@ -98,7 +105,9 @@ def test_at_95_to_5_the_sweep_fails_too():
 
 
 def test_without_a_bridge_the_constant_is_taken_out_and_the_pieces_are_left():
-    """A solver's second column is no answer: its cosine with the constant changes with the numbering."""
+    """A solver's second column is no answer: its cosine with the constant changes with the
+    numbering.
+    """
     base = preset("split")
     cosines = []
     for numbering in range(5):
@@ -107,7 +116,12 @@ def test_without_a_bridge_the_constant_is_taken_out_and_the_pieces_are_left():
         assert found.eigenvalues[1] == pytest.approx(0, abs=1e-12)
         assert abs(found.fiedler.sum()) < 1e-9
         np.testing.assert_allclose(np.abs(found.fiedler), 1 / np.sqrt(200), atol=1e-9)
-        assert (found.side.sum(), found.cut, right(params, SIGN), right(params)) == (100, 0, 200, 200)
+        assert (found.side.sum(), found.cut, right(params, SIGN), right(params)) == (
+            100,
+            0,
+            200,
+            200,
+        )
         L = np.diag(np.asarray(found.adjacency.sum(axis=1)).ravel()) - found.adjacency.toarray()
         cosines.append(abs(np.linalg.eigh(L)[1][:, 1].sum()) / np.sqrt(200))
     assert max(cosines) > 0.1
@@ -117,7 +131,10 @@ def test_without_a_bridge_the_constant_is_taken_out_and_the_pieces_are_left():
 def test_where_the_sign_is_truer_than_the_best_cut_that_is_said():
     assert (right(Params(), SIGN), right(Params())) == (414, 412)
     assert cut(Params(), SIGN).cut == cut(Params()).cut == 6
-    assert "By sign it was 414, for a cut of 6" in caption_of(finished("graphs", Params())[-1].scene).text
+    assert (
+        "By sign it was 414, for a cut of 6"
+        in caption_of(finished("graphs", Params())[-1].scene).text
+    )
     assert "By sign" not in caption_of(finished("graphs", preset("unbalanced"))[-1].scene).text
 
 
@@ -143,7 +160,9 @@ def test_numbering_changes_nothing_where_eigenvalues_are_apart():
 def test_the_club():
     assert right(preset("club"), SIGN) == 32
     told = measures.predicted(states(preset("club"))[SIGN])
-    np.testing.assert_array_equal(np.flatnonzero(told != states(preset("club"))[0].subject.classes), [2, 8])
+    np.testing.assert_array_equal(
+        np.flatnonzero(told != states(preset("club"))[0].subject.classes), [2, 8]
+    )
     assert right(dataclasses.replace(preset("club"), weighted=True), SIGN) == 33
 
 
@@ -156,7 +175,7 @@ def test_the_rabbit_is_thin_at_its_neck():
     assert 40 <= cut(preset("neck")).cut <= 80
 
 
-# spectra ----------------------------------------------------------------------------------------------------------------
+# spectra ------------------------------------------------------------------------------------------
 
 
 def values_of(name, **changes):
@@ -169,7 +188,9 @@ def test_a_graph_is_not_the_surface():
     np.testing.assert_allclose(plain[12:16], 12.59, atol=0.01)
     np.testing.assert_array_equal(plain, values_of("sphere", jitter=0.25))  # to the last digit
     cotangent = values_of("cotangent")
-    np.testing.assert_allclose([cotangent[9:16].min(), cotangent[9:16].max()], [11.85, 11.92], atol=0.005)
+    np.testing.assert_allclose(
+        [cotangent[9:16].min(), cotangent[9:16].max()], [11.85, 11.92], atol=0.005
+    )
     np.testing.assert_allclose(values_of("cotangent", jitter=0.25)[9:16], 12, rtol=0.015)
 
 
@@ -190,21 +211,29 @@ def test_two_graphs_have_one_spectrum():
 
 
 def test_truth_stands_beside_the_eigenvalues_where_it_is_known():
-    for params in (Params(graph="ring", stage="spectrum", points=40), Params(graph="grid", stage="spectrum")):
+    for params in (
+        Params(graph="ring", stage="spectrum", points=40),
+        Params(graph="grid", stage="spectrum"),
+    ):
         scene = finished("graphs", params)[-1].scene
         found, true = scene["eigenvalues"], scene["true eigenvalues"]
         assert isinstance(found, Curve)
         assert isinstance(true, Curve)
         np.testing.assert_allclose(found.y, true.y, atol=1e-8)
-    assert "true eigenvalues" not in finished("graphs", Params(graph="karate", stage="spectrum"))[-1].scene
+    assert (
+        "true eigenvalues"
+        not in finished("graphs", Params(graph="karate", stage="spectrum"))[-1].scene
+    )
 
 
-# steps of L -------------------------------------------------------------------------------------------------------------
+# steps of L ---------------------------------------------------------------------------------------
 
 
 def test_heat_settles_up_to_two_and_explodes_beyond():
     top = {
-        size: float(np.abs(now(Heat, dataclasses.replace(preset("blow-up"), step_size=size)).u).max())
+        size: float(
+            np.abs(now(Heat, dataclasses.replace(preset("blow-up"), step_size=size)).u).max()
+        )
         for size in (1.99, 2.5)
     }
     assert top[1.99] < 0.01
@@ -227,11 +256,15 @@ def test_smoothing_eats_volume_and_taubin_does_not():
     assert off[1] < start / 2 < start < off[0]
 
 
-# networks ---------------------------------------------------------------------------------------------------------------
+# networks -----------------------------------------------------------------------------------------
 
 
 def test_many_layers_make_all_nodes_alike():
-    layers = {s.now.layer: s for s in states(preset("deep")) if isinstance(s.now, Layer) and s.now.part == "layer"}
+    layers = {
+        s.now.layer: s
+        for s in states(preset("deep"))
+        if isinstance(s.now, Layer) and s.now.part == "layer"
+    }
     assert [measures.right(layers[k]) for k in (2, 4, 8, 16, 32, 64)] == [32, 33, 33, 32, 27, 17]
     assert not measures.reached(layers[1]).all()
     assert measures.reached(layers[2]).all()
@@ -242,13 +275,25 @@ def test_many_layers_make_all_nodes_alike():
 
 def test_the_parts_of_a_layer():
     run = states(preset("layer"))
-    assert [s.now.part for s in run] == ["input", "loops", "normalised", "gathered", "layer", "layer"]
+    assert [s.now.part for s in run] == [
+        "input",
+        "loops",
+        "normalised",
+        "gathered",
+        "layer",
+        "layer",
+    ]
     assert run[2].now.matrix[0, 0] == pytest.approx(1 / 17)
-    np.testing.assert_array_equal(run[3].now.features, run[4].now.features)  # W is the identity, nothing is negative
+    np.testing.assert_array_equal(
+        run[3].now.features, run[4].now.features
+    )  # W is the identity, nothing is negative
 
 
 def test_training_two_layers_and_eight():
-    assert np.mean([right(dataclasses.replace(preset("trained"), seed=seed)) for seed in range(5)]) > 32
+    assert (
+        np.mean([right(dataclasses.replace(preset("trained"), seed=seed)) for seed in range(5)])
+        > 32
+    )
     assert right(preset("deeper")) == 17
     loss = [s.now.loss for s in states(preset("trained")) if isinstance(s.now, Trained)]
     assert loss[-1] < 1e-3 < loss[0]
@@ -262,11 +307,12 @@ def test_a_hexagon_and_two_triangles_have_one_readout():
     assert np.abs(sums[0]).max() > 0
 
 
-# questions --------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("name", "answer"), [("mutual", 2), ("club-right", 32), ("longer", 2), ("volume", 62), ("sixty-four", 2)]
+    ("name", "answer"),
+    [("mutual", 2), ("club-right", 32), ("longer", 2), ("volume", 62), ("sixty-four", 2)],
 )
 def test_answers(name, answer):
     question = next(question for question in lesson.questions if question.name == name)
@@ -276,13 +322,15 @@ def test_answers(name, answer):
 def test_answers_are_read_off_the_run():
     asked = {question.name: question for question in lesson.questions}
     assert asked["mutual"].answer(states(preset("one-way"))) == 0
-    assert asked["club-right"].answer(states(dataclasses.replace(preset("club"), weighted=True))) == 33
+    assert (
+        asked["club-right"].answer(states(dataclasses.replace(preset("club"), weighted=True))) == 33
+    )
     assert asked["longer"].answer(states(preset("warm"))) == 0
     assert asked["volume"].answer(states(preset("taubin"))) == pytest.approx(101, abs=1)
     assert asked["sixty-four"].answer(states(dataclasses.replace(preset("deep"), layers=32))) == 1
 
 
-# slots, and what is refused -----------------------------------------------------------------------------------------------
+# slots, and what is refused -----------------------------------------------------------------------
 
 
 def with_slots(params, **slots):
@@ -290,9 +338,13 @@ def with_slots(params, **slots):
 
 
 def test_slots_drive_the_run():
-    run = with_slots(Params(points=60, stage="graph", k=2), knn_adjacency=lambda p, k: np.zeros((len(p), len(p))))
+    run = with_slots(
+        Params(points=60, stage="graph", k=2), knn_adjacency=lambda p, k: np.zeros((len(p), len(p)))
+    )
     assert run[-1].now.count == 74
-    run = with_slots(Params(graph="karate", stage="spectrum"), laplacian=lambda a: a - np.diag(a.sum(axis=1)))
+    run = with_slots(
+        Params(graph="karate", stage="spectrum"), laplacian=lambda a: a - np.diag(a.sum(axis=1))
+    )
     assert run[0].now.values[0] < -10
     run = with_slots(preset("layer"), gcn_layer=lambda a, x, w: np.zeros((34, w.shape[1])))
     assert (run[-1].now.features == 0).all()

@@ -1,4 +1,6 @@
-"""Own graphs, meshes and clouds in the graphs lesson: how they are read, said to be, and which are refused."""
+"""Own graphs, meshes and clouds in the graphs lesson: how they are read, said to be, and which are
+refused.
+"""
 
 import dataclasses
 
@@ -9,13 +11,14 @@ import trimesh
 from lessons.graphs import measures
 from lessons.graphs.lesson import lesson
 from lessons.graphs.state import Grown, Mode, Params, State
-from workbench.algorithms.diffusion import Heat
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat
+from workbench.algorithms.graphs.spectral_cut import Cut
 from workbench.data.networks import karate
 from workbench.errors import InputError
-from workbench.geometry import graphs, meshes
+from workbench.geometry.graphs import adjacency as graphs
+from workbench.geometry.meshes import triangles as meshes
+from workbench.run.timeline import Timeline
 from workbench.scene import Scalar, Table, caption_of
-from workbench.timeline import Timeline
 
 
 def last(params) -> State:
@@ -31,14 +34,18 @@ def cut_of(params) -> Cut:
 @pytest.fixture
 def friends(tmp_path):
     path = tmp_path / "friends.csv"
-    path.write_text("source,target\n" + "\n".join(f"actor {a + 1},actor {b + 1}" for a, b in karate().edges))
+    path.write_text(
+        "source,target\n" + "\n".join(f"actor {a + 1},actor {b + 1}" for a, b in karate().edges)
+    )
     return path
 
 
 def test_an_edge_list_is_the_graph_that_it_lists(friends):
     timeline = Timeline(lesson, Params(edges=friends)).complete()
     ours = next(
-        step.state.now for step in Timeline(lesson, Params(graph="karate")).complete().known() if step.state.last
+        step.state.now
+        for step in Timeline(lesson, Params(graph="karate")).complete().known()
+        if step.state.last
     )
     now = timeline.states()[-1].now
     assert isinstance(now, Cut)
@@ -46,22 +53,32 @@ def test_an_edge_list_is_the_graph_that_it_lists(friends):
     assert now.conductance == pytest.approx(ours.conductance)
     assert measures.right(timeline.states()[-1]) is None  # nobody knows
     assert caption_of(timeline[9].scene).tone == "info"
-    assert not any(isinstance(one, Scalar) and one.chart == "Right" for one in timeline[9].scene.values())
-    table = Timeline(lesson, Params(edges=friends, stage="network")).complete()[3].scene["sum table"]
+    assert not any(
+        isinstance(one, Scalar) and one.chart == "Right" for one in timeline[9].scene.values()
+    )
+    table = (
+        Timeline(lesson, Params(edges=friends, stage="network")).complete()[3].scene["sum table"]
+    )
     assert isinstance(table, Table)
     assert table.rows[0][0].startswith("node actor ")
 
 
-@pytest.mark.parametrize("stage", ["graph", "matrix", "spectrum", "cut", "heat", "smooth", "network", "training"])
+@pytest.mark.parametrize(
+    "stage", ["graph", "matrix", "spectrum", "cut", "heat", "smooth", "network", "training"]
+)
 def test_every_stage_takes_an_own_graph(friends, stage):
     assert last(Params(edges=friends, stage=stage, steps=3)).last
 
 
 def test_an_own_mesh_is_welded_and_made_two_metres_long(tmp_path):
     ball = trimesh.creation.icosphere(2)
-    soup = trimesh.Trimesh(ball.triangles.reshape(-1, 3), np.arange(3 * len(ball.faces)).reshape(-1, 3), process=False)
+    soup = trimesh.Trimesh(
+        ball.triangles.reshape(-1, 3), np.arange(3 * len(ball.faces)).reshape(-1, 3), process=False
+    )
     soup.export(tmp_path / "ball.stl")
-    state = last(Params(mesh=tmp_path / "ball.stl", stage="spectrum", laplacian="cotangent", modes=9))
+    state = last(
+        Params(mesh=tmp_path / "ball.stl", stage="spectrum", laplacian="cotangent", modes=9)
+    )
     assert len(state.subject.p) == len(ball.vertices)
     assert np.ptp(state.subject.p, axis=0).max() == pytest.approx(2)
     assert isinstance(state.now, Mode)
@@ -84,7 +101,7 @@ def test_what_is_refused(tmp_path, friends):
             next(lesson.run(params))
 
 
-# real data ------------------------------------------------------------------------------------------------------------
+# real data ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("name", "genus"), [("bunny", 0), ("fertility", 4)])
@@ -107,7 +124,8 @@ def test_a_scanned_mesh_is_cut_and_smoothed(shared_data):
     now = cut_of(Params(mesh=mesh))
     assert now.conductance == now.conductances.min() < 0.05
     shrunk, kept = (
-        measures.volume_share(last(Params(mesh=mesh, stage="smooth", filter=how))) for how in ("laplace", "taubin")
+        measures.volume_share(last(Params(mesh=mesh, stage="smooth", filter=how)))
+        for how in ("laplace", "taubin")
     )
     assert shrunk == pytest.approx(0.66, abs=0.03)
     assert kept == pytest.approx(1.01, abs=0.02)

@@ -6,15 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.learning.lesson import lesson, run
+from lessons.learning.lesson import draw, lesson, run
 from lessons.learning.presets import RABBIT
 from lessons.learning.state import Params
 from tests.runs import finished
 from tests.truths.learning import farthest, folded, named, overlap, radii, wrong_by
-from workbench.geometry.rotation_outputs import rotation_from_six
-from workbench.geometry.shape_distances import chamfer_gradient
+from workbench.certain import as_a
+from workbench.geometry.motions.rotation_outputs import rotation_from_six
+from workbench.geometry.points.shape_distances import chamfer_gradient
 from workbench.knobs import fields_of
-from workbench.scene import Mesh, caption_of
+from workbench.scene import Mesh, Points, caption_of
 
 
 def states(params: Params) -> tuple[Any, ...]:
@@ -26,7 +27,7 @@ def end(name: str) -> Any:
 
 
 def tone(state: Any) -> str:
-    return caption_of(lesson.draw(state)).tone
+    return caption_of(draw(state)).tone
 
 
 def last_of(params: Params, **slots: Any) -> Any:
@@ -34,7 +35,7 @@ def last_of(params: Params, **slots: Any) -> Any:
     return last
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_the_default_run_learns_every_angle():
@@ -64,13 +65,18 @@ def test_half_the_angle_is_cut_as_well_and_a_loss_that_knows_turns_only_moves_th
 
 
 def test_more_updates_make_the_cut_narrower_not_lower():
-    few, many = wrong_by(end("cut")), wrong_by(last_of(replace(lesson.preset("cut").params, updates=1200)))
+    few, many = (
+        wrong_by(end("cut")),
+        wrong_by(last_of(replace(lesson.preset("cut").params, updates=1200))),
+    )
     assert (many > 20).mean() < (few > 20).mean()
     assert many.max() > 150
 
 
 def test_rotations_by_six_and_nine_numbers_have_no_cut():
-    six, nine, four, three = (wrong_by(end(name)) for name in ("rotation", "nine", "quaternion", "euler"))
+    six, nine, four, three = (
+        wrong_by(end(name)) for name in ("rotation", "nine", "quaternion", "euler")
+    )
     assert six.mean() == pytest.approx(1.25, abs=0.005)
     assert six.max() == pytest.approx(3.6, abs=0.05)
     assert nine.mean() == pytest.approx(1.05, abs=0.005)
@@ -90,7 +96,11 @@ def test_quaternions_are_cut_where_their_sign_is_asked_for():
 
 def test_quaternions_are_not_worse_where_turns_stay_small():
     small = [
-        wrong_by(last_of(Params(task="rotation", rotation=rotation, loss="matrix", largest=90.0, updates=400)))
+        wrong_by(
+            last_of(
+                Params(task="rotation", rotation=rotation, loss="matrix", largest=90.0, updates=400)
+            )
+        )
         for rotation in ("quaternion", "6D")
     ]
     assert small[0].max() < 1.5 * small[1].max()
@@ -118,7 +128,7 @@ def test_without_a_regulariser_a_mesh_is_nearer_to_the_data_and_farther_from_the
 
 
 def test_the_true_surface_stands_beside_the_fitted_mesh():
-    scene = lesson.draw(end("smooth"))
+    scene = draw(end("smooth"))
     true, fitted = scene["true"], scene["mesh"]
     assert isinstance(true, Mesh)
     assert isinstance(fitted, Mesh)
@@ -129,13 +139,18 @@ def test_the_true_surface_stands_beside_the_fitted_mesh():
 
 
 def test_a_laplacian_of_a_hundred_is_too_much():
-    assert last_of(Params(task="mesh", laplacian=100.0)).now.to_truth > 1.3 * end("smooth").now.to_truth
+    assert (
+        last_of(Params(task="mesh", laplacian=100.0)).now.to_truth
+        > 1.3 * end("smooth").now.to_truth
+    )
 
 
 def test_a_pooled_network_does_not_know_the_order_of_points():
     state = end("pooled")
     plain, changed = (state.now.scores[name] for name in ("plain", "changed"))
-    rounding = 100 * np.finfo(np.float32).eps * np.abs(plain).max()  # a product's last rows are summed in another order
+    rounding = (
+        100 * np.finfo(np.float32).eps * np.abs(plain).max()
+    )  # a product's last rows are summed in another order
     np.testing.assert_allclose(changed, plain, rtol=0, atol=rounding)
     assert named(state, "plain") > 0.9
     listed = end("listed")
@@ -146,9 +161,13 @@ def test_a_pooled_network_does_not_know_the_order_of_points():
 def test_critical_points_alone_give_the_same_answer():
     state = end("pooled")
     network = state.now.network
-    for cloud, kept in zip(state.about.plain[:10], network.critical(state.about.plain[:10]), strict=True):
+    for cloud, kept in zip(
+        state.about.plain[:10], network.critical(state.about.plain[:10]), strict=True
+    ):
         assert len(kept) < len(cloud)
-        np.testing.assert_array_equal(network(cloud[kept][None]).argmax(), network(cloud[None]).argmax())
+        np.testing.assert_array_equal(
+            network(cloud[kept][None]).argmax(), network(cloud[None]).argmax()
+        )
 
 
 def test_one_stray_point_ruins_the_maximum_and_hardly_the_mean():
@@ -175,7 +194,7 @@ def test_two_photographs_are_matched_better_than_many_and_show_less():
     assert (tone(two), tone(many)) == ("wrong", "good")
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -192,7 +211,7 @@ def test_answers(name, low, high):
     assert low <= question.answer(states(question.params)) <= high
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def test_a_mirrored_rotation_is_never_learned():
@@ -208,7 +227,10 @@ def test_a_reversed_gradient_drives_the_points_away():
     away = last_of(params, chamfer_gradient=lambda p, q: -chamfer_gradient(p, q))
     assert radii(away).mean() > radii(last_of(params)).mean() + 0.1
     mesh = replace(lesson.preset("spikes").params, updates=8)
-    assert last_of(mesh, chamfer_gradient=lambda p, q: -chamfer_gradient(p, q)).now.loss > last_of(mesh).now.loss
+    assert (
+        last_of(mesh, chamfer_gradient=lambda p, q: -chamfer_gradient(p, q)).now.loss
+        > last_of(mesh).now.loss
+    )
 
 
 def test_weights_that_hide_nothing_spoil_the_field():
@@ -219,10 +241,13 @@ def test_weights_that_hide_nothing_spoil_the_field():
 
 def test_whatever_is_clicked_on_is_looked_at():
     knob = next(field.knob for field in fields_of(Params) if field.name == "picked")
-    counts = [len(lesson.draw(next(run(Params(task=task))))["inputs"].p) for task in ("angle", "rotation", "field")]  # type: ignore[union-attr]
+    counts = [
+        len(as_a(Points, draw(next(run(Params(task=task))))["inputs"]).p)
+        for task in ("angle", "rotation", "field")
+    ]
     assert knob.high == max(counts) - 1
     for task, count in zip(("angle", "rotation"), counts, strict=False):
-        scene = lesson.draw(next(run(Params(task=task, picked=count - 1))))
+        scene = draw(next(run(Params(task=task, picked=count - 1))))
         np.testing.assert_allclose(scene["picked"].p[0][:2], scene["inputs"].p[-1][:2])  # type: ignore[union-attr]
 
 

@@ -1,4 +1,6 @@
-"""Own meshes in the learning lesson: a real one, their unit and upward axis, and files that must be refused."""
+"""Own meshes in the learning lesson: a real one, their unit and upward axis, and files that must be
+refused.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -49,7 +51,10 @@ def test_a_mesh_of_any_unit_is_brought_to_the_size_of_the_scene(box):
 
 
 def test_an_own_mesh_stands_as_it_is_told(box):
-    tall = {up: int(np.ptp(own(box, updates=1, up=up, noise=0.0)[0].about.given, axis=0).argmax()) for up in ("y", "z")}
+    tall = {
+        up: int(np.ptp(own(box, updates=1, up=up, noise=0.0)[0].about.given, axis=0).argmax())
+        for up in ("y", "z")
+    }
     assert tall["z"] == 2
     assert tall["y"] != 2
 

@@ -6,15 +6,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.measures.lesson import lesson, run
+from lessons.measures.lesson import draw, lesson, run
 from lessons.measures.state import Params, State
 from lessons.measures.subjects import built_in
 from tests.runs import finished
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Balls, Lines, Sampled, Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Balls, Lines, Sampled, Throws
 from workbench.errors import InputError
-from workbench.geometry.measures import area_centroid, signed_volume, volume_centroid
-from workbench.geometry.sampling import volume_by_chance
+from workbench.geometry.meshes.measures import area_centroid, signed_volume, volume_centroid
+from workbench.geometry.points.sampling import volume_by_chance
 from workbench.scene import caption_of
 
 
@@ -44,10 +44,10 @@ def cells_of(name: str) -> tuple[State, Cells]:
 
 
 def tone(name: str) -> str:
-    return caption_of(lesson.draw(whole(of(name))[0])).tone
+    return caption_of(draw(whole(of(name))[0])).tone
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_the_sum_falls_below_zero_and_comes_back():
@@ -58,7 +58,7 @@ def test_the_sum_falls_below_zero_and_comes_back():
     state, now = whole(found)
     assert state.volume_error == pytest.approx(0, abs=1e-12)
     assert now.area == pytest.approx(6.888, abs=1e-3)
-    assert caption_of(lesson.draw(state)).tone == "good"
+    assert caption_of(draw(state)).tone == "good"
     minus = found[8].now.parts[found[8].now.order[: found[8].now.count]] < 0
     assert minus.mean() > 0.6
 
@@ -110,8 +110,9 @@ def test_an_inscribed_sphere_is_too_small_with_the_square_of_the_edges():
     state, _ = whole(of("inscribed"))
     assert len(state.subject.p) == 642
     assert (state.area_error, state.volume_error) == (
-        pytest.approx(-0.0048, abs=1e-4), pytest.approx(-0.0086, abs=1e-4)
-    )  # fmt: skip
+        pytest.approx(-0.0048, abs=1e-4),
+        pytest.approx(-0.0086, abs=1e-4),
+    )
     study = of("inscribed")[-1].study
     assert study is not None
     for errors in study.errors.values():
@@ -125,7 +126,10 @@ def test_the_volume_of_voxels_converges_and_the_area_does_not():
     shares = np.array(now.areas) / state.subject.area
     np.testing.assert_allclose(shares[3:], 1.5, atol=0.02)
     np.testing.assert_allclose(np.array(now.marched)[4:] / state.subject.area, 1.087, atol=0.01)
-    off = [[s.volume_error for s in states(replace(state.params, seed=seed, cells=16))][-1] for seed in range(6)]
+    off = [
+        [s.volume_error for s in states(replace(state.params, seed=seed, cells=16))][-1]
+        for seed in range(6)
+    ]
     assert np.sqrt(np.mean(np.square(off))) < 0.01
 
 
@@ -159,7 +163,9 @@ def test_intervals_hold_the_truth_about_as_often_as_they_say():
     held = []
     for seed in range(60):
         last = last_of(Params(method="chance", shape="sphere", seed=seed))
-        held.append(abs(last.volume_error * last.subject.volume) <= 1.96 * last.now.estimates.errors[-1])
+        held.append(
+            abs(last.volume_error * last.subject.volume) <= 1.96 * last.now.estimates.errors[-1]
+        )
     assert 0.87 <= np.mean(held) <= 1.0
 
 
@@ -176,7 +182,10 @@ def test_who_looks_at_every_step_sees_the_truth_outside_in_most_runs():
     now, at_any_step = of("throws")[-1].peeked
     assert now == pytest.approx(0.05, abs=0.01)
     assert at_any_step == pytest.approx(ever / 120, abs=0.05)
-    assert "56 % missed it at one or more of the 33 looks" in finished("measures", params)[-1].caption.text
+    assert (
+        "56 % missed it at one or more of the 33 looks"
+        in finished("measures", params)[-1].caption.text
+    )
     assert of("sobol")[-1].peeked is None
 
 
@@ -227,7 +236,11 @@ def test_faces_alike_pull_the_mean_to_the_small_faces():
     ],
 )
 def test_quarters_of_a_triangle(place, shares):
-    found = [state for state in run(Params(method="samples", place=place, throws=100)) if state.in_triangle]
+    found = [
+        state
+        for state in run(Params(method="samples", place=place, throws=100))
+        if state.in_triangle
+    ]
     np.testing.assert_allclose(found[-1].quarters, shares, atol=0.025)
 
 
@@ -238,7 +251,7 @@ def test_lines_tell_the_area():
     assert last.now.estimates.errors[-1] / last.subject.area == pytest.approx(0.023, abs=0.002)
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -266,12 +279,16 @@ def test_answers_are_read_off_the_run():
     assert asked["predict-hits"].answer(low) == 0
 
 
-# the page and the knobs -----------------------------------------------------------------------------------------------
+# the page and the knobs ---------------------------------------------------------------------------
 
 
 def test_three_middles_are_three_points():
     rabbit = built_in("rabbit", 0, 4, 4)
-    middles = rabbit.p.mean(axis=0), area_centroid(rabbit.p, rabbit.faces), volume_centroid(rabbit.p, rabbit.faces)
+    middles = (
+        rabbit.p.mean(axis=0),
+        area_centroid(rabbit.p, rabbit.faces),
+        volume_centroid(rabbit.p, rabbit.faces),
+    )
     gaps = [np.linalg.norm(middles[k] - middles[k - 1]) / rabbit.diagonal for k in range(3)]
     assert min(gaps) > 0.002
     assert max(gaps) > 0.03
@@ -292,16 +309,18 @@ def test_every_grid_begins_elsewhere_and_its_cells_are_halved_every_second_step(
     assert len(np.unique(starts[:, 0])) == len(starts)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def test_slots_drive_the_run():
     last = last_of(Params(), signed_volume=lambda p, faces: 42.0)
     assert last.now.volume == 42.0
-    assert caption_of(lesson.draw(last)).tone == "wrong"
+    assert caption_of(draw(last)).tone == "wrong"
     last = last_of(Params(method="chance"), volume_by_chance=lambda inside, box: (2.0, 0.5))
     assert (last.now.estimates.values[-1], last.now.estimates.errors[-1]) == (2.0, 0.5)
-    first, *_ = run(Params(method="samples"), points_on_faces=lambda p, faces, u: np.tile(p[0], (len(u), 1)))
+    first, *_ = run(
+        Params(method="samples"), points_on_faces=lambda p, faces, u: np.tile(p[0], (len(u), 1))
+    )
     np.testing.assert_allclose(first.quarters, [1, 0, 0, 0], atol=1e-9)
 
 

@@ -1,4 +1,6 @@
-"""Own meshes and voxels in the measures lesson: their units, what is said of open ones, and which files are refused."""
+"""Own meshes and voxels in the measures lesson: their units, what is said of open ones, and which
+files are refused.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -7,11 +9,11 @@ import numpy as np
 import pytest
 import trimesh
 
-from lessons.measures.lesson import lesson, run
+from lessons.measures.lesson import draw, run
 from lessons.measures.state import Params
 from workbench.data.files import read_mesh, read_voxels
 from workbench.errors import InputError
-from workbench.geometry.measures import area_centroid
+from workbench.geometry.meshes.measures import area_centroid
 from workbench.scene import Mesh, caption_of
 
 
@@ -22,7 +24,9 @@ def last_of(params: Params) -> Any:
 
 @pytest.fixture(scope="module")
 def cow(tmp_path_factory) -> Path:
-    """A closed mesh in millimetres, far from its origin, as files have it: every face with corners of its own."""
+    """A closed mesh in millimetres, far from its origin, as files have it: every face with corners
+    of its own.
+    """
     path = tmp_path_factory.mktemp("own") / "cow.stl"
     ball = trimesh.creation.icosphere(3, 40.0)
     ball.apply_translation([500, 20, 900])
@@ -34,10 +38,10 @@ def test_numbers_are_in_the_unit_of_the_file(cow):
     last = last_of(Params(mesh=cow, unit="mm"))
     assert last.now.volume == pytest.approx(4 / 3 * np.pi * 40**3, rel=0.01)
     assert last.volume_error == pytest.approx(0, abs=1e-9)
-    caption = caption_of(lesson.draw(last))
+    caption = caption_of(draw(last))
     assert caption.tone == "good"
     assert " mm³ (exact)" in caption.text
-    surface = lesson.draw(last)["surface"]
+    surface = draw(last)["surface"]
     assert isinstance(surface, Mesh)
     shown = surface.p
     assert np.ptp(shown, axis=0).max() == pytest.approx(2.0)
@@ -51,7 +55,7 @@ def test_every_method_takes_it(cow, method):
         assert abs(last.volume_error) < 0.06
     if method == "lines":
         assert abs(last.area_error) < 0.1
-    assert caption_of(lesson.draw(last)).text
+    assert caption_of(draw(last)).text
 
 
 def test_an_open_mesh_has_no_volume_of_its_own(tmp_path):
@@ -59,8 +63,8 @@ def test_an_open_mesh_has_no_volume_of_its_own(tmp_path):
     ball.update_faces(np.arange(len(ball.faces)) > 5)
     ball.export(tmp_path / "open.ply")
     first, *_, last = run(Params(mesh=tmp_path / "open.ply"))
-    assert "no volume is its own" in caption_of(lesson.draw(first)).text
-    assert "encloses nothing" in caption_of(lesson.draw(last)).text
+    assert "no volume is its own" in caption_of(draw(first)).text
+    assert "encloses nothing" in caption_of(draw(last)).text
     with pytest.raises(InputError, match="open"):
         last_of(Params(mesh=tmp_path / "open.ply", method="chance"))
 
@@ -70,14 +74,19 @@ def test_faces_that_disagree_are_told(tmp_path):
     ball.faces[:9] = ball.faces[:9, ::-1]
     trimesh.Trimesh(ball.vertices, ball.faces, process=False).export(tmp_path / "turned.ply")
     first, *_ = run(Params(mesh=tmp_path / "turned.ply"))
-    assert "disagree which side is outside" in caption_of(lesson.draw(first)).text
+    assert "disagree which side is outside" in caption_of(draw(first)).text
 
 
-# real meshes ----------------------------------------------------------------------------------------------------------
+# real meshes --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("name", "hull"), [("curvature/bunny.off", 1.66), ("curvature/fertility.off", None), ("shapes/bunny_npm.ply", None)]
+    ("name", "hull"),
+    [
+        ("curvature/bunny.off", 1.66),
+        ("curvature/fertility.off", None),
+        ("shapes/bunny_npm.ply", None),
+    ],
 )
 def test_scans_are_what_trimesh_says(shared_data, name, hull):
     path = shared_data / name
@@ -107,10 +116,10 @@ def test_the_bunny_by_voxels_and_by_lines(shared_data):
 def test_the_teapot_is_open(shared_data):
     first, *_, last = run(Params(mesh=shared_data / "shapes/teapot_npm.ply"))
     assert np.isnan(last.subject.volume)
-    assert "no volume is its own" in caption_of(lesson.draw(first)).text
+    assert "no volume is its own" in caption_of(draw(first)).text
 
 
-# voxels ---------------------------------------------------------------------------------------------------------------
+# voxels -------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -125,7 +134,9 @@ def organ(tmp_path_factory) -> Path:
 
 
 def test_one_label_is_measured_with_its_spacing(organ):
-    last = last_of(Params(voxels=organ, spacing=(1.0, 1.0, 2.0), label=3, unit="mm", method="voxels"))
+    last = last_of(
+        Params(voxels=organ, spacing=(1.0, 1.0, 2.0), label=3, unit="mm", method="voxels")
+    )
     labels = read_voxels(organ)
     assert last.subject.volume == pytest.approx(2.0 * (labels == 3).sum())
     assert last.now.volumes[-1] == last.subject.volume
@@ -133,7 +144,7 @@ def test_one_label_is_measured_with_its_spacing(organ):
     assert 1.3 < last.now.areas[-1] / (4 * np.pi * 12**2) < 1.6
     assert 1.0 < last.now.marched[-1] / (4 * np.pi * 12**2) < 1.15
     assert last.now.across == (3, 6, 11, 23)
-    assert " mm³" in caption_of(lesson.draw(last)).text
+    assert " mm³" in caption_of(draw(last)).text
 
 
 def test_its_surface_is_measured_by_faces_too(organ):
@@ -155,7 +166,11 @@ def test_all_labels_together(organ):
         ({"labels": np.ones((3, 3, 3), np.uint8)}, 9, "no voxel has the label 9; there are 1"),
         ({"labels": np.zeros((3, 3, 3), bool)}, 0, "none but 0"),
         ({"labels": np.ones((3, 3))}, 0, "no array of three axes"),
-        ({"a": np.ones((3, 3, 3), bool), "b": np.ones((2, 2, 2), bool)}, 0, "2 arrays of three axes"),
+        (
+            {"a": np.ones((3, 3, 3), bool), "b": np.ones((2, 2, 2), bool)},
+            0,
+            "2 arrays of three axes",
+        ),
         ({"labels": np.ones((3, 3, 3))}, 0, "no array of three axes"),
     ],
 )

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 import trimesh
 
-from lessons.alignment.lesson import lesson as alignment
-from lessons.alignment.scans import scans_of
+from lessons.axes.lesson import lesson as axes
+from lessons.axes.scans import scans_of
 from lessons.graphs.presets import BALL, VIEW
-from workbench.data.clouds import pair
+from workbench.data.shapes.clouds import pair
 from workbench.geometry.motions import exp_so3, motion
 from workbench.knobs import fields_of
 from workbench.lesson import course
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 CARS = Path(__file__).resolve().parents[3] / "shared" / "data" / "icp" / "car_cloud400.csv"
 
@@ -47,11 +47,15 @@ def test_pose_says_which_camera_is_taken(tmp_path):
     uv = np.add(600 * p[:, :2] / p[:, 2:], (319.5, 239.5))
     np.savetxt(tmp_path / "own.txt", np.hstack([p, uv]))
     asked, *_, end = captions("pose", sightings=tmp_path / "own.txt")
-    assert end.endswith("f = 800 px is a guess: set your camera's.")  # runs open past the first step
+    assert end.endswith(
+        "f = 800 px is a guess: set your camera's."
+    )  # runs open past the first step
     assert "What is its focal length? Until you set it, 800 px is taken as a guess" in asked
     said, *others = captions("pose", sightings=tmp_path / "own.txt", focal=600.0)
     assert not any("guess" in text for text in others)
-    assert "with the focal length that you say, 600 px, and the principal point (319.5, 239.5)" in said
+    assert (
+        "with the focal length that you say, 600 px, and the principal point (319.5, 239.5)" in said
+    )
     hint = {field.name: field.knob.hint for field in fields_of(course()["pose"].params)}["focal"]
     assert "800 px is a guess until you give yours" in hint
 
@@ -72,6 +76,10 @@ def test_a_few_far_points_push_no_cloud_out_of_the_picture(tmp_path):
     np.save(tmp_path / "own.npy", p)
     files = [tmp_path / "own.npy", *([CARS] if CARS.is_file() else [])]
     for file in files:
-        scans = scans_of(replace(alignment.params(), source=file))
-        middle = (np.median(scans.p_target[:, 0]) + scans.T_world_target[0, 3] + np.median(scans.p_source[:, 0])) / 2
-        assert middle == pytest.approx(alignment.view.target[0], abs=0.15)
+        scans = scans_of(replace(axes.params(), source=file))
+        middle = (
+            np.median(scans.p_target[:, 0])
+            + scans.T_world_target[0, 3]
+            + np.median(scans.p_source[:, 0])
+        ) / 2
+        assert middle == pytest.approx(axes.view.target[0], abs=0.15)

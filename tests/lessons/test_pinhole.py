@@ -1,10 +1,13 @@
-"""Each promise of the pinhole lesson, in numbers: presets, questions, page, and the functions that drive it."""
+"""Each promise of the pinhole lesson, in numbers: presets, questions, page, and the functions that
+drive it.
+"""
 
 import dataclasses
 
 import numpy as np
 import pytest
 
+from lessons.pinhole import following as pinhole
 from lessons.pinhole import presets
 from lessons.pinhole.captions import back_error, blame, depth
 from lessons.pinhole.lesson import lesson
@@ -13,23 +16,29 @@ from lessons.pinhole.shot import FACTORS, shot_of
 from lessons.pinhole.state import Params
 from tests.lessons.pinhole_runs import orange, preset, states, tone
 from tests.runs import finished
-from workbench.algorithms import pinhole
-from workbench.data.street import BALL_CENTER, street
+from workbench.data.views.street import BALL_CENTER, street
 from workbench.errors import InputError
 from workbench.geometry.cameras import camera_center, depths, intrinsics, project, vanishing_points
-from workbench.geometry.distortion import distort, invertible_radius
+from workbench.geometry.cameras.distortion import distort, invertible_radius
 from workbench.geometry.motions import apply, inverse
 from workbench.knobs import fields_of
-from workbench.picking import picked
+from workbench.run.picking import picked
+from workbench.run.timeline import Timeline
 from workbench.scene import PALETTE, Label, Picture, Points, Segments
-from workbench.timeline import Timeline
 
 # The default run
 
 
 def test_the_default_run_is_right_at_every_stage():
     run_ = states(Params())
-    assert [state.now.stage for state in run_] == ["world", "camera", "divide", "distort", "pixels", "back"]
+    assert [state.now.stage for state in run_] == [
+        "world",
+        "camera",
+        "divide",
+        "distort",
+        "pixels",
+        "back",
+    ]
     for state in run_[DIVIDE:]:
         assert state.error < 1e-9
         assert state.missed == state.false == 0
@@ -63,16 +72,20 @@ def test_the_lens_moves_points_up_to_12_px():
 def test_the_calculated_outlines_lie_on_the_photograph():
     """The corners' true pixels are orange: photograph, lens and calculation agree."""
     state = states(Params())[PIXELS]
-    u, v = np.rint(project(street().edges[:, 0], state.shot.T_camera_world, state.shot.K, state.shot.lens)).T.astype(
-        int
-    )
-    hit = [orange(state.picture)[b - 1 : b + 2, a - 1 : a + 2].any() for a, b in zip(u, v, strict=True)]
+    u, v = np.rint(
+        project(street().edges[:, 0], state.shot.T_camera_world, state.shot.K, state.shot.lens)
+    ).T.astype(int)
+    hit = [
+        orange(state.picture)[b - 1 : b + 2, a - 1 : a + 2].any() for a, b in zip(u, v, strict=True)
+    ]
     assert np.mean(hit) > 0.95
 
 
 @pytest.mark.parametrize("k", [DIVIDE, DISTORT])
 def test_outlines_and_dots_agree_at_every_stage(k):
-    """They were those of the whole calculation, 12 px from the dots, before the lens had bent anything."""
+    """They were those of the whole calculation, 12 px from the dots, before the lens had bent
+    anything.
+    """
     timeline = finished(lesson.name, Params())
     state, scene = timeline[k].state, timeline[k].scene
     picture, dots = scene["picture"], scene["plane"]
@@ -80,13 +93,17 @@ def test_outlines_and_dots_agree_at_every_stage(k):
     assert isinstance(dots, Points)
     eye = np.array(lesson.view.eye)
     pixels = [picked(picture, eye, place - eye) for place in dots.p]
-    inside = [one for one in pixels if isinstance(one, tuple) and 3 < one[0] < 316 and 3 < one[1] < 236]
+    inside = [
+        one for one in pixels if isinstance(one, tuple) and 3 < one[0] < 316 and 3 < one[1] < 236
+    ]
     assert len(inside) > 60
     drawn = orange(state.picture) | (state.picture == PALETTE["highlight"]).all(axis=2)
     assert np.mean([drawn[v - 2 : v + 3, u - 2 : u + 3].any() for u, v in inside]) > 0.95
     if k == DIVIDE:  # against the photograph, which the lens has bent, they are off
         true = state.shot.uv[np.isfinite(state.shot.uv).all(axis=1)]
-        ideal = pinhole.onto_pixels(state.now.xy, state.shot.K)[np.isfinite(state.shot.uv).all(axis=1)]
+        ideal = pinhole.onto_pixels(state.now.xy, state.shot.K)[
+            np.isfinite(state.shot.uv).all(axis=1)
+        ]
         assert np.linalg.norm(true - ideal, axis=1).max() > 11
 
 
@@ -151,7 +168,10 @@ def test_dolly_keeps_the_crate_and_nearly_doubles_the_tower():
 
 
 def test_doubling_f_doubles_every_distance_from_the_principal_point():
-    near, far = states(dataclasses.replace(presets.ZOOM, f=presets.ZOOM.f / 2))[-1], preset("zoom")[-1]
+    near, far = (
+        states(dataclasses.replace(presets.ZOOM, f=presets.ZOOM.f / 2))[-1],
+        preset("zoom")[-1],
+    )
     c = far.shot.K[:2, 2]
     np.testing.assert_allclose(far.now.uv - c, 2 * (near.now.uv - c), atol=1e-9)
     np.testing.assert_allclose(far.now.xy, near.now.xy, atol=1e-12)
@@ -172,11 +192,15 @@ def test_rails_meet_where_the_formula_says_wherever_the_camera_stands():
     run_ = preset("rails")
     shot = run_[-1].shot
     far = np.array([[x, 1e7, 0.06] for x in (-0.75, 0.75)])
-    np.testing.assert_allclose(project(far, shot.T_camera_world, shot.K), [shot.vanishing] * 2, atol=1e-3)
+    np.testing.assert_allclose(
+        project(far, shot.T_camera_world, shot.K), [shot.vanishing] * 2, atol=1e-3
+    )
     assert abs(presets.shift_of_vanishing(run_)) < 1e-9
     moved = shot.T_camera_world.copy()
     moved[:3, 3] = (7.0, -3.0, 2.0)
-    np.testing.assert_allclose(vanishing_points(np.array([[0.0, 1, 0]]), moved, shot.K)[0], shot.vanishing)
+    np.testing.assert_allclose(
+        vanishing_points(np.array([[0.0, 1, 0]]), moved, shot.K)[0], shot.vanishing
+    )
     assert (shot.vanishing > 0).all()
     assert (shot.vanishing < [320, 240]).all()
 
@@ -237,7 +261,9 @@ def test_beyond_the_fold_there_is_no_pixel():
     r = np.linalg.norm(run_[DIVIDE].now.xy, axis=1)
     np.testing.assert_array_equal(np.isfinite(run_[PIXELS].now.uv).all(axis=1), r < fold)
     folded = distort(run_[DIVIDE].now.xy, *run_[0].shot.lens)[r > fold]
-    assert (np.abs(folded * 200) < [160, 120]).all(axis=1).any()  # it would have landed in the picture
+    assert (
+        (np.abs(folded * 200) < [160, 120]).all(axis=1).any()
+    )  # it would have landed in the picture
 
 
 def test_a_lamp_behind_gets_a_pixel_well_inside_only_if_divided_anyway():
@@ -304,7 +330,9 @@ def test_a_forgotten_k_is_shifted_and_twice_too_large():
 
 
 def test_the_edited_photograph_is_the_one_its_k_describes():
-    """Corners of the outline, drawn by the edited K, lie where the halved photograph has its own edges."""
+    """Corners of the outline, drawn by the edited K, lie where the halved photograph has its own
+    edges.
+    """
     full, half = shot_of(Params()), shot_of(presets.CROP_RIGHT)
     np.testing.assert_allclose((half.uv + 0.5) * 2 - 0.5 + [60, 40], full.uv)
     blocks = full.picture[40:, 60:].reshape(100, 2, 130, 2, 3).mean(axis=(1, 3))
@@ -337,10 +365,15 @@ def test_a_preset_tells_its_mistake_where_it_shows_and_only_then_and_calmly(name
     params = lesson.preset(name).params
     timeline = Timeline(lesson, params).complete()
     assert {step.caption.tone for step in timeline.known()} == {"info"}
-    told = [blame(step.state) in step.caption.text and bool(blame(step.state)) for step in timeline.known()]
+    told = [
+        blame(step.state) in step.caption.text and bool(blame(step.state))
+        for step in timeline.known()
+    ]
     broken = params.mistake != "none" or not params.k_follows
     assert any(told) == broken
-    assert told[lesson.preset(name).step or 0] == (broken and name != "behind")  # asked about: it shows a step later
+    assert told[lesson.preset(name).step or 0] == (
+        broken and name != "behind"
+    )  # asked about: it shows a step later
     assert max(len(step.caption.text) for step in timeline.known()) <= 400
 
 
@@ -424,7 +457,9 @@ def test_the_text_of_the_centre_question_states_the_t_of_its_camera():
     question = next(question for question in lesson.questions if question.name == "predict-centre")
     T = shot_of(question.params).T_camera_world
     assert "(" + ", ".join(f"{x:.2f}" for x in T[:3, 3]).replace("-", "−") + ")" in question.text
-    assert question.params.camera != Params().camera  # which stands on the knobs beside the question
+    assert (
+        question.params.camera != Params().camera
+    )  # which stands on the knobs beside the question
     np.testing.assert_allclose(camera_center(T), question.params.camera)
     assert "C = −Rᵀt = (2.00, −4.00, 2.50) m" in question.why(states(question.params))
     assert f"{np.linalg.norm(T[:3, 3]):.2f} m long" in question.why(states(question.params))

@@ -11,9 +11,9 @@ from lessons.pinhole.shot import shot_of
 from lessons.pinhole.state import Mistake, Params
 from tests.lessons.pinhole_runs import orange, states, tone
 from workbench.geometry.cameras import camera_center, project
-from workbench.geometry.distortion import distort
+from workbench.geometry.cameras.distortion import distort
+from workbench.run.timeline import Timeline
 from workbench.scene import Segments
-from workbench.timeline import Timeline
 
 # Awkward places
 
@@ -128,5 +128,7 @@ def test_rays_of_the_division_start_in_the_camera():
     timeline = Timeline(lesson, Params()).complete()
     rays = timeline[DIVIDE].scene["rays"]
     assert isinstance(rays, Segments)
-    np.testing.assert_allclose(rays.ends[:, 0], np.tile(Params().camera, (len(rays.ends), 1)), atol=1e-9)
+    np.testing.assert_allclose(
+        rays.ends[:, 0], np.tile(Params().camera, (len(rays.ends), 1)), atol=1e-9
+    )
     assert len(rays.ends) == 83

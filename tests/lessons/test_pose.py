@@ -6,17 +6,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.pose.lesson import lesson, run
+from lessons.pose.lesson import draw, lesson, run
 from lessons.pose.presets import FEW, HALF, PLANE, TILTED, needed
 from lessons.pose.scenes import subject_of
 from lessons.pose.state import Params, Repeated
 from lessons.pose.trials import TRIPLES
 from tests.runs import finished
 from tests.truths.pose import centre, is_near, off, pixels_off, rms, share_near
-from workbench.algorithms import ransac
-from workbench.algorithms.camera_search import Searched
+from workbench.algorithms.cameras.camera_search import Searched
+from workbench.algorithms.robust import ransac
 from workbench.errors import InputError
-from workbench.geometry.alignment import degrees_between
+from workbench.geometry.motions.alignment import degrees_between
 from workbench.scene import Camera, Classes, Curve, Picture, Points, Segments, caption_of
 
 
@@ -42,7 +42,7 @@ def errors_of(state: Any) -> list[float]:
     return [rms(pixels_off(T, state.subject)) for T in state.now.candidates]
 
 
-# presets --------------------------------------------------------------------------------------------------------------
+# presets ------------------------------------------------------------------------------------------
 
 
 def test_the_default_run_ends_near_the_truth():
@@ -73,8 +73,10 @@ def test_four_cameras_see_one_picture():
         for b in state.now.candidates[:k]
     ]
     assert min(apart) > 1
-    drawn = lesson.draw(state)
-    assert sum(isinstance(one, Camera) for one in drawn.values()) == 5  # with the true one, on which one of them stands
+    drawn = draw(state)
+    assert (
+        sum(isinstance(one, Camera) for one in drawn.values()) == 5
+    )  # with the true one, on which one of them stands
 
 
 def test_on_the_danger_cylinder_noise_moves_the_answer_far():
@@ -90,7 +92,9 @@ def test_a_marker_has_two_poses_and_perspective_tells_them_apart():
     assert degrees_between(*both.now.candidates) == pytest.approx(80, abs=8)
     assert max(errors_of(both)) > 4 * min(errors_of(both))
     assert others(of("marker")).swapped == 0
-    assert 0.1 * both.subject.K[0, 0] / both.params.distance == pytest.approx(80)  # px, as its line says
+    assert 0.1 * both.subject.K[0, 0] / both.params.distance == pytest.approx(
+        80
+    )  # px, as its line says
 
 
 @pytest.mark.parametrize(("tilt", "low", "high"), [(40.0, 0.25, 0.6), (60.0, 0.25, 0.6)])
@@ -145,15 +149,18 @@ def test_the_street_is_known_by_its_map_and_seen_by_a_camera_in_it():
     assert np.ptp(subject.p_shown @ subject.T_true[2, :3]) > 5  # metres of depth
     assert off(last.T, subject.T_true)[0] < 0.2
     assert share_near(others(found), subject) == 1
-    photograph = lesson.draw(found[0])["picture"]
+    photograph = draw(found[0])["picture"]
     assert isinstance(photograph, Picture)
-    assert len(np.unique(np.asarray(photograph.image).reshape(-1, 3), axis=0)) > 50  # the street, not a blank
+    assert (
+        len(np.unique(np.asarray(photograph.image).reshape(-1, 3), axis=0)) > 50
+    )  # the street, not a blank
     assert lesson.view_of(street()) != lesson.view
 
 
 def test_points_of_the_map_stay_while_the_camera_moves():
     here, there = (
-        set(map(tuple, subject_of(street(camera=at)).p_shown)) for at in ((0.0, -4.0, 2.0), (0.3, -4.0, 2.2))
+        set(map(tuple, subject_of(street(camera=at)).p_shown))
+        for at in ((0.0, -4.0, 2.0), (0.3, -4.0, 2.2))
     )
     assert len(here & there) > 15
     near, far = (subject_of(street(points=60, origin=at)).p_shown for at in (0.0, 100.0))
@@ -174,7 +181,10 @@ def test_the_street_has_its_points_wherever_the_camera_is():
 
 
 def test_knobs_of_the_method_find_the_street_photographed():
-    assert subject_of(street(method="SQPnP", refine=False)).photograph is subject_of(street()).photograph
+    assert (
+        subject_of(street(method="SQPnP", refine=False)).photograph
+        is subject_of(street()).photograph
+    )
 
 
 def test_epnp_on_four_points_may_end_in_a_wrong_mix():
@@ -187,7 +197,7 @@ def test_epnp_on_four_points_may_end_in_a_wrong_mix():
     assert 0.1 < epnp < 0.2
     assert sqpnp < 0.02
     assert others(states(replace(wrong.params, points=6))).far == (0.0, 0.0)
-    scene = lesson.draw(found[-1])
+    scene = draw(found[-1])
     for name, share in (("EPnP", epnp), ("SQPnP", sqpnp)):
         curve = scene[f"anew/{name}"]
         assert isinstance(curve, Curve)
@@ -199,7 +209,7 @@ def test_least_squares_believes_two_wrong_points():
     assert last.subject.given.is_outlier.sum() == 2
     right = ~last.subject.given.is_outlier
     assert np.median(pixels_off(last.T, last.subject)[right]) > 5  # the good ones suffer too
-    assert caption_of(lesson.draw(last)).tone == "wrong"
+    assert caption_of(draw(last)).tone == "wrong"
 
 
 def test_ransac_needs_few_hundred_samples_at_70_percent():
@@ -212,7 +222,7 @@ def test_ransac_needs_few_hundred_samples_at_70_percent():
     assert round(1 / 0.3**3) == 37  # what the line says
 
 
-# questions ------------------------------------------------------------------------------------------------------------
+# questions ----------------------------------------------------------------------------------------
 
 
 def answer(name: str) -> float:
@@ -224,7 +234,9 @@ def test_what_the_questions_answer():
     assert answer("predict-solutions") == 1  # two
     assert answer("predict-wrong") == pytest.approx(40, abs=12)
     assert answer("predict-samples") == 293
-    assert answer("predict-few") == 1  # also by OpenCV's EPnP, which is over 5° off in twice as many
+    assert (
+        answer("predict-few") == 1
+    )  # also by OpenCV's EPnP, which is over 5° off in twice as many
     assert states(FEW)[-1].now.far[0] == pytest.approx(0.13, abs=0.04)
     assert answer("predict-plane") == 2
     assert needed(states(HALF), 3) == 35  # as the question says
@@ -239,27 +251,31 @@ def test_two_is_the_commonest_count():
     np.testing.assert_allclose(counts / TRIPLES, [0, 0.03, 0.89, 0.003, 0.08], atol=0.02)
 
 
-# slots ----------------------------------------------------------------------------------------------------------------
+# slots --------------------------------------------------------------------------------------------
 
 
 def last_but(params: Params, **slots: Any) -> Any:
     found = list(run(params, **slots))
-    return next((s for s in found if isinstance(s.now, Searched) and s.now.phase == "stop"), found[-1])
+    return next(
+        (s for s in found if isinstance(s.now, Searched) and s.now.phase == "stop"), found[-1]
+    )
 
 
 def test_a_wrong_pose_from_distances_is_seen():
-    found = list(run(Params(), pose_from_distances=lambda p, rays, d: np.diag([1.0, 1.0, 1.0, 1.0])))
-    text = caption_of(lesson.draw(phase(tuple(found), "root"))).text
+    found = list(
+        run(Params(), pose_from_distances=lambda p, rays, d: np.diag([1.0, 1.0, 1.0, 1.0]))
+    )
+    text = caption_of(draw(phase(tuple(found), "root"))).text
     assert "from where they were seen" in text
     assert "exactly" not in text
     for broken in (np.full((4, 4), np.nan), np.zeros((4, 4)), 2 * np.eye(4)):
         for state in run(Params(), pose_from_distances=lambda p, rays, d, broken=broken: broken):
-            lesson.draw(state)
+            draw(state)
 
 
 def test_a_wrong_choice_is_seen():
     found = list(run(replace(Params(), refine=False), choose_pose=lambda Ts, p, xy: Ts[-1]))
-    assert caption_of(lesson.draw(phase(tuple(found), "choose"))).tone == "wrong"
+    assert caption_of(draw(phase(tuple(found), "choose"))).tone == "wrong"
 
 
 def test_a_wrong_step_is_seen():
@@ -268,16 +284,18 @@ def test_a_wrong_step_is_seen():
     assert off(stuck.T, stuck.subject.T_true)[0] > 1
     wild = last_but(Params(), pose_step=lambda T, p, xy: np.diag([-1.0, -1.0, 1.0, 1.0]) @ T)
     assert wild.now.stop is not None
-    assert caption_of(lesson.draw(wild)).tone != "good" or is_near(wild.T, wild.subject)
+    assert caption_of(draw(wild)).tone != "good" or is_near(wild.T, wild.subject)
 
 
-# the picture ----------------------------------------------------------------------------------------------------------
+# the picture --------------------------------------------------------------------------------------
 
 
 def test_residuals_are_drawn_from_where_points_were_seen():
     state = phase(states(Params()), "stop")
-    scene = lesson.draw(state)
-    picture, seen, calculated, ends = (scene[f"picture{path}"] for path in ("", "/seen", "/calculated", "/residuals"))
+    scene = draw(state)
+    picture, seen, calculated, ends = (
+        scene[f"picture{path}"] for path in ("", "/seen", "/calculated", "/residuals")
+    )
     assert isinstance(picture, Picture)
     assert isinstance(seen, Points)
     assert isinstance(calculated, Points)
@@ -289,7 +307,7 @@ def test_residuals_are_drawn_from_where_points_were_seen():
 
 
 def test_votes_colour_the_pixels():
-    scene = lesson.draw(of("seventy")[-1])
+    scene = draw(of("seventy")[-1])
     seen = scene["picture/seen"]
     assert isinstance(seen, Points)
     assert isinstance(seen.color, Classes)
@@ -309,4 +327,4 @@ def test_what_cannot_be_done_is_said():
 def test_four_points_of_the_box_will_do():
     for method in ("P3P", "SQPnP", "EPnP", "RANSAC"):
         for state in run(Params(points=4, method=method)):
-            lesson.draw(state)
+            draw(state)

@@ -1,4 +1,6 @@
-"""Own points and pixels in the pose lesson, real ones among them, and files that must be refused."""
+"""Own points and pixels in the pose lesson, real ones among them, and files that must be
+refused.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -6,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lessons.pose.lesson import lesson, run
+from lessons.pose.lesson import draw, run
 from lessons.pose.state import Params
 from tests.geometry.views import view
 from workbench.errors import InputError
@@ -31,7 +33,7 @@ def test_own_points_give_their_camera(tmp_path, method):
     last = stop_of(Params(sightings=path, method=method, principal=(400.0, 300.0)))
     assert last.T is not None
     np.testing.assert_allclose(last.T[:3, :3], T[:3, :3], atol=0.01)
-    scene = lesson.draw(last)
+    scene = draw(last)
     assert caption_of(scene).tone == "info"  # nobody knows the truth
     points, camera = scene["points"], scene["estimate"]
     assert isinstance(points, Points)
@@ -46,13 +48,19 @@ def test_a_real_board_by_ippe(tmp_path, shared_data):
     corners = np.load(shared_data / "calibration" / "corners_9x6.npz")
     path = written(tmp_path, corners["object_points"], corners["left"][0])
     last = stop_of(Params(sightings=path, method="IPPE", focal=540.0, principal=(342.0, 236.0)))
-    known = np.array([-0.0752, -0.1089, 0.3997])  # left_intrinsics.yml, the first view's translation, with its lens
+    known = np.array(
+        [-0.0752, -0.1089, 0.3997]
+    )  # left_intrinsics.yml, the first view's translation, with its lens
     assert np.linalg.norm(last.T[:3, 3] - known) < 0.02
-    assert last.subject.pixel_errors(last.T).mean() < 3  # what the lens, which is left out here, does to a corner
+    assert (
+        last.subject.pixel_errors(last.T).mean() < 3
+    )  # what the lens, which is left out here, does to a corner
 
 
 def test_the_focal_length_of_own_pixels_is_the_persons_and_decides(tmp_path):
-    """A camera of 600 px: with its own focal length it is where it was, with the guess of 800 px it is too far away."""
+    """A camera of 600 px: with its own focal length it is where it was, with the guess of 800 px it
+    is too far away.
+    """
     T, p_world, xy = view(3, 20)
     path = written(tmp_path, p_world, 600 * xy + [319.5, 239.5])
     for focal, off in ((600.0, 1e-6), (800.0, None)):
@@ -80,7 +88,7 @@ def test_points_on_a_line_come_to_an_end(tmp_path):
     path = written(tmp_path, line, 300 + 100 * line[:, :2])
     for method in ("P3P", "SQPnP"):
         for state in run(Params(sightings=path, method=method)):
-            lesson.draw(state)
+            draw(state)
     with pytest.raises(InputError, match="one line"):
         stop_of(Params(sightings=path, method="EPnP"))
 

@@ -8,23 +8,23 @@ import pytest
 
 from lessons.ransac import presets
 from lessons.ransac.captions import is_right
-from lessons.ransac.lesson import lesson
+from lessons.ransac.lesson import draw, lesson
 from lessons.ransac.presets import clean_share, end, first, share_reached
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params
 from tests.lessons.ransac_runs import best, members, part, rivals, states_of, truth_of
 from tests.truths.ransac import most_trusted
-from workbench.algorithms.models import MODELS, PLANE
-from workbench.algorithms.ransac import Stop, iterations_needed
+from workbench.algorithms.robust.models import MODELS, PLANE
+from workbench.algorithms.robust.ransac import Stop, iterations_needed
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption
-from workbench.timeline import Timeline
 
 
 def page() -> str:
     return " ".join(lesson.text().split())
 
 
-# the page ----------------------------------------------------------------------------------------------------------
+# the page -----------------------------------------------------------------------------------------
 
 
 def test_the_numbers_of_the_page():
@@ -36,7 +36,9 @@ def test_the_numbers_of_the_page():
 
 @pytest.mark.parametrize("model", list(MODELS))
 def test_how_many_inliers_the_distances_of_the_page_keep(model):
-    """95 % within 1.96 σ; of a homography, whose distances hold the noise of both images, within 3.46 σ."""
+    """95 % within 1.96 σ; of a homography, whose distances hold the noise of both images, within
+    3.46 σ.
+    """
     shares = {1.96: [], 2.45: [], 3.46: []}
     for scene in range(20):
         subject = subject_of(Params(model=model, points=1000, outliers=0.0, scene_seed=scene))
@@ -52,22 +54,30 @@ def test_how_many_inliers_the_distances_of_the_page_keep(model):
 
 def test_the_inlier_distances_that_are_set_keep_95_percent_of_the_inliers():
     assert Params().inlier_distance / Params().noise == pytest.approx(1.96, abs=0.05)
-    assert Params().inlier_pixels / Params().noise_pixels == pytest.approx(3.46, abs=0.05)  # of a homography
-    assert presets.PROSAC.inlier_pixels / presets.PROSAC.noise_pixels == pytest.approx(3.46, abs=0.05)
-    assert presets.MATCHES.inlier_pixels / presets.MATCHES.noise_pixels == pytest.approx(1.96, abs=0.05)
+    assert Params().inlier_pixels / Params().noise_pixels == pytest.approx(
+        3.46, abs=0.05
+    )  # of a homography
+    assert presets.PROSAC.inlier_pixels / presets.PROSAC.noise_pixels == pytest.approx(
+        3.46, abs=0.05
+    )
+    assert presets.MATCHES.inlier_pixels / presets.MATCHES.noise_pixels == pytest.approx(
+        1.96, abs=0.05
+    )
     for words in ("$t = 1.96\\,\\sigma$", "3.46\\,\\sigma$, and only 78 % within $2.45\\,\\sigma$"):
         assert words in page()
 
 
 def test_a_caption_about_a_sample_cannot_be_read_as_about_the_inliers():
     states = states_of(Params())
-    said = [part(lesson.draw(state), "caption", Caption).text for state in states[:3]]
+    said = [part(draw(state), "caption", Caption).text for state in states[:3]]
     assert said[0].startswith("Sample 1: three points, drawn by chance. Of its three points ")
     assert said[1].endswith("Now all 600 points vote: yes from those within 30 mm of it.")
     assert re.fullmatch(
-        r"Sample 1: \d+ of 600 points lie within 30 mm of its plane\. Of its three points \w+ (is an outlier|are outliers)"
-        r" in truth\.", said[2],
-    )  # fmt: skip
+        r"Sample 1: \d+ of 600 points lie within 30 mm of its plane\. Of its three points \w+ (is"
+        r" an outlier|are outliers)"
+        r" in truth\.",
+        said[2],
+    )
     assert not [text for text in said if "every other" in text or "of them" in text]
 
 
@@ -88,14 +98,18 @@ def test_the_default_run_does_what_the_page_says():
     assert last.best_error < 0.001
     assert rivals(last)["least squares"] == pytest.approx(0.25, abs=0.005)
     assert [state.now.phase for state in states[:3]] == ["sample", "model", "inliers"]
-    scores = [best(state).score for state in states if state.now.best and state.now.phase not in ("refit", "stop")]
+    scores = [
+        best(state).score
+        for state in states
+        if state.now.best and state.now.phase not in ("refit", "stop")
+    ]
     assert scores == sorted(scores)
     needed = [state.now.needed for state in states]
     assert needed == sorted(needed, reverse=True)
     assert is_right(last)
 
 
-# the presets -------------------------------------------------------------------------------------------------------
+# the presets --------------------------------------------------------------------------------------
 
 
 def test_thirty_and_seventy_percent():
@@ -125,8 +139,10 @@ def test_an_inlier_distance_too_large():
     assert last.best_error == pytest.approx(0.04, abs=0.005)
     assert best(last).inliers[~members(last.subject)].mean() > 0.3
     assert not is_right(last)
-    assert part(lesson.draw(last), "caption", Caption).tone == "wrong"
-    assert Timeline(lesson, presets.LOOSE).complete()[-1].caption.tone == "info"  # it is meant to be
+    assert part(draw(last), "caption", Caption).tone == "wrong"
+    assert (
+        Timeline(lesson, presets.LOOSE).complete()[-1].caption.tone == "info"
+    )  # it is meant to be
 
 
 def test_msac_keeps_a_sample_nearer_to_the_truth():
@@ -155,7 +171,9 @@ def test_the_picked_wire_is_degenerate_and_counts():
     assert states[2].now.iteration == 2
     assert not states[2].chosen
     assert is_right(end(states))
-    assert len([s for s in states if s.now.phase == "degenerate"]) > 1  # chance meets the wire again
+    assert (
+        len([s for s in states if s.now.phase == "degenerate"]) > 1
+    )  # chance meets the wire again
 
 
 def test_three_near_inliers_make_a_bad_plane():
@@ -178,7 +196,9 @@ def test_huber_lies_between_and_ransac_below():
 
 
 def test_the_local_refit_ends_sooner():
-    with_it, without = (end(states_of(replace(presets.LOCAL, local_refit=local))) for local in (True, False))
+    with_it, without = (
+        end(states_of(replace(presets.LOCAL, local_refit=local))) for local in (True, False)
+    )
     assert with_it.now.iteration < 0.75 * without.now.iteration
     assert is_right(with_it)
 
@@ -187,7 +207,9 @@ def test_the_local_refit_ends_sooner():
 def test_prosac_stops_after_a_tenth_of_the_draws_and_is_right(seed):
     """It once stopped by the share of all matches, as chance does, after some 300 samples."""
     params = replace(presets.PROSAC, seed=seed)
-    trusting, by_chance = (end(states_of(replace(params, sampler=how))) for how in ("PROSAC", "uniform"))
+    trusting, by_chance = (
+        end(states_of(replace(params, sampler=how))) for how in ("PROSAC", "uniform")
+    )
     assert trusting.now.stop is Stop.ENOUGH
     assert trusting.now.iteration < 25
     assert by_chance.now.iteration > 300
@@ -195,7 +217,9 @@ def test_prosac_stops_after_a_tenth_of_the_draws_and_is_right(seed):
     assert trusting.best_error == pytest.approx(by_chance.best_error, abs=0.05)
 
 
-@pytest.mark.parametrize("params", [presets.PROSAC, replace(presets.PROSAC, seed=3), Params(sampler="PROSAC")])
+@pytest.mark.parametrize(
+    "params", [presets.PROSAC, replace(presets.PROSAC, seed=3), Params(sampler="PROSAC")]
+)
 def test_prosac_asks_for_the_share_among_the_most_trusted(params):
     for state in states_of(params):
         if state.now.phase == "best":
@@ -206,15 +230,23 @@ def test_prosac_asks_for_the_share_among_the_most_trusted(params):
 
 
 def test_a_vote_is_never_called_inlier():
-    """Which the captions say of the truth alone: points of the green line were "outliers" to a bad line."""
+    """Which the captions say of the truth alone: points of the green line were "outliers" to a bad
+    line.
+    """
     for name in ("line", "near-sample", "epipolar"):
         params = lesson.preset(name).params
         for state in states_of(params):
-            scene = lesson.draw(state)
+            scene = draw(state)
             legend = [getattr(one, "name", "") for one in scene.values()]
-            legend += [word for one in scene.values() for word in getattr(getattr(one, "color", None), "names", ())]
+            legend += [
+                word
+                for one in scene.values()
+                for word in getattr(getattr(one, "color", None), "names", ())
+            ]
             assert not [word for word in legend if "lier" in word]
-            said = part(scene, "caption", Caption).text.replace("If that is the share of inliers", "")
+            said = part(scene, "caption", Caption).text.replace(
+                "If that is the share of inliers", ""
+            )
             said = said.replace("free of outliers", "")
             assert not re.findall(r"\w+lier\w*(?! in truth)\b(?! in truth)", said), said
 
@@ -225,7 +257,9 @@ def test_what_is_quoted_is_at_rest_or_says_that_it_is_not():
         if last.now.stop is not Stop.ENOUGH:
             assert params == presets.TIGHT
             assert "500 samples do not suffice" in lesson.preset("tight").line
-            assert "maximum number of samples is reached" in part(lesson.draw(last), "caption", Caption).text
+            assert (
+                "maximum number of samples is reached" in part(draw(last), "caption", Caption).text
+            )
 
 
 def test_known_wrong_answers_are_answered():
@@ -263,7 +297,7 @@ def test_every_preset_opens_where_its_line_points():
         assert states[preset.step or 0].now.phase == phase
 
 
-# the questions -----------------------------------------------------------------------------------------------------
+# the questions ------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""Own clouds and matches in the RANSAC lesson: how they are read, what does not fit, and what is said of it."""
+"""Own clouds and matches in the RANSAC lesson: how they are read, what does not fit, and what is
+said of it.
+"""
 
 from dataclasses import replace
 from pathlib import Path
@@ -12,11 +14,11 @@ from lessons.ransac.presets import end
 from lessons.ransac.rows import subject_of
 from lessons.ransac.state import Params
 from tests.lessons.ransac_runs import best, members, part, states_of, truth_of
-from workbench.algorithms.models import MODELS
+from workbench.algorithms.robust.models import MODELS
 from workbench.errors import InputError
 from workbench.knobs import with_own_files
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Points
-from workbench.timeline import Timeline
 
 
 def test_an_own_cloud_and_what_does_not_fit_it(tmp_path):
@@ -32,8 +34,12 @@ def test_an_own_cloud_and_what_does_not_fit_it(tmp_path):
     assert np.abs(shown.p).max() < 2.5
     for other, message in (("line", "plane or sphere"), ("homography", "plane or sphere")):
         assert message in str(Timeline(lesson, replace(params, model=other)).complete().stopped)
-    assert "does not say whom to trust" in str(Timeline(lesson, replace(params, sampler="PROSAC")).complete().stopped)
-    assert "no such file" in str(Timeline(lesson, replace(params, cloud=tmp_path / "none.csv")).complete().stopped)
+    assert "does not say whom to trust" in str(
+        Timeline(lesson, replace(params, sampler="PROSAC")).complete().stopped
+    )
+    assert "no such file" in str(
+        Timeline(lesson, replace(params, cloud=tmp_path / "none.csv")).complete().stopped
+    )
 
 
 def captions_of(params) -> list[Caption]:
@@ -52,17 +58,23 @@ def test_an_own_cloud_in_another_unit_is_noticed_and_converted(tmp_path):
     p = subject_of(Params(outliers=0.3)).p
     np.savetxt(tmp_path / "m.csv", p, delimiter=",")
     np.savetxt(tmp_path / "mm.csv", 1000.0 * p, delimiter=",")
-    in_metres, as_metres = (Params(cloud=tmp_path / name, steps="improvements") for name in ("m.csv", "mm.csv"))
+    in_metres, as_metres = (
+        Params(cloud=tmp_path / name, steps="improvements") for name in ("m.csv", "mm.csv")
+    )
     right, wrong = captions_of(in_metres), captions_of(as_metres)
     assert not [caption for caption in right if "Mind" in caption.text]
     for caption in (wrong[0], wrong[-1]):
         assert (
-            "so few of them can be expected within 30 mm of any plane. Is the cloud in m (cloud_unit)?" in caption.text
+            "so few of them can be expected within 30 mm of any plane. Is the cloud in m"
+            " (cloud_unit)?" in caption.text
         )
     converted = captions_of(replace(as_metres, cloud_unit="mm"))
     assert [caption.text for caption in converted] == [caption.text for caption in right]
     np.savetxt(tmp_path / "km.csv", 1e-3 * p, delimiter=",")
-    assert "so nearly all of them" in captions_of(replace(in_metres, cloud=tmp_path / "km.csv"))[-1].text
+    assert (
+        "so nearly all of them"
+        in captions_of(replace(in_metres, cloud=tmp_path / "km.csv"))[-1].text
+    )
 
 
 @pytest.mark.parametrize("rows", ["one place", "one line"])
@@ -85,7 +97,9 @@ def test_own_rows_that_determine_nothing_are_told_so(tmp_path, model, rows):
 def test_matches_that_are_no_pixels_are_noticed(tmp_path):
     p = subject_of(Params(model="homography", outliers=0.2)).p
     np.savetxt(tmp_path / "normalised.csv", p / 640.0, delimiter=",")
-    last = captions_of(Params(model="homography", matches=tmp_path / "normalised.csv", steps="improvements"))[-1]
+    last = captions_of(
+        Params(model="homography", matches=tmp_path / "normalised.csv", steps="improvements")
+    )[-1]
     assert "Are the matches in pixels?" in last.text
     with pytest.raises(InputError, match="a folder, not a file"):
         subject_of(Params(model="homography", matches=tmp_path))
@@ -100,10 +114,17 @@ def test_own_matches_with_their_truth(tmp_path):
         F=truth_of(subject),
         quality=np.asarray(subject.quality),
     )
-    params = Params(model="fundamental matrix", matches=tmp_path / "m.npz", sampler="PROSAC", steps="improvements")
+    params = Params(
+        model="fundamental matrix",
+        matches=tmp_path / "m.npz",
+        sampler="PROSAC",
+        steps="improvements",
+    )
     last = end(states_of(params))
     assert is_right(last)
-    assert "homography or fundamental" in str(Timeline(lesson, replace(params, model="plane")).complete().stopped)
+    assert "homography or fundamental" in str(
+        Timeline(lesson, replace(params, model="plane")).complete().stopped
+    )
     np.savetxt(tmp_path / "few.csv", subject.p[:5], delimiter=",")
     few = Timeline(lesson, replace(params, matches=tmp_path / "few.csv")).complete()
     assert "5 matches; at least 7" in str(few.stopped)
@@ -112,12 +133,17 @@ def test_own_matches_with_their_truth(tmp_path):
 def test_the_real_photographs_and_the_real_room(shared_data):
     folder = shared_data / "ransac"
     pair = Params(
-        model="fundamental matrix", matches=folder / "fountain-P11" / "gt_and_matches.npz", inlier_pixels=1.0,
-        first_image=folder / "fountain-P11" / "0004_third.jpg", second_image=folder / "fountain-P11" / "0005_third.jpg",
+        model="fundamental matrix",
+        matches=folder / "fountain-P11" / "gt_and_matches.npz",
+        inlier_pixels=1.0,
+        first_image=folder / "fountain-P11" / "0004_third.jpg",
+        second_image=folder / "fountain-P11" / "0005_third.jpg",
         steps="improvements",
-    )  # fmt: skip
+    )
     last = end(states_of(pair))
     assert best(last).inliers[members(last.subject)].mean() >= 0.95
-    room = Params(cloud=folder / "capture0001.pcd", up="-y", inlier_distance=0.02, steps="improvements")
+    room = Params(
+        cloud=folder / "capture0001.pcd", up="-y", inlier_distance=0.02, steps="improvements"
+    )
     last = end(states_of(room))
     assert best(last).count / len(last.subject.p) == pytest.approx(0.27, abs=0.03)

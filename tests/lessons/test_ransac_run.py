@@ -1,25 +1,27 @@
-"""The pieces of a RANSAC run: the functions in its slots, every model and score, and what is drawn."""
+"""The pieces of a RANSAC run: the functions in its slots, every model and score, and what is
+drawn.
+"""
 
 import numpy as np
 import pytest
 
 from lessons.ransac import presets
 from lessons.ransac.captions import is_right
-from lessons.ransac.lesson import chosen_sample, lesson, run
+from lessons.ransac.lesson import chosen_sample, draw, lesson, run
 from lessons.ransac.presets import end, first
 from lessons.ransac.rows import subject_of
 from lessons.ransac.shapes import outline
 from lessons.ransac.state import Params
 from tests.lessons.ransac_runs import best, part, rivals, states_of, truth_of
-from workbench.algorithms.models import MODELS
-from workbench.algorithms.ransac import iterations_needed
-from workbench.algorithms.scores import count_inliers
+from workbench.algorithms.robust.models import MODELS
+from workbench.algorithms.robust.ransac import iterations_needed
+from workbench.algorithms.robust.scores import count_inliers
 from workbench.errors import InputError
 from workbench.exercise.driven import driven
 from workbench.exercise.finding import exercises_of
-from workbench.geometry.lines_planes import plane_from_points
+from workbench.geometry.shapes.lines_planes import plane_from_points
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Classes, Points, Segments
-from workbench.timeline import Timeline
 
 
 def test_the_student_functions_drive_the_run():
@@ -39,7 +41,12 @@ def test_the_student_functions_drive_the_run():
 
     ours = list(run(Params(steps="every part")))
     theirs = list(
-        run(Params(steps="every part"), plane_from_points=plane, count_inliers=count, iterations_needed=needed)
+        run(
+            Params(steps="every part"),
+            plane_from_points=plane,
+            count_inliers=count,
+            iterations_needed=needed,
+        )
     )
     assert len(ours) == len(theirs)
     np.testing.assert_array_equal(best(end(ours)).estimate, best(end(theirs)).estimate)
@@ -49,10 +56,15 @@ def test_the_student_functions_drive_the_run():
 
 
 def test_wrong_functions_have_the_effect_they_deserve():
-    horizontal = list(run(Params(), plane_from_points=lambda p: np.array([0.0, 0.0, 1.0, -p[0, 2]])))
+    horizontal = list(
+        run(Params(), plane_from_points=lambda p: np.array([0.0, 0.0, 1.0, -p[0, 2]]))
+    )
     assert best([s for s in horizontal if s.now.phase == "best"][-1]).estimate[2] == 1.0
     turned_round = list(
-        run(Params(), count_inliers=lambda plane, p, t: int(np.sum(np.abs(p @ plane[:3] + plane[3]) > t)))
+        run(
+            Params(),
+            count_inliers=lambda plane, p, t: int(np.sum(np.abs(p @ plane[:3] + plane[3]) > t)),
+        )
     )
     assert [s for s in turned_round if s.now.phase == "best"][-1].best_error > 0.2
     hasty = end(run(Params(seed=3), iterations_needed=lambda w, m, p: 1))
@@ -68,7 +80,7 @@ def test_a_count_decides_what_is_best_and_how_many_samples_follow():
         theirs = first(run(Params(score=score), count_inliers=tenfold), "best")
         assert best(theirs).count == 10 * best(ours).count
         assert best(theirs).score == best(ours).score * (10 if score == "count" else 1)
-        assert f"{best(theirs).count:,} votes" in part(lesson.draw(theirs), "caption", Caption).text
+        assert f"{best(theirs).count:,} votes" in part(draw(theirs), "caption", Caption).text
         share = best(theirs).count / len(theirs.subject.p)
         assert theirs.now.needed == iterations_needed(share, 3, 0.99) < ours.now.needed
 
@@ -87,23 +99,33 @@ def test_every_model_asks_how_many_samples(model):
 
 
 def test_the_wire_shows_what_a_plane_does_with_points_on_a_line():
-    exercise = next(exercise for exercise in exercises_of(lesson) if exercise.name == "plane_from_points")
+    exercise = next(
+        exercise for exercise in exercises_of(lesson) if exercise.name == "plane_from_points"
+    )
     assert "'Three points on one line'" in exercise.task
-    assert "Three points on one line" in [preset.title for preset in lesson.presets if preset.params == presets.WIRE]
-    careless = next(mistake.function for mistake in exercise.mistakes if mistake.name == "line not seen")
+    assert "Three points on one line" in [
+        preset.title for preset in lesson.presets if preset.params == presets.WIRE
+    ]
+    careless = next(
+        mistake.function for mistake in exercise.mistakes if mistake.name == "line not seen"
+    )
     for plane, phase in ((exercise.reference, "degenerate"), (careless, "model")):
         states = run(presets.WIRE, plane_from_points=plane)
         assert [next(states).now.phase for _ in range(2)] == ["sample", phase]
 
 
-RIGHT = [(exercise, function) for exercise in exercises_of(lesson) for function in exercise.alternatives]
+RIGHT = [
+    (exercise, function) for exercise in exercises_of(lesson) for function in exercise.alternatives
+]
 
 
-@pytest.mark.parametrize(("exercise", "function"), RIGHT, ids=lambda value: getattr(value, "__name__", value.__class__))
+@pytest.mark.parametrize(
+    ("exercise", "function"), RIGHT, ids=lambda value: getattr(value, "__name__", value.__class__)
+)
 def test_another_right_function_draws_the_same_pictures(exercise, function):
     """Whatever side its normals are on, and however it rounds."""
     for params in (Params(), presets.WIRE):
-        pairs = list(driven(lesson, exercise, function).run(params))
+        pairs = list(driven(lesson, exercise, function).form.states(params))
         assert end([pair.theirs for pair in pairs])
         assert [pair.trouble for pair in pairs if pair.trouble] == []
         assert [k for k, pair in enumerate(pairs) if pair.first] == []
@@ -117,7 +139,9 @@ def test_a_function_that_returns_no_plane_is_told_so():
 @pytest.mark.parametrize("model", list(MODELS))
 @pytest.mark.parametrize("score", ["count", "MSAC", "MLESAC"])
 def test_every_model_with_every_score_is_right(model, score):
-    params = Params(model=model, score=score, outliers=0.3, points=200, inlier_pixels=3.0, steps="improvements")
+    params = Params(
+        model=model, score=score, outliers=0.3, points=200, inlier_pixels=3.0, steps="improvements"
+    )
     last = end(states_of(params))
     assert is_right(last)
     assert last.best_error < 0.2 * rivals(last)["least squares"]
@@ -137,7 +161,7 @@ def test_the_picture_has_its_parts(model):
         assert len(points.p) == 100
         if (
             state.now.phase == "inliers"
-        ):  # by votes: what is true of a point is another thing, and vermillion is for what is wrong
+        ):  # by votes: what is true of a point is another thing, and vermillion is for what is wrong  # noqa: E501
             assert isinstance(points.color, Classes)
             assert dict(zip(points.color.names, points.color.roles, strict=True)) == {
                 "vote for": "target",
@@ -149,13 +173,22 @@ def test_the_picture_has_its_parts(model):
                 part(scene, "sample", Points).p[: len(state.now.sample)], points.p[state.now.sample]
             )
         for path, primitive in scene.items():
-            if isinstance(primitive, Points | Segments) and path not in ("frame", "slab"):  # which labels name
+            if isinstance(primitive, Points | Segments) and path not in (
+                "frame",
+                "slab",
+            ):  # which labels name
                 assert primitive.name, path
         if state.now.best and model in ("line", "plane", "circle"):
-            tested = state.now.estimate if state.now.phase in ("model", "inliers") else state.now.best.estimate
+            tested = (
+                state.now.estimate
+                if state.now.phase in ("model", "inliers")
+                else state.now.best.estimate
+            )
             rows = part(scene, "slab", Segments).ends.reshape(-1, 3)
             rows = rows if model == "plane" else rows[:, [0, 2]] - [0.0, 0.7]
-            np.testing.assert_allclose(state.subject.model.distances(tested, rows), state.inlier_distance, atol=1e-9)
+            np.testing.assert_allclose(
+                state.subject.model.distances(tested, rows), state.inlier_distance, atol=1e-9
+            )
     truth = part(timeline[-1].scene, "truth", Segments)
     assert len(truth.ends) > 0
     low, high = truth.ends.reshape(-1, 3).min(0), truth.ends.reshape(-1, 3).max(0)

@@ -8,14 +8,14 @@ import pytest
 import trimesh
 
 from lessons.representations.forms import FORMS, Functions
-from lessons.representations.lesson import lesson, run
+from lessons.representations.lesson import draw, run
 from lessons.representations.state import Params
 from lessons.representations.subjects import OWN_SIZE, subject_of
 from workbench.errors import InputError
-from workbench.geometry.bezier import bezier_patch
-from workbench.geometry.containment import winding_numbers
+from workbench.geometry.fields.signed_distances import box_sdf
 from workbench.geometry.level_sets import edge_crossings
-from workbench.geometry.signed_distances import box_sdf
+from workbench.geometry.meshes.containment import winding_numbers
+from workbench.geometry.shapes.bezier import bezier_patch
 from workbench.scene import caption_of
 
 OURS = Functions(bezier_patch=bezier_patch, edge_crossings=edge_crossings)
@@ -42,7 +42,7 @@ def test_every_form_takes_it(ball, form):
     last = last_of(Params(mesh=ball, form=form, resolution=16, depth=4, points=400))
     assert np.abs(np.ptp(last.subject.p, axis=0) - OWN_SIZE).max() < 0.01
     assert last.errors[-1] < 0.1
-    assert caption_of(lesson.draw(last)).text
+    assert caption_of(draw(last)).text
     if last.surface is not None:
         assert last.surface.volume == pytest.approx(1, abs=0.1)
 
@@ -52,7 +52,7 @@ def test_a_network_takes_it_and_stands_beside_other_forms(ball):
     assert last.surface is not None
     assert last.surface.mean < 0.05
     assert set(last.others) == {"cloud", "mesh", "voxels", "distances"}
-    assert "ball.stl in" in caption_of(lesson.draw(last)).text
+    assert "ball.stl in" in caption_of(draw(last)).text
 
 
 def test_an_open_mesh_has_no_inside(tmp_path):
@@ -93,14 +93,16 @@ def test_own_points_are_stored_as_points(tmp_path):
     assert last.now.hole in last.subject.p
     assert np.ptp(last.subject.p, axis=0).max() == pytest.approx(OWN_SIZE)
     assert not last.others
-    assert "200 points, 2.4 kB. The points of the file are" in caption_of(lesson.draw(last)).text
+    assert "200 points, 2.4 kB. The points of the file are" in caption_of(draw(last)).text
     last = ends(form="neighbours", points=500, neighbours=6)[-1]
     assert len(last.now.p) == 300
-    assert "from the nearest point of the file" in caption_of(lesson.draw(last)).text
+    assert "from the nearest point of the file" in caption_of(draw(last)).text
     *_, found, last = ends(form="k-d tree", points=300, dimensions=9)
     tree, query = found.now.tree, found.now.query
     assert tree.p.shape == (300, 3)
-    assert found.now.visits[-1].distance == pytest.approx(np.linalg.norm(tree.p - query, axis=1).min())
+    assert found.now.visits[-1].distance == pytest.approx(
+        np.linalg.norm(tree.p - query, axis=1).min()
+    )
     assert last.growth is not None
 
 
@@ -112,10 +114,13 @@ def test_points_are_no_solid(tmp_path):
     with pytest.raises(InputError, match="both given"):
         next(run(Params(cloud=tmp_path / "few.xyz", mesh=tmp_path / "few.ply", form="cloud")))
     for form in ("cloud", "neighbours", "k-d tree"):
-        assert all(caption_of(lesson.draw(state)).text for state in run(Params(cloud=tmp_path / "few.xyz", form=form)))
+        assert all(
+            caption_of(draw(state)).text
+            for state in run(Params(cloud=tmp_path / "few.xyz", form=form))
+        )
 
 
-# real meshes ----------------------------------------------------------------------------------------------------------
+# real meshes --------------------------------------------------------------------------------------
 
 
 def test_a_bunny_comes_back_from_its_distances(shared_data):
@@ -133,7 +138,9 @@ def test_what_is_open_among_scans_has_no_sign(shared_data):
 
 
 def test_a_dragon_of_many_parts_has_an_inside_all_the_same(shared_data, tmp_path):
-    """It is not watertight, as edges have four faces, but every edge runs as often there as back: rays can count."""
+    """It is not watertight, as edges have four faces, but every edge runs as often there as back:
+    rays can count.
+    """
     path = tmp_path / "dragon.ply"
     path.write_bytes(gzip.decompress((shared_data / "shapes/dragon_vrip_res4.ply.gz").read_bytes()))
     subject = subject_of(Params(mesh=path), box_sdf)

@@ -1,7 +1,9 @@
-"""A number that lessons say of a run comes from a run at rest, or the sentence says after how many steps it was read.
+"""A number that lessons say of a run comes from a run at rest, or the sentence says after how many
+steps it was read.
 
-Lines of presets, explanations of questions and the page's sentences that open a preset are held to it, in every lesson whose
-run ends with a `Stop`, and in those that train for a number of steps and never come to rest.
+Lines of presets, explanations of questions and the page's sentences that open a preset are held to
+it, in every lesson whose run ends with a `Stop`, and in those that train for a number of steps and
+never come to rest.
 """
 
 import dataclasses
@@ -23,12 +25,21 @@ from workbench.lesson import Lesson, Preset, Question, catalog
 LIMITS = {"MAX_ITERATIONS", "MAX_STEPS", "MOST_STEPS", "MAX_SWEEPS", "SAMPLES_USED_UP"}
 """A run that ended so would go on if it were let."""
 RESTS = {"CONVERGED", "CIRCLING", "ENOUGH", "ARRIVED", "SETTLED", "NOT_LOWER", "STUCK"}
-FAILURES = {"TOO_FEW_MATCHES", "NOT_FINITE", "NO_MODEL", "SINGULAR", "DIVERGED", "BEHIND", "NO_POSE"}
+FAILURES = {
+    "TOO_FEW_MATCHES",
+    "NOT_FINITE",
+    "NO_MODEL",
+    "SINGULAR",
+    "DIVERGED",
+    "BEHIND",
+    "NO_POSE",
+}
 
 COUNTED = "steps?|updates?|iterations?|samples?|sweeps?|rounds?|layers?|times"
 SAYS_WHEN = re.compile(
     rf"\b(after|in|for|of)( its| the| some)? [\d,]+ (more )?({COUNTED})\b"
-    rf"|\b[\d,]+ (more )?({COUNTED})\b|\bafter [\d,]+\b|\bstopped\b|\bstill (moves|moving|falls|falling)\b|\bat the start\b",
+    rf"|\b[\d,]+ (more )?({COUNTED})\b|\bafter [\d,]+\b|\bstopped\b|\bstill"
+    r" (moves|moving|falls|falling)\b|\bat the start\b",
     re.IGNORECASE,
 )
 SAYS_REST = re.compile(r"\b(at rest|comes? to rest|settled?)\b", re.IGNORECASE)
@@ -70,7 +81,7 @@ def ends_of(states: tuple[Any, ...]) -> set[str]:
 def stopping_modules() -> dict[str, type[Enum]]:
     """Return the reasons to stop that algorithms have, by module."""
     found = {}
-    for info in pkgutil.iter_modules(workbench.algorithms.__path__, "workbench.algorithms."):
+    for info in pkgutil.walk_packages(workbench.algorithms.__path__, "workbench.algorithms."):
         kind = getattr(importlib.import_module(info.name), "Stop", None)
         found |= {} if kind is None else {info.name: kind}
     return found
@@ -80,14 +91,20 @@ def may_stop(name: str) -> bool:
     """Whether a lesson runs an algorithm that says why it stopped, or takes a number of steps."""
     importlib.import_module(f"lessons.{name}.lesson")
     own = [module for path, module in sys.modules.items() if path.startswith(f"lessons.{name}.")]
-    used = {getattr(value, "__module__", None) or value for module in own for value in vars(module).values()
-            if isinstance(value, Callable | type | type(sys))}  # fmt: skip
+    used = {
+        getattr(value, "__module__", None) or value
+        for module in own
+        for value in vars(module).values()
+        if isinstance(value, Callable | type | type(sys))
+    }
     names = {one if isinstance(one, str) else one.__name__ for one in used}
     return name in STEPPED or bool(names & stopping_modules().keys())
 
 
 def unsaid(text: str, ends: set[str], given: str = r"(?!)") -> bool:
-    """Whether a text has a number of a run that a limit ended, and neither says so nor when it was read."""
+    """Whether a text has a number of a run that a limit ended, and neither says so nor when it was
+    read.
+    """
     run = re.sub(r"\]\(run:[^)]*\)|\$[^$]*\$|`[^`]*`", "]", re.sub(given, "", text))
     said = SAYS_WHEN.search(run) or (SAYS_REST.search(run) and ends & RESTS)
     return bool(ends & LIMITS and re.search(r"\d", run) and not said)
@@ -116,7 +133,9 @@ def untold(lesson: Lesson) -> list[str]:
             texts = [f"{one.text} {told}" if stepped else told]
         else:
             texts = [one.line, *page_sentences(lesson, one.name)]
-        found += [f"{lesson.name}, {one.name}: {text}" for text in texts if unsaid(text, ends, given)]
+        found += [
+            f"{lesson.name}, {one.name}: {text}" for text in texts if unsaid(text, ends, given)
+        ]
     return found
 
 

@@ -1,4 +1,6 @@
-"""Every claim of the transforms lesson in numbers: presets, questions, page, slots, and what is drawn."""
+"""Every claim of the transforms lesson in numbers: presets, questions, page, slots, and what is
+drawn.
+"""
 
 import dataclasses
 import itertools
@@ -8,13 +10,23 @@ import numpy as np
 import pytest
 
 from lessons.transforms.body import numbers_of
-from lessons.transforms.lesson import lesson
+from lessons.transforms.lesson import draw, lesson
 from lessons.transforms.presets import ENTRIES, directions_left, halfway
 from lessons.transforms.state import Compare, Method, Params
-from tests.lessons.transforms_runs import MOVE, built, exp_axis, moved, opened, opened_at, preset, survivors, timeline
-from workbench.geometry.affine import Kind, kind_of, transform
+from tests.lessons.transforms_runs import (
+    MOVE,
+    built,
+    exp_axis,
+    moved,
+    opened,
+    opened_at,
+    preset,
+    survivors,
+    timeline,
+)
 from workbench.geometry.motions import inverse, motion, rotation_angle
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.affine import Kind, kind_of, transform
+from workbench.geometry.motions.rotations import (
     angles_apart,
     axis_angle_from_rotation,
     euler_to_matrix,
@@ -23,13 +35,25 @@ from workbench.geometry.rotations import (
 )
 from workbench.scene import Segments, Table, caption_of, is_rigid
 
-# building -------------------------------------------------------------------------------------------------------------
+# building -----------------------------------------------------------------------------------------
 
 
 def test_one_factor_per_step_and_the_newest_on_the_left():
-    states = timeline(Params(mirror="y", shear=0.3, perspective=0.2, pose=(1, 1, 0, 0.2, 0, 0))).states()
+    states = timeline(
+        Params(mirror="y", shear=0.3, perspective=0.2, pose=(1, 1, 0, 0.2, 0, 0))
+    ).states()
     kinds = [state.factor.kind for state in states]
-    assert kinds == ["start", "scale", "shear", "perspective", "mirror", *["turn"] * 3, "handle", "translate", "undo"]
+    assert kinds == [
+        "start",
+        "scale",
+        "shear",
+        "perspective",
+        "mirror",
+        *["turn"] * 3,
+        "handle",
+        "translate",
+        "undo",
+    ]
     for before, after in itertools.pairwise(states):
         np.testing.assert_allclose(after.T, after.factor.matrix @ before.T, atol=1e-12)
 
@@ -37,7 +61,9 @@ def test_one_factor_per_step_and_the_newest_on_the_left():
 def test_the_default_run_is_what_its_numbers_say():
     state = built(Params())
     R = euler_to_matrix(np.radians([30.0, 20.0, 60.0]), "xyz")
-    np.testing.assert_allclose(state.T, motion(R @ np.diag([1, 1, 1.4]), np.array([1.6, 0.6, 0.3])), atol=1e-15)
+    np.testing.assert_allclose(
+        state.T, motion(R @ np.diag([1, 1, 1.4]), np.array([1.6, 0.6, 0.3])), atol=1e-15
+    )
     assert timeline(Params())[lesson.first_step].state is state
     assert timeline(Params()).states()[-1].left < 1e-12
 
@@ -45,7 +71,10 @@ def test_the_default_run_is_what_its_numbers_say():
 @pytest.mark.parametrize("order", ["xyz", "ZXZ"])
 def test_turns_about_fixed_and_carried_axes_come_step_by_step(order):
     states = timeline(Params(scale=(1, 1, 1), order=order)).states()
-    done = [euler_to_matrix(np.where(np.arange(3) <= k, np.radians([30.0, 20, 60]), 0.0), order) for k in range(3)]
+    done = [
+        euler_to_matrix(np.where(np.arange(3) <= k, np.radians([30.0, 20, 60]), 0.0), order)
+        for k in range(3)
+    ]
     for state, R in zip(states[1:4], done, strict=True):
         np.testing.assert_allclose(state.T[:3, :3], R, atol=1e-14)
 
@@ -54,7 +83,9 @@ def test_the_handle_carries_the_body_with_it():
     pose = (1.0, -2.0, 0.5, 0.3, -0.4, 1.1)
     state = built(Params(scale=(1, 1, 1), pose=pose))
     w = np.array(pose[3:])
-    T_world_handle = motion(rotation_from_axis_angle(w, float(np.linalg.norm(w))), np.array(pose[:3]))
+    T_world_handle = motion(
+        rotation_from_axis_angle(w, float(np.linalg.norm(w))), np.array(pose[:3])
+    )
     R = euler_to_matrix(np.radians([30.0, 20.0, 60.0]), "xyz")
     np.testing.assert_allclose(state.T, T_world_handle @ motion(R, np.zeros(3)), atol=1e-14)
 
@@ -85,7 +116,10 @@ def test_gimbal_lock_loses_a_direction_and_no_pose():
     np.testing.assert_allclose(R_named, numbers.rotation(), atol=1e-15)
     near = opened_at(dataclasses.replace(params, angles=(30.0, 88.0, 50.0)), -2)
     assert "Nearly gimbal lock: angles 1 and 3 turn about axes 2° apart." in near.caption.text
-    assert directions_left(timeline(dataclasses.replace(params, angles=(30.0, 80.0, 50.0))).states()) == 3
+    assert (
+        directions_left(timeline(dataclasses.replace(params, angles=(30.0, 80.0, 50.0))).states())
+        == 3
+    )
 
 
 def test_one_triple_is_four_rotations():
@@ -156,7 +190,7 @@ def test_a_hidden_scale_grows_squared():
     (ghost,) = state.ghosts
     np.testing.assert_allclose(ghost.T[:3, :3], 1.69 * np.eye(3), atol=1e-12)
     assert ghost.distance > 0.5
-    assert caption_of(lesson.draw(state)).tone == "wrong"
+    assert caption_of(draw(state)).tone == "wrong"
     assert opened("hidden-scale").caption.tone == "info"  # it is meant to be
 
 
@@ -186,7 +220,7 @@ def test_every_comparison_draws_what_it_says(compare):
         assert sum(path.startswith("ghost") for path in step.scene) == 2 * len(step.state.ghosts)
 
 
-# moving ---------------------------------------------------------------------------------------------------------------
+# moving -------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("method", get_args(Method))
@@ -195,13 +229,17 @@ def test_every_way_starts_and_ends_at_the_poses(method):
     assert len(states) == MOVE.steps + 1
     np.testing.assert_allclose(states[0].T_world_body, states[0].T_world_start, atol=1e-12)
     np.testing.assert_allclose(states[-1].T_world_body, states[-1].T_world_end, atol=1e-12)
-    assert all(is_rigid(state.T_world_body) == (method != "matrix entries") for state in states[1:-1])
+    assert all(
+        is_rigid(state.T_world_body) == (method != "matrix entries") for state in states[1:-1]
+    )
 
 
 def test_the_handle_carries_the_end_pose():
     pose = (1.0, 0.5, 0.2, 0.3, -0.2, 0.9)
     w = np.array(pose[3:])
-    R_end = rotation_from_axis_angle(w, float(np.linalg.norm(w))) @ euler_to_matrix(np.radians(MOVE.angles_end), "xyz")
+    R_end = rotation_from_axis_angle(w, float(np.linalg.norm(w))) @ euler_to_matrix(
+        np.radians(MOVE.angles_end), "xyz"
+    )
     state = moved(dataclasses.replace(MOVE, pose=pose))[0]
     np.testing.assert_allclose(state.T_world_end, motion(R_end, np.array(pose[:3])), atol=1e-14)
 
@@ -214,7 +252,10 @@ def test_slerp_is_the_shortest_turn_at_constant_speed():
     total = rotation_angle(states[0].T_world_start[:3, :3].T @ states[0].T_world_end[:3, :3])
     assert states[-1].way.turned[-1] == pytest.approx(np.degrees(total))
     for method in get_args(Method):
-        assert moved(dataclasses.replace(MOVE, method=method))[-1].way.turned[-1] >= np.degrees(total) - 1e-6
+        assert (
+            moved(dataclasses.replace(MOVE, method=method))[-1].way.turned[-1]
+            >= np.degrees(total) - 1e-6
+        )
 
 
 def test_minus_q_goes_the_long_way_to_the_same_end():
@@ -238,7 +279,9 @@ def test_the_mean_of_170_and_minus_170():
     assert states[-1].shortest.turned[-1] == pytest.approx(20)
     middle = halfway(states)
     np.testing.assert_allclose(middle.T_world_body[:3, :3], np.eye(3), atol=1e-12)
-    np.testing.assert_allclose(middle.T_world_shortest[:3, :3], np.diag([-1.0, -1.0, 1.0]), atol=1e-12)
+    np.testing.assert_allclose(
+        middle.T_world_shortest[:3, :3], np.diag([-1.0, -1.0, 1.0]), atol=1e-12
+    )
 
 
 def test_averaged_matrices_are_flat():
@@ -246,7 +289,7 @@ def test_averaged_matrices_are_flat():
     assert middle.volume == pytest.approx(np.cos(np.radians(85)) ** 2)
     assert middle.volume < 0.01
     assert kind_of(middle.T_world_body) is Kind.AFFINE
-    assert caption_of(lesson.draw(middle)).tone == "wrong"
+    assert caption_of(draw(middle)).tone == "wrong"
 
 
 def test_a_screw_takes_the_origin_along_an_arc():
@@ -258,16 +301,27 @@ def test_a_screw_takes_the_origin_along_an_arc():
     assert f"its origin {aside[15]:.3f} m from where lerp has it" in opened("screw").caption.text
     line = exp_axis(states[0], states[-1])
     from_line = np.linalg.norm(np.cross(origins - line[0], line[1]), axis=1)
-    np.testing.assert_allclose(from_line, from_line[0])  # a helix: at one distance from the line that it goes along
+    np.testing.assert_allclose(
+        from_line, from_line[0]
+    )  # a helix: at one distance from the line that it goes along
     assert (origins[-1] - origins[0]) @ line[1] == pytest.approx(0.3)
     for step in timeline(preset("screw")).known()[1:]:
         drawn = step.scene["axis"]
         assert isinstance(drawn, Segments)
-        np.testing.assert_allclose(np.cross(drawn.ends[0] - line[0], line[1]), 0.0, atol=1e-9)  # it stays put
-    lerp = np.array([s.T_world_body[:3, 3] for s in moved(dataclasses.replace(preset("screw"), method="slerp + lerp"))])
+        np.testing.assert_allclose(
+            np.cross(drawn.ends[0] - line[0], line[1]), 0.0, atol=1e-9
+        )  # it stays put
+    lerp = np.array(
+        [
+            s.T_world_body[:3, 3]
+            for s in moved(dataclasses.replace(preset("screw"), method="slerp + lerp"))
+        ]
+    )
     np.testing.assert_allclose(lerp, straight, atol=1e-12)
     steps = [b.T_world_body @ inverse(a.T_world_body) for a, b in itertools.pairwise(states)]
-    np.testing.assert_allclose(steps, np.broadcast_to(steps[0], (len(steps), 4, 4)), atol=1e-12)  # one screw all along
+    np.testing.assert_allclose(
+        steps, np.broadcast_to(steps[0], (len(steps), 4, 4)), atol=1e-12
+    )  # one screw all along
 
 
 def test_areas_and_volumes_are_said_as_factors():
@@ -286,7 +340,9 @@ def survives(params: Params, k: int):
     return next(table.rows for table in tables if table.title == "What survives")
 
 
-@pytest.mark.parametrize("params", [Params(), *(p.params for p in lesson.presets if p.params.half == "build a map")])
+@pytest.mark.parametrize(
+    "params", [Params(), *(p.params for p in lesson.presets if p.params.half == "build a map")]
+)
 def test_the_last_step_says_what_is_not_taken_back(params):
     """All vertices were called back in green above a house 1.4 times as high as the first."""
     last = timeline(params)[-1]
@@ -299,10 +355,15 @@ def test_the_last_step_says_what_is_not_taken_back(params):
 
 def test_known_wrong_answers_are_answered_and_not_right():
     asked = {question.name: question for question in lesson.questions}
-    right = {name: question.answer(timeline(question.params).states()) for name, question in asked.items()}
+    right = {
+        name: question.answer(timeline(question.params).states())
+        for name, question in asked.items()
+    }
     for name, given in (
-        ("which-order", (0.0, 1.5, 3.0)), ("mean-heading", (0.0, 20.0, 170.0)), ("mean-matrix", (8.7, 50.0, 100.0))
-    ):  # fmt: skip
+        ("which-order", (0.0, 1.5, 3.0)),
+        ("mean-heading", (0.0, 20.0, 170.0)),
+        ("mean-matrix", (8.7, 50.0, 100.0)),
+    ):
         for number in given:
             assert asked[name].reply(number), (name, number)
             assert abs(number - right[name]) > asked[name].tolerance
@@ -313,11 +374,13 @@ def test_known_wrong_answers_are_answered_and_not_right():
 
 def test_all_ways_survive_half_a_turn():
     for method in get_args(Method):
-        params = dataclasses.replace(MOVE, angles=(0.0, 0.0, 0.0), angles_end=(180.0, 0.0, 0.0), method=method)
+        params = dataclasses.replace(
+            MOVE, angles=(0.0, 0.0, 0.0), angles_end=(180.0, 0.0, 0.0), method=method
+        )
         assert moved(params)[-1].way.turned[-1] == pytest.approx(180, abs=1e-6)
 
 
-# the questions, the slots, the files ----------------------------------------------------------------------------------
+# the questions, the slots, the files --------------------------------------------------------------
 
 
 def test_right_answers():

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 import trimesh
 
-from lessons.transforms.lesson import lesson, run
+from lessons.transforms.composition import Factor, compose
+from lessons.transforms.lesson import draw, lesson, run
 from lessons.transforms.presets import complete
 from lessons.transforms.state import Built, Moved, Params
 from tests.lessons.transforms_runs import MOVE, built, opened, opened_at, preset, timeline
-from workbench.algorithms.composition import Factor, compose
 from workbench.errors import InputError
-from workbench.geometry.affine import transform
 from workbench.geometry.motions import inverse, motion, rotation_angle
-from workbench.geometry.rotations import euler_to_matrix, rotation_from_axis_angle
+from workbench.geometry.motions.affine import transform
+from workbench.geometry.motions.rotations import euler_to_matrix, rotation_from_axis_angle
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Mesh, Table, caption_of
-from workbench.timeline import Timeline
 
 
 def last_built(params: Params, **slots) -> Built:
@@ -34,7 +34,7 @@ def last_moved(params: Params, **slots) -> Moved:
 def test_the_inverse_of_the_student_undoes_the_run():
     wrong = last_built(Params(), invert_rigid=lambda T: motion(T[:3, :3].T, -T[:3, 3]))
     assert wrong.left > 0.5
-    assert caption_of(lesson.draw(wrong)).tone == "wrong"
+    assert caption_of(draw(wrong)).tone == "wrong"
     params = dataclasses.replace(MOVE, method="screw")
     off = last_moved(params, invert_rigid=lambda T: motion(T[:3, :3], -T[:3, 3]))
     assert np.abs(off.T_world_body - off.T_world_end).max() > 0.1
@@ -45,9 +45,16 @@ def test_the_rodrigues_of_the_student_turns_the_handle_and_slerp():
         return rotation_from_axis_angle(axis, angle * np.linalg.norm(axis))
 
     params = Params(pose=(1.0, 0.0, 0.0, 0.0, 0.0, 0.5))
-    ours, theirs = complete(list(lesson.run(params))), last_built(params, rotation_from_axis_angle=forgets_to_normalise)
-    assert rotation_angle(theirs.T_world_body[:3, :3].T @ ours.T_world_body[:3, :3]) == pytest.approx(0.25)
-    backwards = last_moved(MOVE, rotation_from_axis_angle=lambda axis, angle: rotation_from_axis_angle(axis, -angle))
+    ours, theirs = (
+        complete(list(lesson.run(params))),
+        last_built(params, rotation_from_axis_angle=forgets_to_normalise),
+    )
+    assert rotation_angle(
+        theirs.T_world_body[:3, :3].T @ ours.T_world_body[:3, :3]
+    ) == pytest.approx(0.25)
+    backwards = last_moved(
+        MOVE, rotation_from_axis_angle=lambda axis, angle: rotation_from_axis_angle(axis, -angle)
+    )
     assert backwards.off > 10
 
 
@@ -55,16 +62,24 @@ def test_the_euler_angles_of_the_student_turn_the_body():
     def reversed_product(angles, order):
         return euler_to_matrix(angles, order.swapcase())
 
-    ours, theirs = complete(list(lesson.run(Params()))), last_built(Params(), euler_to_matrix=reversed_product)
+    ours, theirs = (
+        complete(list(lesson.run(Params()))),
+        last_built(Params(), euler_to_matrix=reversed_product),
+    )
     assert rotation_angle(theirs.T_world_body[:3, :3].T @ ours.T_world_body[:3, :3]) > 0.3
     params = dataclasses.replace(MOVE, method="Euler angles")
-    middle = [list(lesson.run(params, **slots))[15] for slots in ({}, {"euler_to_matrix": reversed_product})]
+    middle = [
+        list(lesson.run(params, **slots))[15]
+        for slots in ({}, {"euler_to_matrix": reversed_product})
+    ]
     assert np.abs(middle[0].T_world_body - middle[1].T_world_body).max() > 0.1
 
 
 def test_an_own_mesh(tmp_path):
     path = tmp_path / "ball.ply"
-    trimesh.creation.icosphere(subdivisions=3, radius=40.0).apply_translation([7, 8, 9]).export(path)
+    trimesh.creation.icosphere(subdivisions=3, radius=40.0).apply_translation([7, 8, 9]).export(
+        path
+    )
     state = built(Params(mesh=path, point=11))
     p = state.body.solid.p
     np.testing.assert_allclose(np.ptp(p, axis=0), 1.0, atol=0.01)
@@ -83,7 +98,7 @@ def test_a_bad_mesh_is_one_clear_line(tmp_path):
         list(lesson.run(Params(mesh=big)))
 
 
-# the picture ----------------------------------------------------------------------------------------------------------
+# the picture --------------------------------------------------------------------------------------
 
 
 def test_the_table_shows_the_matrix():
@@ -128,7 +143,9 @@ def test_nothing_to_blame_is_not_blamed():
     assert front.tone == "info"
     assert "is the same here" in front.text
     one_turn = Params(scale=(1, 1, 1), angles=(0.0, 0.0, 40.0), compare="four conventions")
-    assert "3 of 4 the same, the other: farthest vertex" in opened_at(one_turn, -2).caption.text  # ZYX turns about x
+    assert (
+        "3 of 4 the same, the other: farthest vertex" in opened_at(one_turn, -2).caption.text
+    )  # ZYX turns about x
     still_turns = opened_at(Params(angles=(30.0, 0.0, 0.0), scale=(1, 1, 1)), 2).caption.text
     assert still_turns == "Turned 0° about the world's y, that is not at all: nothing moved."
 
@@ -138,11 +155,13 @@ def test_a_students_wrong_function_is_not_said_to_be_right():
         return 0.9 * euler_to_matrix(angles, order)
 
     turned = list(run(Params(scale=(1, 1, 1)), euler_to_matrix=shrinking))[1]
-    caption = caption_of(lesson.draw(turned))
+    caption = caption_of(draw(turned))
     assert caption.tone == "wrong"
     assert "edge lengths" in caption.text
-    backwards = last_moved(MOVE, rotation_from_axis_angle=lambda axis, angle: rotation_from_axis_angle(axis, -angle))
-    end = caption_of(lesson.draw(backwards))
+    backwards = last_moved(
+        MOVE, rotation_from_axis_angle=lambda axis, angle: rotation_from_axis_angle(axis, -angle)
+    )
+    end = caption_of(draw(backwards))
     assert end.tone == "wrong"
     assert "The end is missed" in end.text
 
@@ -164,7 +183,10 @@ def test_a_projective_map_is_not_said_to_have_a_stretch():
 
 
 def test_compose_undoes_only_the_motion():
-    A, T = Factor("scale", "", np.diag([2.0, 1, 1, 1])), Factor("turn", "", motion(np.eye(3)[[1, 2, 0]], np.ones(3)))
+    A, T = (
+        Factor("scale", "", np.diag([2.0, 1, 1, 1])),
+        Factor("turn", "", motion(np.eye(3)[[1, 2, 0]], np.ones(3))),
+    )
     *_, done, undone = compose([A], [T], inverse)
     np.testing.assert_allclose(done.T, T.matrix @ A.matrix)
     np.testing.assert_allclose(undone.T, A.matrix, atol=1e-15)

@@ -6,8 +6,8 @@ from lessons.transforms.lesson import lesson
 from lessons.transforms.presets import complete
 from lessons.transforms.state import Built, Moved, Params
 from tests.runs import finished
-from workbench.geometry.rotations import axis_angle_from_rotation
-from workbench.timeline import Timeline
+from workbench.geometry.motions.rotations import axis_angle_from_rotation
+from workbench.run.timeline import Timeline
 
 MOVE = Params(half="move between two poses")
 
@@ -39,7 +39,9 @@ def opened_at(params: Params, step: int):
 
 
 def exp_axis(start: Moved, end: Moved) -> tuple[np.ndarray, np.ndarray]:
-    """A point and the direction of the line about which a motion turns, by solving for what the turn leaves alone."""
+    """A point and the direction of the line about which a motion turns, by solving for what the
+    turn leaves alone.
+    """
     T = end.T_world_body @ np.linalg.inv(start.T_world_body)
     n = axis_angle_from_rotation(T[:3, :3])[0]
     along = n * (n @ T[:3, 3])

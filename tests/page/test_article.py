@@ -1,4 +1,6 @@
-"""Links of an article run what they name, terms name things of the scene, and nothing of it can be forged."""
+"""Links of an article run what they name, terms name things of the scene, and nothing of it can be
+forged.
+"""
 
 from dataclasses import replace
 
@@ -25,9 +27,16 @@ def address(run: str, step: int | None) -> str:
 
 def test_a_link_runs_a_preset_at_a_step_and_leads_there_without_a_script(tmp_path):
     text = article_html(
-        written(tmp_path, "See [its end](run:half@-1), [here](run:this@3) and [anew](run:default)."), address, "live"
+        written(
+            tmp_path, "See [its end](run:half@-1), [here](run:this@3) and [anew](run:default)."
+        ),
+        address,
+        "live",
     )
-    assert '<a class="run" href="?run=half&amp;step=-1" data-run="half" data-step="-1">its end</a>' in text
+    assert (
+        '<a class="run" href="?run=half&amp;step=-1" data-run="half" data-step="-1">its end</a>'
+        in text
+    )
     assert 'data-run="" data-step="3">here</a>' in text
     assert 'data-run="default">anew</a>' in text
 
@@ -39,11 +48,15 @@ def test_a_link_to_no_preset_is_told_with_those_there_are(tmp_path):
 
 def test_a_term_names_a_thing_of_the_scene_and_arrays_stay_arrays(tmp_path):
     text = article_html(
-        written(tmp_path, "The [[cloud/moved|moved cloud]] of `[[1, 0], [0, 1]]` and [[grid]]."), address, "live"
+        written(tmp_path, "The [[cloud/moved|moved cloud]] of `[[1, 0], [0, 1]]` and [[grid]]."),
+        address,
+        "live",
     )
     assert '<span class="term" tabindex="0" data-thing="cloud/moved">moved cloud</span>' in text
     assert 'data-thing="grid">grid</span>' in text
-    table = article_html(written(tmp_path, "| a | b |\n|---|---|\n| [[cloud|blue dots]] | c |"), address, "live")
+    table = article_html(
+        written(tmp_path, "| a | b |\n|---|---|\n| [[cloud|blue dots]] | c |"), address, "live"
+    )
     assert '<td><span class="term" tabindex="0" data-thing="cloud">blue dots</span></td>' in table
     assert "<td>c</td>" in table
     assert "[[1, 0], [0, 1]]" in text
@@ -59,7 +72,9 @@ def test_a_home_has_its_own_wording(tmp_path):
 
 
 def test_questions_stand_in_the_section_that_asks_to_predict(tmp_path):
-    text = article_html(written(tmp_path, "# A\n\n## Predict\n\nGuess.\n\n## After\n\nMore."), address, "live")
+    text = article_html(
+        written(tmp_path, "# A\n\n## Predict\n\nGuess.\n\n## After\n\nMore."), address, "live"
+    )
     assert text.index("Guess.") < text.index(PLACE) < text.index("After")
 
 

@@ -9,15 +9,17 @@ import pytest
 from tests import fake
 from workbench.page.charts import chart_of, outline, series_of
 from workbench.page.steps import Steps
+from workbench.run.timeline import Series, Timeline
 from workbench.scene import Caption, Curve, Scalar
-from workbench.timeline import Series, Timeline
 
 
 def curve(x, y, kind: Any = "line") -> Curve:
     return Curve(np.array(x, float), np.array(y, float), "a", "chart", "x", "y", kind=kind)
 
 
-@pytest.mark.parametrize("kinds", [("line", "line"), ("bars", "line"), ("bars", "bars"), ("dots", "line")])
+@pytest.mark.parametrize(
+    "kinds", [("line", "line"), ("bars", "line"), ("bars", "bars"), ("dots", "line")]
+)
 def test_two_curves_of_a_chart_keep_their_own_points_and_gaps(kinds):
     given = [([3, 0, 1], [1, 2, float("nan")], kinds[0]), ([0.5, 2.5], [4, 3], kinds[1])]
     first, second = chart_of([curve(*one) for one in given])["curves"]
@@ -38,7 +40,10 @@ def test_a_scalar_is_sent_as_it_is_for_a_number_that_was_rounded_is_not_rounded_
     """0.371500004 is 0.372; of six digits, 0.371500, a browser makes 0.371."""
 
     def draw(state):
-        return {"off": Scalar(0.371500004, "error", "Error", "deg"), "caption": Caption("The error is 0.372°.")}
+        return {
+            "off": Scalar(0.371500004, "error", "Error", "deg"),
+            "caption": Caption("The error is 0.372°."),
+        }
 
     timeline = Timeline(replace(fake.lesson, draw=draw), fake.Params(steps=1, points=3)).complete()
     assert Steps(timeline).whole()["series"][0]["values"][0] == 0.371500004
@@ -47,7 +52,9 @@ def test_a_scalar_is_sent_as_it_is_for_a_number_that_was_rounded_is_not_rounded_
 def test_round_off_is_zero_in_what_is_plotted_recorded_and_published():
     def draw(state):
         return {
-            "off": Scalar(2.84e-14 * (state.k + 1), "median pixel error", "Error to the true picture", "px"),
+            "off": Scalar(
+                2.84e-14 * (state.k + 1), "median pixel error", "Error to the true picture", "px"
+            ),
             "caption": Caption("Nothing but round-off."),
         }
 
@@ -63,5 +70,7 @@ def test_round_off_is_zero_in_what_is_plotted_recorded_and_published():
 
 def test_a_value_over_the_steps_is_rounded_once_where_it_is_read():
     mean = 5.694998344433385  # 5.69 in a caption; by way of 5.69500 a tile would say 5.7
-    told = series_of({"mean": Series(Scalar(mean, "mean", "Error", unit="°"), np.array([mean, np.nan]))})
+    told = series_of(
+        {"mean": Series(Scalar(mean, "mean", "Error", unit="°"), np.array([mean, np.nan]))}
+    )
     assert told[0]["values"] == [mean, None]

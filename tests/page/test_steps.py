@@ -7,8 +7,8 @@ import numpy as np
 from tests import fake
 from workbench.page.legend import legend_html
 from workbench.page.steps import Steps
+from workbench.run.timeline import Timeline
 from workbench.scene import Field, Picture
-from workbench.timeline import Timeline
 
 
 def test_steps_are_the_same_in_whatever_order_they_are_asked_for():
@@ -18,7 +18,9 @@ def test_steps_are_the_same_in_whatever_order_they_are_asked_for():
     for k in reversed(range(len(timeline))):
         step = backward.step(k)
         assert step["caption"] == told[k]["caption"]
-        assert [backward.things[n] for n in step["shown"]] == [forward.things[n] for n in told[k]["shown"]]
+        assert [backward.things[n] for n in step["shown"]] == [
+            forward.things[n] for n in told[k]["shown"]
+        ]
     assert len(forward.things) == len(backward.things)
 
 

@@ -10,9 +10,20 @@ from tests import fake
 from tests.runs import finished
 from workbench.lesson import View, catalog
 from workbench.page.thumbnail import picture_of, thumbnail
+from workbench.run.timeline import Timelines
 from workbench.scene import PALETTE, Points, Segments
+from workbench.story import story_of
 
-VIEW = View(eye=(0.0, -4.0, 0.0), target=(0.0, 0.0, 0.0), fov_degrees=53.130102)  # at 4 m it sees 4 m of height
+VIEW = View(
+    eye=(0.0, -4.0, 0.0), target=(0.0, 0.0, 0.0), fov_degrees=53.130102
+)  # at 4 m it sees 4 m of height
+
+
+class Kept(Timelines):
+    """The runs that all tests share."""
+
+    def get(self, lesson, params):
+        return finished(lesson.name, params)
 
 
 def pixels(data: bytes) -> np.ndarray:
@@ -27,7 +38,9 @@ def middle_of(picture: np.ndarray, role: str) -> tuple[float, float]:
 
 
 def test_what_is_right_is_right_and_what_is_up_is_up():
-    frame = np.array([[[-3.2, 0, -2.0], [3.2, 0, -2.0]], [[-3.2, 0, 2.0], [3.2, 0, 2.0]]])  # the whole picture
+    frame = np.array(
+        [[[-3.2, 0, -2.0], [3.2, 0, -2.0]], [[-3.2, 0, 2.0], [3.2, 0, 2.0]]]
+    )  # the whole picture
     T_world_moved = np.eye(4)
     T_world_moved[:3, 3] = (-1.6, 0.0, -1.0)
     scene = {
@@ -37,10 +50,10 @@ def test_what_is_right_is_right_and_what_is_up_is_up():
         "moved": Points(np.zeros((1, 3)), "target", 0.2, T_world_moved),
     }
     picture = pixels(picture_of(scene, VIEW))
-    assert picture.shape == (200, 320, 4)
-    assert middle_of(picture, "source") == pytest.approx((240, 100), abs=3)
-    assert middle_of(picture, "truth") == pytest.approx((160, 50), abs=3)
-    assert middle_of(picture, "target") == pytest.approx((80, 150), abs=3)
+    assert picture.shape == (300, 480, 4)
+    assert middle_of(picture, "source") == pytest.approx((360, 150), abs=4)
+    assert middle_of(picture, "truth") == pytest.approx((240, 75), abs=4)
+    assert middle_of(picture, "target") == pytest.approx((120, 225), abs=4)
 
 
 def test_the_nearer_hides_the_farther_and_what_is_behind_the_eye_is_left_out():
@@ -49,12 +62,22 @@ def test_the_nearer_hides_the_farther_and_what_is_behind_the_eye_is_left_out():
         "far": Points(np.array([[0.0, 1.0, 0.0], [0.0, -5.0, 0.0]]), "target", 0.3),
     }
     picture = pixels(picture_of(scene, VIEW))
-    assert np.abs(picture[100, 160, :3] - PALETTE["source"]).max() < 20
+    assert np.abs(picture[150, 240, :3] - PALETTE["source"]).max() < 20
 
 
-@pytest.mark.parametrize("lesson", [fake.lesson, *catalog().values()], ids=lambda lesson: lesson.name)
+def test_a_told_lesson_is_seen_where_its_story_begins():
+    story = story_of(catalog()["pairs"], "live")
+    assert story is not None
+    place = story.scenes[0].beats[0]
+    lesson = catalog()["pairs"]
+    begun = finished("pairs", lesson.preset(place.run).params)[int(place.step)].scene
+    assert thumbnail(lesson, Kept()) == picture_of(begun, lesson.views[place.view])
+
+
+@pytest.mark.parametrize(
+    "lesson", [fake.lesson, *catalog().values()], ids=lambda lesson: lesson.name
+)
 def test_every_lesson_has_a_picture_that_is_small_and_shows_something(lesson):
-    timeline = None if lesson is fake.lesson else finished(lesson.name, lesson.params())
-    data = thumbnail(lesson, timeline)
+    data = thumbnail(lesson, None if lesson is fake.lesson else Kept())
     assert len(data) < 40_000
-    assert (pixels(data)[..., 3] > 128).mean() > 0.03
+    assert (pixels(data)[..., 3] > 128).mean() > 0.02

@@ -9,7 +9,12 @@ import pytest
 from tests import fake
 from workbench.publish import site
 
-TINY = replace(fake.lesson, run=lambda params: fake.run(fake.Params(steps=2, points=5)), presets=(), questions=())
+TINY = replace(
+    fake.lesson,
+    run=lambda params: fake.run(fake.Params(steps=2, points=5)),
+    presets=(),
+    questions=(),
+)
 
 
 @pytest.fixture(scope="session")

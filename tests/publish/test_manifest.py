@@ -1,4 +1,6 @@
-"""A site holds what we wrote and what others put there: only our own files are ever replaced or removed."""
+"""A site holds what we wrote and what others put there: only our own files are ever replaced or
+removed.
+"""
 
 import hashlib
 import json
@@ -10,9 +12,9 @@ from dataclasses import replace
 import pytest
 
 from tests.publish.conftest import TINY
-from workbench import atomic
 from workbench.cli import main
 from workbench.errors import InputError
+from workbench.machinery import atomic
 from workbench.publish import site
 from workbench.publish.manifest import KEPT
 
@@ -20,7 +22,11 @@ OTHER = replace(TINY, name="other", title="Another")
 
 
 def contents(folder) -> dict[str, bytes]:
-    return {str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+    return {
+        str(file.relative_to(folder)): file.read_bytes()
+        for file in folder.rglob("*")
+        if file.is_file()
+    }
 
 
 def digest(data: bytes) -> str:
@@ -46,10 +52,23 @@ def test_a_site_whose_manifest_has_the_format_before_is_gone_on_with(out, render
     assert (out / "notes.txt").read_text() == "mine"
 
 
-HOSTILE = ("../x/keep", "../x", "ABSOLUTE", "link/keep", "a\0b/keep", "", ".", "..", "fake/../../x/keep", "fake/../x")
+HOSTILE = (
+    "../x/keep",
+    "../x",
+    "ABSOLUTE",
+    "link/keep",
+    "a\0b/keep",
+    "",
+    ".",
+    "..",
+    "fake/../../x/keep",
+    "fake/../x",
+)
 
 
-@pytest.mark.parametrize("shape", ["as it was written before", "files", "a file behind a link", "lessons"])
+@pytest.mark.parametrize(
+    "shape", ["as it was written before", "files", "a file behind a link", "lessons"]
+)
 def test_nothing_outside_of_a_site_is_removed_whatever_its_manifest_says(out, shape):
     outside = out.parent / "x"
     outside.mkdir()
@@ -59,12 +78,22 @@ def test_nothing_outside_of_a_site_is_removed_whatever_its_manifest_says(out, sh
     if shape == "a file behind a link":
         keys = ["link/keep"]
     if "file" in shape:
-        told(out, files=dict.fromkeys(keys, digest(b"precious")) | json.loads((out / KEPT).read_text())["files"])
+        told(
+            out,
+            files=dict.fromkeys(keys, digest(b"precious"))
+            | json.loads((out / KEPT).read_text())["files"],
+        )
     elif shape == "lessons":
         listed = {"title": "x", "summary": "x", "order": 1}
-        told(out, lessons=dict.fromkeys(keys, listed), runs=dict.fromkeys([f"{key}/default" for key in keys], "1"))
+        told(
+            out,
+            lessons=dict.fromkeys(keys, listed),
+            runs=dict.fromkeys([f"{key}/default" for key in keys], "1"),
+        )
     else:
-        (out / KEPT).write_text(json.dumps({f"{key}{end}": "1" for key in keys for end in ("", "/default")}))
+        (out / KEPT).write_text(
+            json.dumps({f"{key}{end}": "1" for key in keys for end in ("", "/default")})
+        )
     site.publish(out, [TINY], force=True, remove_others=True)
     assert (outside / "keep").read_text() == "precious"
     assert (out / "link").is_symlink()
@@ -79,10 +108,16 @@ def test_nothing_outside_of_a_site_is_removed_whatever_its_manifest_says(out, sh
         "{",
         "[" * 100_000,
         '{"format": 2, "files": [1], "runs": 3, "lessons": {"fake": 7}, "writing": "x"}',
-        '{"format": 2, "files": {"index.html": {}}, "lessons": {"fake": {"title": [], "summary": 1, "order": "x"}}}',
+        (
+            '{"format": 2, "files": {"index.html": {}}, "lessons": {"fake": {"title": [],'
+            ' "summary": 1, "order": "x"}}}'
+        ),
         '{"format": 2, "lessons": {"b": {"title": "<script>", "summary": "x", "order": 1e999}}}',
         "x" * 5_000_000,
-        '{"format": 3, "made_by": "", "lessons": {}, "runs": {"fake/default": 1}, "files": {"index.html": ["1"]}}',
+        (
+            '{"format": 3, "made_by": "", "lessons": {}, "runs": {"fake/default": 1}, "files":'
+            ' {"index.html": ["1"]}}'
+        ),
         '{"format": 3, "made_by": "", "lessons": {}, "runs": [["a", "b"]], "files": {}}',
         '{"format": ' + "9" * 5000 + "}",
     ],
@@ -95,7 +130,9 @@ def test_a_manifest_that_is_none_gives_no_rights(out, text):
     assert contents(out) == before
 
 
-@pytest.mark.parametrize("name", ["index.html", "lessons.js", ".nojekyll", "fake/index.html", "fake/runs/fake.rrd"])
+@pytest.mark.parametrize(
+    "name", ["index.html", "lessons.js", ".nojekyll", "fake/index.html", "fake/runs/fake.rrd"]
+)
 def test_a_file_of_somebody_else_is_not_replaced(tmp_path, name, rendered):
     (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / name).write_text("mine")
@@ -128,7 +165,9 @@ def test_one_lesson_more_leaves_the_others_and_what_people_put_there(out):
     assert "fake/notes.txt" not in files
 
 
-def test_the_command_leaves_other_lessons_where_lessons_are_named_and_else_there_are_none(out, monkeypatch, capsys):
+def test_the_command_leaves_other_lessons_where_lessons_are_named_and_else_there_are_none(
+    out, monkeypatch, capsys
+):
     before = contents(out / "fake")
     monkeypatch.setattr("workbench.cli.lesson_given", lambda name: {"other": OTHER}[name])
     monkeypatch.setattr("workbench.cli.catalog", lambda: {"other": OTHER})
@@ -154,7 +193,7 @@ def test_a_lesson_that_is_no_more_goes_and_what_others_put_there_stays(out):
 
 def test_a_run_that_is_no_more_goes(out):
     wanted = replace(TINY, presets=(replace_preset(),))
-    site.publish(out, [wanted])
+    site.publish(out, [wanted], recordings="all")
     assert (out / "fake" / "runs" / "fake-half.rrd").exists()
     site.publish(out, [TINY])
     assert sorted(os.listdir(out / "fake" / "runs")) == ["default.html", "default.js", "fake.rrd"]
@@ -245,7 +284,7 @@ def test_a_full_disk_leaves_nothing_half_written(out, monkeypatch):
     def full(file):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("workbench.atomic.os.fsync", full)
+    monkeypatch.setattr("workbench.machinery.atomic.os.fsync", full)
     before = contents(out)
     with pytest.raises(InputError, match="No space left"):
         site.publish(out, [replace(TINY, title="Loud")])
@@ -253,8 +292,13 @@ def test_a_full_disk_leaves_nothing_half_written(out, monkeypatch):
 
 
 def test_what_a_killed_publish_left_is_removed_by_the_next(out):
-    gone = subprocess.run([sys.executable, "-c", "import os; print(os.getpid())"], capture_output=True, check=True)
-    left = [f".{name}.{atomic._MACHINE}-{int(gone.stdout)}-0123abcd.part" for name in ("index.html", "default.js")]
+    gone = subprocess.run(
+        [sys.executable, "-c", "import os; print(os.getpid())"], capture_output=True, check=True
+    )
+    left = [
+        f".{name}.{atomic._MACHINE}-{int(gone.stdout)}-0123abcd.part"
+        for name in ("index.html", "default.js")
+    ]
     (out / left[0]).touch()
     (out / "fake" / "runs" / left[1]).touch()
     site.publish(out, [TINY])

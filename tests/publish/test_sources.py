@@ -29,12 +29,14 @@ def draw(state):
 
 lesson = Lesson(name="{name}", title="T", summary="S", page=Path(__file__).with_name("page.md"), params=Params, run=run,
                 draw=draw, order=1)
-"""
+"""  # noqa: E501
 
 
 @pytest.fixture
 def course(tmp_path, monkeypatch):
-    """A package of two lessons, each with a module that only it uses, and one that both use through another."""
+    """A package of two lessons, each with a module that only it uses, and one that both use through
+    another.
+    """
     root = tmp_path / "tiny_course"
     for name, uses in (("a", "for_a"), ("b", "for_b")):
         folder = root / name
@@ -81,25 +83,36 @@ def test_new_data_in_a_lessons_folder_counts(course):
     assert sources_digest(lesson) != before
 
 
+DRAWS = ("draw.py", "drawing.py", "flat.py", "space.py")  # where lessons draw
+
+
 @pytest.mark.parametrize("name", catalog())
 def test_a_lesson_depends_on_what_runs_draws_records_and_renders_it(name):
     found = {str(file.relative_to(ROOT)) for file in sources_of(catalog()[name])}
     assert {
         f"lessons/{name}/page.md",
-        f"lessons/{name}/draw.py",
-        "workbench/timeline.py",
+        f"lessons/{name}/lesson.py",
+        *(f"lessons/{name}/{part}" for part in DRAWS if (ROOT / f"lessons/{name}/{part}").exists()),
+        "workbench/run/timeline.py",
         "workbench/recording/sink.py",
         "workbench/recording/write.py",
         "workbench/wire/primitives.py",
         "workbench/wire/packing.py",
     } <= found
     others = tuple(f"lessons/{other}/" for other in catalog() if other != name)
-    beside = ("workbench/cli.py", "workbench/exercise/", "workbench/viewer/server.py", "workbench/publish/site.py")
+    beside = (
+        "workbench/cli.py",
+        "workbench/exercise/",
+        "workbench/viewer/server.py",
+        "workbench/publish/site.py",
+    )
     assert not [file for file in found if file.startswith((*others, *beside))]
 
 
 def test_a_lesson_depends_on_its_own_algorithms_only():
-    icp, ransac = ({file.name for file in sources_of(catalog()[name])} for name in ("icp", "ransac"))
+    icp, ransac = (
+        {file.name for file in sources_of(catalog()[name])} for name in ("icp", "ransac")
+    )
     assert "semiglobal.py" not in icp | ransac
     assert {"icp.py"} <= icp - ransac
     assert {"samplers.py", "scores.py"} <= ransac - icp

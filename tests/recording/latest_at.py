@@ -1,4 +1,6 @@
-"""What a viewer shows of a recording at a step: the latest value of every component, with Clear taken into account."""
+"""What a viewer shows of a recording at a step: the latest value of every component, with Clear
+taken into account.
+"""
 
 from pathlib import Path
 from typing import Any
@@ -9,20 +11,30 @@ Shown = dict[str, dict[str, Any]]
 
 
 def rows(path: Path) -> list[tuple[int, bytes, str, dict[str, Any]]]:
-    """Return every logged row in the order in which it counts: step (-1 for static), row id, entity, components."""
+    """Return every logged row in the order in which it counts: step (-1 for static), row id,
+    entity, components.
+    """
     found = []
     for chunk in read_chunks(path):
         columns = chunk.to_record_batch().to_pydict()
         ids = columns.pop("rerun.controls.RowId")
         steps = columns.pop("step", [-1] * len(ids))
         for i, (row_id, step) in enumerate(zip(ids, steps, strict=True)):
-            components = {name: column[i] for name, column in columns.items() if column[i] is not None}
+            components = {
+                name: column[i] for name, column in columns.items() if column[i] is not None
+            }
             found.append((step, bytes(row_id), chunk.entity_path, components))
     return sorted(found, key=lambda row: row[:3])
 
 
-def shown_at(path: Path, step: int, below: tuple[str, ...] = ("/world", "/pictures", "/charts", "/tables", "/legend")):
-    """Return what is shown at a step, by entity and component, class ids by their name and colour."""
+def shown_at(
+    path: Path,
+    step: int,
+    below: tuple[str, ...] = ("/world", "/pictures", "/charts", "/tables", "/legend"),
+):
+    """Return what is shown at a step, by entity and component, class ids by their name and
+    colour.
+    """
     shown: Shown = {}
     table: dict[int, Any] = {}
     for at, _, entity, components in rows(path):

@@ -1,6 +1,7 @@
 """Recordings in Rerun's web viewer, in a real browser: looked at.
 
-The viewer spends ten seconds on its shaders without a graphics card, however small the picture: one page serves all tests.
+The viewer spends ten seconds on its shaders without a graphics card, however small the picture: one
+page serves all tests.
 """
 
 import io
@@ -39,7 +40,9 @@ class Window:
     def open(self, file: Path) -> None:
         """Open one more recording, which is then the one that is shown."""
         self.page.route(f"**/{file.name}", lambda route: route.fulfill(path=file))
-        self.page.evaluate("name => viewer.add_receiver(new URL(name, location.href).href)", f"/{file.name}")
+        self.page.evaluate(
+            "name => viewer.add_receiver(new URL(name, location.href).href)", f"/{file.name}"
+        )
 
     def picture(self) -> np.ndarray:
         return np.asarray(Image.open(io.BytesIO(self.page.screenshot())).convert("RGB")).astype(int)
@@ -50,7 +53,9 @@ class Window:
         for look in range(LOOKS):
             if holds(picture):
                 return picture
-            self.page.mouse.move(WIDTH - 60, HEIGHT - 14 + look % 2)  # the viewer sleeps until something happens
+            self.page.mouse.move(
+                WIDTH - 60, HEIGHT - 14 + look % 2
+            )  # the viewer sleeps until something happens
             self.page.wait_for_timeout(250)
             picture = self.picture()
         last = self.folder / "last.png"
@@ -67,7 +72,9 @@ def window(chromium, fake_file, tmp_path_factory) -> Iterator[Window]:
 
 
 def near(picture: np.ndarray, role: Role, tolerance: int = 40) -> int:
-    """Return how many pixels are about a role's colour (shading and thin lines change it a little)."""
+    """Return how many pixels are about a role's colour (shading and thin lines change it a
+    little).
+    """
     return int((np.abs(picture - np.array(PALETTE[role])).max(-1) < tolerance).sum())
 
 

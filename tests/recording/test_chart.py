@@ -104,7 +104,9 @@ def test_the_colours_of_a_legend_stand_above_its_names():
 
 def test_the_names_of_many_curves_stay_on_the_canvas():
     names = ["estimate", "95 % interval", "its lower end", "truth"]
-    words = words_of(*(Curve(np.arange(3.0), np.arange(3.0), name, "errors", "x") for name in names))
+    words = words_of(
+        *(Curve(np.arange(3.0), np.arange(3.0), name, "errors", "x") for name in names)
+    )
     labels = words.labels.as_arrow_array().to_pylist()
     across = [words.positions.as_arrow_array().to_pylist()[labels.index(name)][0] for name in names]
     half = [3.3 * len(name) for name in names]

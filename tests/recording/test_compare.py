@@ -35,7 +35,9 @@ def test_each_run_is_there_below_its_root(files):
         for k in (0, 3):
             alone = shown_at(path, k)
             together = shown_at(
-                both, k, below=(f"{root}/world", f"{root}/pictures", f"{root}/charts", f"{root}/legend")
+                both,
+                k,
+                below=(f"{root}/world", f"{root}/pictures", f"{root}/charts", f"{root}/legend"),
             )
             for entity, components in alone.items():
                 if not entity.startswith("/tables"):
@@ -63,13 +65,17 @@ def test_curves_of_both_keep_their_values_and_are_told_apart(files):
 
 def test_what_differs_is_said(files):
     a, b, both = files
-    differences = {name: (one, two) for name, one, two in differences_of(open_recording(a), open_recording(b))}
+    differences = {
+        name: (one, two) for name, one, two in differences_of(open_recording(a), open_recording(b))
+    }
     assert differences["angle"] == ("90", "45")
     assert differences["colors"] == ("field", "classes")
     assert differences["steps"] == ("6", "4")
     assert differences["Distance, last"] == ("0 m", "0 m")
     assert "seed" not in differences
-    (document,) = (components for _, _, entity, components in rows(both) if entity == "/differences")
+    (document,) = (
+        components for _, _, entity, components in rows(both) if entity == "/differences"
+    )
     assert "| angle | 90 | 45 |" in document["TextDocument:text"][0]
 
 
@@ -98,11 +104,16 @@ def test_runs_of_two_lessons_are_refused(files, tmp_path):
         "{}",
         "[" * 9000,
         '{"view": {"x": 1}, "legend_height": 0, "canvases": {}}',
-        '{"view": {}, "legend_height": 0, "canvases": {"/charts/a": {"title": 1, "width": "x", "height": 0, "first": 0}}}',
+        (
+            '{"view": {}, "legend_height": 0, "canvases": {"/charts/a": {"title": 1, "width": "x",'
+            ' "height": 0, "first": 0}}}'
+        ),
         '{"view": {"x": 1}, "tables": null, "legend_height": 0, "charts": {}, "pictures": {}}',
         '{"view": {}, "tables": "a", "legend_height": 0, "charts": {}, "pictures": {}}',
-        '{"view": {}, "tables": null, "legend_height": 0, "pictures": {},'
-        ' "charts": {"a": {"title": 1, "width": "x", "height": 0, "first": -5}}}',
+        (
+            '{"view": {}, "tables": null, "legend_height": 0, "pictures": {},'
+            ' "charts": {"a": {"title": 1, "width": "x", "height": 0, "first": -5}}}'
+        ),
     ],
 )
 def test_a_layout_that_is_none_is_damage(files, tmp_path, monkeypatch, odd):
@@ -115,7 +126,13 @@ def test_a_layout_that_is_none_is_damage(files, tmp_path, monkeypatch, odd):
 
 def test_what_older_versions_said_is_read():
     canvas = {"title": "Basin · m", "width": 300.0, "height": 186.0, "first": 3}
-    old = {"charts": {"a/b": canvas}, "pictures": {"photo": canvas}, "tables": 1, "legend_height": 38.0, "view": {}}
+    old = {
+        "charts": {"a/b": canvas},
+        "pictures": {"photo": canvas},
+        "tables": 1,
+        "legend_height": 38.0,
+        "view": {},
+    }
     contents, view = from_json(json.dumps(old), {})
     assert contents.canvases == {
         "/charts/a\\/b": Canvas("Basin · m", 300.0, 186.0, 3),
@@ -123,6 +140,6 @@ def test_what_older_versions_said_is_read():
         "/tables": Canvas("Numbers", 0.0, 0.0, 1),
     }
     assert from_json(to_json(contents, view), {}) == (contents, view)
-    assert from_json(json.dumps(old | {"tables": None}), {})[0].canvases.keys() == contents.canvases.keys() - {
-        "/tables"
-    }
+    assert from_json(json.dumps(old | {"tables": None}), {})[
+        0
+    ].canvases.keys() == contents.canvases.keys() - {"/tables"}

@@ -1,4 +1,6 @@
-"""Files that are damaged or foreign, and places that cannot be written to: one line, and nothing lost."""
+"""Files that are damaged or foreign, and places that cannot be written to: one line, and nothing
+lost.
+"""
 
 import errno
 import os
@@ -60,7 +62,11 @@ def test_the_fingerprint_sees_every_value():
     values = {"a": np.array([1.0, np.nan]), "b": np.array([2.0])}
     assert digest("{}", ["x"], values) == digest("{}", ["x"], dict(values))
     changed = {"a": np.array([1.0, np.nan]), "b": np.array([2.0000001])}
-    others = [digest("{1}", ["x"], values), digest("{}", ["y"], values), digest("{}", ["x"], changed)]
+    others = [
+        digest("{1}", ["x"], values),
+        digest("{}", ["y"], values),
+        digest("{}", ["x"], changed),
+    ]
     assert len({digest("{}", ["x"], values), *others}) == 4
 
 
@@ -98,7 +104,9 @@ def test_two_recordings_in_one_file_are_refused(fake_file, tmp_path):
 
     other = record(fake.lesson, tmp_path / "b.rrd", fake.Params(steps=2))
     both = tmp_path / "both.rrd"
-    subprocess.run([str(binary()), "rrd", "merge", str(fake_file), str(other), "-o", str(both)], check=True)
+    subprocess.run(
+        [str(binary()), "rrd", "merge", str(fake_file), str(other), "-o", str(both)], check=True
+    )
     assert "2 recordings" in refuse(both)
 
 
@@ -116,7 +124,8 @@ def test_a_failing_run_leaves_what_was_there(tmp_path):
     path = tmp_path / "a.rrd"
     path.write_bytes(b"precious")
     with pytest.raises(
-        InputError, match=r"fake.py, line \d+: RuntimeError: a bug .*\(at step 2\); nothing was written"
+        InputError,
+        match=r"fake.py, line \d+: RuntimeError: a bug .*\(at step 2\); nothing was written",
     ):
         record(fake.lesson, path, fake.Params(trouble="crash"), force=True)
     assert os.listdir(tmp_path) == ["a.rrd"]
@@ -127,7 +136,7 @@ def test_a_run_that_is_interrupted_leaves_nothing(tmp_path, monkeypatch):
     def interrupted(*args, **kwargs):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("workbench.atomic.os.fsync", interrupted)
+    monkeypatch.setattr("workbench.machinery.atomic.os.fsync", interrupted)
     with pytest.raises(KeyboardInterrupt):
         record(fake.lesson, tmp_path / "a.rrd")
     assert os.listdir(tmp_path) == []
@@ -135,14 +144,18 @@ def test_a_run_that_is_interrupted_leaves_nothing(tmp_path, monkeypatch):
 
 def test_what_a_killed_record_left_is_removed_by_the_next(tmp_path):
     code = (
-        "import os, signal, sys; from pathlib import Path; from workbench import atomic;"
+        "import os, signal, sys; from pathlib import Path; from workbench.machinery import atomic;"
         "atomic.os.fsync = lambda file: os.kill(os.getpid(), signal.SIGKILL);"
         "atomic.write_atomic(Path(sys.argv[1]), b'half')"
     )
-    killed = subprocess.run([sys.executable, "-c", code, str(tmp_path / "other.rrd")], cwd=ROOT, check=False)
+    killed = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path / "other.rrd")], cwd=ROOT, check=False
+    )
     assert killed.returncode == -signal.SIGKILL
     (left,) = os.listdir(tmp_path)
-    ours = left.replace(f"-{re.findall('-([0-9]+)-', left)[0]}-", f"-{os.getpid()}-")  # of a process that lives
+    ours = left.replace(
+        f"-{re.findall('-([0-9]+)-', left)[0]}-", f"-{os.getpid()}-"
+    )  # of a process that lives
     for name in (ours, ".mine.part", "a.rrd.part"):
         (tmp_path / name).touch()
     record(fake.lesson, tmp_path / "a.rrd")
@@ -153,7 +166,7 @@ def test_a_full_disk_leaves_nothing_half_written(tmp_path, monkeypatch):
     def full(file):
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("workbench.atomic.os.fsync", full)
+    monkeypatch.setattr("workbench.machinery.atomic.os.fsync", full)
     with pytest.raises(InputError, match=r"a\.rrd: cannot be written: No space left"):
         record(fake.lesson, tmp_path / "a.rrd")
     assert os.listdir(tmp_path) == []

@@ -1,4 +1,6 @@
-"""A cloud whose points come and go is said once for the whole run, and shows at every step what it showed before."""
+"""A cloud whose points come and go is said once for the whole run, and shows at every step what it
+showed before.
+"""
 
 from dataclasses import replace
 
@@ -11,15 +13,17 @@ from workbench.recording import gather, record_bytes
 from workbench.recording.gather import unions
 from workbench.recording.sink import RerunSink
 from workbench.recording.streams import stream_bytes
+from workbench.run.timeline import Timeline
 from workbench.scene import Field, Points
-from workbench.timeline import Timeline
 
 RNG = np.random.default_rng(0)
 P, COLORS = RNG.normal(size=(200, 3)), RNG.integers(0, 256, (200, 3), dtype=np.uint8)
 
 
 def scenes(steps: int = 8):
-    """A cloud of which other points are there at each step, in another order; coloured by a field at the end."""
+    """A cloud of which other points are there at each step, in another order; coloured by a field
+    at the end.
+    """
     found = []
     for k in range(steps):
         some = RNG.permutation(200)[: 100 + k]
@@ -41,7 +45,9 @@ def there(path, step):
     """Return what is visible of the cloud: its points with their colours, in one order."""
     shown = shown_at(path, step)["/world/cloud"]
     radii = np.broadcast_to(shown["Points3D:radii"], len(shown["Points3D:positions"]))
-    both = zip(map(tuple, shown["Points3D:positions"]), shown["Points3D:colors"], radii, strict=True)
+    both = zip(
+        map(tuple, shown["Points3D:positions"]), shown["Points3D:colors"], radii, strict=True
+    )
     return sorted(point for point in both if point[2] > 0)
 
 
@@ -49,10 +55,17 @@ def test_a_gathered_cloud_shows_what_it_showed(tmp_path):
     shown = scenes()
     found = unions(shown)
     assert found.keys() == {"cloud"}
-    with_union, without = recorded(shown, tmp_path / "a.rrd", found), recorded(shown, tmp_path / "b.rrd", {})
+    with_union, without = (
+        recorded(shown, tmp_path / "a.rrd", found),
+        recorded(shown, tmp_path / "b.rrd", {}),
+    )
     for k in range(len(shown)):
         assert there(with_union, k) == there(without, k)
-    places = [components for _, _, entity, components in rows(with_union) if "Points3D:positions" in components]
+    places = [
+        components
+        for _, _, entity, components in rows(with_union)
+        if "Points3D:positions" in components
+    ]
     assert len(places) == 2  # once for all, and once more by the field
 
 
@@ -75,4 +88,6 @@ def test_a_large_union_is_thinned_evenly_and_stays_the_same_from_step_to_step(mo
 
 def test_a_stereo_run_is_small():
     lesson = catalog()["disparity"]
-    assert len(record_bytes(Timeline(lesson, lesson.params()).complete())) < 2_700_000  # it had 9 MB
+    assert (
+        len(record_bytes(Timeline(lesson, lesson.params()).complete())) < 2_700_000
+    )  # it had 9 MB

@@ -22,7 +22,9 @@ SEEN = {
 } | {
     f"{lesson.name} {i}": view
     for lesson in catalog().values()
-    for i, view in enumerate(dict.fromkeys([lesson.view, *(preset.view or lesson.view for preset in lesson.presets)]))
+    for i, view in enumerate(
+        dict.fromkeys([lesson.view, *(preset.view or lesson.view for preset in lesson.presets)])
+    )
 }
 
 
@@ -34,8 +36,12 @@ def picture(ahead, up) -> tuple[np.ndarray, np.ndarray]:
 
 
 def viewer_up(ahead, eye_up) -> np.ndarray:
-    """Return the up that Rerun's viewer takes (`EyeController::up` of its eye.rs): its own, looking along it."""
-    right = np.array([1.0, 0.0, 0.0]) if abs(ahead[2]) > 0.9999 else np.cross(ahead, [0.0, 0.0, 1.0])
+    """Return the up that Rerun's viewer takes (`EyeController::up` of its eye.rs): its own, looking
+    along it.
+    """
+    right = (
+        np.array([1.0, 0.0, 0.0]) if abs(ahead[2]) > 0.9999 else np.cross(ahead, [0.0, 0.0, 1.0])
+    )
     own = np.cross(ahead, right)
     given = eye_up / np.linalg.norm(eye_up)
     return own / np.linalg.norm(own) if abs(given @ ahead) > 0.9999 else given
@@ -45,7 +51,8 @@ def viewer_up(ahead, eye_up) -> np.ndarray:
 def test_a_recording_is_seen_the_way_round_in_which_the_page_shows_it(view):
     eye = scene_view("", view, "").properties["EyeControls3D"]
     position, target, eye_up = (
-        np.array(one.as_arrow_array().to_pylist()[0], float) for one in (eye.position, eye.look_target, eye.eye_up)
+        np.array(one.as_arrow_array().to_pylist()[0], float)
+        for one in (eye.position, eye.look_target, eye.eye_up)
     )
     away, page_away = position - target, view.seen_from() - np.array(view.target)
     ahead, page_ahead = -away / np.linalg.norm(away), -page_away / np.linalg.norm(page_away)
@@ -62,7 +69,9 @@ def test_a_recording_is_seen_the_way_round_in_which_the_page_shows_it(view):
 def test_charts_stand_beside_each_other_where_their_titles_can_be_read(length, at_once):
     titles = ["A".ljust(length, "x"), "B".ljust(length, "x")]
     charts = {f"/charts/{title}": Canvas(title, 100.0, 60.0, 0) for title in titles}
-    column = one_run(View(), Contents(canvases=charts), {"a": np.zeros(3)}).root_container.contents[1]
+    column = one_run(View(), Contents(canvases=charts), {"a": np.zeros(3)}).root_container.contents[
+        1
+    ]
     rows = column.contents[0].contents if at_once == 2 else column.contents
     assert [view.name for view in rows] == titles
 
@@ -77,8 +86,14 @@ def test_charts_stand_beside_each_other_where_their_titles_can_be_read(length, a
     ],
 )
 def test_the_legend_of_a_plot_stands_where_no_curve_runs(values, corner):
-    contents = Contents(scalars={"a": {"a": Scalar(0.5, "a", chart="a")}, "b": {"b": Scalar(0.5, "b", chart="b")}})
-    first, _ = one_run(View(), contents, {"a": values, "b": np.zeros(40)}).root_container.contents[1].contents
+    contents = Contents(
+        scalars={"a": {"a": Scalar(0.5, "a", chart="a")}, "b": {"b": Scalar(0.5, "b", chart="b")}}
+    )
+    first, _ = (
+        one_run(View(), contents, {"a": values, "b": np.zeros(40)})
+        .root_container.contents[1]
+        .contents
+    )
     stands = first.properties["PlotLegend"].corner.as_arrow_array().to_pylist()
     assert stands == [getattr(rrb.Corner2D, corner).value]
 

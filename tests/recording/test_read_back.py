@@ -19,7 +19,7 @@ from workbench.recording.read import FORMAT, read_chunks, reopening
 from workbench.recording.sink import entity_of
 from workbench.recording.viewer_files import binary
 from workbench.recording.write import record_bytes
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 LESSONS = [fake.lesson, *catalog().values()]
 
@@ -44,7 +44,10 @@ def test_what_is_read_back_is_what_the_run_said(run):
     np.testing.assert_array_equal(recording.scalars["step"], np.arange(len(timeline)))
     for name, one in series.items():
         np.testing.assert_array_equal(recording.scalars[name], one.values)
-        assert (recording.curves[name].name, recording.curves[name].unit) == (one.scalar.name, one.scalar.unit)
+        assert (recording.curves[name].name, recording.curves[name].unit) == (
+            one.scalar.name,
+            one.scalar.unit,
+        )
 
 
 def test_params_and_versions_are_kept(run):
@@ -55,11 +58,17 @@ def test_params_and_versions_are_kept(run):
     assert recording.typed_params(timeline.lesson) == timeline.params
     assert recording.params == json.loads(knobs.to_json(timeline.params))
     assert recording.seed == getattr(timeline.params, "seed", None)
-    assert (recording.format, recording.version, recording.preset) == (FORMAT, workbench.__version__, None)
+    assert (recording.format, recording.version, recording.preset) == (
+        FORMAT,
+        workbench.__version__,
+        None,
+    )
 
 
 def test_reruns_own_check_accepts_it(run):
-    done = subprocess.run([str(binary()), "rrd", "verify", str(run[1])], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [str(binary()), "rrd", "verify", str(run[1])], capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stderr
 
 
@@ -85,7 +94,9 @@ def test_what_is_kept_does_not_hang_on_earlier_recordings(run):
     """Rerun drops empty text, but only until it has met text of that name."""
     timeline, path = run
     named = {entity for entity, columns in content(path) if "unit" in columns}
-    assert named == {entity_of("scalars", name) for name, one in timeline.series().items() if one.scalar.unit}
+    assert named == {
+        entity_of("scalars", name) for name, one in timeline.series().items() if one.scalar.unit
+    }
 
 
 def test_presets_are_recorded_with_their_name(tmp_path):
@@ -125,7 +136,9 @@ def test_reopening_gives_the_lesson_and_its_params(lesson: Lesson, tmp_path):
 
 
 def content(path: Path) -> dict[tuple[str, tuple[str, ...]], bytes]:
-    """Return a fingerprint of everything in a recording but ids and times, by entity and kind of row."""
+    """Return a fingerprint of everything in a recording but ids and times, by entity and kind of
+    row.
+    """
     tables: dict[tuple[str, tuple[str, ...]], list[pa.Table]] = {}
     for chunk in read_chunks(path):
         table = pa.table(chunk.to_record_batch()).replace_schema_metadata()

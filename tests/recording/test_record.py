@@ -1,4 +1,6 @@
-"""`record` and `open_recording` as Python calls them: what is asked for is what is recorded, or one line says why not."""
+"""`record` and `open_recording` as Python calls them: what is asked for is what is recorded, or one
+line says why not.
+"""
 
 import os
 from dataclasses import replace
@@ -13,12 +15,21 @@ from workbench.errors import InputError
 from workbench.recording.read import read_chunks
 
 ROOT = Path(__file__).resolve().parents[2]
-MANY = replace(fake.lesson, name="n" * 300, title="t" * 300, presets=(replace(fake.lesson.presets[0], name="p" * 300),))
+MANY = replace(
+    fake.lesson,
+    name="n" * 300,
+    title="t" * 300,
+    presets=(replace(fake.lesson.presets[0], name="p" * 300),),
+)
 
 
 def name_of(path: Path) -> str:
     """The recording's name, as a viewer shows it."""
-    cells = [chunk.to_record_batch().to_pydict() for chunk in read_chunks(path) if chunk.entity_path == "/__properties"]
+    cells = [
+        chunk.to_record_batch().to_pydict()
+        for chunk in read_chunks(path)
+        if chunk.entity_path == "/__properties"
+    ]
     return next(cell["RecordingInfo:name"][0][0] for cell in cells if "RecordingInfo:name" in cell)
 
 
@@ -27,7 +38,12 @@ def name_of(path: Path) -> str:
     [
         ({"steps": 2}, fake.Params(steps=2), None, "Every primitive, steps 2"),
         ({"preset": "short"}, fake.Params(steps=2), "short", "Every primitive, Two steps"),
-        ({"preset": "short", "steps": 2}, fake.Params(steps=2), "short", "Every primitive, Two steps"),
+        (
+            {"preset": "short", "steps": 2},
+            fake.Params(steps=2),
+            "short",
+            "Every primitive, Two steps",
+        ),
         (
             {"preset": "short", "wobble": True, "place": [1, 0, 0]},
             fake.Params(steps=2, wobble=True, place=(1.0, 0.0, 0.0)),
@@ -52,8 +68,14 @@ def test_what_is_asked_for_is_recorded_under_its_own_name(tmp_path, given, param
         ({"steps": 0}, "steps = 0: a whole number from 1 to 5000"),
         ({"steps": "many"}, "steps = 'many': a whole number from 1 to 5000"),
         ({"preset": "none"}, "has no preset 'none'; there are: half, short, classes"),
-        ({"params": fake.Params(), "steps": 2}, "params and steps=…: give whole params, or a preset and single values"),
-        ({"params": fake.Params(), "preset": "half"}, "params and preset 'half': give whole params"),
+        (
+            {"params": fake.Params(), "steps": 2},
+            "params and steps=…: give whole params, or a preset and single values",
+        ),
+        (
+            {"params": fake.Params(), "preset": "half"},
+            "params and preset 'half': give whole params",
+        ),
         ({"params": {"steps": 2}}, "takes Params, not dict"),
     ],
 )

@@ -1,4 +1,6 @@
-"""Re-opening a recording that somebody else made: names in it are looked up, never run; its files are not read unasked."""
+"""Re-opening a recording that somebody else made: names in it are looked up, never run; its files
+are not read unasked.
+"""
 
 from dataclasses import replace
 from pathlib import Path
@@ -13,13 +15,21 @@ from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog, find
 from workbench.recording.read import FORMAT, reopening
 
-EVIL = "from pathlib import Path\nPath(__file__).with_name('was-run').touch()\nfrom tests.fake import lesson\n"
-MINE = "from dataclasses import replace\nfrom tests.fake import lesson\nlesson = replace(lesson, name='mine')\n"
+EVIL = (
+    "from pathlib import Path\nPath(__file__).with_name('was-run').touch()\nfrom tests.fake import"
+    " lesson\n"
+)
+MINE = (
+    "from dataclasses import replace\nfrom tests.fake import lesson\nlesson = replace(lesson,"
+    " name='mine')\n"
+)
 
 
 def recorded(folder: Path, name: str, **params) -> Path:
     """A recording that says it is of the lesson `name`."""
-    return record(replace(fake.lesson, name=name), folder / "run.rrd", fake.Params(steps=2, **params))
+    return record(
+        replace(fake.lesson, name=name), folder / "run.rrd", fake.Params(steps=2, **params)
+    )
 
 
 @pytest.fixture
@@ -27,7 +37,8 @@ def opened(monkeypatch) -> list[tuple[Lesson, object]]:
     """What the live page is opened at, instead of opening it."""
     calls: list[tuple[Lesson, object]] = []
     monkeypatch.setattr(
-        "workbench.viewer.serving.serve", lambda lesson, params, step, **_: calls.append((lesson, params))
+        "workbench.viewer.serving.serve",
+        lambda lesson, params, step, **_: calls.append((lesson, params)),
     )
     return calls
 
@@ -76,13 +87,18 @@ def test_the_lesson_that_is_given_has_to_be_the_recording_s(capsys, tmp_path, op
     path = recorded(tmp_path, "yours")
     for given, name in ((str(tmp_path / "my_lesson.py"), "mine"), ("icp", "icp")):
         assert main(["reopen", str(path), "--lesson", given]) == 2
-        assert f"is a run of the lesson 'yours', and the lesson given is '{name}'" in capsys.readouterr().err
+        assert (
+            f"is a run of the lesson 'yours', and the lesson given is '{name}'"
+            in capsys.readouterr().err
+        )
     assert main(["reopen", str(path), "--lesson", str(tmp_path / "no.py")]) == 2
     assert "no.py: no such file" in capsys.readouterr().err
     assert opened == []
 
 
-def test_files_that_a_recording_names_are_read_only_where_the_person_says_so(capsys, tmp_path, opened):
+def test_files_that_a_recording_names_are_read_only_where_the_person_says_so(
+    capsys, tmp_path, opened
+):
     (tmp_path / "fake.py").write_text("from tests.fake import lesson\n")
     np.save(tmp_path / "scan.npy", np.zeros((4, 3)))
     words = [
@@ -116,7 +132,9 @@ def test_another_version_is_warned_of_and_tried(tmp_path, monkeypatch):
     lesson, params, lines = reopening(record(fake.lesson, tmp_path / "a.rrd"), fake.lesson)
     assert (lesson, params) == (fake.lesson, fake.Params(angle=30.0))
     assert len(lines) == 4
-    for line, word in zip(lines, ("version 9.9", f"format {FORMAT + 1}", "steps", "gone"), strict=True):
+    for line, word in zip(
+        lines, ("version 9.9", f"format {FORMAT + 1}", "steps", "gone"), strict=True
+    ):
         assert word in line
 
 

@@ -20,7 +20,9 @@ from workbench.recording.replay import POLICY, Replay, replay_file
 
 @pytest.fixture(scope="module")
 def replay(fake_file):
-    with Replay({"fake.rrd": fake_file, "bytes.rrd": b"RRF2 and more"}, "A <title>", port=0) as running:
+    with Replay(
+        {"fake.rrd": fake_file, "bytes.rrd": b"RRF2 and more"}, "A <title>", port=0
+    ) as running:
         yield running
 
 
@@ -61,7 +63,9 @@ def test_the_viewer_comes_along(replay):
         assert int(answer.headers["Content-Length"]) > 10_000_000
 
 
-@pytest.mark.parametrize("name", ["/2.rrd", "/../pyproject.toml", "/%2e%2e/etc/passwd", "//etc/passwd", "/viewer"])
+@pytest.mark.parametrize(
+    "name", ["/2.rrd", "/../pyproject.toml", "/%2e%2e/etc/passwd", "//etc/passwd", "/viewer"]
+)
 def test_nothing_else_is_handed_out(replay, name):
     connection = http.client.HTTPConnection("127.0.0.1", replay.port)
     connection.request("GET", name)
@@ -87,16 +91,33 @@ def answered(port: int, name: str, host: str | None) -> int:
 @pytest.mark.parametrize("name", ["/", "/0.rrd", "/nothing"])
 def test_it_answers_to_this_machine_s_names_alone(replay, name):
     """A site that gives its own name this machine's address reads no recording."""
-    for host in ("127.0.0.1", f"127.0.0.1:{replay.port}", f"localhost:{replay.port}", f"[::1]:{replay.port}"):
+    for host in (
+        "127.0.0.1",
+        f"127.0.0.1:{replay.port}",
+        f"localhost:{replay.port}",
+        f"[::1]:{replay.port}",
+    ):
         assert answered(replay.port, name, host) == (404 if name == "/nothing" else 200), host
-    for host in ("evil.example", f"evil.example:{replay.port}", f"127.0.0.1.evil.example:{replay.port}", "", None,
-                 f"192.168.1.7:{replay.port}", f"127.0.0.1:{replay.port}@evil.example"):  # fmt: skip
+    for host in (
+        "evil.example",
+        f"evil.example:{replay.port}",
+        f"127.0.0.1.evil.example:{replay.port}",
+        "",
+        None,
+        f"192.168.1.7:{replay.port}",
+        f"127.0.0.1:{replay.port}@evil.example",
+    ):
         assert answered(replay.port, name, host) == (400 if host is None else 403), host
 
 
 def test_where_others_may_reach_it_it_answers_to_addresses_and_to_its_own_name(fake_file):
     with Replay({"a.rrd": fake_file}, "t", host="0.0.0.0", port=0) as public:
-        for host in ("127.0.0.1", f"192.168.1.7:{public.port}", f"{socket.gethostname()}:{public.port}", "0.0.0.0"):
+        for host in (
+            "127.0.0.1",
+            f"192.168.1.7:{public.port}",
+            f"{socket.gethostname()}:{public.port}",
+            "0.0.0.0",
+        ):
             assert answered(public.port, "/0.rrd", host) == 200, host
         assert answered(public.port, "/0.rrd", "evil.example") == 403
 
@@ -138,7 +159,9 @@ def test_statistics_are_off_unless_asked_for(monkeypatch):
 
 @pytest.fixture
 def stand_in(tmp_path, monkeypatch) -> Path:
-    """A program in the place of Rerun's window that writes down how it was called, and ends with code CODE."""
+    """A program in the place of Rerun's window that writes down how it was called, and ends with
+    code CODE.
+    """
     program = tmp_path / "viewer"
     program.write_text(
         f"#!{sys.executable}\nimport json, os, sys\n"

@@ -1,4 +1,6 @@
-"""The Rerun sink makes the stream equal to a scene: whatever was shown before leaves no trace, and little is sent."""
+"""The Rerun sink makes the stream equal to a scene: whatever was shown before leaves no trace, and
+little is sent.
+"""
 
 from dataclasses import replace
 from pathlib import Path
@@ -16,7 +18,19 @@ from workbench.recording.contents import contents_of
 from workbench.recording.sink import RerunSink, legend_of
 from workbench.recording.spatial import FADED
 from workbench.recording.streams import stream_bytes
-from workbench.scene import PALETTE, Axes, Camera, Classes, Field, Mesh, Picture, Points, Scene, Segments, Table
+from workbench.scene import (
+    PALETTE,
+    Axes,
+    Camera,
+    Classes,
+    Field,
+    Mesh,
+    Picture,
+    Points,
+    Scene,
+    Segments,
+    Table,
+)
 
 
 def recorded(scenes: list[Scene], path: Path) -> Path:
@@ -34,7 +48,9 @@ def fake_scenes(colors: str = "field") -> list[Scene]:
     return [fake.draw(state) for state in fake.run(params)]
 
 
-SCENES = [scene for colors in ("role", "field", "classes", "measured") for scene in fake_scenes(colors)]
+SCENES = [
+    scene for colors in ("role", "field", "classes", "measured") for scene in fake_scenes(colors)
+]
 
 
 @given(st.lists(st.integers(0, len(SCENES) - 1), min_size=1, max_size=4))
@@ -64,7 +80,11 @@ def test_what_is_gone_is_said_in_the_order_in_which_it_came():
     stream = Heard()
     sink = RerunSink(stream)
     sink.show(0, {path: one for path, one in SCENES[2].items() if not isinstance(one, Table)})
-    came = [where for where in dict.fromkeys(stream.where) if not where.startswith("/legend") and where != "/world"]
+    came = [
+        where
+        for where in dict.fromkeys(stream.where)
+        if not where.startswith("/legend") and where != "/world"
+    ]
     assert any(where.endswith("/frame") for where in came)
     stream.where.clear()
     sink.show(1, {"caption": SCENES[2]["caption"]})
@@ -93,9 +113,11 @@ def test_everything_in_a_scene_is_shown(tmp_path):
         assert f"/world/{path}" in shown
     assert "/world/camera/image" in shown
     assert "/world/eye/image" not in shown
-    assert {"/pictures/beside\\/depth/image", "/pictures/beside\\/depth/bar", "/pictures/beside\\/photo/image"} <= set(
-        shown
-    )
+    assert {
+        "/pictures/beside\\/depth/image",
+        "/pictures/beside\\/depth/bar",
+        "/pictures/beside\\/photo/image",
+    } <= set(shown)
     assert {
         "/charts/Basin/curves",
         "/charts/Basin/frame",
@@ -125,7 +147,10 @@ def test_points_that_move_by_themselves_are_sent_again(tmp_path):
 
 
 def test_a_scene_shown_twice_sends_nothing(tmp_path):
-    once, twice = recorded(SCENES[:1], tmp_path / "1.rrd"), recorded(SCENES[:1] * 2, tmp_path / "2.rrd")
+    once, twice = (
+        recorded(SCENES[:1], tmp_path / "1.rrd"),
+        recorded(SCENES[:1] * 2, tmp_path / "2.rrd"),
+    )
     assert len(rows(once)) == len(rows(twice))
 
 
@@ -136,7 +161,11 @@ def test_changed_classes_send_ids_and_no_places(tmp_path):
     path = recorded([{"p": Points(p, half)}, {"p": Points(p, most)}], tmp_path / "a.rrd")
     sent = [components for _, _, entity, components in rows(path) if entity == "/world/p"]
     assert set(sent[1]) == {"Points3D:class_ids"}
-    wrong = [colored for colored in shown_at(path, 1)["/world/p"]["Points3D:class_ids"] if colored[0] == "outlier"]
+    wrong = [
+        colored
+        for colored in shown_at(path, 1)["/world/p"]["Points3D:class_ids"]
+        if colored[0] == "outlier"
+    ]
     assert len(wrong) == int((p[:, 0] > -1).sum())
     assert all(rgb(color) == PALETTE["wrong"] for _, color in wrong)
 
@@ -144,17 +173,23 @@ def test_changed_classes_send_ids_and_no_places(tmp_path):
 def test_a_surface_that_gets_colours_forgets_its_own(tmp_path):
     """Rerun multiplies the colour of a surface with those of its vertices."""
     height = Field(fake.CORNERS[:, 2], -0.2, 0.2, "height", "m", "diverging")
-    plain, coloured = Mesh(fake.CORNERS, fake.FACES, "neutral"), Mesh(fake.CORNERS, fake.FACES, height)
+    plain, coloured = (
+        Mesh(fake.CORNERS, fake.FACES, "neutral"),
+        Mesh(fake.CORNERS, fake.FACES, height),
+    )
     path = recorded([{"m": plain}, {"m": coloured}, {"m": plain}], tmp_path / "a.rrd")
-    kinds = [{"Mesh3D:albedo_factor", "Mesh3D:vertex_colors"} & set(shown_at(path, k)["/world/m"]) for k in range(3)]
+    kinds = [
+        {"Mesh3D:albedo_factor", "Mesh3D:vertex_colors"} & set(shown_at(path, k)["/world/m"])
+        for k in range(3)
+    ]
     assert kinds == [{"Mesh3D:albedo_factor"}, {"Mesh3D:vertex_colors"}, {"Mesh3D:albedo_factor"}]
 
 
 def test_a_motion_that_is_not_rigid_is_kept(tmp_path):
     T = np.array([[1, 0.5, 0, 1], [0, 2, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1.0]])
-    shown = shown_at(recorded([{"m": Mesh(fake.CORNERS, fake.FACES, T_world_object=T)}], tmp_path / "a.rrd"), 0)[
-        "/world/m"
-    ]
+    shown = shown_at(
+        recorded([{"m": Mesh(fake.CORNERS, fake.FACES, T_world_object=T)}], tmp_path / "a.rrd"), 0
+    )["/world/m"]
     R = np.array(shown["Transform3D:mat3x3"][0]).reshape(3, 3).T  # columns first
     np.testing.assert_allclose(R, T[:3, :3])
     np.testing.assert_allclose(shown["Transform3D:translation"][0], T[:3, 3])
@@ -165,7 +200,11 @@ def test_a_projective_motion_is_applied_to_the_points(tmp_path, kind):
     T = np.eye(4)
     T[3] = (0.1, 0.0, 0.2, 1.5)
     ends = np.random.default_rng(0).uniform(-1, 1, (4, 2, 3))
-    primitive = Points(ends[:, 0], T_world_object=T) if kind == "points" else Segments(ends, T_world_object=T)
+    primitive = (
+        Points(ends[:, 0], T_world_object=T)
+        if kind == "points"
+        else Segments(ends, T_world_object=T)
+    )
     shown = shown_at(recorded([{"x": primitive}], tmp_path / "a.rrd"), 0)["/world/x"]
     w = ends @ T[3, :3] + T[3, 3]
     expected = ends / w[..., None]
@@ -194,7 +233,10 @@ def test_an_empty_cloud_and_no_segments_are_fine(tmp_path):
 
 
 def test_a_thing_in_a_folder_does_not_move_with_its_neighbour(tmp_path):
-    scene = {"a": Points(np.zeros((1, 3)), T_world_object=fake.turn_about_z(1.0)), "a/b": Points(np.zeros((1, 3)))}
+    scene = {
+        "a": Points(np.zeros((1, 3)), T_world_object=fake.turn_about_z(1.0)),
+        "a/b": Points(np.zeros((1, 3))),
+    }
     shown = shown_at(recorded([scene], tmp_path / "a.rrd"), 0)
     assert set(shown) >= {"/world/a", "/world/a\\/b"}  # a part of its own: no child of /world/a
 
@@ -228,7 +270,11 @@ def test_another_kind_of_thing_at_a_path_leaves_nothing_of_the_one_before(tmp_pa
 def test_what_is_not_there_at_every_step_is_announced(tmp_path):
     def fill(stream) -> None:
         sink = RerunSink(
-            stream, {"/charts/Basin": Canvas("Basin", 20.0, 20.0, 1), "/tables": Canvas("Numbers", 0.0, 0.0, 1)}
+            stream,
+            {
+                "/charts/Basin": Canvas("Basin", 20.0, 20.0, 1),
+                "/tables": Canvas("Numbers", 0.0, 0.0, 1),
+            },
         )
         sink.show(0, {})
         sink.show(1, SCENES[0])

@@ -16,7 +16,7 @@ from workbench.recording.canonical import id_in
 from workbench.recording.read import read_chunks
 from workbench.recording.streams import application_id
 from workbench.recording.write import record_bytes
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -37,7 +37,9 @@ def test_the_application_id_has_the_characters_that_every_viewer_takes():
 
 
 def test_runs_share_an_application_where_they_share_a_layout_and_nowhere_else(tmp_path):
-    """A viewer keeps one layout for each application: the second recording would be shown in that of the first."""
+    """A viewer keeps one layout for each application: the second recording would be shown in that
+    of the first.
+    """
 
     def application(name: str, **params) -> str:
         path = tmp_path / f"{name}.rrd"
@@ -51,35 +53,45 @@ def test_runs_share_an_application_where_they_share_a_layout_and_nowhere_else(tm
 
 def test_a_rigid_run_of_20k_points_and_50_steps_stays_below_a_megabyte():
     icp = catalog()["icp"]
-    long = Timeline(replace(icp, run=lambda params: islice(icp.run(params), 50)), icp.params(points=20_000)).complete()
+    long = Timeline(
+        replace(icp, run=lambda params, subject: islice(icp.run(params, subject), 50)),
+        icp.params(points=20_000),
+    ).complete()
     assert len(long) == 50
     assert len(record_bytes(long)) < 1_000_000
 
 
 def test_progress_is_told_step_by_step():
     told = []
-    record_bytes(Timeline(fake.lesson, fake.Params()).complete(), progress=lambda *words: told.append(words))
+    record_bytes(
+        Timeline(fake.lesson, fake.Params()).complete(), progress=lambda *words: told.append(words)
+    )
     assert told == [("recorded", k, 6) for k in range(1, 7)]
 
 
 def test_equal_runs_have_equal_content_under_one_id_and_others_another(tmp_path):
     """Across processes too: there, whatever hangs on the time or on a random seed differs."""
     code = (
-        "import sys; from pathlib import Path; from tests import fake; from workbench.timeline import Timeline;"
-        "from workbench.recording import record_bytes; run = Timeline(fake.lesson, fake.Params(steps=3)).complete();"
-        "Path(sys.argv[1]).write_bytes(record_bytes(run))"
+        "import sys; from pathlib import Path; from tests import fake; from workbench.run.timeline"
+        " import Timeline;from workbench.recording import record_bytes; run = Timeline(fake.lesson,"
+        " fake.Params(steps=3)).complete();Path(sys.argv[1]).write_bytes(record_bytes(run))"
     )
     here, there, other = tmp_path / "here.rrd", tmp_path / "there.rrd", tmp_path / "other.rrd"
     subprocess.run([sys.executable, "-c", code, str(there)], cwd=ROOT, check=True)
     here.write_bytes(record_bytes(Timeline(fake.lesson, fake.Params(steps=3)).complete()))
-    other.write_bytes(record_bytes(Timeline(fake.lesson, fake.Params(steps=3, angle=91.0)).complete()))
+    other.write_bytes(
+        record_bytes(Timeline(fake.lesson, fake.Params(steps=3, angle=91.0)).complete())
+    )
     assert id_in(here.read_bytes()) == id_in(there.read_bytes()) != id_in(other.read_bytes())
     chunks = [
-        {chunk.id: repr(chunk.to_record_batch().to_pydict()) for chunk in read_chunks(path)} for path in (here, there)
+        {chunk.id: repr(chunk.to_record_batch().to_pydict()) for chunk in read_chunks(path)}
+        for path in (here, there)
     ]
     assert chunks[0] == chunks[1]
     for chunk in read_chunks(here):  # rerun looks for a step by halving
         columns = chunk.to_record_batch().to_pydict()
         assert sorted(columns["rerun.controls.RowId"]) == columns["rerun.controls.RowId"]
         assert sorted(columns.get("step", ())) == list(columns.get("step", ()))
-    assert len({chunk.entity_path + str(chunk.is_static) for chunk in read_chunks(here)}) == len(chunks[0])
+    assert len({chunk.entity_path + str(chunk.is_static) for chunk in read_chunks(here)}) == len(
+        chunks[0]
+    )

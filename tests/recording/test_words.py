@@ -86,10 +86,22 @@ def test_every_page_is_free_of_tex(lesson):
     page = plain_page(lesson.page.read_text(encoding="utf-8"))
     assert safe(page) == page
     assert "$" not in page.replace("`$", "")
-    for command in ("frac", "\\sum", "mathrm", "\\left", "begin{", "operatorname", "qquad", "lVert", "boldsymbol"):
+    for command in (
+        "frac",
+        "\\sum",
+        "mathrm",
+        "\\left",
+        "begin{",
+        "operatorname",
+        "qquad",
+        "lVert",
+        "boldsymbol",
+    ):
         assert command not in page, command
     assert "?" * 2 not in page
 
 
 def test_what_looks_like_a_link_in_a_caption_stays_words():
-    assert markdown("[x](https://example.org) ![y](z)") == "\\[x\\](https://example.org) !\\[y\\](z)"
+    assert (
+        markdown("[x](https://example.org) ![y](z)") == "\\[x\\](https://example.org) !\\[y\\](z)"
+    )

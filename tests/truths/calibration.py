@@ -1,11 +1,13 @@
-"""What is true of a calibration, apart from the lesson's core: a camera written out, its inverse, differences for slopes."""
+"""What is true of a calibration, apart from the lesson's core: a camera written out, its inverse,
+differences for slopes.
+"""
 
 import functools
 
 import numpy as np
 
 from lessons.calibration.state import State
-from workbench.algorithms.board_adjustment import Adjustment
+from workbench.algorithms.least_squares.board_adjustment import Adjustment
 
 K, LENS = np.array([[536.0, 0, 342], [0, 536, 236], [0, 0, 1]]), (-0.27, 0.05, 0.0015, -0.0005, 0.0)
 
@@ -16,7 +18,10 @@ def bent(xy: np.ndarray, k1: float, k2: float, p1: float, p2: float, k3: float) 
     r2 = x**2 + y**2
     radial = 1 + k1 * r2 + k2 * r2**2 + k3 * r2**3
     return np.stack(
-        [x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x**2), y * radial + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y],
+        [
+            x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x**2),
+            y * radial + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y,
+        ],
         axis=-1,
     )
 
@@ -29,7 +34,9 @@ def seen(K: np.ndarray, lens: tuple[float, ...], Ts: np.ndarray, p: np.ndarray) 
 
 @functools.cache
 def rays() -> tuple[np.ndarray, np.ndarray]:
-    """Pixels of a grid over the picture, and the true rays they look along, by fixed-point iteration."""
+    """Pixels of a grid over the picture, and the true rays they look along, by fixed-point
+    iteration.
+    """
     u, v = np.meshgrid(np.linspace(0, 639, 33), np.linspace(0, 479, 25))
     uv = np.stack([u.ravel(), v.ravel()], axis=1)
     goal = (uv - K[:2, 2]) / 536.0
@@ -43,7 +50,9 @@ def rays() -> tuple[np.ndarray, np.ndarray]:
 def worst_ray(K_found: np.ndarray, lens: tuple[float, ...]) -> float:
     """How far off the farthest ray of the grid is, pixels."""
     uv, xy = rays()
-    return float(np.linalg.norm(bent(xy, *lens) @ K_found[:2, :2].T + K_found[:2, 2] - uv, axis=1).max())
+    return float(
+        np.linalg.norm(bent(xy, *lens) @ K_found[:2, :2].T + K_found[:2, 2] - uv, axis=1).max()
+    )
 
 
 def rms_of(state: State) -> np.ndarray:
@@ -55,7 +64,9 @@ def rms_of(state: State) -> np.ndarray:
 
 
 def deviation_of_f(state: State) -> float:
-    """The predicted deviation of fx, from a dense Jacobian by differences over all unknowns, weighted as the loss asks."""
+    """The predicted deviation of fx, from a dense Jacobian by differences over all unknowns,
+    weighted as the loss asks.
+    """
     now, subject = state.now.adjustment, state.subject
     assert isinstance(now, Adjustment)
     p, uv = subject.p_board, subject.uv
@@ -63,7 +74,9 @@ def deviation_of_f(state: State) -> float:
     shared = np.array([now.K[0, 0], now.K[1, 1], now.K[0, 2], now.K[1, 2], *now.lens])
 
     def residuals(x: np.ndarray) -> np.ndarray:
-        """Residuals where the free shared unknowns, and then all poses alike, have moved by x; one row per view."""
+        """Residuals where the free shared unknowns, and then all poses alike, have moved by x; one
+        row per view.
+        """
         s = shared.copy()
         s[free] += x[: len(free)]
         a, b, c = x[len(free) : len(free) + 3]
@@ -75,7 +88,9 @@ def deviation_of_f(state: State) -> float:
         return (seen(camera, tuple(s[4:]), Ts, p) - uv).reshape(len(uv), -1)
 
     sizes = np.array([*[1e-3 if i < 4 else 1e-6 for i in free], *([1e-6] * 6)])
-    slopes = np.stack([(residuals(h) - residuals(-h)) / (2 * h.sum()) for h in np.diag(sizes)], axis=2)
+    slopes = np.stack(
+        [(residuals(h) - residuals(-h)) / (2 * h.sum()) for h in np.diag(sizes)], axis=2
+    )
     unknowns, r = len(free) + 6 * len(uv), residuals(0 * sizes)
     J = np.zeros((*r.shape, unknowns))
     J[:, :, : len(free)] = slopes[:, :, : len(free)]
@@ -88,4 +103,6 @@ def deviation_of_f(state: State) -> float:
     w = np.repeat(w, 2)
     scale = 1 / np.sqrt((J**2 * w[:, None]).sum(axis=0))
     N = (J * scale).T @ (w[:, None] * (J * scale))
-    return float(scale[0] * np.sqrt((w * r**2).sum() / (len(r) - unknowns) * np.linalg.inv(N)[0, 0]))
+    return float(
+        scale[0] * np.sqrt((w * r**2).sum() / (len(r) - unknowns) * np.linalg.inv(N)[0, 0])
+    )

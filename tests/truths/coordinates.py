@@ -1,13 +1,15 @@
-"""What is true of a run of the coordinates lesson, by vectors and closed forms, from the states alone."""
+"""What is true of a run of the coordinates lesson, by vectors and closed forms, from the states
+alone.
+"""
 
 from typing import Any
 
 import numpy as np
 
-from workbench.algorithms.pan_tilt import Followed
-from workbench.algorithms.parallels import Met
-from workbench.algorithms.placing import Scattered, Walked
-from workbench.algorithms.voyages import Travelled
+from lessons.coordinates.pan_tilt import Followed
+from lessons.coordinates.parallels import Met
+from lessons.coordinates.placing import Scattered, Walked
+from lessons.coordinates.voyages import Travelled
 
 EARTH = 6_371_008.8
 CAPS = 1 - np.cos(np.pi / 6)  # the share of a sphere's area within 30 degrees of a pole
@@ -45,7 +47,9 @@ def in_caps(p: np.ndarray) -> float:
 
 
 def put_back(now: Walked) -> float:
-    """How far points are from where their spherical, cylindrical or Cartesian coordinates put them, whichever is least."""
+    """How far points are from where their spherical, cylindrical or Cartesian coordinates put them,
+    whichever is least.
+    """
     a, b, c = now.c.T
     formulas = (
         (a * np.sin(b) * np.cos(c), a * np.sin(b) * np.sin(c), a * np.cos(b)),
@@ -56,7 +60,9 @@ def put_back(now: Walked) -> float:
 
 
 def fastest(miss: float, height: float = 10.0, speed: float = 10.0) -> tuple[float, float]:
-    """The largest rates of pan axis and line of sight, degrees per second, for a miss in degrees."""
+    """The largest rates of pan axis and line of sight, degrees per second, for a miss in
+    degrees.
+    """
     beside = height * np.tan(np.radians(miss))
     return float(np.degrees(speed / beside)), float(np.degrees(speed / np.hypot(height, beside)))
 
@@ -71,9 +77,18 @@ def is_right(state: Any) -> bool | None:
     if isinstance(now, Travelled) and now.means is not None:
         return between_means(state.subject.degrees) < 1e4
     if isinstance(now, Followed) and now.time >= 1.5999:
-        n = np.array([np.cos(now.tilt) * np.cos(now.pan), np.cos(now.tilt) * np.sin(now.pan), np.sin(now.tilt)])
+        n = np.array(
+            [
+                np.cos(now.tilt) * np.cos(now.pan),
+                np.cos(now.tilt) * np.sin(now.pan),
+                np.sin(now.tilt),
+            ]
+        )
         return bool(np.linalg.norm(n - now.p / np.linalg.norm(now.p)) < 1e-6)
     if isinstance(now, Met) and now.H[2, 0] == 0.4:
         x = np.cross(*now.lines)
-        return bool(np.linalg.norm(np.cross(x, now.x_h)) < 1e-9 * np.linalg.norm(x) * np.linalg.norm(now.x_h))
+        return bool(
+            np.linalg.norm(np.cross(x, now.x_h))
+            < 1e-9 * np.linalg.norm(x) * np.linalg.norm(now.x_h)
+        )
     return None

@@ -1,4 +1,6 @@
-"""What is true of a measured mesh: by brute force over the triangles, and against the analytic surface."""
+"""What is true of a measured mesh: by brute force over the triangles, and against the analytic
+surface.
+"""
 
 import functools
 
@@ -53,7 +55,9 @@ def exact_sum(run: Run, *_) -> bool:
 
 
 def defect_sum_of_all(run: Run, *_) -> bool:
-    return abs(float(at(run, "total").now.defects.sum()) - 2 * np.pi * facts(run.states[-1])[3]) < 1e-6
+    return (
+        abs(float(at(run, "total").now.defects.sum()) - 2 * np.pi * facts(run.states[-1])[3]) < 1e-6
+    )
 
 
 def inside(run: Run, stage: str, name: str) -> np.ndarray:
@@ -67,7 +71,11 @@ def too_small(run: Run, *_) -> bool:
     finer = angle_free_defect(Params(vertices=4 * 1600, mistake="none"))
     coarse = float(np.median(np.abs(defects(state))))
     times = np.median(np.abs(state.subject.truth.gaussian / state.now.K))
-    return state.subject.truth.gaussian[v] / state.now.K[v] > 70 and 95 < times < 105 and 3.4 < coarse / finer < 4.6
+    return (
+        state.subject.truth.gaussian[v] / state.now.K[v] > 70
+        and 95 < times < 105
+        and 3.4 < coarse / finer < 4.6
+    )
 
 
 @functools.cache
@@ -102,7 +110,9 @@ def regular(run: Run, *_) -> bool:
 
 
 def params(run: Run, **changes) -> Params:
-    return Params(**({name: getattr(run.params, name) for name in ("surface", "vertices", "seed")} | changes))
+    return Params(
+        **({name: getattr(run.params, name) for name in ("surface", "vertices", "seed")} | changes)
+    )
 
 
 @functools.cache

@@ -7,15 +7,19 @@ import numpy as np
 
 from lessons.disparity.lesson import lesson
 from tests.verdicts import Run
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 
 CHOSEN, CHECKED = -6, -5  # from the end: the last map before the check, and the check
 
 
 def off(state, disparity: np.ndarray | None = None) -> np.ndarray:
-    """Return how far the pixels that both cameras see are off, pixels; NaN where a disparity is unknown."""
+    """Return how far the pixels that both cameras see are off, pixels; NaN where a disparity is
+    unknown.
+    """
     pair = state.setup.pair
-    return np.abs((state.disparity if disparity is None else disparity) - pair.disparity)[pair.visible]
+    return np.abs((state.disparity if disparity is None else disparity) - pair.disparity)[
+        pair.visible
+    ]
 
 
 def wrong(state) -> float:
@@ -35,7 +39,9 @@ def true_depth(setup) -> np.ndarray:
 
 
 def depths_off(state) -> tuple[np.ndarray, np.ndarray]:
-    """Return the errors of the depths, metres, and the true ones, where both are known and finite."""
+    """Return the errors of the depths, metres, and the true ones, where both are known and
+    finite.
+    """
     true = true_depth(state.setup)
     known = np.isfinite(state.depth) & np.isfinite(true)
     return np.abs(state.depth[known] - true[known]), true[known]
@@ -43,7 +49,9 @@ def depths_off(state) -> tuple[np.ndarray, np.ndarray]:
 
 @functools.lru_cache(maxsize=2)
 def comparing(states: tuple) -> tuple[tuple[int, float], ...]:
-    """Return for every slice how many pixels it fits better than all before it, and the mean lowest cost after it."""
+    """Return for every slice how many pixels it fits better than all before it, and the mean lowest
+    cost after it.
+    """
     lowest, found = None, []
     for state in states:
         if state.stage is not Stage.COMPARE:
@@ -77,7 +85,9 @@ def given_up_of_hidden(run: Run) -> float:
 
 
 def near_an_edge(run: Run) -> tuple[float, float]:
-    """Return the share of the wrong pixels, and of all, that have a jump of the true disparity within 10 px."""
+    """Return the share of the wrong pixels, and of all, that have a jump of the true disparity
+    within 10 px.
+    """
     state = run.states[CHOSEN]
     truth, visible = state.setup.pair.disparity, state.setup.pair.visible
     jump = np.zeros(truth.shape, bool)
@@ -103,7 +113,11 @@ def found_at(run: Run, step: int) -> dict[float, float]:
     state = run.states[step]
     true = np.round(true_depth(state.setup), 6)
     return {
-        z: float(np.median(state.depth[(true == z) & state.setup.pair.visible & np.isfinite(state.depth)]))
+        z: float(
+            np.median(
+                state.depth[(true == z) & state.setup.pair.visible & np.isfinite(state.depth)]
+            )
+        )
         for z in (1.0, 5.0, 20.0)
     }
 

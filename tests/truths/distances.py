@@ -1,4 +1,6 @@
-"""What is true of a distance, apart from the lesson's core: closed forms, visibility past a wall, an unrolled spiral."""
+"""What is true of a distance, apart from the lesson's core: closed forms, visibility past a wall,
+an unrolled spiral.
+"""
 
 from typing import Any
 
@@ -11,7 +13,9 @@ NEAR = 0.14
 
 
 def true_distances(state: State) -> np.ndarray:
-    """The true distance of every node from the source; of surfaces without formula what the run was held against."""
+    """The true distance of every node from the source; of surfaces without formula what the run was
+    held against.
+    """
     s = state.subject
     assert s is not None
     p, q = s.p, s.p[s.source]
@@ -21,9 +25,17 @@ def true_distances(state: State) -> np.ndarray:
         for one in p:
             t = np.linspace(0, 1, 2001)
             crossing = one[0] != q[0] and 0 < (tip[0] - q[0]) / (one[0] - q[0]) < 1
-            y = np.interp((tip[0] - q[0]) / (one[0] - q[0]), t, q[1] + t * (one[1] - q[1])) if crossing else np.inf
+            y = (
+                np.interp((tip[0] - q[0]) / (one[0] - q[0]), t, q[1] + t * (one[1] - q[1]))
+                if crossing
+                else np.inf
+            )
             seen = y >= tip[1] - 1e-9
-            found.append(np.linalg.norm(one - q) if seen else np.linalg.norm(tip - q) + np.linalg.norm(one - tip))
+            found.append(
+                np.linalg.norm(one - q)
+                if seen
+                else np.linalg.norm(tip - q) + np.linalg.norm(one - tip)
+            )
         return np.array(found)
     if state.params.stage == "roll" and state.params.cloud is None:
         return unrolled(p, s.source)
@@ -34,7 +46,9 @@ def true_distances(state: State) -> np.ndarray:
 
 
 def unrolled(p: np.ndarray, source: int) -> np.ndarray:
-    """Distances on the sheet of a roll r = t / (4.5 pi), by adding up the spiral's length in small steps."""
+    """Distances on the sheet of a roll r = t / (4.5 pi), by adding up the spiral's length in small
+    steps.
+    """
     t = np.linspace(0, 4.6 * np.pi, 200_001)
     x, y = t * np.cos(t), t * np.sin(t)
     length = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))]) / (4.5 * np.pi)
@@ -53,7 +67,9 @@ def errors(state: State) -> np.ndarray:
 
 
 def by_heat(p: np.ndarray, faces: np.ndarray, sources: np.ndarray, time: float) -> np.ndarray:
-    """Distances (vertices, sources) by heat over a closed mesh, from the paper's formulas with sums over single corners."""
+    """Distances (vertices, sources) by heat over a closed mesh, from the paper's formulas with sums
+    over single corners.
+    """
     n, normals = len(p), np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
     areas = np.linalg.norm(normals, axis=1) / 2
     rows, columns, values = [], [], []
@@ -68,19 +84,24 @@ def by_heat(p: np.ndarray, faces: np.ndarray, sources: np.ndarray, time: float) 
         (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(n, n)
     )
     L = L.tocsc()
-    mass: Any = scipy.sparse.diags_array(np.bincount(faces.ravel(), np.repeat(areas / 3, 3), n)).tocsc()
+    mass: Any = scipy.sparse.diags_array(
+        np.bincount(faces.ravel(), np.repeat(areas / 3, 3), n)
+    ).tocsc()
     heat = scipy.sparse.linalg.splu(mass + time * L).solve(np.eye(n)[:, sources])
     rise = scipy.sparse.linalg.splu((L + 1e-9 * mass).tocsc())
     unit = normals / (2 * areas)[:, None]
     found = []
     for u in heat.T:
         slope: Any = sum(
-            u[faces[:, k]][:, None] * np.cross(unit, p[faces[:, (k + 2) % 3]] - p[faces[:, (k + 1) % 3]])
+            u[faces[:, k]][:, None]
+            * np.cross(unit, p[faces[:, (k + 2) % 3]] - p[faces[:, (k + 1) % 3]])
             for k in range(3)
         )
         X = -slope / np.linalg.norm(slope, axis=1, keepdims=True)
         b = np.zeros(n)
-        for k in range(3):  # the slope of one corner's hat function, times the area: half its turned opposite edge
+        for k in range(
+            3
+        ):  # the slope of one corner's hat function, times the area: half its turned opposite edge
             hat = np.cross(unit, p[faces[:, (k + 2) % 3]] - p[faces[:, (k + 1) % 3]]) / 2
             np.add.at(b, faces[:, k], (hat * X).sum(axis=1))
         d = rise.solve(b)

@@ -1,4 +1,6 @@
-"""What is true of a run of the epipolar lesson, from its states alone: lines, rays and rotations by other formulas."""
+"""What is true of a run of the epipolar lesson, from its states alone: lines, rays and rotations by
+other formulas.
+"""
 
 from typing import Any
 
@@ -12,7 +14,9 @@ F_STREET = 420.0  # focal length of the made pictures, pixels
 
 def apart(R: np.ndarray, other: np.ndarray) -> float:
     """The angle between two rotations, degrees, by scipy."""
-    return float(np.degrees((Rotation.from_matrix(R) * Rotation.from_matrix(other).inv()).magnitude()))
+    return float(
+        np.degrees((Rotation.from_matrix(R) * Rotation.from_matrix(other).inv()).magnitude())
+    )
 
 
 def directions_apart(t: np.ndarray, other: np.ndarray) -> float:
@@ -22,12 +26,16 @@ def directions_apart(t: np.ndarray, other: np.ndarray) -> float:
 
 
 def errors(state: Any) -> tuple[float, float] | None:
-    """By how many degrees rotation and direction are off; the second NaN where nothing moved; None where nobody knows."""
+    """By how many degrees rotation and direction are off; the second NaN where nothing moved; None
+    where nobody knows.
+    """
     T, true = getattr(state.now, "T_second_first", None), state.views.T_second_first
     if T is None or true is None:
         return None
     moved = np.linalg.norm(true[:3, 3]) > 0
-    return apart(T[:3, :3], true[:3, :3]), directions_apart(T[:3, 3], true[:3, 3]) if moved else float("nan")
+    return apart(T[:3, :3], true[:3, :3]), (
+        directions_apart(T[:3, 3], true[:3, 3]) if moved else float("nan")
+    )
 
 
 def sampson(F: np.ndarray, matches: np.ndarray) -> float:
@@ -41,7 +49,9 @@ def sampson(F: np.ndarray, matches: np.ndarray) -> float:
 
 
 def true_fundamental(state: Any) -> np.ndarray:
-    """F of the true cameras, by eight-point's inverse: three columns from where the axes' directions are seen."""
+    """F of the true cameras, by eight-point's inverse: three columns from where the axes'
+    directions are seen.
+    """
     T, K, L = state.views.T_second_first, state.views.K_first, state.views.K_second
     e = L @ T[:3, 3]  # the first centre, seen by the second camera
     H = L @ T[:3, :3] @ np.linalg.inv(K)  # how infinity moves
@@ -51,7 +61,9 @@ def true_fundamental(state: Any) -> np.ndarray:
 
 
 def rows_apart(state: Any) -> float:
-    """The root mean square difference of rows after both cameras are turned, by rotating every ray."""
+    """The root mean square difference of rows after both cameras are turned, by rotating every
+    ray.
+    """
     found, views = state.now.rectification, state.views
     rows = []
     for R, K, uv in (
@@ -64,7 +76,9 @@ def rows_apart(state: Any) -> float:
 
 
 def in_front(state: Any, T: np.ndarray) -> int:
-    """How many matches the four equations put before both cameras, one at a time, by eigenvectors."""
+    """How many matches the four equations put before both cameras, one at a time, by
+    eigenvectors.
+    """
     P, Q = state.K_first @ np.eye(3, 4), state.K_second @ T[:3]
     count = 0
     for u, v, s, t in state.views.matches:

@@ -1,4 +1,6 @@
-"""What is true of a run on features, from its own arrays and the truth it carries, by scipy and plain numpy."""
+"""What is true of a run on features, from its own arrays and the truth it carries, by scipy and
+plain numpy.
+"""
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -21,7 +23,13 @@ def off(now: Scanned) -> float:
     assert now.T_target_source is not None
     assert now.scans.T_truth is not None
     p = now.scans.p_source
-    return float(np.sqrt(np.mean(np.sum((moved(now.T_target_source, p) - moved(now.scans.T_truth, p)) ** 2, axis=1))))
+    return float(
+        np.sqrt(
+            np.mean(
+                np.sum((moved(now.T_target_source, p) - moved(now.scans.T_truth, p)) ** 2, axis=1)
+            )
+        )
+    )
 
 
 def home(now: Scanned) -> bool:
@@ -31,7 +39,9 @@ def home(now: Scanned) -> bool:
 
 
 def share(now: Scanned | Pictured | Outlined) -> float | None:
-    """The share of matches that are right, of those whose truth is known; None where there are none."""
+    """The share of matches that are right, of those whose truth is known; None where there are
+    none.
+    """
     pairs = now.pairs
     if pairs is None or not len(pairs):
         return None
@@ -60,7 +70,9 @@ def agreeing(now: Scanned) -> int:
 
 
 def nearer(now: Scanned) -> int:
-    """How many target points are more alike the picked one than the target point nearest to its true place."""
+    """How many target points are more alike the picked one than the target point nearest to its
+    true place.
+    """
     assert now.f_source is not None
     assert now.f_target is not None
     assert now.scans.T_truth is not None

@@ -1,4 +1,6 @@
-"""What is true of a run of the fitting lesson, by scipy and by differences, from the states alone."""
+"""What is true of a run of the fitting lesson, by scipy and by differences, from the states
+alone.
+"""
 
 import functools
 from typing import Any
@@ -15,11 +17,17 @@ def distances(name: str, unknown: np.ndarray, p: np.ndarray) -> np.ndarray:
     """Signed distances of points from a circle, sphere or cylinder."""
     if name != "cylinder":
         return np.linalg.norm(p - unknown[:-1], axis=1) - unknown[-1]
-    return np.linalg.norm(np.cross(p - unknown[:3], unknown[3:6]), axis=1) / np.linalg.norm(unknown[3:6]) - unknown[6]
+    return (
+        np.linalg.norm(np.cross(p - unknown[:3], unknown[3:6]), axis=1)
+        / np.linalg.norm(unknown[3:6])
+        - unknown[6]
+    )
 
 
 def least(state: Any) -> float:
-    """The least sum of squares that scipy finds, from the truth and from the end of the lesson's own fit."""
+    """The least sum of squares that scipy finds, from the truth and from the end of the lesson's
+    own fit.
+    """
     subject = state.subject
     starts = tuple(tuple(start) for start in (subject.truth, subject.best) if start is not None)
     return _least(subject.kind.name, subject.p.tobytes(), subject.p.shape[1], starts)
@@ -28,8 +36,12 @@ def least(state: Any) -> float:
 @functools.lru_cache(maxsize=64)
 def _least(name: str, points: bytes, columns: int, starts: tuple[tuple[float, ...], ...]) -> float:
     p = np.frombuffer(points).reshape(-1, columns)
-    solve = functools.partial(scipy.optimize.least_squares, x_scale="jac", xtol=1e-10, ftol=1e-10, gtol=1e-10)
-    return min(2 * solve(lambda unknown: distances(name, unknown, p), start).cost for start in starts)
+    solve = functools.partial(
+        scipy.optimize.least_squares, x_scale="jac", xtol=1e-10, ftol=1e-10, gtol=1e-10
+    )
+    return min(
+        2 * solve(lambda unknown: distances(name, unknown, p), start).cost for start in starts
+    )
 
 
 def straight(p: np.ndarray) -> float:
@@ -48,7 +60,9 @@ def plane_error(plane: np.ndarray) -> float:
 
 
 def radius_deviation(state: Any, unknown: np.ndarray) -> float:
-    """The standard deviation of R by the covariance, from a Jacobian by differences in all numbers, redundant ones too."""
+    """The standard deviation of R by the covariance, from a Jacobian by differences in all numbers,
+    redundant ones too.
+    """
     name, p, h = state.subject.kind.name, state.subject.p, 1e-6
     J = np.column_stack(
         [

@@ -1,4 +1,6 @@
-"""What is true of a graph and of what a step made of it, by dense matrices and walking, apart from the lesson's core."""
+"""What is true of a graph and of what a step made of it, by dense matrices and walking, apart from
+the lesson's core.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -6,12 +8,14 @@ from typing import Any
 import numpy as np
 
 from lessons.graphs.state import State
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 
 
 def kept(work: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """Keep what was made of the last matrix: the steps of a run share it, and often the runs of other seeds."""
+    """Keep what was made of the last matrix: the steps of a run share it, and often the runs of
+    other seeds.
+    """
     last: list[Any] = [None, None]
 
     def found(adjacency: Any) -> Any:
@@ -36,12 +40,18 @@ def told(state: State) -> np.ndarray:
     now, classes = state.now, state.subject.classes
     if isinstance(now, Cut):
         side = now.side.astype(int)
-        return side if not len(classes) or np.sum(side == classes) >= np.sum(side != classes) else 1 - side
+        return (
+            side
+            if not len(classes) or np.sum(side == classes) >= np.sum(side != classes)
+            else 1 - side
+        )
     if isinstance(now, Trained):
         return np.argmax(now.scores, axis=1)
     assert isinstance(now, Layer)
     a, b = now.features.T
-    return np.where(np.isclose(a, b, rtol=0, atol=1e-9 * np.abs(now.features).max()), -1, np.where(b > a, 1, 0))
+    return np.where(
+        np.isclose(a, b, rtol=0, atol=1e-9 * np.abs(now.features).max()), -1, np.where(b > a, 1, 0)
+    )
 
 
 def correct(state: State) -> int:
@@ -53,7 +63,8 @@ def off(state: State, p: np.ndarray) -> float:
     i, j = ends(state.adjacency)
     clean = state.subject.p
     return float(
-        np.sqrt(np.mean(np.sum((p - clean) ** 2, axis=1))) / np.mean(np.linalg.norm(clean[i] - clean[j], axis=1))
+        np.sqrt(np.mean(np.sum((p - clean) ** 2, axis=1)))
+        / np.mean(np.linalg.norm(clean[i] - clean[j], axis=1))
     )
 
 
@@ -70,7 +81,9 @@ def modes(adjacency):
 def parts(adjacency: np.ndarray) -> list[int]:
     """The sizes of the components, by walking."""
     a, b = np.nonzero(adjacency)
-    friends = [set(some.tolist()) for some in np.split(b, np.searchsorted(a, np.arange(1, len(adjacency))))]
+    friends = [
+        set(some.tolist()) for some in np.split(b, np.searchsorted(a, np.arange(1, len(adjacency))))
+    ]
     left, sizes = set(range(len(adjacency))), []
     while left:
         front, seen = {left.pop()}, 1

@@ -1,4 +1,6 @@
-"""What is true of a run of the learning lesson: by scipy's rotations, whole distance matrices, trimesh and plain sums."""
+"""What is true of a run of the learning lesson: by scipy's rotations, whole distance matrices,
+trimesh and plain sums.
+"""
 
 import functools
 from typing import Any
@@ -8,7 +10,7 @@ import scipy
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from workbench.data import flatland
+from lessons.learning import flatland
 
 CENTRES, RADII = flatland.DISCS[:, :2], flatland.DISCS[:, 2]
 
@@ -30,7 +32,9 @@ def radii(state: Any) -> np.ndarray:
 @functools.lru_cache(maxsize=64)
 def _folds(p: bytes, faces: bytes) -> float:
     mesh = trimesh.Trimesh(
-        np.frombuffer(p).reshape(-1, 3), np.frombuffer(faces, np.int64).reshape(-1, 3), process=False
+        np.frombuffer(p).reshape(-1, 3),
+        np.frombuffer(faces, np.int64).reshape(-1, 3),
+        process=False,
     )
     return float((mesh.face_adjacency_angles > np.pi / 2).mean())
 
@@ -41,7 +45,9 @@ def folded(state: Any) -> float:
 
 
 def to_given(state: Any) -> float:
-    """Chamfer distance of points on the mesh to the given ones, m²: of other points on it than the lesson takes."""
+    """Chamfer distance of points on the mesh to the given ones, m²: of other points on it than the
+    lesson takes.
+    """
     mesh = trimesh.Trimesh(state.now.p, state.about.faces, process=False)
     q = trimesh.sample.sample_surface(mesh, 3000, seed=5)[0]
     D = scipy.spatial.distance.cdist(q, state.about.given)
@@ -49,7 +55,9 @@ def to_given(state: Any) -> float:
 
 
 def farthest(state: Any) -> float:
-    """How far the true surface is from the mesh where it is farthest, m: from the vertices of a rabbit, by trimesh."""
+    """How far the true surface is from the mesh where it is farthest, m: from the vertices of a
+    rabbit, by trimesh.
+    """
     mesh = trimesh.Trimesh(state.now.p, state.about.faces, process=False)
     q = trimesh.sample.sample_surface(mesh, 100_000, seed=5)[0]
     return float(np.max(scipy.spatial.KDTree(q).query(state.about.p_true)[0]))

@@ -1,4 +1,6 @@
-"""What is true of a run of the measures lesson: by determinants, Heron and trimesh, never by the lesson's own sums."""
+"""What is true of a run of the measures lesson: by determinants, Heron and trimesh, never by the
+lesson's own sums.
+"""
 
 from functools import lru_cache
 
@@ -31,7 +33,9 @@ def truth(state: State) -> tuple[float, float]:
 
 
 def sums(state: State, rows: np.ndarray | slice = slice(None)) -> tuple[float, float]:
-    """The area of some faces, and the determinants of their corners seen from the origin, over 6."""
+    """The area of some faces, and the determinants of their corners seen from the origin, over
+    6.
+    """
     p, faces = state.subject.p, state.subject.faces[rows]
     a, b, c = (np.linalg.norm(p[faces[:, k]] - p[faces[:, k - 1]], axis=1) for k in range(3))
     half = (a + b + c) / 2
@@ -67,6 +71,8 @@ def random_hits(state: State, count: int) -> int:
 
 
 def lantern_area(sectors: int, rings: int) -> float:
-    """The area of Schwarz's lantern over that of its cylinder, of radius and height 1, in closed form."""
+    """The area of Schwarz's lantern over that of its cylinder, of radius and height 1, in closed
+    form.
+    """
     lean = 1 - np.cos(np.pi / sectors)
     return 2 * sectors * rings * np.sin(np.pi / sectors) * np.hypot(1 / rings, lean) / (2 * np.pi)

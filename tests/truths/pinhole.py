@@ -1,4 +1,6 @@
-"""The lesson's camera written out in plain numpy, and how far a stage of the calculation is from it."""
+"""The lesson's camera written out in plain numpy, and how far a stage of the calculation is from
+it.
+"""
 
 import functools
 from typing import Any
@@ -6,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from tests.verdicts import Run
-from workbench.data.street import street
+from workbench.data.views.street import street
 
 STAGES = ("world", "camera", "divide", "distort", "pixels", "back")
 CRATE = np.array([[-1.4, 5.5, 0.0], [-1.4, 5.5, 1.0]])
@@ -46,7 +48,9 @@ def ideal(params: Any, p: np.ndarray, dolly: float | None = None) -> np.ndarray:
 
 
 def fold(params: Any) -> float:
-    """The radius at which the radial polynomial turns round, by looking for it; infinity without tangential terms found."""
+    """The radius at which the radial polynomial turns round, by looking for it; infinity without
+    tangential terms found.
+    """
     r = np.linspace(0, 5, 50001)
     slope = 1 + 3 * params.k1 * r**2 + 5 * params.k2 * r**4
     return float(r[np.argmax(slope <= 0)]) if (slope <= 0).any() else np.inf
@@ -56,7 +60,12 @@ def bent(params: Any, xy: np.ndarray) -> np.ndarray:
     (x, y), (p1, p2) = xy.T, (params.p1, params.p2)
     s = x * x + y * y
     g = 1 + params.k1 * s + params.k2 * s * s
-    out = np.array([x * g + 2 * p1 * x * y + p2 * (s + 2 * x * x), y * g + p1 * (s + 2 * y * y) + 2 * p2 * x * y]).T
+    out = np.array(
+        [
+            x * g + 2 * p1 * x * y + p2 * (s + 2 * x * x),
+            y * g + p1 * (s + 2 * y * y) + 2 * p2 * x * y,
+        ]
+    ).T
     if not (p1 or p2):
         out[np.sqrt(s) > fold(params)] = np.nan
     return out

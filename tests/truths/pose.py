@@ -1,4 +1,6 @@
-"""What is true of a run of the pose lesson, by scipy's rotations and plain sums, from its states alone."""
+"""What is true of a run of the pose lesson, by scipy's rotations and plain sums, from its states
+alone.
+"""
 
 from typing import Any
 
@@ -6,8 +8,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from lessons.pose.state import Repeated
-from workbench.algorithms import ransac
-from workbench.algorithms.camera_search import Searched
+from workbench.algorithms.cameras.camera_search import Searched
+from workbench.algorithms.robust import ransac
 
 
 def centre(T: np.ndarray) -> np.ndarray:

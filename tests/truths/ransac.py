@@ -1,4 +1,6 @@
-"""What is true of a robust fit, from the rows and the truth that a state carries: distances, errors, draws needed."""
+"""What is true of a robust fit, from the rows and the truth that a state carries: distances,
+errors, draws needed.
+"""
 
 import functools
 import itertools
@@ -31,7 +33,9 @@ def rms(values: np.ndarray) -> float:
 
 
 def error(state, estimate: np.ndarray) -> float:
-    """Return how far the true rows, free of noise, are from an estimate: it holds all of its parameters."""
+    """Return how far the true rows, free of noise, are from an estimate: it holds all of its
+    parameters.
+    """
     return rms(apart(state.subject.model.name, estimate, state.subject.p_true))
 
 
@@ -59,7 +63,9 @@ def side(uv: np.ndarray) -> float:
 
 
 def enough_for(share: float, size: int, confidence: float) -> float:
-    """Return the fewest draws of which one is clean with this confidence, by doubling and halving."""
+    """Return the fewest draws of which one is clean with this confidence, by doubling and
+    halving.
+    """
     clean, low, high = share**size, 0, 1
     while 1.0 - (1.0 - clean) ** high < confidence:
         low, high = high, 2 * high
@@ -70,9 +76,11 @@ def enough_for(share: float, size: int, confidence: float) -> float:
 
 
 def most_trusted(state) -> tuple[int, float]:
-    """Return PROSAC's termination length and the share of votes in it, from the definition (its sec. 2.2, eq. 7 to 9).
+    """Return PROSAC's termination length and the share of votes in it, from the definition (its
+    sec. 2.2, eq. 7 to 9).
 
-    At least twenty rows; a wrong model has each row beside the sample with 5 %, and so many or more with less than 5 %.
+    At least twenty rows; a wrong model has each row beside the sample with 5 %, and so many or more
+    with less than 5 %.
     """
     best, m, found = state.now.best, state.subject.model.sample_size, (0, 0.0)
     by_trust = sorted(range(len(best.inliers)), key=lambda row: -state.subject.quality[row])
@@ -80,7 +88,8 @@ def most_trusted(state) -> tuple[int, float]:
     for n in range(20, len(votes) + 1):
         votes_here = sum(votes[:n])
         tail = sum(
-            math.comb(n - m, i - m) * 0.05 ** (i - m) * 0.95 ** (n - i) for i in range(max(votes_here, m), n + 1)
+            math.comb(n - m, i - m) * 0.05 ** (i - m) * 0.95 ** (n - i)
+            for i in range(max(votes_here, m), n + 1)
         )
         if votes_here > m and tail < 0.05 and votes_here / n >= found[1]:
             found = (n, votes_here / n)
@@ -88,10 +97,14 @@ def most_trusted(state) -> tuple[int, float]:
 
 
 def share_for_stop(state) -> float:
-    """Return the share of inliers that the run takes for the truth: of the most trusted in PROSAC, otherwise of all."""
+    """Return the share of inliers that the run takes for the truth: of the most trusted in PROSAC,
+    otherwise of all.
+    """
     best = state.now.best
     trusting = state.params.sampler == "PROSAC"
-    return most_trusted(state)[1] if trusting else np.count_nonzero(best.inliers) / len(best.inliers)
+    return (
+        most_trusted(state)[1] if trusting else np.count_nonzero(best.inliers) / len(best.inliers)
+    )
 
 
 @functools.lru_cache(maxsize=4)
@@ -117,7 +130,9 @@ def clean(run: Run, size: int) -> float:
 
 
 def refused(run: Run) -> float:
-    """Return the share of the true rows beyond the limit of the final model, and of the true one."""
+    """Return the share of the true rows beyond the limit of the final model, and of the true
+    one.
+    """
     state = run.states[-1]
     inliers = state.subject.p[state.subject.is_inlier]
     beyond = apart("plane", state.now.best.estimate, inliers) > state.inlier_distance

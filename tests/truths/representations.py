@@ -1,4 +1,6 @@
-"""What is true of a run of the representations lesson: distances by nearest points, sizes by trimesh."""
+"""What is true of a run of the representations lesson: distances by nearest points, sizes by
+trimesh.
+"""
 
 from functools import lru_cache
 
@@ -8,8 +10,8 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from lessons.representations.state import Params, State, Surface
-from workbench.data.rabbit import rabbit_mesh
-from workbench.geometry.sampling import points_on_faces, unit_points
+from workbench.data.shapes.rabbit import rabbit_mesh
+from workbench.geometry.points.sampling import points_on_faces, unit_points
 
 HALVES = {"box": (0.5, 0.35, 0.25), "two boxes": (0.6, 0.3, 0.3)}
 
@@ -26,13 +28,17 @@ def half_size(params: Params) -> np.ndarray:
 def distance(params: Params, q: np.ndarray) -> np.ndarray:
     """How far points are from the true surface, negative inside; of the rabbit without a sign."""
     if shape_of(params) == "torus":
-        along = np.where(q[:, :2].any(axis=1, keepdims=True), q[:, :2], [1.0, 0.0])  # from the axis any way is as far
+        along = np.where(
+            q[:, :2].any(axis=1, keepdims=True), q[:, :2], [1.0, 0.0]
+        )  # from the axis any way is as far
         on_ring = 0.6 * along / np.linalg.norm(along, axis=1, keepdims=True)
         return np.linalg.norm(q - np.column_stack([on_ring, np.zeros(len(q))]), axis=1) - 0.25
     if params.shape == "rabbit":
         triangles, tree, of = dense_rabbit()
         near = of[np.asarray(tree.query(q, 6)[1])]
-        found = trimesh.triangles.closest_point(triangles[near.ravel()], np.repeat(q, 6, axis=0)).reshape(-1, 6, 3)
+        found = trimesh.triangles.closest_point(
+            triangles[near.ravel()], np.repeat(q, 6, axis=0)
+        ).reshape(-1, 6, 3)
         return np.linalg.norm(found - q[:, None], axis=2).min(axis=1)
     half = half_size(params)
     if params.shape == "plate":
@@ -70,7 +76,9 @@ def errors(state: State) -> tuple[float, float]:
     if state.params.form == "patches":
         q = surface.p
     else:
-        q = points_on_faces(surface.p, surface.faces, unit_points(2048, 3, "Sobol", np.random.default_rng(0)))
+        q = points_on_faces(
+            surface.p, surface.faces, unit_points(2048, 3, "Sobol", rng=np.random.default_rng(0))
+        )
     away = np.abs(distance(state.params, q))
     return float(away.mean()), float(away.max())
 

@@ -1,4 +1,6 @@
-"""What is true of a map and of a move, from the factors and the poses alone, with scipy's rotations."""
+"""What is true of a map and of a move, from the factors and the poses alone, with scipy's
+rotations.
+"""
 
 import functools
 import itertools
@@ -55,12 +57,16 @@ def readings(run: Run) -> list[float]:
     """How far the farthest vertex is off under each second reading of the whole map."""
     params, p = run.params, run.states[0].body.solid.p
     A, T = product(run, complete_at(run), of=SHAPE), motion_of(run.params)
-    swapped = {"rotate, then translate": "translate, then rotate"}.get(params.first, "rotate, then translate")
+    swapped = {"rotate, then translate": "translate, then rotate"}.get(
+        params.first, "rotate, then translate"
+    )
     q = Rotation.from_matrix(T[:3, :3]).as_quat()  # x y z w
     w_first = np.array([q[3], *q[:3]]) * (1 if q[3] >= 0 else -1)
     others: dict[str, list[np.ndarray]] = {
         "the other order": [motion_of(params, first=swapped)],
-        "four conventions": [motion_of(params, order=order) for order in ("xyz", "XYZ", "ZYX", "ZXZ")],
+        "four conventions": [
+            motion_of(params, order=order) for order in ("xyz", "XYZ", "ZYX", "ZXZ")
+        ],
         "fixed and own axes": [
             motion_of(params, order=params.order.swapcase()[::-1], angles=params.angles[::-1]),
             motion_of(params, order=params.order.swapcase()),
@@ -142,7 +148,9 @@ def moved_by(run: Run, k: int) -> np.ndarray:
 
 
 def outer_axes_apart(params: Any) -> float:
-    """The angle, degrees, between the axes of the first and third angle, by a small change of each."""
+    """The angle, degrees, between the axes of the first and third angle, by a small change of
+    each.
+    """
     R, tiny = rotation_of(params, params.angles), 1e-4
     axes = []
     for k in (0, 2):
@@ -156,14 +164,20 @@ def outer_axes_apart(params: Any) -> float:
 @functools.lru_cache(maxsize=4)
 def poses(params: Any) -> tuple[np.ndarray, np.ndarray]:
     """The start and the end of a move."""
-    R_end = Rotation.from_rotvec(params.pose[3:]).as_matrix() @ rotation_of(params, params.angles_end)
-    return rigid(rotation_of(params, params.angles), np.zeros(3)), rigid(R_end, np.array(params.pose[:3], float))
+    R_end = Rotation.from_rotvec(params.pose[3:]).as_matrix() @ rotation_of(
+        params, params.angles_end
+    )
+    return rigid(rotation_of(params, params.angles), np.zeros(3)), rigid(
+        R_end, np.array(params.pose[:3], float)
+    )
 
 
 def turn_between(T: np.ndarray, other: np.ndarray) -> float:
     """Degrees between two rotations, or between those nearest to what are none."""
     U, _, V = np.linalg.svd(other[:3, :3] @ T[:3, :3].T)
-    return float(np.degrees(Rotation.from_matrix(U @ np.diag([1, 1, np.linalg.det(U @ V)]) @ V).magnitude()))
+    return float(
+        np.degrees(Rotation.from_matrix(U @ np.diag([1, 1, np.linalg.det(U @ V)]) @ V).magnitude())
+    )
 
 
 def nearest(T: np.ndarray) -> np.ndarray:
@@ -198,7 +212,9 @@ def met(run: Run) -> bool:
 
 
 def squares(run: Run) -> float:
-    """The sum of squared distances between the first second reading and the body, vertex by vertex."""
+    """The sum of squared distances between the first second reading and the body, vertex by
+    vertex.
+    """
     p, k = run.states[0].body.solid.p, complete_at(run)
     return float(((mapped(run.states[k].ghosts[0].T, p) - mapped(product(run, k), p)) ** 2).sum())
 

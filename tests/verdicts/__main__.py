@@ -1,10 +1,11 @@
-"""Holds what lessons say to the truth: `python -m tests.verdicts [--whole] [LESSON ...]`; prints what does not hold.
+"""Holds what lessons say to the truth: `python -m tests.verdicts [--whole] [LESSON ...]`; prints
+what does not hold.
 
-A sentence that changes must not lose its judge unseen, so that a claim about a preset's line or an explanation which
-finds its words no more is printed too.
+A sentence that changes must not lose its judge unseen, so that a claim about a preset's line or an
+explanation which finds its words no more is printed too.
 
-The whole audit takes every step of every preset and question at 20 seeds. The quick one takes two, and of other seeds
-than a preset's own only the steps up to the algorithm's end.
+The whole audit takes every step of every preset and question at 20 seeds. The quick one takes two,
+and of other seeds than a preset's own only the steps up to the algorithm's end.
 """
 
 import dataclasses
@@ -14,9 +15,9 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from tests.verdicts import Claim, Run, untrue
-from workbench.lesson import Lesson, catalog
-from workbench.scene import Caption, caption_of
+from tests.verdicts import Claim, Run, misvalued, untrue
+from workbench.lesson import Lesson, Look, States, catalog
+from workbench.scene import caption_of
 
 WHOLE, QUICK = range(20), range(2)
 MOST = 5  # findings shown of a run
@@ -28,7 +29,11 @@ Text = tuple[str, Callable[[Run], str], Sequence[Claim]]
 def main() -> int:
     """Audit the lessons that are named, or all; return 1 where something is not true."""
     names = [word for word in sys.argv[1:] if word != "--whole"]
-    found = [line for name in names or catalog() for line in audit(catalog()[name], whole="--whole" in sys.argv)]
+    found = [
+        line
+        for name in names or catalog()
+        for line in audit(catalog()[name], whole="--whole" in sys.argv)
+    ]
     print("\n".join(found))
     return 1 if found else 0
 
@@ -37,12 +42,17 @@ def audit(lesson: Lesson, *, whole: bool) -> Iterator[str]:
     """Return what captions, preset lines and explanations of a lesson say that is not true."""
     judge = importlib.import_module(f"tests.verdicts.{lesson.name}")
     yield from nameless(lesson, judge)
-    short: Callable[[Any], Iterator[Any]] = getattr(judge, "until_the_end", lesson.run)
+    form = lesson.form
+    short: Callable[[Any], Iterator[Any]] = getattr(judge, "until_the_end", form.states)
     for params, texts in experiments(lesson, judge):
         for one in seeded(params, WHOLE if whole else QUICK):
-            states = lesson.run(one) if whole or one == params else short(one)
-            where = f"{lesson.name}, {texts[0][0] if texts else 'default'}, seed {getattr(one, 'seed', '-')}"
-            run = Run(one, tuple(states))
+            states = tuple(form.states(one) if whole or one == params else short(one))
+            where = (
+                f"{lesson.name}, {texts[0][0] if texts else 'default'}, seed"
+                f" {getattr(one, 'seed', '-')}"
+            )
+            subject = form.setup(one)
+            run = Run(one, States.of(states, params=one, subject=subject), subject)
             wrong = list(judged(lesson, judge, run, texts))
             if one == params:
                 wrong += wordless(run, texts)
@@ -52,7 +62,9 @@ def audit(lesson: Lesson, *, whole: bool) -> Iterator[str]:
 
 
 def experiments(lesson: Lesson, judge: Any) -> Iterator[tuple[Any, list[Text]]]:
-    """Return the params of the default, every preset and every question, equal ones once, with what is said of them."""
+    """Return the params of the default, every preset and every question, equal ones once, with what
+    is said of them.
+    """
     texts: dict[Any, list[Text]] = {lesson.params(): []}
     for preset in lesson.presets:
         line = f"{preset.title}. {preset.line}"
@@ -61,7 +73,11 @@ def experiments(lesson: Lesson, judge: Any) -> Iterator[tuple[Any, list[Text]]]:
         )
     for question in lesson.questions:
         texts.setdefault(question.params, []).append(
-            (question.name, lambda run, q=question: q.why(run.states), judge.WHYS.get(question.name, ()))
+            (
+                question.name,
+                lambda run, q=question: q.why(run.states),
+                judge.WHYS.get(question.name, ()),
+            )
         )
     yield from texts.items()
 
@@ -74,20 +90,30 @@ def seeded(params: Any, seeds: Sequence[int]) -> Iterator[Any]:
 
 
 def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Iterator[str]:
-    """Return what is not true of one run: in its captions, in their tone, and in what is said of it."""
-    caption: Callable[[Any], Caption] = getattr(judge, "caption", lambda state: caption_of(lesson.draw(state)))
+    """Return what is not true of one run: in its captions, in their tone, and in what is said of
+    it.
+    """
+    caption = getattr(judge, "caption", None)
     for k, state in enumerate(run.states):
-        said = caption(state)
+        look = Look(params=run.params, subject=run.subject, now=state, past=run.states[:k])
+        given = state if lesson.setup is None else look
+        said = caption(given) if caption else caption_of(lesson.form.draw(look))
         yield from (f"step {k}: {what}" for what in untrue(said.text, judge.CAPTIONS, run, k))
+        if lesson.setup is not None:
+            yield from (f"step {k}: {what}" for what in misvalued(said, judge.VALUES, run, k))
         right = judge.right(run, k)
         if said.tone != "info" and right is not None and right is not (said.tone == "good"):
             yield f"step {k}: the tone is {said.tone}, the truth {right}: {said.text}"
     for name, text, claims in texts:
-        yield from (f"{name}: {what}" for what in untrue(text(run), claims, run, len(run.states) - 1))
+        yield from (
+            f"{name}: {what}" for what in untrue(text(run), claims, run, len(run.states) - 1)
+        )
 
 
 def wordless(run: Run, texts: Sequence[Text]) -> list[str]:
-    """Return the claims about a line or an explanation whose words it does not have at its own params."""
+    """Return the claims about a line or an explanation whose words it does not have at its own
+    params.
+    """
     return [
         f"{name}: a claim is left without its words: {claim.words!r}"
         for name, text, claims in texts

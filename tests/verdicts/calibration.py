@@ -1,4 +1,6 @@
-"""What the calibration lesson says of its runs, decided from a camera written out anew and from differences."""
+"""What the calibration lesson says of its runs, decided from a camera written out anew and from
+differences.
+"""
 
 import functools
 import re
@@ -20,7 +22,9 @@ F, SIGMAS = 536.0, np.sqrt(2)
 
 
 def right(run: Run, k: int) -> bool | None:
-    """At the end f is right to 1 % and all rays to 10 px; poses are none where they are behind or not rigid."""
+    """At the end f is right to 1 % and all rays to 10 px; poses are none where they are behind or
+    not rigid.
+    """
     state: State = run.states[k]
     K = state.now.K
     if state.ending is None or state.ending.kind != "known" or state.subject.K is None or K is None:
@@ -49,7 +53,7 @@ def _f(run: Run) -> float:
     return float(K[0, 0])
 
 
-# captions -----------------------------------------------------------------------------------------------------------------
+# captions -----------------------------------------------------------------------------------------
 
 
 def _focal(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -101,7 +105,9 @@ def _moved(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     f, other = float(state.now.K[0, 0]), float(state.ending.without.K[0, 0])
     said = says(m["f"], f) and says(m["other"], other) and near(m["move"], abs(f - other))
-    return said and abs(number(m["times"]) * _deviation(state) / max(abs(f - other), 1e-9) - 1) < 0.07
+    return (
+        said and abs(number(m["times"]) * _deviation(state) / max(abs(f - other), 1e-9) - 1) < 0.07
+    )
 
 
 def _plus_minus(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -142,7 +148,8 @@ CAPTIONS = [
     Claim(rf"rms (?:goes|falls) from (?P<before>{NUMBER}) px to (?P<after>{NUMBER}) px", _falls),
     Claim(rf"Iteration \d+: rms (?P<rms>{NUMBER}) px", _rms),
     Claim(
-        rf"View (?P<view>\d+) fits worst: (?P<rms>{NUMBER}) px \(rms\), the others (?P<others>{NUMBER}) px in the median\."
+        rf"View (?P<view>\d+) fits worst: (?P<rms>{NUMBER}) px \(rms\), the others"
+        rf" (?P<others>{NUMBER}) px in the median\."
         rf" Its residuals carry (?P<share>{NUMBER}) %",
         _least,
     ),
@@ -154,15 +161,20 @@ CAPTIONS = [
     Claim(rf"f = (?P<f>{NUMBER}) ± (?P<sd>{NUMBER}) px", _plus_minus),
     Claim(r"not at rest", _not_at_rest),
     Claim(rf"fx and fy are (?P<share>{NUMBER}) % apart", _apart_by),
-    Claim(rf"The largest error of the lens map anywhere in the picture is (?P<worst>{NUMBER}) px", _off),
+    Claim(
+        rf"The largest error of the lens map anywhere in the picture is (?P<worst>{NUMBER}) px",
+        _off,
+    ),
     Claim(
         r"It looks settled, and it is wrong\.",
-        lambda run, k, m: right(run, k) is False and run.states[k].now.adjustment.stop.name == "CONVERGED",
+        lambda run, k, m: (
+            right(run, k) is False and run.states[k].now.adjustment.stop.name == "CONVERGED"
+        ),
     ),
     Claim(r"It is wrong\.", lambda run, k, m: right(run, k) is False),
 ]
 
-# preset lines and explanations --------------------------------------------------------------------------------------------
+# preset lines and explanations --------------------------------------------------------------------
 
 
 def _noise_left(run: Run) -> float:
@@ -182,11 +194,15 @@ def _apart(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _f_off(run: Run, k: int, m: re.Match[str]) -> bool:
-    return near(m["off"], abs(_f(run) - F)) and abs(number(m["sd"]) / _deviation(_end(run)) - 1) < 0.05
+    return (
+        near(m["off"], abs(_f(run) - F)) and abs(number(m["sd"]) / _deviation(_end(run)) - 1) < 0.05
+    )
 
 
 def _distances(run: Run, k: int, m: re.Match[str]) -> bool:
-    found, true = (Ts[:, :3, 3] for Ts in (_end(run).now.Ts_camera_board, _end(run).subject.Ts_camera_board))
+    found, true = (
+        Ts[:, :3, 3] for Ts in (_end(run).now.Ts_camera_board, _end(run).subject.Ts_camera_board)
+    )
     ratio = np.linalg.norm(found, axis=1).sum() / np.linalg.norm(true, axis=1).sum()
     return says(m["share"], 100 * abs(ratio - 1)) and (ratio < 1) == (m["sense"] == "short")
 
@@ -194,19 +210,29 @@ def _distances(run: Run, k: int, m: re.Match[str]) -> bool:
 def _determined(run: Run, k: int, m: re.Match[str]) -> bool:
     """As many views as have rows of rank four, and not one fewer."""
     n = int(number(m["n"]))
-    rows = {len(s.now.Hs_image_board): s.now.rows[:, [0, 2, 3, 4, 5]] for s in run.states if len(s.now.rows)}
+    rows = {
+        len(s.now.Hs_image_board): s.now.rows[:, [0, 2, 3, 4, 5]]
+        for s in run.states
+        if len(s.now.rows)
+    }
     return np.linalg.matrix_rank(rows[n]) >= 4 and np.linalg.matrix_rank(rows[n - 1]) < 4
 
 
 def _ratio(run: Run, k: int, m: re.Match[str]) -> bool:
     off, sd = abs(_f(run) - F), _deviation(_end(run))
-    return near(m["off"], off) and abs(number(m["times"]) - off / sd) < 0.1 and abs(number(m["sd"]) / sd - 1) < 0.05
+    return (
+        near(m["off"], off)
+        and abs(number(m["times"]) - off / sd) < 0.1
+        and abs(number(m["sd"]) / sd - 1) < 0.05
+    )
 
 
 NOT_JUDGED = Claim(r"were found 5 px away|a wrong board is wrong in all views alike", None)
 
 
-def _own(params: Params, holds: Callable[[Run, int, re.Match[str]], bool]) -> Callable[[Run, int, re.Match[str]], bool]:
+def _own(
+    params: Params, holds: Callable[[Run, int, re.Match[str]], bool]
+) -> Callable[[Run, int, re.Match[str]], bool]:
     """What is claimed of the preset's own seed alone."""
     return lambda run, k, m: run.params.seed != params.seed or holds(run, k, m)
 
@@ -224,16 +250,20 @@ def _deviations(run: Run, m: re.Match[str]) -> bool:
 LINES = {
     "flat": [
         Claim(
-            rf"comes to rest (?P<off>{NUMBER}) px short .* is (?P<sd>{NUMBER}) px, .* it is (?P<home>{NUMBER}) px",
+            rf"comes to rest (?P<off>{NUMBER}) px short .* is (?P<sd>{NUMBER}) px, .* it is"
+            rf" (?P<home>{NUMBER}) px",
             _own(
                 FLAT,
-                lambda run, k, m: says(m["off"], F - _f(run)) and _at_rest(_end(run)) and _deviations(run, m),
+                lambda run, k, m: (
+                    says(m["off"], F - _f(run)) and _at_rest(_end(run)) and _deviations(run, m)
+                ),
             ),
         )
     ],
     "few": [
         Claim(
-            rf"fit well and leave f uncertain: its ± at the end is (?P<sd>{NUMBER}) px, .* is (?P<home>{NUMBER}) px",
+            rf"fit well and leave f uncertain: its ± at the end is (?P<sd>{NUMBER}) px, .* is"
+            rf" (?P<home>{NUMBER}) px",
             _own(FEW, lambda run, k, m: _noise_left(run) < 1.1 and _deviations(run, m)),
         )
     ],
@@ -252,14 +282,22 @@ LINES = {
     ],
     "bad": [
         NOT_JUDGED,
-        Claim(r"The bars tell which view it is", lambda run, k, m: int(np.argmax(rms_of(_end(run)))) == 1),
+        Claim(
+            r"The bars tell which view it is",
+            lambda run, k, m: int(np.argmax(rms_of(_end(run)))) == 1,
+        ),
     ],
-    "stretched": [Claim(rf"fx and fy come out (?P<share>{NUMBER}) % apart", _own(Params(), _apart))],
+    "stretched": [
+        Claim(rf"fx and fy come out (?P<share>{NUMBER}) % apart", _own(Params(), _apart))
+    ],
 }
 
 WHYS = {
     "flat-rms": [
-        Claim(rf"^(?P<rms>{NUMBER}) px, while", lambda run, k, m: near(m["rms"], _noise_left(run) * SIGMAS * 0.2)),
+        Claim(
+            rf"^(?P<rms>{NUMBER}) px, while",
+            lambda run, k, m: near(m["rms"], _noise_left(run) * SIGMAS * 0.2),
+        ),
         Claim(rf"f is off by (?P<off>{NUMBER}) px \(± (?P<sd>{NUMBER}) px\)", _f_off),
     ],
     "noise-rms": [
@@ -275,6 +313,10 @@ WHYS = {
     ],
     "bent-error": [
         NOT_JUDGED,
-        Claim(rf"f is off by (?P<off>{NUMBER}) px, (?P<times>{NUMBER}) times its ± of (?P<sd>{NUMBER}) px", _ratio),
+        Claim(
+            rf"f is off by (?P<off>{NUMBER}) px, (?P<times>{NUMBER}) times its ± of"
+            rf" (?P<sd>{NUMBER}) px",
+            _ratio,
+        ),
     ],
 }

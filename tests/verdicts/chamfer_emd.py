@@ -1,4 +1,6 @@
-"""Decides what the lesson on Chamfer and earth mover's says: by whole distance matrices and scipy's plain assignment."""
+"""Decides what the lesson on Chamfer and earth mover's says: by whole distance matrices and scipy's
+plain assignment.
+"""
 
 import functools
 import re
@@ -10,7 +12,7 @@ from lessons.chamfer_emd.captions import caption as caption
 from tests.own_seed import of_preset
 from tests.readings import NUMBER, number, says
 from tests.verdicts import Claim, Run
-from workbench.algorithms.flow import Stop
+from workbench.algorithms.transport.flow import Stop
 
 FIGURE = rf"(<?{NUMBER})"
 SHARE = rf"({NUMBER}) %"
@@ -23,17 +25,27 @@ def near(said: str, value: float) -> bool:
 
 @functools.lru_cache(maxsize=512)
 def _measured(p_bytes: bytes, target_bytes: bytes) -> tuple[float, float, float, np.ndarray]:
-    """Return both sides of Chamfer, the earth mover's distance, and how far each share of mass goes under it."""
+    """Return both sides of Chamfer, the earth mover's distance, and how far each share of mass goes
+    under it.
+    """
     p, target = (np.frombuffer(b).reshape(-1, 3) for b in (p_bytes, target_bytes))
     D = scipy.spatial.distance.cdist(p, target)
     copies = np.lcm(*D.shape)
     many = D.repeat(copies // D.shape[0], axis=0).repeat(copies // D.shape[1], axis=1)
     moved = many[scipy.optimize.linear_sum_assignment(many)]
-    return float((D.min(axis=1) ** 2).mean()), float((D.min(axis=0) ** 2).mean()), float(moved.mean()), moved
+    return (
+        float((D.min(axis=1) ** 2).mean()),
+        float((D.min(axis=0) ** 2).mean()),
+        float(moved.mean()),
+        moved,
+    )
 
 
 def measured(p: np.ndarray, run: Run) -> tuple[float, float, float, np.ndarray]:
-    return _measured(np.ascontiguousarray(p).tobytes(), np.ascontiguousarray(run.states[0].clouds.p_target).tobytes())
+    return _measured(
+        np.ascontiguousarray(p).tobytes(),
+        np.ascontiguousarray(run.states[0].clouds.p_target).tobytes(),
+    )
 
 
 def moving(run: Run, k: int, side: str) -> np.ndarray:
@@ -42,9 +54,11 @@ def moving(run: Run, k: int, side: str) -> np.ndarray:
 
 def lowered(run: Run, k: int) -> float:
     to_target, to_source, _, _ = measured(moving(run, k, "left"), run)
-    return {"both sides": to_target + to_source, "source to target": to_target, "target to source": to_source}[
-        run.params.lowers
-    ]
+    return {
+        "both sides": to_target + to_source,
+        "source to target": to_target,
+        "target to source": to_source,
+    }[run.params.lowers]
 
 
 def emd(run: Run, k: int, side: str = "right") -> float:
@@ -66,21 +80,29 @@ def chamfer(p: np.ndarray, run: Run) -> float:
 
 def ranks_differ(run: Run) -> bool:
     p, other = moving(run, 0, "left"), larger(run)
-    return (chamfer(p, run) < chamfer(other, run)) != (measured(p, run)[2] < measured(other, run)[2])
+    return (chamfer(p, run) < chamfer(other, run)) != (
+        measured(p, run)[2] < measured(other, run)[2]
+    )
 
 
 def index_mse(run: Run) -> float:
     p, target = moving(run, 0, "left"), run.states[0].clouds.p_target
-    return float(np.mean(np.sum((p - target) ** 2, axis=1))) if len(p) == len(target) else float("nan")
+    return (
+        float(np.mean(np.sum((p - target) ** 2, axis=1))) if len(p) == len(target) else float("nan")
+    )
 
 
 def blind(run: Run) -> bool:
     """Whether some number of the start says "equal" or "closer" of clouds that are not."""
     p = moving(run, 0, "left")
     to_target, to_source, moved, _ = measured(p, run)
-    one_way = {"source to target": to_target, "target to source": to_source}.get(run.params.lowers, 1.0)
+    one_way = {"source to target": to_target, "target to source": to_source}.get(
+        run.params.lowers, 1.0
+    )
     return (
-        ranks_differ(run) or (to_target + to_source == 0 and (moved > 0 or index_mse(run) > 0)) or one_way == 0 < moved
+        ranks_differ(run)
+        or (to_target + to_source == 0 and (moved > 0 or index_mse(run) > 0))
+        or one_way == 0 < moved
     )
 
 
@@ -100,13 +122,15 @@ def ended(run: Run, k: int, side: str) -> Stop | None:
 
 
 def settled(run: Run, k: int, side: str) -> bool:
-    """Whether no short step of all points along their pulls lowers the distance; the pulls by differences of the matrix."""
+    """Whether no short step of all points along their pulls lowers the distance; the pulls by
+    differences of the matrix.
+    """
     p, target = moving(run, k, side), run.states[0].clouds.p_target
     value = lowered(run, k) if side == "left" else emd(run, k)
     if side == "right":
-        return (
-            True  # a kink: subgradients, tried by `flow` itself; that the value no longer falls is claimed by its steps
-        )
+        # a kink: subgradients, tried by `flow` itself; that the value no longer falls is claimed by
+        # its steps
+        return True
     D = scipy.spatial.distance.cdist(p, target)
     pull = np.zeros_like(p)
     if run.params.lowers != "target to source":
@@ -117,7 +141,11 @@ def settled(run: Run, k: int, side: str) -> bool:
     for metres in (1e-2, 1e-3, 1e-4):
         D = scipy.spatial.distance.cdist(p + metres / max(steepness, 1e-12) * pull, target)
         to_target, to_source = (D.min(axis=1) ** 2).mean(), (D.min(axis=0) ** 2).mean()
-        now = {"both sides": to_target + to_source, "source to target": to_target, "target to source": to_source}
+        now = {
+            "both sides": to_target + to_source,
+            "source to target": to_target,
+            "target to source": to_source,
+        }
         if now[run.params.lowers] < 0.995 * value - 1e-9:
             return False
     return True
@@ -132,11 +160,19 @@ def _larger(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _left(run: Run, k: int, m: re.Match[str]) -> bool:
-    return near(m[1], lowered(run, k - 1)) and near(m[2], lowered(run, k)) and says(m[3], 100 * astray(run, k, "left"))
+    return (
+        near(m[1], lowered(run, k - 1))
+        and near(m[2], lowered(run, k))
+        and says(m[3], 100 * astray(run, k, "left"))
+    )
 
 
 def _right(run: Run, k: int, m: re.Match[str]) -> bool:
-    return near(m[1], emd(run, k - 1)) and near(m[2], emd(run, k)) and says(m[3], 100 * astray(run, k, "right"))
+    return (
+        near(m[1], emd(run, k - 1))
+        and near(m[2], emd(run, k))
+        and says(m[3], 100 * astray(run, k, "right"))
+    )
 
 
 def _why(side: str):
@@ -145,8 +181,13 @@ def _why(side: str):
         value = lowered(run, k) if side == "left" else emd(run, k)
         return {
             "arrived": stop is Stop.ARRIVED and value < 1e-9,
-            "settled where no step lowers it": stop is Stop.SETTLED and value > 1e-9 and settled(run, k, side),
-            "used up its steps": stop is Stop.MAX_STEPS and getattr(run.states[k], side).flow.step == run.params.steps,
+            "settled where no step lowers it": (
+                stop is Stop.SETTLED and value > 1e-9 and settled(run, k, side)
+            ),
+            "used up its steps": (
+                stop is Stop.MAX_STEPS
+                and getattr(run.states[k], side).flow.step == run.params.steps
+            ),
         }[m[1]]
 
     return holds
@@ -154,42 +195,59 @@ def _why(side: str):
 
 WHY = r"(arrived|settled where no step lowers it|used up its steps)"
 
-# fmt: off
 CAPTIONS = [
     Claim(rf"Chamfer {FIGURE} m², earth mover's {FIGURE} m\.", _started),
-    Claim(rf"The ranking flips: to Chamfer this is closer than the target 5 % larger \({FIGURE} m², {FIGURE} m\)",
-          lambda run, k, m: _larger(run, k, m) and chamfer(moving(run, 0, "left"), run) < chamfer(larger(run), run)),
-    Claim(r"to earth mover's it is farther", lambda run, k, m: emd(run, 0) > measured(larger(run), run)[2]),
+    Claim(
+        rf"The ranking flips: to Chamfer this is closer than the target 5 % larger \({FIGURE} m²,"
+        rf" {FIGURE} m\)",
+        lambda run, k, m: (
+            _larger(run, k, m) and chamfer(moving(run, 0, "left"), run) < chamfer(larger(run), run)
+        ),
+    ),
+    Claim(
+        r"to earth mover's it is farther",
+        lambda run, k, m: emd(run, 0) > measured(larger(run), run)[2],
+    ),
     Claim(rf"Compare the target 5 % larger \({FIGURE} m², {FIGURE} m\)", _larger),
-    Claim(r"To Chamfer the two are equal: each point lies on one of the other cloud",
-          lambda run, k, m: chamfer(moving(run, 0, "left"), run) == 0 < emd(run, 0)),
-    Claim(rf"Only pairs by index see a change: {FIGURE} m²",
-          lambda run, k, m: near(m[1], index_mse(run)) and emd(run, 0) == 0 == chamfer(moving(run, 0, "left"), run)),
+    Claim(
+        r"To Chamfer the two are equal: each point lies on one of the other cloud",
+        lambda run, k, m: chamfer(moving(run, 0, "left"), run) == 0 < emd(run, 0),
+    ),
+    Claim(
+        rf"Only pairs by index see a change: {FIGURE} m²",
+        lambda run, k, m: (
+            near(m[1], index_mse(run)) and emd(run, 0) == 0 == chamfer(moving(run, 0, "left"), run)
+        ),
+    ),
     Claim(
         rf"Every source point lies on the target, so that side of Chamfer is 0"
         rf" and the left flow has nothing to do; the other side is {FIGURE} m²",
         lambda run, k, m: (
-            measured(moving(run, 0, "left"), run)[0] == 0 and near(m[1], measured(moving(run, 0, "left"), run)[1])
+            measured(moving(run, 0, "left"), run)[0] == 0
+            and near(m[1], measured(moving(run, 0, "left"), run)[1])
         ),
     ),
     Claim(rf"Left: [\w ,-]*? {FIGURE} m² → {FIGURE} m², {SHARE} of the mass astray", _left),
     Claim(
         rf"Left: ended at {FIGURE} m², {SHARE} of the mass astray",
         lambda run, k, m: (
-            near(m[1], lowered(run, k)) and says(m[2], 100 * astray(run, k, "left")) and ended(run, k, "left") is not None
+            near(m[1], lowered(run, k))
+            and says(m[2], 100 * astray(run, k, "left"))
+            and ended(run, k, "left") is not None
         ),
     ),
     Claim(rf"Right: earth mover's {FIGURE} m → {FIGURE} m, {SHARE} astray", _right),
     Claim(
         rf"Right: earth mover's ended at {FIGURE} m, {SHARE} astray",
         lambda run, k, m: (
-            near(m[1], emd(run, k)) and says(m[2], 100 * astray(run, k, "right")) and ended(run, k, "right") is not None
+            near(m[1], emd(run, k))
+            and says(m[2], 100 * astray(run, k, "right"))
+            and ended(run, k, "right") is not None
         ),
     ),
     Claim(rf"Left {WHY}", _why("left")),
     Claim(rf"right {WHY}", _why("right")),
 ]
-# fmt: on
 
 
 def start(run: Run) -> np.ndarray:
@@ -232,29 +290,40 @@ def _midway(run: Run, *_) -> bool:
     return (len(p), len(target)) == (40, 80) and float(at_both.mean()) >= 0.9
 
 
-# fmt: off
 LINES = {
     "larger": [
         Claim(
             r"Every point is 5 cm off",
             lambda run, k, m: bool(
-                np.allclose(np.linalg.norm(start(run) - run.states[0].clouds.p_target, axis=1), 0.05)
+                np.allclose(
+                    np.linalg.norm(start(run) - run.states[0].clouds.p_target, axis=1), 0.05
+                )
             ),
         ),
-        Claim(r"0\.0050 m² by Chamfer, 0\.05 m by EMD",
-              lambda run, k, m: abs(chamfer(start(run), run) - 0.005) < 1e-9 and abs(emd(run, 0) - 0.05) < 1e-9),
+        Claim(
+            r"0\.0050 m² by Chamfer, 0\.05 m by EMD",
+            lambda run, k, m: (
+                abs(chamfer(start(run), run) - 0.005) < 1e-9 and abs(emd(run, 0) - 0.05) < 1e-9
+            ),
+        ),
     ],
     "flip": [
         Claim(
             r"80 % of the points in one bunch",
             lambda run, k, m: (
-                float(np.mean(np.linalg.norm(start(run) - np.median(start(run), axis=0), axis=1) < 0.3)) >= 0.8
+                float(
+                    np.mean(
+                        np.linalg.norm(start(run) - np.median(start(run), axis=0), axis=1) < 0.3
+                    )
+                )
+                >= 0.8
             ),
         )
     ],
     "bump": [
         Claim(
-            r"A bump of 14\.7 cm on an eighth of the ring has the Chamfer distance of the ring 5 % larger, 0\.0050 m²",
+            r"A bump of 14\.7 cm on an eighth of the ring has the Chamfer distance of the ring 5 %"
+            r" larger, 0\.0050 m²",
             lambda run, k, m: (
                 abs(chamfer(start(run), run) - chamfer(larger(run), run)) < 5e-5
                 and abs(chamfer(start(run), run) - 0.005) < 5e-5
@@ -265,7 +334,12 @@ LINES = {
             lambda run, k, m: (
                 abs(emd(run, 0) - 0.0189) < 5e-5
                 and abs(emd(run, 0) - 0.019) < 5e-4
-                and abs(scipy.spatial.distance.directed_hausdorff(start(run), run.states[0].clouds.p_target)[0] - 0.147)
+                and abs(
+                    scipy.spatial.distance.directed_hausdorff(
+                        start(run), run.states[0].clouds.p_target
+                    )[0]
+                    - 0.147
+                )
                 < 1e-9
             ),
         ),
@@ -294,7 +368,8 @@ LINES = {
             r"all distances are 0 except the mean square of index pairs, 2\.3 m²",
             lambda run, k, m: (
                 chamfer(start(run), run) == 0 == emd(run, 0)
-                and abs(index_mse(run) - (2.3 if run.params.seed == 0 else 2.0)) < (0.05 if run.params.seed == 0 else 0.6)
+                and abs(index_mse(run) - (2.3 if run.params.seed == 0 else 2.0))
+                < (0.05 if run.params.seed == 0 else 0.6)
             ),
         )
     ],
@@ -302,7 +377,9 @@ LINES = {
         Claim(
             r"Chamfer and Hausdorff are 0, EMD is 0\.21 m",
             lambda run, k, m: (
-                chamfer(start(run), run) == 0 and abs(emd(run, 0) - 0.21) < 0.005 and len(start(run)) == 120
+                chamfer(start(run), run) == 0
+                and abs(emd(run, 0) - 0.21) < 0.005
+                and len(start(run)) == 120
             ),
         )
     ],
@@ -329,13 +406,14 @@ LINES = {
         )
     ],
 }
-# fmt: on
 
 
 def _spread(run: Run, k: int, m: re.Match[str]) -> bool:
     left, other = (float(np.mean(moving(run, -1, side)[:, 0] < 0)) for side in ("left", "right"))
     few = np.unique(
-        scipy.spatial.distance.cdist(moving(run, -1, "left"), run.states[0].clouds.p_target).argmin(axis=0)[far(run)]
+        scipy.spatial.distance.cdist(moving(run, -1, "left"), run.states[0].clouds.p_target).argmin(
+            axis=0
+        )[far(run)]
     )
     return (
         says(m[1], 100 * left)
@@ -353,21 +431,24 @@ def far(run: Run) -> np.ndarray:
 
 def _missing(run: Run, k: int, m: re.Match[str]) -> bool:
     to_target, to_source, _, _ = measured(start(run), run)
-    return says(m[1], 100 * to_source / (to_target + to_source)) and near(m[2], to_target + to_source)
+    return says(m[1], 100 * to_source / (to_target + to_source)) and near(
+        m[2], to_target + to_source
+    )
 
 
-# fmt: off
 WHYS = {
     "predict-spread": [
         Claim(
-            rf"After 40 steps {SHARE} of its points stay on the nearer half \({SHARE} for earth mover's\)\. "
+            rf"After 40 steps {SHARE} of its points stay on the nearer half \({SHARE} for earth"
+            r" mover's\)\. "
             rf"A few points near the far side serve all target points there",
             _spread,
         )
     ],
     "predict-flip": [
         Claim(
-            rf"At the start, bunched: Chamfer {FIGURE} m², EMD {FIGURE} m; 5 % larger: {FIGURE} m² and {FIGURE} m",
+            rf"At the start, bunched: Chamfer {FIGURE} m², EMD {FIGURE} m; 5 % larger: {FIGURE} m²"
+            rf" and {FIGURE} m",
             lambda run, k, m: (
                 near(m[1], chamfer(start(run), run))
                 and near(m[2], emd(run, 0))
@@ -379,19 +460,30 @@ WHYS = {
         Claim(
             r"enough to have a neighbour nearby everywhere",
             lambda run, k, m: (
-                float(scipy.spatial.distance.cdist(start(run), run.states[0].clouds.p_target).min(axis=0).max()) < 0.15
+                float(
+                    scipy.spatial.distance.cdist(start(run), run.states[0].clouds.p_target)
+                    .min(axis=0)
+                    .max()
+                )
+                < 0.15
             ),
         ),
     ],
     "predict-missing": [
         Claim(rf"{SHARE} of {FIGURE} m²", _missing),
-        Claim(rf"Every source point lies on a target point, so that the other side is {FIGURE} m²",
-              lambda run, k, m: number(m[1]) == measured(start(run), run)[0] == 0),
-        Claim(r"stays where it is", lambda run, k, m: bool(np.array_equal(moving(run, -1, "left"), start(run)))),
+        Claim(
+            rf"Every source point lies on a target point, so that the other side is {FIGURE} m²",
+            lambda run, k, m: number(m[1]) == measured(start(run), run)[0] == 0,
+        ),
+        Claim(
+            r"stays where it is",
+            lambda run, k, m: bool(np.array_equal(moving(run, -1, "left"), start(run))),
+        ),
     ],
     "predict-outlier": [
         Claim(
-            rf"Hausdorff: {FIGURE} m, (\d+) times that of the ring 5 % larger; Chamfer ([\d.]+) times; EMD ([\d.]+) times",
+            rf"Hausdorff: {FIGURE} m, (\d+) times that of the ring 5 % larger; Chamfer ([\d.]+)"
+            r" times; EMD ([\d.]+) times",
             lambda run, k, m: (
                 number(m[1]) == 1.0
                 and int(m[2]) == 20
@@ -401,4 +493,3 @@ WHYS = {
         ),
     ],
 }
-# fmt: on

@@ -1,4 +1,6 @@
-"""Decides what the curvature lesson says: by brute force over the triangles, and against the analytic surface."""
+"""Decides what the curvature lesson says: by brute force over the triangles, and against the
+analytic surface.
+"""
 
 import re
 
@@ -117,7 +119,11 @@ def _pointing(run: Run, k: int, m: re.Match[str]) -> bool:
     factor = 2.0 if state.params.mistake == "H without the half" else 1.0
     outward = total @ state.now.normals[v] > 0
     agrees = surface.mean[v] == 0 or (surface.mean[v] > 0) == outward or state.params.noise > 0
-    return near(m[1], factor * float(np.linalg.norm(total))) and (m[2] == "outward") == outward and bool(agrees)
+    return (
+        near(m[1], factor * float(np.linalg.norm(total)))
+        and (m[2] == "outward") == outward
+        and bool(agrees)
+    )
 
 
 def _principal(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -133,7 +139,10 @@ def _principal(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _bends(run: Run, k: int, m: re.Match[str]) -> bool:
-    k1, k2 = run.states[k].now.k1[run.states[k].now.vertex], run.states[k].now.k2[run.states[k].now.vertex]
+    k1, k2 = (
+        run.states[k].now.k1[run.states[k].now.vertex],
+        run.states[k].now.k2[run.states[k].now.vertex],
+    )
     signs = {np.sign(x) for x in (k1, k2) if abs(x) > 1e-5}
     return {
         "to both sides, as on a saddle": signs == {-1.0, 1.0},
@@ -168,34 +177,54 @@ def _study_numbers(run: Run, k: int, m: re.Match[str]) -> bool:
 
 PERCENT = rf"((?:less than )?{NUMBER} %)"
 
-# fmt: off
 CAPTIONS = [
     Claim(
         r"([\d,]+) vertices, ([\d,]+) triangles",
         lambda run, k, m: (
-            (number(m[1]), number(m[2])) == (len(run.states[k].subject.p), len(run.states[k].subject.faces))
+            (number(m[1]), number(m[2]))
+            == (len(run.states[k].subject.p), len(run.states[k].subject.faces))
         ),
     ),
-    Claim(r"(\d+) vertices on the border", lambda run, k, m: int(m[1]) == facts(run.states[k])[2].sum()),
+    Claim(
+        r"(\d+) vertices on the border",
+        lambda run, k, m: int(m[1]) == facts(run.states[k])[2].sum(),
+    ),
     Claim(r"no border\.", lambda run, k, m: not facts(run.states[k])[2].any()),
     Claim(r"(\d+) triangles meet at vertex ([\d,]+); their angles add up to ([\d.]+)°", _ring),
-    Claim(r"It lies on the border", lambda run, k, m: bool(facts(run.states[k])[2][run.states[k].now.vertex])),
-    Claim(r"In a plane they would", lambda run, k, m: not facts(run.states[k])[2][run.states[k].now.vertex]),
+    Claim(
+        r"It lies on the border",
+        lambda run, k, m: bool(facts(run.states[k])[2][run.states[k].now.vertex]),
+    ),
+    Claim(
+        r"In a plane they would",
+        lambda run, k, m: not facts(run.states[k])[2][run.states[k].now.vertex],
+    ),
     Claim(r"(?:leaves a gap of|it overlaps by) ([\d.]+)°", _gap),
-    Claim(r"the ring closes: angle defect 0",
-          lambda run, k, m: abs(defect_here(run.states[k])) < 1e-7),
-    Claim(rf"a border vertex misses {VALUE}°",
-          lambda run, k, m: near(m[1], np.degrees(defect_here(run.states[k]) + np.pi))),
-    Claim(rf"from 180°: {VALUE}° is how",
-          lambda run, k, m: abs(number(m[1]) - np.degrees(defect_here(run.states[k]))) < 0.0051),
+    Claim(
+        r"the ring closes: angle defect 0", lambda run, k, m: abs(defect_here(run.states[k])) < 1e-7
+    ),
+    Claim(
+        rf"a border vertex misses {VALUE}°",
+        lambda run, k, m: near(m[1], np.degrees(defect_here(run.states[k]) + np.pi)),
+    ),
+    Claim(
+        rf"from 180°: {VALUE}° is how",
+        lambda run, k, m: abs(number(m[1]) - np.degrees(defect_here(run.states[k]))) < 0.0051,
+    ),
     Claim(rf"K = defect / area = {VALUE} rad / {VALUE} m² = {VALUE} m⁻²", _k_is),
-    Claim(rf"K at vertex [\d,]+ would be {VALUE}(?=[;.])",
-          lambda run, k, m: near(m[1], defect_here(run.states[k]))),
+    Claim(
+        rf"K at vertex [\d,]+ would be {VALUE}(?=[;.])",
+        lambda run, k, m: near(m[1], defect_here(run.states[k])),
+    ),
     Claim(rf"the truth is {VALUE}(?=[ .])", _truth),
     Claim(rf"Relative error \(RMS over ([\w ]+)\): {PERCENT}", _relative_error),
     Claim(rf"2 H n, {VALUE} m⁻¹ long and pointing (outward|inward)", _pointing),
-    Claim(r"pushes, weighted by cotangents, cancel",
-          lambda run, k, m: float(np.linalg.norm(run.states[k].now.normals_2H[run.states[k].now.vertex])) < 1e-6),
+    Claim(
+        r"pushes, weighted by cotangents, cancel",
+        lambda run, k, m: (
+            float(np.linalg.norm(run.states[k].now.normals_2H[run.states[k].now.vertex])) < 1e-6
+        ),
+    ),
     Claim(rf"gives k₁ = {VALUE} and k₂ = {VALUE} m⁻¹ \(truth {VALUE}, {VALUE}\)", _principal),
     Claim(r"they bend (to both sides, as on a saddle|to one side|one way only|not at all)", _bends),
     Claim(
@@ -204,50 +233,78 @@ CAPTIONS = [
         _fit_errors,
     ),
     Claim(
-        rf"All ([\d,]+) defects add up to {VALUE} rad = {VALUE} π; V − E \+ F = {VALUE} promises {VALUE} π", _sum
+        rf"All ([\d,]+) defects add up to {VALUE} rad = {VALUE} π; V − E \+ F = {VALUE} promises"
+        rf" {VALUE} π",
+        _sum,
     ),
     Claim(r"Gauss-Bonnet: no noise or resolution changes this sum", defect_sum_of_all),
-    Claim(rf"The sum is {VALUE} rad too large: π for each of the (\d+) border vertices",
-          lambda run, k, m: int(m[2]) == facts(run.states[k])[2].sum() and near(m[1], np.pi * int(m[2]))),
+    Claim(
+        rf"The sum is {VALUE} rad too large: π for each of the (\d+) border vertices",
+        lambda run, k, m: (
+            int(m[2]) == facts(run.states[k])[2].sum() and near(m[1], np.pi * int(m[2]))
+        ),
+    ),
     Claim(r"too large: some defects are wrong", lambda run, k, m: not defect_sum_of_all(run)),
     Claim(
         rf"From ([\d,]+) to ([\d,]+) vertices the error of K from angles \(RMS\) goes from"
         rf" {PERCENT} to {PERCENT}, by quadric fit from {PERCENT} to {PERCENT}",
         _study_numbers,
     ),
-    Claim(r"No mesh is fine enough to mend a missing division", lambda run, k, m: study(run).K.min() > 0.9),
-    Claim(r"No mesh is fine enough to mend a missing ½", lambda run, k, m: study(run).H.min() > 0.9),
+    Claim(
+        r"No mesh is fine enough to mend a missing division",
+        lambda run, k, m: study(run).K.min() > 0.9,
+    ),
+    Claim(
+        r"No mesh is fine enough to mend a missing ½", lambda run, k, m: study(run).H.min() > 0.9
+    ),
     Claim(r"angles are exact", lambda run, k, m: study(run).K.max() < 1e-8),
-    Claim(r"Finer is worse: the same noise",
-          lambda run, k, m: run.params.noise > 0 and slope(study(run).K, study(run).counts) > 0.2),
-    Claim(r"does not converge to K; the defects' sum stays exact",
-          lambda run, k, m: slope(study(run).K, study(run).counts) > -0.5 and exact_sum(run)),
-    Claim(r"On such meshes angles converge", lambda run, k, m: slope(study(run).K, study(run).counts) < -0.8),
+    Claim(
+        r"Finer is worse: the same noise",
+        lambda run, k, m: run.params.noise > 0 and slope(study(run).K, study(run).counts) > 0.2,
+    ),
+    Claim(
+        r"does not converge to K; the defects' sum stays exact",
+        lambda run, k, m: slope(study(run).K, study(run).counts) > -0.5 and exact_sum(run),
+    ),
+    Claim(
+        r"On such meshes angles converge",
+        lambda run, k, m: slope(study(run).K, study(run).counts) < -0.8,
+    ),
 ]
-# fmt: on
 
 
-# fmt: off
 LINES = {
     "cylinder": [
-        Claim(r"H is 1/2r = 1 m⁻¹", lambda run, k, m: bool(np.allclose(inside(run, "mean", "H"), 1, rtol=2e-3))),
+        Claim(
+            r"H is 1/2r = 1 m⁻¹",
+            lambda run, k, m: bool(np.allclose(inside(run, "mean", "H"), 1, rtol=2e-3)),
+        ),
     ],
     "catenoid": [
         Claim(
             r"Catenoid: H = 0, K < 0",
             lambda run, k, m: (
-                bool((inside(run, "gaussian", "K") < 0).all()) and np.abs(inside(run, "mean", "H")).max() < 0.02
+                bool((inside(run, "gaussian", "K") < 0).all())
+                and np.abs(inside(run, "mean", "H")).max() < 0.02
             ),
         ),
-        Claim(r"negative everywhere", lambda run, k, m: bool((inside(run, "gaussian", "K") < 0).all())),
+        Claim(
+            r"negative everywhere", lambda run, k, m: bool((inside(run, "gaussian", "K") < 0).all())
+        ),
     ],
     "double": [
-        Claim(r"Every length is doubled",
-              lambda run, k, m: np.ptp(run.states[0].subject.p) == 2 * np.ptp(next(iter(run_of(Params()))).subject.p)),
+        Claim(
+            r"Every length is doubled",
+            lambda run, k, m: (
+                np.ptp(run.states[0].subject.p)
+                == 2 * np.ptp(next(iter(run_of(Params()))).subject.p)
+            ),
+        ),
     ],
     "no-area": [
         Claim(
-            r"about a hundred times too small here, and about four times smaller still on a mesh four times as fine",
+            r"about a hundred times too small here, and about four times smaller still on a mesh"
+            r" four times as fine",
             too_small,
         ),
     ],
@@ -256,7 +313,11 @@ LINES = {
             r"H = 2 m⁻¹, and H² − K = 3",
             lambda run, k, m: (
                 bool(np.allclose(inside(run, "mean", "H"), 2, rtol=1e-2))
-                and bool(np.allclose(inside(run, "mean", "H") ** 2 - angle_K(at(run, "mean")), 3, atol=0.15))
+                and bool(
+                    np.allclose(
+                        inside(run, "mean", "H") ** 2 - angle_K(at(run, "mean")), 3, atol=0.15
+                    )
+                )
             ),
         ),
     ],
@@ -270,11 +331,15 @@ LINES = {
         ),
     ],
     "border-2pi": [
-        Claim(r"should add up to 2π", lambda run, k, m: abs(defects(run.states[0]).sum() - 2 * np.pi) < 1e-9),
+        Claim(
+            r"should add up to 2π",
+            lambda run, k, m: abs(defects(run.states[0]).sum() - 2 * np.pi) < 1e-9,
+        ),
         Claim(
             r"each border vertex adds π that is not there, and the sum is far off",
             lambda run, k, m: (
-                abs(at(run, "total").now.total - 2 * np.pi - np.pi * facts(run.states[0])[2].sum()) < 1e-6
+                abs(at(run, "total").now.total - 2 * np.pi - np.pi * facts(run.states[0])[2].sum())
+                < 1e-6
             ),
         ),
     ],
@@ -284,37 +349,56 @@ LINES = {
             lambda run, k, m: (
                 0.09
                 < rms(
-                    angle_K(at(run, "gaussian")), at(run, "gaussian").subject.truth.gaussian, ~facts(run.states[0])[2]
+                    angle_K(at(run, "gaussian")),
+                    at(run, "gaussian").subject.truth.gaussian,
+                    ~facts(run.states[0])[2],
                 )
                 < 0.11
             ),
         ),
     ],
-    "fine": [Claim(r"0\.13 % \(RMS\): on a regular mesh it falls with the square of the edges", regular)],
+    "fine": [
+        Claim(r"0\.13 % \(RMS\): on a regular mesh it falls with the square of the edges", regular)
+    ],
     "noise": [
         Claim(r"K is off by more than its own size", off_by_more_than_itself),
-        Claim(r"A finer mesh makes it worse", lambda run, k, m: bool((np.diff(study(run).K) > 0).all())),
+        Claim(
+            r"A finer mesh makes it worse",
+            lambda run, k, m: bool((np.diff(study(run).K) > 0).all()),
+        ),
     ],
     "irregular": [Claim(r"along the surface, never off it", on_the_torus)],
-    "sphere-sum": [Claim(r"off by over five times its own size", of_preset(off_by_five_times_itself))],
+    "sphere-sum": [
+        Claim(r"off by over five times its own size", of_preset(off_by_five_times_itself))
+    ],
     "torus-sum": [
-        Claim(r"cancel to the last digit", lambda run, k, m: abs(at(run, "total").now.defects.sum()) < 1e-9),
+        Claim(
+            r"cancel to the last digit",
+            lambda run, k, m: abs(at(run, "total").now.defects.sum()) < 1e-9,
+        ),
         Claim(r"a handle", lambda run, k, m: facts(run.states[0])[3] == 0),
     ],
 }
-# fmt: on
 
-# fmt: off
 WHYS = {
     "which-rolled": [
-        Claim(rf"K = {VALUE} m⁻² and H = {VALUE} m⁻¹",
-              lambda run, k, m: abs(number(m[1]) - 0) < 5e-4 and abs(number(m[2]) - 1 / (2 * 0.5)) < 2e-3),
-        Claim(r"no angle changes",
-              lambda run, k, m: bool(np.abs(defects(run.states[0])[~facts(run.states[0])[2]]).max() < 1e-9)),
+        Claim(
+            rf"K = {VALUE} m⁻² and H = {VALUE} m⁻¹",
+            lambda run, k, m: (
+                abs(number(m[1]) - 0) < 5e-4 and abs(number(m[2]) - 1 / (2 * 0.5)) < 2e-3
+            ),
+        ),
+        Claim(
+            r"no angle changes",
+            lambda run, k, m: bool(
+                np.abs(defects(run.states[0])[~facts(run.states[0])[2]]).max() < 1e-9
+            ),
+        ),
     ],
     "which-double": [
         Claim(
-            r"It is ([\d.]+) times what it was: the angles stay, and each vertex has four times the "
+            r"It is ([\d.]+) times what it was: the angles stay, and each vertex has four times"
+            r" the "
             r"area\. H would be halved",
             lambda run, k, m: number(m[1]) == 0.25 and scaled_by_two(run),
         ),
@@ -324,13 +408,19 @@ WHYS = {
             r"H turns with the normal\. K is the product",
             lambda run, k, m: (
                 bool(np.allclose(angle_K(run.states[-1]), angle_K(turned(run))))
-                and bool(np.allclose(at(run, "mean").now.H, -mean_of(params(run, inside_out=False))))
+                and bool(
+                    np.allclose(at(run, "mean").now.H, -mean_of(params(run, inside_out=False)))
+                )
             ),
         ),
     ],
     "which-finer": [
-        Claim(rf"from {PERCENT} to {PERCENT} \(RMS\)",
-              lambda run, k, m: says_percent(m[1], study(run).K[0]) and says_percent(m[2], study(run).K[-1])),
+        Claim(
+            rf"from {PERCENT} to {PERCENT} \(RMS\)",
+            lambda run, k, m: (
+                says_percent(m[1], study(run).K[0]) and says_percent(m[2], study(run).K[-1])
+            ),
+        ),
         Claim(
             rf"so does the error of defect / area; that of the quadric fit falls to {PERCENT}",
             lambda run, k, m: (
@@ -341,8 +431,9 @@ WHYS = {
         ),
     ],
     "which-sum": [
-        Claim(r"V − E \+ F = (\d+), and 2π times that is 4π",
-              lambda run, k, m: int(m[1]) == facts(run.states[0])[3] == 2 and exact_sum(run)),
+        Claim(
+            r"V − E \+ F = (\d+), and 2π times that is 4π",
+            lambda run, k, m: int(m[1]) == facts(run.states[0])[3] == 2 and exact_sum(run),
+        ),
     ],
 }
-# fmt: on

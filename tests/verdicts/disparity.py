@@ -1,4 +1,6 @@
-"""What the disparity lesson says of its runs, decided from the pictures' truth and the maps that a state carries."""
+"""What the disparity lesson says of its runs, decided from the pictures' truth and the maps that a
+state carries.
+"""
 
 import dataclasses
 import re
@@ -26,13 +28,15 @@ from tests.truths.disparity import (
     wrong,
 )
 from tests.verdicts import Claim, Run
-from workbench.algorithms.disparity import Stage
+from workbench.algorithms.stereo.disparity import Stage
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
 
 def right(run: Run, k: int) -> bool | None:
-    """The depths are right within 3 % in the median with few wrong pixels, wrong beyond 10 % or with many."""
+    """The depths are right within 3 % in the median with few wrong pixels, wrong beyond 10 % or
+    with many.
+    """
     state = run.states[k]
     if state.stage is not None:
         return None
@@ -61,7 +65,9 @@ def wrong_now(run: Run, k: int, found: re.Match[str]) -> bool:
 
 
 def error_change(run: Run, k: int, found: re.Match[str]) -> bool:
-    return says(found["was"], mean_error(run.states[k - 1])) and says(found["is"], mean_error(run.states[k]))
+    return says(found["was"], mean_error(run.states[k - 1])) and says(
+        found["is"], mean_error(run.states[k])
+    )
 
 
 def given_up(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -77,12 +83,18 @@ def hidden_given_up(run: Run, k: int, found: re.Match[str]) -> bool:
 
 def between_pixels(run: Run, k: int, found: re.Match[str]) -> bool:
     d = run.states[k].disparity[np.isfinite(run.states[k].disparity)]
-    return says(found["n"], float(np.abs(d - np.round(d)).mean())) and np.abs(d - np.round(d)).max() <= 0.5
+    return (
+        says(found["n"], float(np.abs(d - np.round(d)).mean()))
+        and np.abs(d - np.round(d)).max() <= 0.5
+    )
 
 
 def energy_falls(run: Run, k: int, found: re.Match[str]) -> bool:
     was, now = run.states[k - 1].energy, run.states[k].energy
-    return bool(np.isclose(number(found["was"]), was, rtol=1e-3) and np.isclose(number(found["is"]), now, rtol=1e-3))
+    return bool(
+        np.isclose(number(found["was"]), was, rtol=1e-3)
+        and np.isclose(number(found["is"]), now, rtol=1e-3)
+    )
 
 
 def law(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -112,7 +124,10 @@ def is_infinite(run: Run, k: int, found: re.Match[str]) -> bool:
 def first_order(run: Run, k: int, found: re.Match[str]) -> bool:
     e, fB = number(found["e"]), run.states[k].setup.f * run.states[k].setup.pair.camera.baseline
     pairs = [part.split(" by ") for part in found["list"].split(", ")]
-    return all(np.isclose(metres(moved), metres(z) ** 2 / fB * e, rtol=0.03, atol=6e-4) for z, moved in pairs)
+    return all(
+        np.isclose(metres(moved), metres(z) ** 2 / fB * e, rtol=0.03, atol=6e-4)
+        for z, moved in pairs
+    )
 
 
 def measured(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -127,11 +142,16 @@ def half_within(run: Run, k: int, found: re.Match[str]) -> bool:
 
 
 def exchanged(run: Run, k: int, found: re.Match[str]) -> bool:
-    return run.params.mistake == "pictures exchanged" and number(found["b"]) > number(found["a"]) + 5
+    return (
+        run.params.mistake == "pictures exchanged" and number(found["b"]) > number(found["a"]) + 5
+    )
 
 
 CAPTIONS = (
-    Claim(rf"(?P<n>{NUMBER}) pixels \((?P<share>{NUMBER}) %\) fit better than at any smaller shift", fits_better),
+    Claim(
+        rf"(?P<n>{NUMBER}) pixels \((?P<share>{NUMBER}) %\) fit better than at any smaller shift",
+        fits_better,
+    ),
     Claim(rf"energy (?P<was>{NUMBER}) → (?P<is>{NUMBER}) per pixel", energy_falls),
     Claim(rf"[Ww]rong pixels (?P<was>{NUMBER}) → (?P<is>{NUMBER}) %", wrong_change),
     Claim(rf"(?P<is>{NUMBER}) % are wrong", wrong_now),
@@ -140,12 +160,15 @@ CAPTIONS = (
     Claim(rf"(?P<n>{NUMBER}) px from whole ones on average", between_pixels),
     Claim(rf"mean error of the right ones (?P<was>{NUMBER}) → (?P<is>{NUMBER}) px", error_change),
     Claim(
-        rf"Z = f B / (?:d|\(d \+ (?P<doffs>{NUMBER})\)) with f = (?P<f>{NUMBER}) px, B = (?P<B>{NUMBER}) m: left pixel"
-        rf" \(\d+, \d+\), d = (?P<d>{NUMBER}) px, is (?P<z>{LENGTH}) away(?: \(truth: (?P<true>{LENGTH})\))?",
+        rf"Z = f B / (?:d|\(d \+ (?P<doffs>{NUMBER})\)) with f = (?P<f>{NUMBER}) px, B ="
+        rf" (?P<B>{NUMBER}) m: left pixel"
+        rf" \(\d+, \d+\), d = (?P<d>{NUMBER}) px, is (?P<z>{LENGTH}) away(?: \(truth:"
+        rf" (?P<true>{LENGTH})\))?",
         law,
     ),
     Claim(
-        rf"has d = 0, which means infinitely far, not missing \(truth: (?:infinitely far|(?P<true>{LENGTH}))\)",
+        r"has d = 0, which means infinitely far, not missing \(truth: (?:infinitely"
+        rf" far|(?P<true>{LENGTH}))\)",
         is_infinite,
     ),
     Claim(
@@ -160,28 +183,37 @@ CAPTIONS = (
     Claim(rf"Measured: (?P<list>{LENGTH}(?:, {LENGTH})*)", measured),
     Claim(rf"Half of all points are within (?P<z>{LENGTH}) of the truth", half_within),
     Claim(
-        r"more pixels find each other, (?P<b>\d+) % instead of (?P<a>\d+) %: is the left one the right one", exchanged
+        r"more pixels find each other, (?P<b>\d+) % instead of (?P<a>\d+) %: is the left one the"
+        r" right one",
+        exchanged,
     ),
     Claim(
-        r"[Tt]he right picture chooses too|against right|to the right|down and right|up and right|what the right camera",
+        r"[Tt]he right picture chooses too|against right|to the right|down and right|up and"
+        r" right|what the right camera",
         None,
     ),
 )
 
 
-# preset lines -------------------------------------------------------------------------------------------------------
+# preset lines -------------------------------------------------------------------------------------
 
 BARE = (slice(30, 90), slice(46, 88))  # of the plain wall, well inside
 STRIPES = (slice(30, 90), slice(60, 110))
 
 
 def flat(run: Run, k: int, found: re.Match[str]) -> bool:
-    """The curve of the bare wall stays low at every shift, far below the median cost where there is texture."""
+    """The curve of the bare wall stays low at every shift, far below the median cost where there is
+    texture.
+    """
     state = of_stage(run, Stage.AGGREGATE)
     costs, textured = state.costs, state.setup
-    left, right_ = textured.left[:, 40:46], textured.right[:, 20:26]  # other parts of the wall, not each other's
+    left, right_ = (
+        textured.left[:, 40:46],
+        textured.right[:, 20:26],
+    )  # other parts of the wall, not each other's
     return bool(
-        np.nanmax(costs) < 9 * 0.5 * np.abs(left - right_).mean() and np.nanmin(costs) > 0.4 * np.nanmedian(costs)
+        np.nanmax(costs) < 9 * 0.5 * np.abs(left - right_).mean()
+        and np.nanmin(costs) > 0.4 * np.nanmedian(costs)
     )
 
 
@@ -191,7 +223,9 @@ def valleys(run: Run, k: int, found: re.Match[str]) -> bool:
     at = 1 + np.flatnonzero((inner < costs[:-2]) & (inner < costs[2:]))
     apart = np.diff(at)  # noise moves a valley by a pixel at most
     deep = costs[at].max() < 0.5 * np.nanmedian(costs)
-    return len(at) == 5 and bool(deep and (abs(apart - 6) <= 1).all() and abs(apart.mean() - 6) <= 0.25)
+    return len(at) == 5 and bool(
+        deep and (abs(apart - 6) <= 1).all() and abs(apart.mean() - 6) <= 0.25
+    )
 
 
 def scattered(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -207,7 +241,9 @@ def times_baseline(run: Run, times: float) -> bool:
 
 
 def darker(run: Run, k: int, found: re.Match[str]) -> bool:
-    mean = [float(picture.mean()) for picture in (run.states[0].setup.left, run.states[0].setup.right)]
+    mean = [
+        float(picture.mean()) for picture in (run.states[0].setup.left, run.states[0].setup.right)
+    ]
     return abs(mean[1] / mean[0] - 0.7) < 0.03
 
 
@@ -226,16 +262,26 @@ def four_times_too_far(run: Run, k: int, found: re.Match[str]) -> bool:
 
 LINES = {
     "spheres": (
-        Claim("74 % are wrong", of_preset(lambda run, k, _: abs(wrong(of_stage(run, Stage.COMPARE)) - 74) < 1)),
-        Claim("leave 12 %", of_preset(lambda run, k, _: abs(wrong(of_stage(run, Stage.AGGREGATE)) - 12) < 1)),
+        Claim(
+            "74 % are wrong",
+            of_preset(lambda run, k, _: abs(wrong(of_stage(run, Stage.COMPARE)) - 74) < 1),
+        ),
+        Claim(
+            "leave 12 %",
+            of_preset(lambda run, k, _: abs(wrong(of_stage(run, Stage.AGGREGATE)) - 12) < 1),
+        ),
         Claim("the paths 2 %", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 2) <= 0.7),
         Claim(
-            "The check finds four fifths of what is hidden", lambda run, k, _: abs(given_up_of_hidden(run) - 0.8) < 0.04
+            "The check finds four fifths of what is hidden",
+            lambda run, k, _: abs(given_up_of_hidden(run) - 0.8) < 0.04,
         ),
     ),
     "textureless": (
         Claim("On the bare wall the cost curve is flat", flat),
-        Claim("over 90 % of it is wrong at a low cost", lambda run, k, _: off_in(run.states[CHOSEN], BARE) > 0.9),
+        Claim(
+            "over 90 % of it is wrong at a low cost",
+            lambda run, k, _: off_in(run.states[CHOSEN], BARE) > 0.9,
+        ),
     ),
     "textureless-smooth": (
         Claim("The bare wall is right", lambda run, k, _: off_in(run.states[CHOSEN], BARE) < 0.1),
@@ -249,7 +295,10 @@ LINES = {
         ),
     ),
     "repeated-paths": (
-        Claim("hardly a stripe stays wrong", lambda run, k, _: off_in(run.states[CHOSEN], STRIPES) < 0.05),
+        Claim(
+            "hardly a stripe stays wrong",
+            lambda run, k, _: off_in(run.states[CHOSEN], STRIPES) < 0.05,
+        ),
     ),
     "occlusion": (
         Claim(
@@ -263,14 +312,24 @@ LINES = {
         ),
     ),
     "window-3": (
-        Claim("about a third of the map is wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 100 / 3) < 5),
+        Claim(
+            "about a third of the map is wrong",
+            lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 100 / 3) < 5,
+        ),
         Claim("scattered everywhere", scattered),
     ),
     "window-21": (Claim("which pixels are wrong now", None),),
-    "baseline-half": (Claim("half the disparity everywhere", lambda run, k, _: times_baseline(run, 0.5)),),
-    "baseline-double": (Claim("every disparity doubles", lambda run, k, _: times_baseline(run, 2.0)),),
+    "baseline-half": (
+        Claim("half the disparity everywhere", lambda run, k, _: times_baseline(run, 0.5)),
+    ),
+    "baseline-double": (
+        Claim("every disparity doubles", lambda run, k, _: times_baseline(run, 2.0)),
+    ),
     "one-pixel": (
-        Claim("Every disparity is made 1 px too large", lambda run, k, _: run.params.disparity_error == 1.0),
+        Claim(
+            "Every disparity is made 1 px too large",
+            lambda run, k, _: run.params.disparity_error == 1.0,
+        ),
         Claim(
             r"The last step tells how far each board moves: by Z² / \(f B\), and measured",
             lambda run, k, _: "20 m by 5 m. Measured: " in caption(run.states[-1]).text,
@@ -280,33 +339,51 @@ LINES = {
         Claim(
             "The sky does not shift between the pictures: d = 0",
             lambda run, k, _: (
-                (run.states[0].setup.pair.disparity == 0).sum() > 5000 and np.isinf(run.states[-2].depth[5, 80])
+                (run.states[0].setup.pair.disparity == 0).sum() > 5000
+                and np.isinf(run.states[-2].depth[5, 80])
             ),
         ),
     ),
     "darker": (
         Claim("The right picture is darker", None),
         Claim("Another exposure changes every grey value by 30 %", darker),
-        Claim("94 % of the map is wrong", of_preset(lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5)),
+        Claim(
+            "94 % of the map is wrong",
+            of_preset(lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5),
+        ),
     ),
-    "darker-census": (Claim("about 2 % are wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 2) < 1),),
+    "darker-census": (
+        Claim("about 2 % are wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 2) < 1),
+    ),
     "exchanged": (
-        Claim("94 % of the map is wrong", of_preset(lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5)),
+        Claim(
+            "94 % of the map is wrong",
+            of_preset(lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 94) < 1.5),
+        ),
         Claim("With left and right exchanged", None),
     ),
     "rows-off": (
         Claim("The right picture is 2 rows too low", rows_off),
-        Claim("two thirds are wrong", lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 100 * 2 / 3) < 5),
+        Claim(
+            "two thirds are wrong",
+            lambda run, k, _: abs(wrong(run.states[CHOSEN]) - 100 * 2 / 3) < 5,
+        ),
     ),
     "motorcycle": (
-        Claim("94 % of what both see is right", lambda run, k, _: abs(100 - wrong(run.states[CHOSEN]) - 94) < 1),
-        Claim("a quarter of their size", lambda run, k, _: run.states[0].setup.left.shape[1] == 741 // 4),
+        Claim(
+            "94 % of what both see is right",
+            lambda run, k, _: abs(100 - wrong(run.states[CHOSEN]) - 94) < 1,
+        ),
+        Claim(
+            "a quarter of their size",
+            lambda run, k, _: run.states[0].setup.left.shape[1] == 741 // 4,
+        ),
     ),
     "f-not-rescaled": (Claim("everything is 4 times too far", four_times_too_far),),
 }
 
 
-# explanations -------------------------------------------------------------------------------------------------------
+# explanations -------------------------------------------------------------------------------------
 
 
 def came_nearer(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -322,11 +399,16 @@ def came_nearer(run: Run, k: int, found: re.Match[str]) -> bool:
 def means(run: Run, k: int, found: re.Match[str]) -> bool:
     at = list(found_at(run, -2).values())
     fB = 640 * 0.125
-    return says(found["z"], float(np.mean(at))) and says(found["d"], fB / float(np.mean([fB / z for z in at])))
+    return says(found["z"], float(np.mean(at))) and says(
+        found["d"], fB / float(np.mean([fB / z for z in at]))
+    )
 
 
 def more_hidden(run: Run, k: int, found: re.Match[str]) -> bool:
-    was, now = hidden_share(dataclasses.replace(run.params, baseline=0.1, seed=0)), hidden_share(run.params)
+    was, now = (
+        hidden_share(dataclasses.replace(run.params, baseline=0.1, seed=0)),
+        hidden_share(run.params),
+    )
     return says(found["was"], was) and says(found["is"], now) and 1.5 < now / was < 2.5
 
 
@@ -340,7 +422,8 @@ def beside_edges(run: Run, k: int, found: re.Match[str]) -> bool:
     of_wrong, of_all = near_an_edge(run)
     return (
         says(found["wrong"], wrong(run.states[CHOSEN]))
-        and abs(number(found["near"]) - 100 * of_wrong) < 3  # what counts as an edge differs by a pixel
+        and abs(number(found["near"]) - 100 * of_wrong)
+        < 3  # what counts as an edge differs by a pixel
         and abs(number(found["all"]) - 100 * of_all) < 5
         and of_wrong > 1.5 * of_all
     )
@@ -351,7 +434,8 @@ WHYS = {
         Claim(
             rf"found at (?P<near>{NUMBER}) m and (?P<far>{NUMBER}) m",
             lambda run, k, found: (
-                says(found["near"], found_at(run, -2)[5]) and says(found["far"], found_at(run, -2)[20])
+                says(found["near"], found_at(run, -2)[5])
+                and says(found["far"], found_at(run, -2)[20])
             ),
         ),
     ),
@@ -372,7 +456,8 @@ WHYS = {
     ),
     "averages": (
         Claim(
-            rf"The mean of the depths is (?P<z>{NUMBER}) m, the mean disparity stands for (?P<d>{NUMBER}) m",
+            rf"The mean of the depths is (?P<z>{NUMBER}) m, the mean disparity stands for"
+            rf" (?P<d>{NUMBER}) m",
             means,
         ),
     ),
@@ -382,7 +467,8 @@ WHYS = {
     ),
     "window": (
         Claim(
-            r"(?P<wrong>\d+) % of the map is wrong, and (?P<near>\d+) % of that lies within 10 px, half a window, of an"
+            r"(?P<wrong>\d+) % of the map is wrong, and (?P<near>\d+) % of that lies within 10 px,"
+            r" half a window, of an"
             r" edge, where only (?P<all>\d+) % of all pixels are",
             beside_edges,
         ),

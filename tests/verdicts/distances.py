@@ -1,4 +1,6 @@
-"""What the distances lesson says of its runs, decided from closed forms and by trying, apart from its core."""
+"""What the distances lesson says of its runs, decided from closed forms and by trying, apart from
+its core.
+"""
 
 import functools
 import re
@@ -12,8 +14,8 @@ from tests.own_seed import of_preset
 from tests.readings import LENGTH, NUMBER, near, near_length, number, says, says_percent
 from tests.truths.distances import by_heat, errors, mahalanobis, true_distances
 from tests.verdicts import Claim, Run
-from workbench.algorithms.heat_method import HeatState
-from workbench.data.surfaces import sphere
+from workbench.algorithms.surfaces.heat_method import HeatState
+from workbench.data.shapes.surfaces import sphere
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
@@ -26,7 +28,11 @@ def right(run: Run, k: int) -> bool | None:
         off = _off(run, k)
         if len(now.asymmetry) and len(off) and off.mean() <= 0.02:
             return None  # right, but a step that asks whether it is a metric
-        return (True if off.mean() <= 0.02 else False if off.mean() > 0.06 else None) if len(off) else False
+        return (
+            (True if off.mean() <= 0.02 else False if off.mean() > 0.06 else None)
+            if len(off)
+            else False
+        )
     if isinstance(now, Trials):
         return False if now.broken or run.params.metric == "cosine" else None
     if isinstance(now, Scatter) and now.phase == "told" and now.outlier.any():
@@ -55,7 +61,7 @@ def _radii(run: Run, k: int) -> np.ndarray:
     return mahalanobis(first, first.mean(axis=0), np.cov(first.T))
 
 
-# captions ---------------------------------------------------------------------------------------------------------------
+# captions -----------------------------------------------------------------------------------------
 
 
 def _mean_and_worst(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -64,7 +70,10 @@ def _mean_and_worst(run: Run, k: int, m: re.Match[str]) -> bool:
     sense = (worst > 0) == (m["sense"] == "long") or abs(worst) < 1e-12
     median = m["median"] is None or says_percent(m["median"], np.median(np.abs(found)))
     return bool(
-        median and says_percent(m["mean"], np.abs(found).mean()) and says_percent(m["worst"], abs(worst)) and sense
+        median
+        and says_percent(m["mean"], np.abs(found).mean())
+        and says_percent(m["worst"], abs(worst))
+        and sense
     )
 
 
@@ -82,7 +91,9 @@ def _accepted(run: Run, k: int, m: re.Match[str]) -> bool:
     assert isinstance(now, Front)
     end = next(s.now.d for s in run.states if isinstance(s.now, Found))
     same = np.array_equal(end[now.accepted], now.d[now.accepted])
-    return same and number(m["n"]) == now.accepted.sum() == np.sum(end <= now.reach * (1 + 1e-9) + 1e-12)
+    return same and number(m["n"]) == now.accepted.sum() == np.sum(
+        end <= now.reach * (1 + 1e-9) + 1e-12
+    )
 
 
 def _balls(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -95,11 +106,15 @@ def _balls(run: Run, k: int, m: re.Match[str]) -> bool:
     w = (now.queries[:, None] - now.p[None]) * units
     x, y = now.queries * units, now.p * units
     by = {
-        "euclid": (v**2).sum(axis=2), "squared": (v**2).sum(axis=2), "manhattan": v.sum(axis=2),
-        "chebyshev": v.max(axis=2), "p": (v**a.p).sum(axis=2), "p-sum": (v**a.p).sum(axis=2),
+        "euclid": (v**2).sum(axis=2),
+        "squared": (v**2).sum(axis=2),
+        "manhattan": v.sum(axis=2),
+        "chebyshev": v.max(axis=2),
+        "p": (v**a.p).sum(axis=2),
+        "p-sum": (v**a.p).sum(axis=2),
         "cosine": -(x @ y.T) / np.linalg.norm(x, axis=1)[:, None] / np.linalg.norm(y, axis=1),
         "mahalanobis": np.einsum("qpi,ij,qpj->qp", w, C, w),
-    }[a.metric]  # fmt: skip
+    }[a.metric]
     straight = np.linalg.norm(now.queries[:, None] - now.p[None], axis=2)
     return says_percent(m["share"], float((by.argmin(axis=1) != straight.argmin(axis=1)).mean()))
 
@@ -127,7 +142,10 @@ def _share_broken(run: Run, k: int, m: re.Match[str]) -> bool:
         return (np.abs(one - other) ** a.p).sum(axis=1) ** (1 / a.p if a.metric == "p" else 1)
 
     expected = (d(p[0], p[2]) > d(p[0], p[1]) + d(p[1], p[2]) + 1e-9).mean()
-    return abs(expected - now.broken / now.tried) < 4.5 * np.sqrt(expected * (1 - expected) / now.tried) + 0.01
+    return (
+        abs(expected - now.broken / now.tried)
+        < 4.5 * np.sqrt(expected * (1 - expected) / now.tried) + 0.01
+    )
 
 
 def _flagged(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -160,7 +178,10 @@ def _landmark(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _shares(run: Run, k: int, m: re.Match[str]) -> bool:
     """Near what the chi-squared distribution says."""
-    return all(abs(number(m[name]) / 100 - scipy.stats.chi2.cdf(4, d)) < 0.02 for name, d in (("one", 1), ("ten", 10)))
+    return all(
+        abs(number(m[name]) / 100 - scipy.stats.chi2.cdf(4, d)) < 0.02
+        for name, d in (("one", 1), ("ten", 10))
+    )
 
 
 def _wrong(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -174,31 +195,43 @@ def _good(run: Run, k: int, m: re.Match[str]) -> bool:
 def _weakest(run: Run, k: int, m: re.Match[str]) -> bool:
     now = run.states[k].now
     assert isinstance(now, HeatState)
-    return abs(number(m["far"]) - np.log10(np.sort(np.abs(now.u))[len(now.u) // 2] / now.u.max())) < 0.51
+    return (
+        abs(number(m["far"]) - np.log10(np.sort(np.abs(now.u))[len(now.u) // 2] / now.u.max()))
+        < 0.51
+    )
 
 
 @functools.lru_cache(maxsize=2)
 def _as_a_metric(state: State) -> tuple[float, float, float]:
-    """Of some vertices how far there and back differ, at most and in the median, and the share of shorter detours."""
+    """Of some vertices how far there and back differ, at most and in the median, and the share of
+    shorter detours.
+    """
     s = state.subject
     assert s is not None
     some = np.unique(np.linspace(0, len(s.p) - 1, 24).astype(int))
     D = by_heat(s.p, s.faces, some, 10.0**state.params.time * s.h**2)[some]
     np.fill_diagonal(D, 0.0)
     back = (np.abs(D - D.T) / np.maximum(np.maximum(D, D.T), 1e-300))[np.triu_indices(len(some), 1)]
-    triples = [(a, b, c) for a in range(len(some)) for b in range(len(some)) for c in range(len(some))]
+    triples = [
+        (a, b, c) for a in range(len(some)) for b in range(len(some)) for c in range(len(some))
+    ]
     a, b, c = np.array([one for one in triples if len(set(one)) == 3]).T
-    return float(back.max()), float(np.median(back)), float((D[a, c] > D[a, b] + D[b, c] + 1e-9).mean())
+    return (
+        float(back.max()),
+        float(np.median(back)),
+        float((D[a, c] > D[a, b] + D[b, c] + 1e-9).mean()),
+    )
 
 
 def _heat_as_a_metric(run: Run, k: int, m: re.Match[str]) -> bool:
-    if (
-        run.params.delaunay
-    ):  # by_heat knows the mesh as it stands only: on the same sphere a regular one is held against it
+    # by_heat knows the mesh as it stands only: on the same sphere a regular one is held against it
+    if run.params.delaunay:
         return number(m["back"].split()[0]) < 10 and number(m["median"].split()[0]) < 1
     back, median, shorter = _as_a_metric(run.states[k])
     near_ones = (m["back"], back, 0.15), (m["shorter"], shorter, 0.15), (m["median"], median, 0.25)
-    return all(abs(number(one.split()[0]) / 100 - true) < share * true for one, true, share in near_ones)
+    return all(
+        abs(number(one.split()[0]) / 100 - true) < share * true for one, true, share in near_ones
+    )
 
 
 def _eight_beside(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -206,7 +239,9 @@ def _eight_beside(run: Run, k: int, m: re.Match[str]) -> bool:
     off = _errors(run.states[k])
     worst = np.abs(off).max()
     eight = 1 / np.cos(np.pi / 8) - 1
-    return says_percent(m["eight"], eight) and (m["said"] == "nearer to the truth") == bool(eight < worst)
+    return says_percent(m["eight"], eight) and (m["said"] == "nearer to the truth") == bool(
+        eight < worst
+    )
 
 
 def _negative(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -225,7 +260,8 @@ def _negative(run: Run, k: int, m: re.Match[str]) -> bool:
 
 CAPTIONS = [
     Claim(
-        rf"(?P<mean>{PERCENT}) off on average(?: \(median (?P<median>{PERCENT})\))?, at worst (?P<worst>{PERCENT}) too"
+        rf"(?P<mean>{PERCENT}) off on average(?: \(median (?P<median>{PERCENT})\))?, at worst"
+        rf" (?P<worst>{PERCENT}) too"
         " (?P<sense>long|short)",
         _mean_and_worst,
     ),
@@ -237,12 +273,14 @@ CAPTIONS = [
     Claim(r"Of \d+ other queries (?P<share>[\d.]+ %) have another nearest", _balls),
     Claim(rf"(?P<share>{PERCENT}) break the triangle inequality\. (?:Here|Also|No)", _share_broken),
     Claim(
-        rf"There and back differ by (?P<median>{PERCENT}) in the median and (?P<back>{PERCENT}) at most;"
+        rf"There and back differ by (?P<median>{PERCENT}) in the median and (?P<back>{PERCENT}) at"
+        r" most;"
         rf" (?P<shorter>{PERCENT}) of the triples break",
         _heat_as_a_metric,
     ),
     Claim(
-        rf"8 neighbours are (?P<said>nearer to the truth|farther off) on this grid: at worst (?P<eight>{PERCENT}) too long",
+        r"8 neighbours are (?P<said>nearer to the truth|farther off) on this grid: at worst"
+        rf" (?P<eight>{PERCENT}) too long",
         _eight_beside,
     ),
     Claim(r"(?P<n>[\d,]+) edges have a negative weight", _negative),
@@ -250,14 +288,19 @@ CAPTIONS = [
     Claim(r"No metric\.", _wrong),
     Claim(r"none breaks the triangle inequality", lambda run, k, m: run.states[k].now.broken == 0),
     Claim(rf"Beyond 2\.45 lie (?P<share>{PERCENT}) of the scatter", _flagged),
-    Claim(rf"(?P<n>[\d,]+) of [\d,]+ of the second cluster, at (?P<mean>{NUMBER}) on average", _second),
+    Claim(
+        rf"(?P<n>[\d,]+) of [\d,]+ of the second cluster, at (?P<mean>{NUMBER}) on average", _second
+    ),
     Claim(r"It is found\.", _good),
     Claim(r"It hides itself", lambda run, k, m: right(run, k) is not True),
-    Claim(rf"is the right one for (?P<near>{PERCENT}), by Mahalanobis' for (?P<told>{PERCENT})", _landmark),
+    Claim(
+        rf"is the right one for (?P<near>{PERCENT}), by Mahalanobis' for (?P<told>{PERCENT})",
+        _landmark,
+    ),
     Claim(r"from (?P<one>[\d.]+) % in one down to (?P<ten>[\d.]+) % in ten", _shares),
 ]
 
-# preset lines and explanations --------------------------------------------------------------------------------------------
+# preset lines and explanations --------------------------------------------------------------------
 
 
 def _ends(run: Run) -> Found:
@@ -278,7 +321,10 @@ def _mended(run: Run, k: int, m: re.Match[str]) -> bool:
     *_, plain = march_again(run.params.grid)
     assert run.states[-1].subject is not None
     far = true_distances(run.states[-1]) > 0.5
-    off = [np.abs(d[far] / true_distances(run.states[-1])[far] - 1).mean() for d in (_ends(run).d, plain)]
+    off = [
+        np.abs(d[far] / true_distances(run.states[-1])[far] - 1).mean()
+        for d in (_ends(run).d, plain)
+    ]
     return off[0] < 0.75 * off[1]
 
 
@@ -291,7 +337,9 @@ def _round_about(run: Run) -> tuple[float, float]:
     state = run.states[-1]
     assert state.subject is not None
     ends = state.subject.p[[state.subject.goal, state.subject.source]]
-    return float(true_distances(state)[state.subject.goal]), float(np.linalg.norm(ends[0] - ends[1]))
+    return float(true_distances(state)[state.subject.goal]), float(
+        np.linalg.norm(ends[0] - ends[1])
+    )
 
 
 def _worst_of_march(side: int) -> float:
@@ -317,7 +365,9 @@ def _refined(run: Run) -> np.ndarray:
 
 
 def _on_regular(run: Run) -> float:
-    """The worst error of Dijkstra by scipy on the sphere before its vertices were moved, beside great circles."""
+    """The worst error of Dijkstra by scipy on the sphere before its vertices were moved, beside
+    great circles.
+    """
     ball = sphere(run.params.points)
     edges = np.unique(np.sort(ball.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
     lengths = np.linalg.norm(ball.p[edges[:, 0]] - ball.p[edges[:, 1]], axis=1)
@@ -353,14 +403,16 @@ def _tried(run: Run, k: int, m: re.Match[str]) -> bool:
 LINES = {
     "taxi": [
         Claim(
-            r"point 10 first, Euclid's disc point 18", of_preset(lambda run, k, m: run.states[-1].now.straight == 18)
+            r"point 10 first, Euclid's disc point 18",
+            of_preset(lambda run, k, m: run.states[-1].now.straight == 18),
         ),
         Claim(r"At the end (?P<share>13 %)", of_preset(_balls)),
     ],
     "units": [Claim(r"At the end (?P<share>80 %)", of_preset(_balls))],
     "cosine-axioms": [
         Claim(
-            r"Points on one ray are at distance 0", lambda run, k, m: run.states[-1].now.axioms["d(a, b) > 0"] == 1.0
+            r"Points on one ray are at distance 0",
+            lambda run, k, m: run.states[-1].now.axioms["d(a, b) > 0"] == 1.0,
         ),
         Claim(r"in (?P<share>32 %) of the triples", of_preset(_tried)),
     ],
@@ -380,7 +432,10 @@ LINES = {
     "staircase": [Claim(r"up to (?P<share>41 %) too long", lambda run, k, m: _of(run, m))],
     "marching": [
         Claim(r"that is (?P<share>10 %) off at worst", lambda run, k, m: _of(run, m)),
-        Claim(r"off at worst, on one twice as fine 6 %", lambda run, k, m: 5.5 < _worst_of_march(81) < 6.5),
+        Claim(
+            r"off at worst, on one twice as fine 6 %",
+            lambda run, k, m: 5.5 < _worst_of_march(81) < 6.5,
+        ),
     ],
     "sphere": [
         Claim(r"(?P<share>6\.2 %) too long on average", lambda run, k, m: _of(run, m, mean=True)),
@@ -394,17 +449,21 @@ LINES = {
     ],
     "no-metric": [
         Claim(
-            r"by (?P<median>1\.4 %) in the median and (?P<back>17 %) at most, and (?P<shorter>1\.5 %)",
+            r"by (?P<median>1\.4 %) in the median and (?P<back>17 %) at most, and"
+            r" (?P<shorter>1\.5 %)",
             lambda run, k, m: _heat_as_a_metric(run, -1, m),
         )
     ],
     "points": [
         Claim(
-            r"(?P<share>0\.9 %) off at worst", lambda run, k, m: 0.0085 < np.abs(_errors(run.states[-1])).max() < 0.0095
+            r"(?P<share>0\.9 %) off at worst",
+            lambda run, k, m: 0.0085 < np.abs(_errors(run.states[-1])).max() < 0.0095,
         ),
         Claim(
             r"on finer spheres that does not fall",
-            lambda run, k, m: bool((np.diff(_ends(run).study["3 points on each edge"][1][1:]) > 0).all()),
+            lambda run, k, m: bool(
+                (np.diff(_ends(run).study["3 points on each edge"][1][1:]) > 0).all()
+            ),
         ),
     ],
     "disc": [
@@ -450,19 +509,25 @@ WHYS = {
     "two-sigma": [
         Claim(
             r"(?P<two>[\d.]+) %: .* In ten it is (?P<ten>[\d.]+) %",
-            lambda run, k, m: abs(number(m["two"]) - 86.5) < 2 and abs(number(m["ten"]) - 5.3) < 1.5,
+            lambda run, k, m: (
+                abs(number(m["two"]) - 86.5) < 2 and abs(number(m["ten"]) - 5.3) < 1.5
+            ),
         )
     ],
     "twenty": [
         Claim(
             rf"(?P<most>{NUMBER})\. However far",
-            lambda run, k, m: says(m["most"], _radii(run, 4).max()) and _radii(run, 4).max() <= 19 / np.sqrt(20),
+            lambda run, k, m: (
+                says(m["most"], _radii(run, 4).max()) and _radii(run, 4).max() <= 19 / np.sqrt(20)
+            ),
         )
     ],
     "squares": [
         Claim(
             r"(?P<share>\d+ %): wherever the angle at b is obtuse",
-            lambda run, k, m: says_percent(m["share"], run.states[-1].now.broken / run.states[-1].now.tried),
+            lambda run, k, m: says_percent(
+                m["share"], run.states[-1].now.broken / run.states[-1].now.tried
+            ),
         )
     ],
     "longer": [
@@ -476,7 +541,9 @@ WHYS = {
             rf"(?P<found>{LENGTH}) for (?P<true>{LENGTH}):",
             lambda run, k, m: (
                 near_length(m["found"], float(_ends(run).d[run.states[-1].subject.goal]))
-                and near_length(m["true"], float(true_distances(run.states[-1])[run.states[-1].subject.goal]))
+                and near_length(
+                    m["true"], float(true_distances(run.states[-1])[run.states[-1].subject.goal])
+                )
             ),
         )
     ],

@@ -1,4 +1,6 @@
-"""When the sentences of the epipolar lesson are true, decided ray by ray and by scipy from its states."""
+"""When the sentences of the epipolar lesson are true, decided ray by ray and by scipy from its
+states.
+"""
 
 import re
 
@@ -23,7 +25,9 @@ def off(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def near_angle(text: str, degrees: float) -> bool:
-    """Whether an angle to three digits says what was found; arc cosines are good to a few millionths of a degree."""
+    """Whether an angle to three digits says what was found; arc cosines are good to a few
+    millionths of a degree.
+    """
     return near(text, degrees) or abs(number(text) - degrees) < 2e-5
 
 
@@ -33,7 +37,10 @@ def judged(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def with_true_length(run: Run, k: int, m: re.Match[str]) -> bool:
     """The baseline that depths are given with is the true one."""
-    return abs(run.states[k].length - float(np.linalg.norm(run.states[k].views.T_second_first[:3, 3]))) < 1e-9
+    return (
+        abs(run.states[k].length - float(np.linalg.norm(run.states[k].views.T_second_first[:3, 3])))
+        < 1e-9
+    )
 
 
 def only_turned(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -55,7 +62,9 @@ def before_both(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def parallax(run: Run, k: int, m: re.Match[str]) -> bool:
-    """Each match's true point beside the point a million times as far along its ray, both seen by the second camera."""
+    """Each match's true point beside the point a million times as far along its ray, both seen by
+    the second camera.
+    """
     views = run.states[k].views
     R, t = views.T_second_first[:3, :3], views.T_second_first[:3, 3]
     moves = []
@@ -67,15 +76,20 @@ def parallax(run: Run, k: int, m: re.Match[str]) -> bool:
 
 CAPTIONS = (
     Claim(
-        rf"The motion is ({NUMBER}|less than 0\.001)° in rotation and ({NUMBER})° in direction from the true one"
+        rf"The motion is ({NUMBER}|less than 0\.001)° in rotation and ({NUMBER})° in direction from"
+        r" the true one"
         r"(: right\.|\. It is wrong\.)",
         judged,
     ),
-    Claim(r"there is no direction, and the one of this motion is made up\. It is wrong\.", only_turned),
+    Claim(
+        r"there is no direction, and the one of this motion is made up\. It is wrong\.", only_turned
+    ),
     Claim(r"with the baseline's true length", with_true_length),
     Claim(rf"atches are {PX} from their lines", to_lines),
     Claim(rf"it puts ({NUMBER}) of {NUMBER} points in front", before_both),
-    Claim(rf"matched rows are {PX} apart", lambda run, k, m: near_px(m[1], rows_apart(run.states[k]))),
+    Claim(
+        rf"matched rows are {PX} apart", lambda run, k, m: near_px(m[1], rows_apart(run.states[k]))
+    ),
     Claim(rf"In the median parallax is {PX}, depths .* Noise is ({NUMBER}) px", parallax),
     Claim(rf"the rotation is ({NUMBER})° off, the direction ({NUMBER})°", off),
 )
@@ -104,32 +118,66 @@ def four(run: Run, k: int, m: re.Match[str]) -> bool:
 
 LINES = {
     "sideways": (
-        Claim(r"Straight to the right", lambda run, k, m: run.states[0].views.T_second_first[0, 3] < -0.9),
+        Claim(
+            r"Straight to the right",
+            lambda run, k, m: run.states[0].views.T_second_first[0, 3] < -0.9,
+        ),
         Claim(r"rectification hardly changes anything", lambda run, k, m: turned_over(run) < 12),
     ),
-    "oblique": (Claim(r"by more than half a right angle", lambda run, k, m: turned_over(run) > 45),),
-    "left": (Claim(r"Left and right are swapped", lambda run, k, m: run.states[0].views.T_second_first[0, 3] > 0.9),),
-    "upside-down": (Claim(r"rows correspond, upside down", lambda run, k, m: turned_over(run) > 150),),
+    "oblique": (
+        Claim(r"by more than half a right angle", lambda run, k, m: turned_over(run) > 45),
+    ),
+    "left": (
+        Claim(
+            r"Left and right are swapped",
+            lambda run, k, m: run.states[0].views.T_second_first[0, 3] > 0.9,
+        ),
+    ),
+    "upside-down": (
+        Claim(r"rows correspond, upside down", lambda run, k, m: turned_over(run) > 150),
+    ),
     "short": (
-        Claim(r"the lines are as near", lambda run, k, m: last_distance(run) < 1.3 * run.params.noise),
-        Claim(r"the rotation stays within 1° with every seed", lambda run, k, m: last_errors(run)[0] < 1.0),
+        Claim(
+            r"the lines are as near", lambda run, k, m: last_distance(run) < 1.3 * run.params.noise
+        ),
+        Claim(
+            r"the rotation stays within 1° with every seed",
+            lambda run, k, m: last_errors(run)[0] < 1.0,
+        ),
     ),
     "far": (
-        Claim(r"nothing nearer than 180 baselines", lambda run, k, m: run.states[0].views.p_first[:, 2].min() > 180),
-        Claim(r"The rotation stays within 1° with every seed", lambda run, k, m: last_errors(run)[0] < 1.0),
+        Claim(
+            r"nothing nearer than 180 baselines",
+            lambda run, k, m: run.states[0].views.p_first[:, 2].min() > 180,
+        ),
+        Claim(
+            r"The rotation stays within 1° with every seed",
+            lambda run, k, m: last_errors(run)[0] < 1.0,
+        ),
     ),
-    "wrong-f": (Claim(r"The matches of the run straight to the side", lambda run, k, m: run.params.heading == 0),),
-    "turned": (Claim(r"the rotation can be had all the same", lambda run, k, m: last_errors(run)[0] < 1.0),),
+    "wrong-f": (
+        Claim(
+            r"The matches of the run straight to the side",
+            lambda run, k, m: run.params.heading == 0,
+        ),
+    ),
+    "turned": (
+        Claim(r"the rotation can be had all the same", lambda run, k, m: last_errors(run)[0] < 1.0),
+    ),
 }
 
 WHYS = {
     "predict-f": (
         Claim(
             rf"They are {PX} from them.*it is ({NUMBER})° off in rotation",
-            lambda run, k, m: near_px(m[1], last_distance(run)) and near_angle(m[2], last_errors(run)[0]),
+            lambda run, k, m: (
+                near_px(m[1], last_distance(run)) and near_angle(m[2], last_errors(run)[0])
+            ),
         ),
     ),
-    "predict-plane": (Claim(rf"^({NUMBER})°\.", lambda run, k, m: near_angle(m[1], last_errors(run)[1])),),
+    "predict-plane": (
+        Claim(rf"^({NUMBER})°\.", lambda run, k, m: near_angle(m[1], last_errors(run)[1])),
+    ),
     "predict-four": (
         Claim(
             r"They put ([\d, ]+) of (\d+) points there",
@@ -137,6 +185,9 @@ WHYS = {
         ),
     ),
     "predict-baseline": (
-        Claim(rf"^({NUMBER}) cm", lambda run, k, m: abs(number(m[1]) - 100 * 64 / (420 * 0.5) * 0.5 * 2**0.5) < 1.0),
+        Claim(
+            rf"^({NUMBER}) cm",
+            lambda run, k, m: abs(number(m[1]) - 100 * 64 / (420 * 0.5) * 0.5 * 2**0.5) < 1.0,
+        ),
     ),
 }

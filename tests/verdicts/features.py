@@ -1,4 +1,6 @@
-"""When the sentences of the features lesson are true, decided by scipy from motions, descriptors and the truth."""
+"""When the sentences of the features lesson are true, decided by scipy from motions, descriptors
+and the truth.
+"""
 
 import re
 
@@ -36,7 +38,9 @@ def _best(run: Run, k: int, m: re.Match[str]) -> bool:
     assert isinstance(now, Scanned)
     before = [agreeing(s.now) for s in run.states[:k] if s.now.phase == "sample"]
     assert now.pairs is not None
-    return number(m["n"]) == agreeing(now) > max(before, default=0) and number(m["of"]) == len(now.pairs)
+    return number(m["n"]) == agreeing(now) > max(before, default=0) and number(m["of"]) == len(
+        now.pairs
+    )
 
 
 def _agree(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -65,7 +69,10 @@ def _partners(run: Run, k: int, m: re.Match[str]) -> bool:
     assert now.f_first is not None
     assert now.f_second is not None
     a, b = now.f_first, now.f_second
-    cost = 0.5 * np.divide((a - b) ** 2, a + b, out=np.zeros_like(a), where=a + b > 0).sum(axis=1).mean()
+    cost = (
+        0.5
+        * np.divide((a - b) ** 2, a + b, out=np.zeros_like(a), where=a + b > 0).sum(axis=1).mean()
+    )
     return abs(float(m["cost"]) - cost) <= 0.0051
 
 
@@ -86,34 +93,50 @@ def _few(run: Run, k: int, m: re.Match[str]) -> bool:
 CAPTIONS = (
     Claim(rf"(?P<share>{PERCENT}) of them are right", _share),
     Claim(rf"(?P<share>{PERCENT}) lie within 3 px of the truth", _share),
-    Claim(r"(?P<n>[\d,]+) target points? (is|are) more alike than the true one",
-          lambda run, k, m: number(m["n"]) == nearer(run.states[k].now)),
+    Claim(
+        r"(?P<n>[\d,]+) target points? (is|are) more alike than the true one",
+        lambda run, k, m: number(m["n"]) == nearer(run.states[k].now),
+    ),
     Claim(r"best motion so far: (?P<n>[\d,]+) of (?P<of>[\d,]+) matches agree", _best),
     Claim(r"to all that agree: (?P<n>[\d,]+) of [\d,]+ matches agree", _agree),
-    Claim(rf"It is (?P<turn>(less than )?[\d.]+)° and (?P<off>{LENGTH}) \(RMS\) from the truth", _away),
+    Claim(
+        rf"It is (?P<turn>(less than )?[\d.]+)° and (?P<off>{LENGTH}) \(RMS\) from the truth", _away
+    ),
     Claim(r"It has come home", lambda run, k, m: home(run.states[k].now)),
     Claim(r"It looks settled, and it is wrong", lambda run, k, m: not home(run.states[k].now)),
-    Claim(r"(?P<n>\d+|No) matches agree on a motion, and any three agree on some: nothing is found", _few),
+    Claim(
+        r"(?P<n>\d+|No) matches agree on a motion, and any three agree on some: nothing is found",
+        _few,
+    ),
     Claim(r"Most of what is kept is wrong|Most are wrong", _most_wrong),
     Claim(r"The true partners cost (?P<cost>[\d.]+) on average", _partners),
-    Claim(r"its true partner|takes the right one|the right one turned|\d+ left and \d+ right", None),
-)  # fmt: skip
+    Claim(
+        r"its true partner|takes the right one|the right one turned|\d+ left and \d+ right", None
+    ),
+)
 
 LINES = {
     "random": (
         Claim(r"about one in seven of the kept matches is green", of_preset(_green(0.1, 0.18))),
         Claim(
             r"RANSAC draws over 1,000 samples",
-            lambda run, k, m: max(s.now.iteration for s in run.states if s.now.phase == "refit") > 1000,
+            lambda run, k, m: (
+                max(s.now.iteration for s in run.states if s.now.phase == "refit") > 1000
+            ),
         ),
         Claim(r"it comes home", lambda run, k, m: home(run.states[-1].now)),
     ),
     "wide": (Claim(r"well over half of the kept matches are green", _green(0.51)),),
     "patches": (Claim(r"90 % are green", _green(0.895, 0.905)),),
-    "tilted": (Claim(r"The right photograph", None), Claim(r"87 % are green", _green(0.865, 0.875))),
+    "tilted": (
+        Claim(r"The right photograph", None),
+        Claim(r"87 % are green", _green(0.865, 0.875)),
+    ),
     "turned": (Claim(r"The right photograph", None),),
     "sift": (Claim(r"82 % are green", _green(0.815, 0.825)),),
-    "outline-x": (Claim(r"fewer than a tenth of the lines are green", of_preset(_green(below=0.1))),),
+    "outline-x": (
+        Claim(r"fewer than a tenth of the lines are green", of_preset(_green(below=0.1))),
+    ),
 }
 
 WHYS: dict[str, tuple[Claim, ...]] = {}

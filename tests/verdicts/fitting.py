@@ -1,4 +1,6 @@
-"""When the sentences of the fitting lesson are true, decided by scipy, differences and counting from its states."""
+"""When the sentences of the fitting lesson are true, decided by scipy, differences and counting
+from its states.
+"""
 
 import re
 
@@ -7,7 +9,16 @@ import scipy
 
 from lessons.fitting.presets import LEAP
 from tests.readings import LENGTH, NUMBER, POWER, near, near_length, number, says
-from tests.truths.fitting import cost, distances, is_right, least, plane_error, radius_deviation, straight, wider
+from tests.truths.fitting import (
+    cost,
+    distances,
+    is_right,
+    least,
+    plane_error,
+    radius_deviation,
+    straight,
+    wider,
+)
 from tests.verdicts import Claim, Run
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "right"]
@@ -40,11 +51,18 @@ def least_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def no_circle(run: Run, k: int, m: re.Match[str]) -> bool:
-    """What escaped costs what a straight line costs, and more than the best circle, if there is one."""
+    """What escaped costs what a straight line costs, and more than the best circle, if there is
+    one.
+    """
     state = run.states[k]
     unknown, line = state.now.now.unknown, straight(state.subject.p)
     found = cost(state, unknown)
-    if not (same(m[1], found) and same(m[2], line) and abs(found / line - 1) < 0.5 and abs(unknown[-1]) > 50):
+    if not (
+        same(m[1], found)
+        and same(m[2], line)
+        and abs(found / line - 1) < 0.5
+        and abs(unknown[-1]) > 50
+    ):
         return False
     if m[3] is None:
         return found <= 1.0011 * least(state)
@@ -70,9 +88,14 @@ def repeated(run: Run, k: int, m: re.Match[str]) -> bool:
     low, high = np.quantile(now.radii, [0.05, 0.95])
     middle = abs(now.unknown[-1])
     told = zip(
-        m.groups()[:4], (low, high, middle - 1.6449 * sd, middle + 1.6449 * sd), (6e-3, 6e-3, 7e-3, 7e-3), strict=True
+        m.groups()[:4],
+        (low, high, middle - 1.6449 * sd, middle + 1.6449 * sd),
+        (6e-3, 6e-3, 7e-3, 7e-3),
+        strict=True,
     )
-    if not all(abs(_metres(text) - value) <= share * max(abs(value), sd) for text, value, share in told):
+    if not all(
+        abs(_metres(text) - value) <= share * max(abs(value), sd) for text, value, share in told
+    ):
         return False
     times = wider(state)
     if (m[7] is not None) != (middle < 1.6449 * sd):
@@ -121,24 +144,31 @@ def biased(run: Run, k: int, m: re.Match[str]) -> bool:
 
 CAPTIONS = (
     Claim(
-        rf"({SQUARE}), R = {LENGTH}: the least there is, right\.(?: R is ({LENGTH}) off the truth\.)?",
+        rf"({SQUARE}), R = {LENGTH}: the least there is, right\.(?: R is ({LENGTH}) off the"
+        r" truth\.)?",
         least_of_all,
     ),
     Claim(
-        rf"({SQUARE}), R = {LENGTH}: the best straight line has ({SQUARE}) as well, and that is what this circle is\."
-        rf"(?: A circle of ({SQUARE}) exists\. It looks settled, and it is wrong\.| Nothing round fits better\.)",
+        rf"({SQUARE}), R = {LENGTH}: the best straight line has ({SQUARE}) as well, and that is"
+        r" what this circle is\."
+        rf"(?: A circle of ({SQUARE}) exists\. It looks settled, and it is wrong\.| Nothing round"
+        r" fits better\.)",
         no_circle,
     ),
     Claim(
-        rf"({SQUARE}), R = {LENGTH}; the least is ({SQUARE})\. It (?:looks settled, and it )?is wrong\.", another_end
+        rf"({SQUARE}), R = {LENGTH}; the least is ({SQUARE})\. It (?:looks settled, and it )?is"
+        r" wrong\.",
+        another_end,
     ),
     Claim(
-        rf"with R = (?:{POWER} k?m|{LENGTH}|no number): (?:the linear problem has no one solution|the numbers are not finite"
+        rf"with R = (?:{POWER} k?m|{LENGTH}|no number): (?:the linear problem has no one"
+        r" solution|the numbers are not finite"
         r" any more)\. It is wrong\.",
         no_end,
     ),
     Claim(
-        rf"the middle 90 % of radii reach from ({LENGTH}) to ({LENGTH})\. The covariance said ({LENGTH}) to ({LENGTH})"
+        rf"the middle 90 % of radii reach from ({LENGTH}) to ({LENGTH})\. The covariance said"
+        rf" ({LENGTH}) to ({LENGTH})"
         rf"(?:: about right|(?:: about as wide|, too (narrow|wide) by a factor of ({NUMBER}))"
         r"(, and no circle has a radius below 0)?\. It is wrong)\.",
         repeated,
@@ -146,29 +176,45 @@ CAPTIONS = (
     Claim(rf"({NUMBER} %) of the starts are within 1 cm of the best circle", came_home),
     Claim(r"as a share of the true radius|takes [xy] as exact", None),
     Claim(
-        rf"RMS error to the truth ({LENGTH})(?:, of least squares ({LENGTH})\.)?( It (?:looks settled, and it )?is wrong)?",
+        rf"RMS error to the truth ({LENGTH})(?:, of least squares ({LENGTH})\.)?( It (?:looks"
+        r" settled, and it )?is wrong)?",
         trusted,
     ),
 )
 
 
 def leaps(run: Run, k: int, m: re.Match[str]) -> bool:
-    """Of the preset's own seed: the sums of squares of the start and of the first circle, and R after four."""
+    """Of the preset's own seed: the sums of squares of the start and of the first circle, and R
+    after four.
+    """
     if run.params.seed != LEAP.seed:
         return True
     kept = [
-        s.now.now for s in run.states if type(s.now).__name__ == "Walked" and s.now.now.phase in ("start", "accepted")
+        s.now.now
+        for s in run.states
+        if type(s.now).__name__ == "Walked" and s.now.now.phase in ("start", "accepted")
     ]
     first, second = (cost(run.states[0], now.unknown) for now in kept[:2])
-    return says_square(m[1], first) and says_square(m[2], second) and near_length(m[3], abs(kept[4].unknown[-1]))
+    return (
+        says_square(m[1], first)
+        and says_square(m[2], second)
+        and near_length(m[3], abs(kept[4].unknown[-1]))
+    )
 
 
 LINES = {
     "jumps": (Claim(rf"from ({SQUARE}) to ({SQUARE}), and after four R is ({LENGTH})\.", leaps),),
-    "damped": (Claim(r"It comes home\.", lambda run, k, m: bool(run.states[-1].now.radii.size) and right_end(run)),),
+    "damped": (
+        Claim(
+            r"It comes home\.",
+            lambda run, k, m: bool(run.states[-1].now.radii.size) and right_end(run),
+        ),
+    ),
     "basin": (Claim(r"Green ones come home", lambda run, k, m: 0.4 < homes(run, k) < 0.8),),
     "basin-jumps": (Claim(r"how many come home now", lambda run, k, m: homes(run, k) < 0.5),),
-    "basin-full": (Claim(r"may start anywhere in the picture", lambda run, k, m: homes(run, k) == 1.0),),
+    "basin-full": (
+        Claim(r"may start anywhere in the picture", lambda run, k, m: homes(run, k) == 1.0),
+    ),
     "tukey": (Claim(r"the wrong points are beyond it", None),),
     "escape": (Claim(r"No step raises the sum of squares", never_rises),),
     "bias": (Claim(r"too large by σ² / 2, Taubin's by twice that", biased),),
@@ -188,16 +234,28 @@ def median(run: Run, name: str) -> float:
 
 
 def kept_share(run: Run, k: int, m: re.Match[str]) -> bool:
-    return says(m[1], median(run, "Kåsa")) and says(m[2], median(run, "Taubin")) and median(run, "Kåsa") < 0.7
+    return (
+        says(m[1], median(run, "Kåsa"))
+        and says(m[2], median(run, "Taubin"))
+        and median(run, "Kåsa") < 0.7
+    )
 
 
 def iteration_near(run: Run, k: int, m: re.Match[str]) -> bool:
     """The best circle by scipy, and the first iteration that is within 10 µm of it."""
     subject = run.states[0].subject
     solve = scipy.optimize.least_squares
-    best = solve(lambda c: distances("circle", c, subject.p), subject.truth, xtol=1e-15, ftol=1e-15, gtol=1e-15).x
+    best = solve(
+        lambda c: distances("circle", c, subject.p),
+        subject.truth,
+        xtol=1e-15,
+        ftol=1e-15,
+        gtol=1e-15,
+    ).x
     moments = [s.now.now for s in run.states if type(s.now).__name__ == "Walked"]
-    return int(m[1]) == min(now.iteration for now in moments if np.abs(now.unknown - best).max() < 1e-5)
+    return int(m[1]) == min(
+        now.iteration for now in moments if np.abs(now.unknown - best).max() < 1e-5
+    )
 
 
 def slopes(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -206,7 +264,12 @@ def slopes(run: Run, k: int, m: re.Match[str]) -> bool:
     v = np.cos(np.radians(60)) ** 2 / 3
     theory = np.degrees(np.arctan(np.tan(np.radians(60)) * v / (v + 0.1**2)))
     upright, across = float(np.median(angles["upright"])), float(np.median(angles["perpendicular"]))
-    return near(m[1], upright) and near(m[2], across) and abs(upright - theory) < 1.5 and abs(across - 60) < 0.7
+    return (
+        near(m[1], upright)
+        and near(m[2], across)
+        and abs(upright - theory) < 1.5
+        and abs(across - 60) < 0.7
+    )
 
 
 def escaped(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -230,7 +293,8 @@ WHYS = {
     "predict-kasa": (Claim(rf"^({NUMBER}); Taubin's is ({NUMBER})\.", kept_share),),
     "predict-end": (
         Claim(
-            rf"^After (\d+) iterations R = ({LENGTH})\. The sum of squares fell to ({SQUARE}), that of the best straight"
+            rf"^After (\d+) iterations R = ({LENGTH})\. The sum of squares fell to ({SQUARE}), that"
+            r" of the best straight"
             rf" line: ({SQUARE})\.",
             escaped,
         ),
@@ -238,7 +302,10 @@ WHYS = {
     "predict-iterations": (Claim(r"^The (\d+)th\.", iteration_near),),
     "predict-slope": (Claim(rf"^({NUMBER})°: errors in x .* give ({NUMBER})°\.", slopes),),
     "predict-alike": (
-        Claim(rf"^({NUMBER}) times\.", lambda run, k, m: abs(number(m[1]) - wider(run.states[-1])) < 0.06),
+        Claim(
+            rf"^({NUMBER}) times\.",
+            lambda run, k, m: abs(number(m[1]) - wider(run.states[-1])) < 0.06,
+        ),
     ),
     "predict-tukey": (
         Claim(rf"^({LENGTH}) off, least squares ({LENGTH})\.", tukey_end),

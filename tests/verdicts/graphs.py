@@ -1,4 +1,6 @@
-"""What the graphs lesson says of its runs, decided from edges and nodes with dense matrices, apart from its core."""
+"""What the graphs lesson says of its runs, decided from edges and nodes with dense matrices, apart
+from its core.
+"""
 
 import functools
 import re
@@ -11,9 +13,9 @@ from tests.own_seed import of_preset
 from tests.readings import NUMBER, POWER, near, number, says_percent
 from tests.truths.graphs import A, correct, modes, off, parts, told, volume
 from tests.verdicts import Claim, Run
-from workbench.algorithms.diffusion import Heat, Smoothed
-from workbench.algorithms.graph_network import Layer, Trained
-from workbench.algorithms.spectral_cut import Cut
+from workbench.algorithms.graphs.diffusion import Heat, Smoothed
+from workbench.algorithms.graphs.spectral_cut import Cut
+from workbench.algorithms.learning.graph_network import Layer, Trained
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
@@ -30,7 +32,9 @@ def right(run: Run, k: int) -> bool | None:
     if isinstance(now, Smoothed) and last:
         first, end = off(state, run.states[0].now.p), off(state, now.p)
         return False if end > first else True if end < 0.9 * first else None
-    if not len(state.subject.classes) or not (last or (isinstance(now, Cut) and now.phase == "sign")):
+    if not len(state.subject.classes) or not (
+        last or (isinstance(now, Cut) and now.phase == "sign")
+    ):
         return None
     if isinstance(now, Cut | Trained) or (isinstance(now, Layer) and now.features.shape[1] == 2):
         share = correct(state) / len(state.subject.classes)
@@ -47,13 +51,15 @@ def exact_error(run: Run, k: int) -> float:
     return float(np.abs(state.now.u - exact).max())
 
 
-# captions ---------------------------------------------------------------------------------------------------------------
+# captions -----------------------------------------------------------------------------------------
 
 
 def _true_sides(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     misses = np.flatnonzero(told(state) != state.subject.classes)
-    named = [] if not m["nodes"] else [int(number(one)) for one in re.split(r", (?=\d)", m["nodes"])]
+    named = (
+        [] if not m["nodes"] else [int(number(one)) for one in re.split(r", (?=\d)", m["nodes"])]
+    )
     good = number(m["n"]) == correct(state) and number(m["all"]) == len(state.subject.p)
     return good and (named == misses.tolist() if named else not 0 < len(misses) <= 3)
 
@@ -129,7 +135,9 @@ def _apart(run: Run, k: int, m: re.Match[str]) -> bool:
     assert isinstance(state.now, Layer)
     x, along = state.now.features, np.sqrt(A(state).sum(axis=1) + 1)
     along = along / np.linalg.norm(along)
-    return says_percent(m["share"], float(np.linalg.norm(x - along[:, None] * (along @ x)) / np.linalg.norm(x)))
+    return says_percent(
+        m["share"], float(np.linalg.norm(x - along[:, None] * (along @ x)) / np.linalg.norm(x))
+    )
 
 
 def _smooth(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -170,7 +178,9 @@ def middle(run: Run) -> float:
 
 CAPTIONS = [
     Claim(
-        r"(?P<n>[\d,]+) of (?P<all>[\d,]+) nodes are on their true side(?: \(not (?P<nodes>[\d, ]+)\))?", _true_sides
+        r"(?P<n>[\d,]+) of (?P<all>[\d,]+) nodes are on their true side(?: \(not (?P<nodes>[\d,"
+        r" ]+)\))?",
+        _true_sides,
     ),
     Claim(
         rf"(?P<near>[\d,]+) nodes? against (?P<far>[\d,]+), (?:edges of weight )?(?P<cut>{NUMBER})"
@@ -178,19 +188,32 @@ CAPTIONS = [
         _cut,
     ),
     Claim(r"The cut of least conductance along the vector", _least),
-    Claim(rf"By sign it was (?P<n>[\d,]+), for a cut of (?P<edges>{NUMBER})", lambda run, k, m: _sign_truer(run, k, m)),
+    Claim(
+        rf"By sign it was (?P<n>[\d,]+), for a cut of (?P<edges>{NUMBER})",
+        lambda run, k, m: _sign_truer(run, k, m),
+    ),
     Claim(r"(?P<edges>[\d,]+) edges?, (?P<parts>[\d,]+) components?", _pieces),
     Claim(r"(?P<share>[\d.]+ %) of the namings are not returned", _one_way),
     Claim(r"0 twice: the graph has no path", lambda run, k, m: len(parts(A(run.states[k]))) == 2),
     Claim(rf"Eigenvector \d+: λ = {VALUE}(?=[,.:])", _mode),
-    Claim(rf"off the exact heat by {VALUE}", lambda run, k, m: near(m["value"], exact_error(run, k), 2)),
-    Claim(r"off the exact heat by less than 0\.00001", lambda run, k, m: exact_error(run, k) < 1.05e-5),
     Claim(
-        r"dt is above 2 / λmax", lambda run, k, m: run.params.step_size > 2 and np.abs(run.states[k].now.u).max() > 1
+        rf"off the exact heat by {VALUE}",
+        lambda run, k, m: near(m["value"], exact_error(run, k), 2),
+    ),
+    Claim(
+        r"off the exact heat by less than 0\.00001", lambda run, k, m: exact_error(run, k) < 1.05e-5
+    ),
+    Claim(
+        r"dt is above 2 / λmax",
+        lambda run, k, m: run.params.step_size > 2 and np.abs(run.states[k].now.u).max() > 1,
     ),
     Claim(rf"(?P<off>{NUMBER}) mean edges \(RMS\)", _smooth),
     Claim(r"(?P<share>[\d.,]+ %) of the volume", _volume),
-    Claim(r"reached (?:(?P<every>all)|(?P<heard>[\d,]+) of) [\d,]+ nodes(?:; (?P<right>[\d,]+) are right)?", _reached),
+    Claim(
+        r"reached (?:(?P<every>all)|(?P<heard>[\d,]+) of) [\d,]+ nodes(?:; (?P<right>[\d,]+) are"
+        r" right)?",
+        _reached,
+    ),
     Claim(r"(?P<share>(?:less than )?[\d.]+ %) of the features still tell nodes apart", _apart),
     Claim(r"are the same: these messages cannot tell", lambda run, k, m: _same(run, k)),
     Claim(r"differ by up to", lambda run, k, m: not _same(run, k)),
@@ -208,7 +231,7 @@ CAPTIONS = [
     ),
 ]
 
-# preset lines -----------------------------------------------------------------------------------------------------------
+# preset lines -------------------------------------------------------------------------------------
 
 
 def _of_twelve(run: Run) -> np.ndarray:
@@ -222,7 +245,9 @@ def _uneven(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _bridge(run: Run, k: int, m: re.Match[str]) -> bool:
-    """By sign a fifth of the edges of the big half or more; the best cut few, between the halves."""
+    """By sign a fifth of the edges of the big half or more; the best cut few, between the
+    halves.
+    """
     sign = run.states[2].now
     assert isinstance(sign, Cut)
     return sign.cut > 2 * last_cut(run).cut and middle(run) < 0.9 and correct(run.states[-1]) >= 412
@@ -235,7 +260,9 @@ def _spectra_of_pair(run: Run, of_A: list, of_L: list) -> bool:
     for which in (0, 1):
         one = whole[np.ix_(classes == which, classes == which)]
         good &= np.allclose(np.linalg.eigvalsh(one), of_A[which], atol=1e-9)
-        good &= np.allclose(np.linalg.eigvalsh(np.diag(one.sum(axis=1)) - one), of_L[which], atol=1e-9)
+        good &= np.allclose(
+            np.linalg.eigvalsh(np.diag(one.sum(axis=1)) - one), of_L[which], atol=1e-9
+        )
     return bool(good)
 
 
@@ -243,7 +270,9 @@ def _sign_truer(run: Run, k: int, m: re.Match[str]) -> bool:
     """By the sign of the vector more nodes are on their side, for so many edges cut."""
     state = run.states[k]
     above = state.now.fiedler > 0
-    by_sign = max(int((above == state.subject.classes).sum()), int((~above == state.subject.classes).sum()))
+    by_sign = max(
+        int((above == state.subject.classes).sum()), int((~above == state.subject.classes).sum())
+    )
     edges = A(state)[above][:, ~above].sum()
     return number(m["n"]) == by_sign > correct(state) and near(m["edges"], float(edges))
 
@@ -251,7 +280,10 @@ def _sign_truer(run: Run, k: int, m: re.Match[str]) -> bool:
 LINES = {
     "one-way": [
         Claim(r"1,500 points", lambda run, k, m: len(run.states[0].subject.p) == 1500),
-        Claim(r"(?P<share>39 %) of the namings are not returned", of_preset(lambda run, k, m: _one_way(run, 0, m))),
+        Claim(
+            r"(?P<share>39 %) of the namings are not returned",
+            of_preset(lambda run, k, m: _one_way(run, 0, m)),
+        ),
     ],
     "matrix": [
         Claim(
@@ -266,7 +298,9 @@ LINES = {
     ],
     "split": [
         Claim(r"0 is an eigenvalue twice", lambda run, k, m: len(parts(A(run.states[0]))) == 2),
-        Claim(r"it is 100 against 100 nodes", lambda run, k, m: run.states[2].now.side.sum() == 100),
+        Claim(
+            r"it is 100 against 100 nodes", lambda run, k, m: run.states[2].now.side.sum() == 100
+        ),
     ],
     "square": [
         Claim(
@@ -278,21 +312,29 @@ LINES = {
         Claim(
             r"Where a sphere has λ = 12 seven times, this graph has 11 to 12\.6: two groups",
             lambda run, k, m: bool(
-                np.allclose(_of_twelve(run)[:3], 11.0, atol=0.05) and np.allclose(_of_twelve(run)[3:], 12.6, atol=0.05)
+                np.allclose(_of_twelve(run)[:3], 11.0, atol=0.05)
+                and np.allclose(_of_twelve(run)[3:], 12.6, atol=0.05)
             ),
         ),
     ],
     "cotangent": [
         Claim(
             r"all seven are 11\.85 to 11\.92",
-            lambda run, k, m: bool(np.allclose([_of_twelve(run).min(), _of_twelve(run).max()], [11.85, 11.92], atol=0.005)),
+            lambda run, k, m: bool(
+                np.allclose(
+                    [_of_twelve(run).min(), _of_twelve(run).max()], [11.85, 11.92], atol=0.005
+                )
+            ),
         ),
     ],
     "uneven": [Claim(r"the three slowest should all be 2, and are 1\.7, 1\.8 and 2\.5", _uneven)],
     "twins": [
         Claim(
-            r"both A have eigenvalues −2, 0, 0, 0, 2\. Those of L differ: 0, 1, 1, 1, 5 and 0, 0, 2, 2, 4",
-            lambda run, k, m: _spectra_of_pair(run, [(-2, 0, 0, 0, 2)] * 2, [(0, 1, 1, 1, 5), (0, 0, 2, 2, 4)]),
+            r"both A have eigenvalues −2, 0, 0, 0, 2\. Those of L differ: 0, 1, 1, 1, 5 and 0, 0,"
+            r" 2, 2, 4",
+            lambda run, k, m: _spectra_of_pair(
+                run, [(-2, 0, 0, 0, 2)] * 2, [(0, 1, 1, 1, 5), (0, 0, 2, 2, 4)]
+            ),
         ),
     ],
     "warm": [
@@ -304,7 +346,10 @@ LINES = {
     "shrink": [
         Claim(
             r"noise goes in a few rounds",
-            lambda run, k, m: off(run.states[5], run.states[5].now.p) < 0.6 * off(run.states[0], run.states[0].now.p),
+            lambda run, k, m: (
+                off(run.states[5], run.states[5].now.p)
+                < 0.6 * off(run.states[0], run.states[0].now.p)
+            ),
         ),
     ],
     "taubin": [
@@ -317,16 +362,23 @@ LINES = {
         Claim(
             r"Everybody has heard after two",
             lambda run, k, m: all(
-                (np.abs(s.now.features).sum(axis=1) > 0).all() for s in run.states if s.now.layer == 2
+                (np.abs(s.now.features).sum(axis=1) > 0).all()
+                for s in run.states
+                if s.now.layer == 2
             ),
         ),
     ],
-    "trained": [Claim(r"in the end 33 of 34 are right", of_preset(lambda run, k, m: correct(run.states[-1]) == 33))],
+    "trained": [
+        Claim(
+            r"in the end 33 of 34 are right",
+            of_preset(lambda run, k, m: correct(run.states[-1]) == 33),
+        )
+    ],
     "deeper": [Claim(r"watch what is right", None)],
     "same": [
         Claim(r"every message is the same too", lambda run, k, m: _same(run, k)),
     ],
-}  # fmt: skip
+}
 
 WHYS = {
     "mutual": [
@@ -347,13 +399,17 @@ WHYS = {
             rf"The largest heat is {VALUE} in the end",
             lambda run, k, m: near(m["value"], float(np.abs(run.states[-1].now.u).max())),
         ),
-        Claim(r"for the largest λ that is −1\.5", lambda run, k, m: 1 - run.params.step_size == -1.5),
+        Claim(
+            r"for the largest λ that is −1\.5", lambda run, k, m: 1 - run.params.step_size == -1.5
+        ),
     ],
     "volume": [Claim(r"(?P<share>[\d.]+ %)\. The mean of the neighbours lies inwards", _volume)],
     "sixty-four": [
         Claim(
             r"(?P<n>\d+): as many as if all were given one label",
-            lambda run, k, m: int(m["n"]) == correct(run.states[-1]) == 17 == run.states[-1].subject.classes.sum(),
+            lambda run, k, m: (
+                int(m["n"]) == correct(run.states[-1]) == 17 == run.states[-1].subject.classes.sum()
+            ),
         ),
     ],
 }

@@ -21,8 +21,8 @@ from tests.truths.measures import (
     walls,
 )
 from tests.verdicts import Claim, Run
-from workbench.algorithms.measures import Cells, Sums
-from workbench.algorithms.monte_carlo import Throws
+from workbench.algorithms.surfaces.measures import Cells, Sums
+from workbench.algorithms.surfaces.monte_carlo import Throws
 
 VALUE = rf"({NUMBER})"
 ERROR = rf"(exact|off by less than 0\.01 %|\+?{NUMBER} %)"
@@ -35,11 +35,15 @@ def off(said: str, error: float) -> bool:
         return abs(error) < 1e-8
     if said.startswith("off"):
         return abs(error) < 1.01e-4
-    return abs(number(said.removesuffix(" %").removeprefix("+")) - 100 * error) <= 0.051 * max(1.0, abs(100 * error))
+    return abs(number(said.removesuffix(" %").removeprefix("+")) - 100 * error) <= 0.051 * max(
+        1.0, abs(100 * error)
+    )
 
 
 def right(run: Run, k: int) -> bool | None:
-    """A sum over all faces is right where it is that of a closed mesh, no larger than what the mesh stands for."""
+    """A sum over all faces is right where it is that of a closed mesh, no larger than what the mesh
+    stands for.
+    """
     state = run.states[k]
     if not isinstance(state.now, Sums) or state.now.count < len(state.subject.faces):
         return None
@@ -99,7 +103,11 @@ def _throws(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     n, hits = int(number(m[1])), int(number(m[2]))
     share, box = hits / n, float(np.prod(state.subject.high - state.subject.low))
-    if state.params.draw == "random" and state.subject.name == "the sphere" and random_hits(state, n) != hits:
+    if (
+        state.params.draw == "random"
+        and state.subject.name == "the sphere"
+        and random_hits(state, n) != hits
+    ):
         return False
     half = 1.96 * box * np.sqrt(share * (1 - share) / n)
     return (
@@ -116,11 +124,15 @@ def _interval(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _too_wide(run: Run, k: int, m: re.Match[str]) -> bool:
-    """One point in each small cube scatters less than the interval says: sqrt(sum p (1 - p)) over the cubes' shares p."""
+    """One point in each small cube scatters less than the interval says: sqrt(sum p (1 - p)) over
+    the cubes' shares p.
+    """
     state = run.states[k]
     subject, estimates = state.subject, state.now.estimates
     count, size = estimates.counts[-1], np.prod(subject.high - subject.low)
-    if state.params.draw != "stratified":  # an even sequence: one run shows its error, about which nothing is known
+    if (
+        state.params.draw != "stratified"
+    ):  # an even sequence: one run shows its error, about which nothing is known
         return abs(estimates.values[-1] - truth(state)[1]) < 1.2 * estimates.errors[-1]
     side, rng = round(count ** (1 / 3)), np.random.default_rng(k)
     cube = np.stack(np.meshgrid(*[np.arange(side)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
@@ -133,8 +145,16 @@ def _too_wide(run: Run, k: int, m: re.Match[str]) -> bool:
 def _lines(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
     n, total, area = number(m[1]), number(m[2]), number(m[4])
-    radius = 1.001 * np.linalg.norm(state.subject.p - (state.subject.low + state.subject.high) / 2, axis=1).max()
-    said = abs(number(m[3]) - total / n) < 0.0051 and abs(area / (2 * np.pi * radius**2 * total / n) - 1) < 1e-3
+    radius = (
+        1.001
+        * np.linalg.norm(
+            state.subject.p - (state.subject.low + state.subject.high) / 2, axis=1
+        ).max()
+    )
+    said = (
+        abs(number(m[3]) - total / n) < 0.0051
+        and abs(area / (2 * np.pi * radius**2 * total / n) - 1) < 1e-3
+    )
     return said and near(m[6], truth(state)[0], 4) and off(m[7], area / truth(state)[0] - 1)
 
 
@@ -143,9 +163,14 @@ def _quarters(run: Run, k: int, m: re.Match[str]) -> bool:
     q = run.states[k].now.q
     a, b, c = np.array([[-1.0, 0.0, -0.6], [1.0, 0.0, -0.6], [0.0, 0.0, 1.1]])
     whole = np.linalg.norm(np.cross(b - a, c - a))
-    at = [np.linalg.norm(np.cross(y - q, z - q), axis=1) / whole > 0.5 for y, z in ((b, c), (c, a), (a, b))]
+    at = [
+        np.linalg.norm(np.cross(y - q, z - q), axis=1) / whole > 0.5
+        for y, z in ((b, c), (c, a), (a, b))
+    ]
     shares = [100 * one.mean() for one in at] + [100 * (1 - np.any(at, axis=0).mean())]
-    return all(abs(number(said) - share) < 0.51 for said, share in zip(m.groups(), shares, strict=True))
+    return all(
+        abs(number(said) - share) < 0.51 for said, share in zip(m.groups(), shares, strict=True)
+    )
 
 
 def _samples(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -180,64 +205,102 @@ def _study(run: Run, k: int, m: re.Match[str]) -> bool:
     area, volume = (run.states[k].study.errors[name] for name in ("area", "volume"))
     fine = says_percent(m[1], area[-1]) and says_percent(m[2], volume[-1])
     return (
-        fine and abs(number(m[3]) - area[-2] / area[-1]) < 0.051 and abs(number(m[4]) - volume[-2] / volume[-1]) < 0.051
+        fine
+        and abs(number(m[3]) - area[-2] / area[-1]) < 0.051
+        and abs(number(m[4]) - volume[-2] / volume[-1]) < 0.051
     )
 
 
-# fmt: off
 CAPTIONS = [
     Claim(r"([\d,]+) vertices, ([\d,]+) triangles", _count),
-    Claim(r"(\d+) triangles? cut out", lambda run, k, m:
-          number(m[1]) == len(run.states[k].subject.whole) - len(run.states[k].subject.faces)),
-    Claim(rf"its area, {VALUE} m²; a · \(b × c\) / 6 is its tetrahedron, {VALUE} m³: (plus|minus)", _one),
+    Claim(
+        r"(\d+) triangles? cut out",
+        lambda run, k, m: (
+            number(m[1]) == len(run.states[k].subject.whole) - len(run.states[k].subject.faces)
+        ),
+    ),
+    Claim(
+        rf"its area, {VALUE} m²; a · \(b × c\) / 6 is its tetrahedron, {VALUE} m³: (plus|minus)",
+        _one,
+    ),
     Claim(rf"^([\d,]+) of [\d,]+ triangles, near ones first: {VALUE} m³ so far", _so_far),
-    Claim(rf"^([\d,]+) of [\d,]+ triangles, near ones first: area {VALUE} m² so far", lambda run, k, m:
-          near(m[2], sums(run.states[k], near_first(run.states[k], int(number(m[1]))))[0], 3)),
+    Claim(
+        rf"^([\d,]+) of [\d,]+ triangles, near ones first: area {VALUE} m² so far",
+        lambda run, k, m: near(
+            m[2], sums(run.states[k], near_first(run.states[k], int(number(m[1]))))[0], 3
+        ),
+    ),
     Claim(r"count plus: ([\d,]+); that count minus: ([\d,]+)", _new),
     Claim(rf"triangles: area {VALUE} m² \({ERROR}\)", _all_area),
     Claim(rf", volume {VALUE} m³ \({ERROR}\)\. (?=E)", _all_volume),
-    Claim(r"Every edge has its partner: any other origin gives the same", lambda run, k, m: closed(run.states[k])),
+    Claim(
+        r"Every edge has its partner: any other origin gives the same",
+        lambda run, k, m: closed(run.states[k]),
+    ),
     Claim(r"Edges lack a partner", lambda run, k, m: not closed(run.states[k])),
-    Claim(r"It encloses nothing", lambda run, k, m: not mesh_of(run.states[k].subject, whole=True).is_watertight),
+    Claim(
+        r"It encloses nothing",
+        lambda run, k, m: not mesh_of(run.states[k].subject, whole=True).is_watertight,
+    ),
     Claim(rf"(\d+) cells across, ([\d,]+) full: volume {VALUE} m³ \({ERROR}\)", _cells),
     Claim(rf"full and empty: {VALUE} m², {VALUE} times the true area", _walls),
-    Claim(rf"marching cubes: {VALUE} times", lambda run, k, m:
-          abs(number(m[1]) - run.states[k].now.marched[-1] / truth(run.states[k])[0]) < 0.0051),
-    Claim(rf"([\d,]+) throws, ([\d,]+) hits: {VALUE} ± {VALUE} m³; truth {VALUE} m³, {ERROR}", _throws),
+    Claim(
+        rf"marching cubes: {VALUE} times",
+        lambda run, k, m: (
+            abs(number(m[1]) - run.states[k].now.marched[-1] / truth(run.states[k])[0]) < 0.0051
+        ),
+    ),
+    Claim(
+        rf"([\d,]+) throws, ([\d,]+) hits: {VALUE} ± {VALUE} m³; truth {VALUE} m³, {ERROR}", _throws
+    ),
     Claim(r"The interval \(95 %\) (holds|misses) the truth", _interval),
     Claim(r"It is that of random throws: too wide here", _too_wide),
-    Claim(r"Of 4,000 such runs (\d+) % miss it at this step, and (\d+) % missed it at one or more of the (\d+) looks",
-          lambda run, k, m: _peeked(run, k, m)),
-    Claim(r"Without a hit the interval is empty", lambda run, k, m: run.states[k].now.hits == 0),
-    Claim(r"Without a miss the interval is empty", lambda run, k, m:
-          run.states[k].now.hits == run.states[k].now.estimates.counts[-1]),
     Claim(
-        rf"([\d,]+) lines through the ball around it cross the surface ([\d,]+) times, {VALUE} each; times 2πR² that is"
+        r"Of 4,000 such runs (\d+) % miss it at this step, and (\d+) % missed it at one or more of"
+        r" the (\d+) looks",
+        lambda run, k, m: _peeked(run, k, m),
+    ),
+    Claim(r"Without a hit the interval is empty", lambda run, k, m: run.states[k].now.hits == 0),
+    Claim(
+        r"Without a miss the interval is empty",
+        lambda run, k, m: run.states[k].now.hits == run.states[k].now.estimates.counts[-1],
+    ),
+    Claim(
+        rf"([\d,]+) lines through the ball around it cross the surface ([\d,]+) times, {VALUE}"
+        r" each; times 2πR² that is"
         rf" {VALUE} ± {VALUE} m²; truth {VALUE} m², {ERROR}",
         _lines,
     ),
     Claim(rf"the corners got {VALUE} %, {VALUE} %, {VALUE} %, the middle {VALUE} %", _quarters),
     Claim(
-        rf"([\d,]+) points on [\w ]+: {VALUE} % of them on the half whose faces were cut in four, which has {VALUE} % of"
+        rf"([\d,]+) points on [\w ]+: {VALUE} % of them on the half whose faces were cut in four,"
+        rf" which has {VALUE} % of"
         rf" the area\. Their mean is {PERCENT} of",
         _samples,
     ),
     Claim(
-        rf"(\d+) dimensions: ([\d,]+) throws, ([\d,]+) hits?; the ball fills (?:{PERCENT} of|one part in {VALUE} of)",
+        rf"(\d+) dimensions: ([\d,]+) throws, ([\d,]+) hits?; the ball fills (?:{PERCENT} of|one"
+        rf" part in {VALUE} of)",
         _ball,
     ),
     Claim(rf"The volume is known to ±{PERCENT}", _known_to),
-    Claim(r"The estimate is 0, and its interval too", lambda run, k, m: run.states[k].now.hits[-1] == 0),
     Claim(
-        rf"the area is {PERCENT} too small, the volume {PERCENT}\. Edges half as long divide the errors by {VALUE} and"
+        r"The estimate is 0, and its interval too",
+        lambda run, k, m: run.states[k].now.hits[-1] == 0,
+    ),
+    Claim(
+        rf"the area is {PERCENT} too small, the volume {PERCENT}\. Edges half as long divide the"
+        rf" errors by {VALUE} and"
         rf" {VALUE}",
         _study,
     ),
     Claim(
-        rf"(\d+) sectors, all vertices on the cylinder: with as many rings {VALUE} times its area, with sectors² rings"
+        rf"(\d+) sectors, all vertices on the cylinder: with as many rings {VALUE} times its area,"
+        r" with sectors² rings"
         rf" {VALUE} times, with sectors³ rings {VALUE} times",
         lambda run, k, m: all(
-            abs(number(m[power + 1]) / lantern_area(int(m[1]), int(m[1]) ** power) - 1) < 0.005 for power in (1, 2, 3)
+            abs(number(m[power + 1]) / lantern_area(int(m[1]), int(m[1]) ** power) - 1) < 0.005
+            for power in (1, 2, 3)
         ),
     ),
 ]
@@ -283,53 +346,102 @@ def _peeked(run: Run, k: int, m: re.Match[str]) -> bool:
 
 LINES = {
     "origin": [
-        Claim(r"all plus together are 12 times the rabbit, all minus 11 times", lambda run, k, m:
-              abs(plus_share(run) - 12) < 0.1),
-        Claim(r"seven diagonals", lambda run, k, m:
-              round(float(np.linalg.norm(run.params.origin)) / last(run).subject.diagonal) == 7),
+        Claim(
+            r"all plus together are 12 times the rabbit, all minus 11 times",
+            lambda run, k, m: abs(plus_share(run) - 12) < 0.1,
+        ),
+        Claim(
+            r"seven diagonals",
+            lambda run, k, m: (
+                round(float(np.linalg.norm(run.params.origin)) / last(run).subject.diagonal) == 7
+            ),
+        ),
     ],
     "hole": [
         Claim(r"1 % of the triangles", lambda run, k, m: run.params.hole == 0.01),
-        Claim(r"one diagonal behind, 6\.6 % of the volume go with them", of_preset(lambda run, k, m:
-              abs(np.linalg.norm(run.params.origin) / last(run).subject.diagonal - 1) < 0.05
-              and abs(lost(run) - 0.066) < 0.0006)),
+        Claim(
+            r"one diagonal behind, 6\.6 % of the volume go with them",
+            of_preset(
+                lambda run, k, m: (
+                    abs(np.linalg.norm(run.params.origin) / last(run).subject.diagonal - 1) < 0.05
+                    and abs(lost(run) - 0.066) < 0.0006
+                )
+            ),
+        ),
     ],
     "flipped": [
-        Claim(r"10 % of the volume are gone", of_preset(lambda run, k, m: abs(lost(run) - 0.10) < 0.005)),
-        Claim(r"6 to 13 % with other seeds, and of the area nothing", lambda run, k, m:
-              0.06 < lost(run) < 0.13 and abs(sums(last(run))[0] / truth(last(run))[0] - 1) < 1e-9),
+        Claim(
+            r"10 % of the volume are gone",
+            of_preset(lambda run, k, m: abs(lost(run) - 0.10) < 0.005),
+        ),
+        Claim(
+            r"6 to 13 % with other seeds, and of the area nothing",
+            lambda run, k, m: (
+                0.06 < lost(run) < 0.13 and abs(sums(last(run))[0] / truth(last(run))[0] - 1) < 1e-9
+            ),
+        ),
     ],
     "overlap": [
-        Claim(r"every tetrahedron is right, and what lies in both spheres is counted twice", lambda run, k, m:
-              abs(sums(last(run))[1] / (8 * np.pi / 3) - 1) < 0.01),
+        Claim(
+            r"every tetrahedron is right, and what lies in both spheres is counted twice",
+            lambda run, k, m: abs(sums(last(run))[1] / (8 * np.pi / 3) - 1) < 0.01,
+        ),
     ],
     "union": [
-        Claim(r"0\.1 % off with 32 cells, where the meshes were 17\.5 %", of_preset(lambda run, k, m:
-              last(run).now.across[-1] == 32
-              and abs(abs(last(run).now.volumes[-1] / truth(last(run))[1] - 1) - 0.0012) < 1e-4)),
+        Claim(
+            r"0\.1 % off with 32 cells, where the meshes were 17\.5 %",
+            of_preset(
+                lambda run, k, m: (
+                    last(run).now.across[-1] == 32
+                    and abs(abs(last(run).now.volumes[-1] / truth(last(run))[1] - 1) - 0.0012)
+                    < 1e-4
+                )
+            ),
+        ),
     ],
     "lantern": [
-        Claim(r"11 in a ring, in 121 bands", lambda run, k, m: (run.params.sectors, run.params.rings) == (11, 121)),
+        Claim(
+            r"11 in a ring, in 121 bands",
+            lambda run, k, m: (run.params.sectors, run.params.rings) == (11, 121),
+        ),
     ],
     "stratified": [
-        Claim(r"an error that falls faster", lambda run, k, m:
-              abs(last(run).volume_error) < 0.5 * last(run).now.estimates.errors[-1] / truth(last(run))[1]),
+        Claim(
+            r"an error that falls faster",
+            lambda run, k, m: (
+                abs(last(run).volume_error)
+                < 0.5 * last(run).now.estimates.errors[-1] / truth(last(run))[1]
+            ),
+        ),
     ],
     "alike": [
-        Claim(r"86 % of the points there, for 60 % of the area", of_preset(lambda run, k, m:
-              abs(last(run).half_hits - 0.86) < 0.005 and abs(last(run).half_share - 0.6) < 0.005)),
+        Claim(
+            r"86 % of the points there, for 60 % of the area",
+            of_preset(
+                lambda run, k, m: (
+                    abs(last(run).half_hits - 0.86) < 0.005
+                    and abs(last(run).half_share - 0.6) < 0.005
+                )
+            ),
+        ),
     ],
     "no-root": [
-        Claim(r"half of all points crowd at corner a", lambda run, k, m:
-              abs(run.states[3].quarters[0] - 0.5) < 0.03),
+        Claim(
+            r"half of all points crowd at corner a",
+            lambda run, k, m: abs(run.states[3].quarters[0] - 0.5) < 0.03,
+        ),
     ],
     "normalised": [
-        Claim(r"half of all points crowd in the middle quarter", lambda run, k, m:
-              abs(run.states[3].quarters[3] - 0.5) < 0.03),
+        Claim(
+            r"half of all points crowd in the middle quarter",
+            lambda run, k, m: abs(run.states[3].quarters[3] - 0.5) < 0.03,
+        ),
     ],
     "lines": [
-        Claim(r"0\.4 % off with 4,000 lines", of_preset(lambda run, k, m:
-              abs(abs(last(run).area_error) - 0.004) < 5e-4)),
+        Claim(
+            r"0\.4 % off with 4,000 lines",
+            of_preset(lambda run, k, m: abs(abs(last(run).area_error) - 0.004) < 5e-4),
+        ),
     ],
 }
 
@@ -337,31 +449,56 @@ LINES = {
 def _tenfold(run: Run, k: int, m: re.Match[str]) -> bool:
     now = last(run).now
     assert isinstance(now, Throws)
-    errors = dict(zip(now.estimates.counts, np.array(now.estimates.errors) / truth(last(run))[1], strict=True))
+    errors = dict(
+        zip(now.estimates.counts, np.array(now.estimates.errors) / truth(last(run))[1], strict=True)
+    )
     said = says_percent(m[2], errors[1000]) and says_percent(m[3], errors[100_000])
     return said and abs(number(m[1]) - 100) < 1 and abs(errors[1000] / errors[100_000] - 10) < 0.3
 
 
 WHYS = {
     "predict-walls": [
-        Claim(rf"With 16 cells {VALUE} times, with 64 cells {VALUE} times", lambda run, k, m:
-              abs(number(m[1]) - shares(run)[4]) < 0.0051 and abs(number(m[2]) - shares(run)[-1]) < 0.0051
-              and last(run).now.across[4] == 16 and last(run).now.across[-1] == 64),
+        Claim(
+            rf"With 16 cells {VALUE} times, with 64 cells {VALUE} times",
+            lambda run, k, m: (
+                abs(number(m[1]) - shares(run)[4]) < 0.0051
+                and abs(number(m[2]) - shares(run)[-1]) < 0.0051
+                and last(run).now.across[4] == 16
+                and last(run).now.across[-1] == 64
+            ),
+        ),
     ],
     "predict-tenth": [
-        Claim(rf"{VALUE} times: the standard error falls from {PERCENT} at 1,000 throws to {PERCENT} at 100,000", _tenfold),
+        Claim(
+            rf"{VALUE} times: the standard error falls from {PERCENT} at 1,000 throws to {PERCENT}"
+            r" at 100,000",
+            _tenfold,
+        ),
     ],
     "predict-hits": [
-        Claim(r"^(\d+)\. The corners take over", lambda run, k, m: number(m[1]) == last(run).now.hits[-1]),
-        Claim(r"a quarter of a per cent of its cube", lambda run, k, m: abs(ball_share(10) - 0.0025) < 1e-4),
+        Claim(
+            r"^(\d+)\. The corners take over",
+            lambda run, k, m: number(m[1]) == last(run).now.hits[-1],
+        ),
+        Claim(
+            r"a quarter of a per cent of its cube",
+            lambda run, k, m: abs(ball_share(10) - 0.0025) < 1e-4,
+        ),
         Claim(r"at twenty no throw finds it", lambda run, k, m: 100_000 * ball_share(20) < 0.01),
     ],
     "predict-inscribed": [
-        Claim(rf"The area is {PERCENT} too small, the volume {PERCENT}", lambda run, k, m:
-              says_percent(m[1], 1 - sums(last(run))[0] / (4 * np.pi)) and says_percent(m[2], lost(run))),
+        Claim(
+            rf"The area is {PERCENT} too small, the volume {PERCENT}",
+            lambda run, k, m: (
+                says_percent(m[1], 1 - sums(last(run))[0] / (4 * np.pi))
+                and says_percent(m[2], lost(run))
+            ),
+        ),
     ],
     "predict-lantern": [
-        Claim(rf"{VALUE} times that of the cylinder", lambda run, k, m: abs(number(m[1]) - lantern_area(11, 121)) < 0.0051),
+        Claim(
+            rf"{VALUE} times that of the cylinder",
+            lambda run, k, m: abs(number(m[1]) - lantern_area(11, 121)) < 0.0051,
+        ),
     ],
 }
-# fmt: on

@@ -1,4 +1,6 @@
-"""When the sentences of the pose lesson are true, decided by scipy's rotations and plain sums from its states."""
+"""When the sentences of the pose lesson are true, decided by scipy's rotations and plain sums from
+its states.
+"""
 
 import re
 from collections.abc import Iterator
@@ -14,12 +16,15 @@ from lessons.pose.trials import ANEW
 from tests.readings import LENGTH, NUMBER, near, near_length, number
 from tests.truths.pose import is_near, is_right, off, pixels_off, rms, share_near
 from tests.verdicts import Claim, Run
-from workbench.data.sightings import random_views
-from workbench.geometry.camera_motions import sqpnp
-from workbench.geometry.control_points import epnp
+from workbench.data.views.sightings import random_views
+from workbench.geometry.cameras.camera_motions import sqpnp
+from workbench.geometry.cameras.control_points import epnp
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right", "until_the_end"]
-OF_MANY = {replace(one.params, seed=0) for one in (*lesson.questions, lesson.preset("tiny"), lesson.preset("safe"))}
+OF_MANY = {
+    replace(one.params, seed=0)
+    for one in (*lesson.questions, lesson.preset("tiny"), lesson.preset("safe"))
+}
 """Params whose sentences speak of the other pictures."""
 
 
@@ -72,7 +77,9 @@ def swapped(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def counted(run: Run, k: int, m: re.Match[str]) -> bool:
     state = run.states[k]
-    return float(m[1]) == sum(is_near(T, state.subject) for T in state.now.Ts) and m[2] == str(state.now.pictures)
+    return float(m[1]) == sum(is_near(T, state.subject) for T in state.now.Ts) and m[2] == str(
+        state.now.pictures
+    )
 
 
 def all_right(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -87,7 +94,9 @@ def turned_far(run: Run, k: int, m: re.Match[str]) -> bool:
     xy = xy + params.noise / params.f * rng.standard_normal(xy.shape)
     for solver, said in ((epnp, m[1]), (sqpnp, m[2])):
         found = np.stack([solver(a, b)[:3, :3] for a, b in zip(p, xy, strict=True)])
-        far = (Rotation.from_matrix(found) * Rotation.from_matrix(R_true).inv()).magnitude() > np.radians(5)
+        far = (
+            Rotation.from_matrix(found) * Rotation.from_matrix(R_true).inv()
+        ).magnitude() > np.radians(5)
         if abs(number(said) - 100 * far.mean()) > 0.51:
             return False
     return True
@@ -113,11 +122,15 @@ def others(run: Run) -> Repeated:
 
 def of_stop(run: Run) -> int:
     """Where the way down ends."""
-    return next(k for k, state in enumerate(run.states) if getattr(state.now, "phase", "") == "stop")
+    return next(
+        k for k, state in enumerate(run.states) if getattr(state.now, "phase", "") == "stop"
+    )
 
 
 def left_to_chance(run: Run, k: int, m: re.Match[str]) -> bool:
-    """In a good part of the pictures, but not in most, the other pose fits better; by less than the noise adds up to."""
+    """In a good part of the pictures, but not in most, the other pose fits better; by less than the
+    noise adds up to.
+    """
     found = others(run)
     assert found.swapped is not None
     return 0.15 < found.swapped / found.pictures < 0.7
@@ -129,19 +142,24 @@ LINES = {
         Claim(
             r"the same noise, and it ends right",
             lambda run, k, m: (
-                bool(is_right(run.states[of_stop(run)])) and share_near(others(run), run.states[0].subject) == 1
+                bool(is_right(run.states[of_stop(run)]))
+                and share_near(others(run), run.states[0].subject) == 1
             ),
         ),
     ),
     "believed": (
-        Claim(r"^Two wrong points of twenty", lambda run, k, m: int(run.states[0].subject.given.is_outlier.sum()) == 2),
+        Claim(
+            r"^Two wrong points of twenty",
+            lambda run, k, m: int(run.states[0].subject.given.is_outlier.sum()) == 2,
+        ),
     ),
 }
 
 WHYS = {
     "predict-few": (
         Claim(
-            rf"^In ({NUMBER}) % by this implementation, by OpenCV's in about twice as many, and SQPnP's in ({NUMBER}) %",
+            rf"^In ({NUMBER}) % by this implementation, by OpenCV's in about twice as many, and"
+            rf" SQPnP's in ({NUMBER}) %",
             lambda run, k, m: turned_far(run, len(run.states) - 1, m),
         ),
     ),
@@ -149,7 +167,8 @@ WHYS = {
         Claim(
             rf"^By ({NUMBER})° in the middle of 40 pictures",
             lambda run, k, m: near(
-                m[1], float(np.median([off(T, run.states[0].subject.T_true)[0] for T in others(run).Ts]))
+                m[1],
+                float(np.median([off(T, run.states[0].subject.T_true)[0] for T in others(run).Ts])),
             ),
         ),
     ),

@@ -1,4 +1,6 @@
-"""What the RANSAC lesson says of its runs, decided from the rows and the truth that a state carries."""
+"""What the RANSAC lesson says of its runs, decided from the rows and the truth that a state
+carries.
+"""
 
 import dataclasses
 import re
@@ -31,7 +33,17 @@ from tests.verdicts import Claim, Run
 
 __all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
 
-NUMBERS = {"no": 0, "none": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7}
+NUMBERS = {
+    "no": 0,
+    "none": 0,
+    "one": 1,
+    "two": 2,
+    "three": 3,
+    "four": 4,
+    "five": 5,
+    "six": 6,
+    "seven": 7,
+}
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -49,7 +61,9 @@ def distance(name: str) -> str:
 
 
 def same(said: str, value: float) -> bool:
-    """Whether a distance as it is written is this one, to the digits that are written: of thousands of pixels two."""
+    """Whether a distance as it is written is this one, to the digits that are written: of thousands
+    of pixels two.
+    """
     return (
         near(said.removesuffix(" px"), value, 3 if value < 1e3 else 2)
         if said.endswith("px")
@@ -68,7 +82,11 @@ def counted(run: Run, k: int, found: re.Match[str]) -> bool:
     """So many rows lie within the limit of the estimate in question."""
     state = run.states[k]
     estimate = state.now.estimate if state.now.phase == "inliers" else state.now.best.estimate
-    limit = state.params.inlier_pixels if state.subject.model.unit == "px" else state.params.inlier_distance
+    limit = (
+        state.params.inlier_pixels
+        if state.subject.model.unit == "px"
+        else state.params.inlier_distance
+    )
     count = np.count_nonzero(apart(state.subject.model.name, estimate, state.subject.p) <= limit)
     return same(found["limit"], limit) and number(found["n"]) == count
 
@@ -117,13 +135,19 @@ def refit(run: Run, k: int, found: re.Match[str]) -> bool:
     counts = [np.count_nonzero(each.now.best.inliers) for each in (before, state)]
     errors = [error(state, each.now.best.estimate) for each in (before, state)]
     said = [number(found[name]) for name in ("n", "old", "new")]
-    return said == [counts[0], *counts] and same(found["was"], errors[0]) and same(found["is"], errors[1])
+    return (
+        said == [counts[0], *counts]
+        and same(found["was"], errors[0])
+        and same(found["is"], errors[1])
+    )
 
 
 def stopped(run: Run, k: int, found: re.Match[str]) -> bool:
     state = run.states[k]
     last_best = [each for each in run.states[:k] if each.now.phase == "best"][-1]
-    asked = enough_for(share_for_stop(last_best), state.subject.model.sample_size, state.params.confidence)
+    asked = enough_for(
+        share_for_stop(last_best), state.subject.model.sample_size, state.params.confidence
+    )
     drawn = number(found["n"])
     if found["why"].startswith("enough"):
         return drawn == state.now.iteration >= asked
@@ -154,11 +178,18 @@ def errors_are(run: Run, k: int, found: re.Match[str]) -> bool:
 
 ROWS = r"(points|matches)"
 CAPTIONS = (
-    Claim(rf"Of its (?P<size>\w+) {ROWS} (?P<n>\w+) (is an outlier|are outliers) in truth", outliers_of),
-    Claim(rf"(?P<n>[\d,]+) of [\d,]+ {ROWS} (lie|are) within {distance('limit')} of (its|the) \w+", counted),
+    Claim(
+        rf"Of its (?P<size>\w+) {ROWS} (?P<n>\w+) (is an outlier|are outliers) in truth",
+        outliers_of,
+    ),
+    Claim(
+        rf"(?P<n>[\d,]+) of [\d,]+ {ROWS} (lie|are) within {distance('limit')} of (its|the) \w+",
+        counted,
+    ),
     Claim(r"The best so far has (?P<n>[\d,]+) votes?( \([^)]*\))?: it stays", stays),
     Claim(
-        r"New best after (?P<after>[\d,]+) samples?: (?P<n>[\d,]+) votes?( \([^)]*\))?, (?P<share>\d+) % of all",
+        r"New best after (?P<after>[\d,]+) samples?: (?P<n>[\d,]+) votes?( \([^)]*\))?,"
+        r" (?P<share>\d+) % of all",
         is_new_best,
     ),
     Claim(r"Of the (?P<n>[\d,]+) most trusted (?P<share>\d+) % vote for it", trusted),
@@ -167,18 +198,21 @@ CAPTIONS = (
         lambda run, k, _: most_trusted(run.states[k]) == (0, 0.0),
     ),
     Claim(
-        r"If that is the share of inliers, (the )?(?P<n>[\d,]+) samples? (allowed )?give (?P<no>no )?(?P<p>[\d.]+) %"
+        r"If that is the share of inliers, (the )?(?P<n>[\d,]+) samples? (allowed )?give (?P<no>no"
+        r" )?(?P<p>[\d.]+) %"
         r" confidence that one of them is free of outliers",
         draws_needed,
     ),
     Claim(
-        r"least squares on the (?P<n>[\d,]+) that voted for it, then all vote anew: (?P<old>[\d,]+) → (?P<new>[\d,]+) votes;"
+        r"least squares on the (?P<n>[\d,]+) that voted for it, then all vote anew: (?P<old>[\d,]+)"
+        r" → (?P<new>[\d,]+) votes;"
         rf" RMS error to the truth {distance('was')} → {distance('is')}",
         refit,
     ),
     Claim(rf"RMS error to the truth {distance('n')}(?! →)\b", error_is),
     Claim(
-        r"Stop after (?P<n>[\d,]+) samples?: (?P<why>enough samples for the confidence asked for|the maximum number of"
+        r"Stop after (?P<n>[\d,]+) samples?: (?P<why>enough samples for the confidence asked"
+        r" for|the maximum number of"
         r" samples is reached)",
         stopped,
     ),
@@ -190,14 +224,16 @@ CAPTIONS = (
     ),
     Claim(
         r"It looks settled, and it is wrong",
-        lambda run, k, _: not is_right(run.states[k]) and run.states[k].now.iteration < run.params.most_samples,
+        lambda run, k, _: (
+            not is_right(run.states[k]) and run.states[k].now.iteration < run.params.most_samples
+        ),
     ),
     Claim(r"It is wrong", lambda run, k, _: not is_right(run.states[k])),
     Claim(r"of the truth|to the truth|in truth", None),
 )
 
 
-# preset lines -------------------------------------------------------------------------------------------------------
+# preset lines -------------------------------------------------------------------------------------
 
 
 def at(seed: int, holds: Callable[[Run], bool]) -> Callable[[Run, int, re.Match[str]], bool]:
@@ -211,15 +247,22 @@ def both_kept(run: Run) -> bool:
 
 
 def twice_as_many(run: Run, k: int, found: re.Match[str]) -> bool:
-    """Of the points on either plane: the wall is upright in the table's own directions, 1 m from its middle."""
+    """Of the points on either plane: the wall is upright in the table's own directions, 1 m from
+    its middle.
+    """
     state = run.states[-1]
-    wall = state.now.best.inliers & ~state.subject.is_inlier  # the final plane, where that is upright, is the wall
+    wall = (
+        state.now.best.inliers & ~state.subject.is_inlier
+    )  # the final plane, where that is upright, is the wall
     upright = abs(state.now.best.estimate[2]) < 0.3
     return upright and bool(1.8 < wall.sum() / state.subject.is_inlier.sum() < 2.3)
 
 
 def sooner(run: Run) -> bool:
-    return (drawn(run), states(dataclasses.replace(run.params, local_refit=False))[-1].now.iteration) == (53, 80)
+    return (
+        drawn(run),
+        states(dataclasses.replace(run.params, local_refit=False))[-1].now.iteration,
+    ) == (53, 80)
 
 
 def trusted_ends(run: Run) -> bool:
@@ -238,33 +281,52 @@ def on_a_wire(run: Run, k: int, found: re.Match[str]) -> bool:
     """The picked points are on one line, give no plane, and another sample follows."""
     first, second = run.states[0], run.states[1]
     line = np.linalg.matrix_rank(np.diff(first.subject.p[first.now.sample], axis=0), tol=1e-9) == 1
-    return line and first.chosen and second.now.phase == "degenerate" and run.states[2].now.iteration == 2
+    return (
+        line
+        and first.chosen
+        and second.now.phase == "degenerate"
+        and run.states[2].now.iteration == 2
+    )
 
 
 LINES = {
     "thirty": (
-        Claim("A third of all samples is clean", lambda run, k, _: abs(clean(run, 3) - 1 / 3) < 0.02),
-        Claim("13 are enough here", at(2, lambda run: drawn(run) == 13 and last_error(run) < 0.005)),
         Claim(
-            "drag least squares 15 cm off", lambda run, k, _: abs(error_of_rival(run, "least squares") - 0.15) < 0.01
+            "A third of all samples is clean", lambda run, k, _: abs(clean(run, 3) - 1 / 3) < 0.02
+        ),
+        Claim(
+            "13 are enough here", at(2, lambda run: drawn(run) == 13 and last_error(run) < 0.005)
+        ),
+        Claim(
+            "drag least squares 15 cm off",
+            lambda run, k, _: abs(error_of_rival(run, "least squares") - 0.15) < 0.01,
         ),
     ),
     "seventy": (
-        Claim("Only one sample in 37 is clean", lambda run, k, _: abs(1 / clean(run, 3) - 37) < 0.5),
+        Claim(
+            "Only one sample in 37 is clean", lambda run, k, _: abs(1 / clean(run, 3) - 37) < 0.5
+        ),
         Claim("126 are drawn", at(2, lambda run: drawn(run) == 126)),
-        Claim("the plane is still only 3 mm off", at(2, lambda run: near("3", 1e3 * last_error(run), 1))),
+        Claim(
+            "the plane is still only 3 mm off",
+            at(2, lambda run: near("3", 1e3 * last_error(run), 1)),
+        ),
     ),
     "tight": (
         Claim(
             "4 mm is a quarter of the noise",
             lambda run, k, _: abs(run.params.inlier_distance / run.params.noise - 0.25) < 0.03,
         ),
-        Claim("three in four true points are refused", lambda run, k, _: abs(refused(run) - 0.75) < 0.1),
+        Claim(
+            "three in four true points are refused",
+            lambda run, k, _: abs(refused(run) - 0.75) < 0.1,
+        ),
         Claim(
             "500 samples do not suffice",
             lambda run, k, _: (
                 drawn(run) == run.params.most_samples == 500
-                and enough_for(np.count_nonzero(run.states[-1].now.best.inliers) / 600, 3, 0.99) > 500
+                and enough_for(np.count_nonzero(run.states[-1].now.best.inliers) / 600, 3, 0.99)
+                > 500
             ),
         ),
         Claim(
@@ -274,44 +336,65 @@ LINES = {
     ),
     "loose": (
         Claim(
-            "0.3 m is 20 sigma", lambda run, k, _: bool(np.isclose(run.params.inlier_distance, 20 * run.params.noise))
+            "0.3 m is 20 sigma",
+            lambda run, k, _: bool(np.isclose(run.params.inlier_distance, 20 * run.params.noise)),
         ),
         Claim("clutter votes too", lambda run, k, _: clutter_votes(run)),
         Claim("13 samples satisfy the formula", at(0, lambda run: drawn(run) == 13)),
         Claim("the plane ends 4 cm off", lambda run, k, _: abs(last_error(run) - 0.04) < 0.005),
     ),
     "msac": (
-        Claim("A count cannot tell 1 mm from 149 mm. MSAC can", lambda run, k, _: run.params.inlier_distance == 0.15),
         Claim(
-            "the sample that it keeps is 5 mm from the truth; the one that a count keeps is 49 mm off", at(0, both_kept)
+            "A count cannot tell 1 mm from 149 mm. MSAC can",
+            lambda run, k, _: run.params.inlier_distance == 0.15,
+        ),
+        Claim(
+            "the sample that it keeps is 5 mm from the truth; the one that a count keeps is 49"
+            " mm off",
+            at(0, both_kept),
         ),
     ),
-    "two-planes": (Claim("a wall with twice as many points", twice_as_many), Claim("each new best", None)),
+    "two-planes": (
+        Claim("a wall with twice as many points", twice_as_many),
+        Claim("each new best", None),
+    ),
     "collinear": (
         Claim(
-            "You picked three points of a taut wire: a whole pencil of planes goes through them. The sample is lost, and"
-            " still counts as drawn",
+            "You picked three points of a taut wire: a whole pencil of planes goes through them."
+            " The sample is lost, and still counts as drawn",
             on_a_wire,
         ),
     ),
     "near-sample": (
         Claim("three points that truly belong to the plane, close together", picked_are_inliers),
-        Claim("the next step counts who is near it", lambda run, k, _: run.states[2].now.phase == "inliers"),
+        Claim(
+            "the next step counts who is near it",
+            lambda run, k, _: run.states[2].now.phase == "inliers",
+        ),
     ),
     "rivals": (Claim("RANSAC's and the truth", None),),
     "local": (
-        Claim("gathers its votes sooner: the run ends after 53 samples in place of 80", at(7, sooner)),
+        Claim(
+            "gathers its votes sooner: the run ends after 53 samples in place of 80", at(7, sooner)
+        ),
         Claim("Refit every new best|each new best", None),
     ),
-    "prosac": (Claim("to know when to stop: after 14 samples, where chance draws 375", at(0, trusted_ends)),),
+    "prosac": (
+        Claim(
+            "to know when to stop: after 14 samples, where chance draws 375", at(0, trusted_ends)
+        ),
+    ),
     "epipolar": (
-        Claim("seven at once must be free of outliers", lambda run, k, _: len(run.states[0].now.sample) in (0, 7)),
+        Claim(
+            "seven at once must be free of outliers",
+            lambda run, k, _: len(run.states[0].now.sample) in (0, 7),
+        ),
         Claim("at 30 %", lambda run, k, _: abs(clean(run, 1) - 0.7) < 0.01),
     ),
 }
 
 
-# explanations -------------------------------------------------------------------------------------------------------
+# explanations -------------------------------------------------------------------------------------
 
 
 def of_one_sample(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -357,7 +440,8 @@ def three_errors(run: Run, k: int, found: re.Match[str]) -> bool:
 WHYS = {
     "predict-needed": (
         Claim(
-            r"clean with probability (?P<w>[\d.]+)³ = (?P<cube>[\d.]+), and (?P<spoilt>[\d.]+) to the power (?P<n>\d+) falls"
+            r"clean with probability (?P<w>[\d.]+)³ = (?P<cube>[\d.]+), and (?P<spoilt>[\d.]+) to"
+            r" the power (?P<n>\d+) falls"
             r" below 0\.01",
             of_one_sample,
         ),
@@ -378,14 +462,18 @@ WHYS = {
     "predict-size": (
         Claim(
             r"samples of four need (\d+) draws, samples of seven (\d+)",
-            lambda run, k, found: (int(found[1]), int(found[2])) == (at_true_share(run, 4), at_true_share(run, 7)),
+            lambda run, k, found: (
+                (int(found[1]), int(found[2])) == (at_true_share(run, 4), at_true_share(run, 7))
+            ),
         ),
-        Claim(r"This run drew (\d+)", lambda run, k, found: int(found[1]) == drawn(run) >= at_true_share(run, 7)),
+        Claim(
+            r"This run drew (\d+)",
+            lambda run, k, found: int(found[1]) == drawn(run) >= at_true_share(run, 7),
+        ),
     ),
     "predict-huber": (
         Claim(
-            rf"RANSAC {distance('r')}, Huber {distance('h')}, least squares {distance('s')}"
-            " off",
+            rf"RANSAC {distance('r')}, Huber {distance('h')}, least squares {distance('s')}" " off",
             three_errors,
         ),
         Claim("here nearly all of them pull upwards", pull_upwards),

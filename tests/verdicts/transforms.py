@@ -48,7 +48,9 @@ def caption(state: Any) -> Caption:
 
 
 def right(run: Run, k: int) -> bool | None:
-    """A build is right where what it shows as done is so; a move at its end, rigid and by the shortest turn."""
+    """A build is right where what it shows as done is so; a move at its end, rigid and by the
+    shortest turn.
+    """
     state = run.states[k]
     if isinstance(state, Moved):
         if np.abs(volumes(run, k)[-1] - 1) > SMALL:
@@ -56,7 +58,9 @@ def right(run: Run, k: int) -> bool | None:
         if k < len(run.states) - 1:
             return None
         shortest = turn_between(*poses(run.params))
-        return bool(met(run) and np.ptp(volumes(run, k)) < SMALL and turned(run, k).sum() < shortest + 0.1)
+        return bool(
+            met(run) and np.ptp(volumes(run, k)) < SMALL and turned(run, k).sum() < shortest + 0.1
+        )
     if state.factor.kind == "undo":
         wrong = state.ghosts and farthest(*wrong_undo(run), state.body.solid.p) > SMALL
         return bool(left_after_undo(run) < SMALL and not wrong)
@@ -65,7 +69,7 @@ def right(run: Run, k: int) -> bool | None:
     return True
 
 
-# The sentences --------------------------------------------------------------------------------------------------------
+# The sentences ------------------------------------------------------------------------------------
 
 
 def _start(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -101,7 +105,9 @@ def _divided(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _mirrored(run: Run, k: int, m: re.Match[str]) -> bool:
     M = run.states[k].factor.matrix[:3, :3]
-    return close(M.T @ M, np.eye(3)) and says(m[1], float(np.linalg.det(M))) and np.linalg.det(M) < 0
+    return (
+        close(M.T @ M, np.eye(3)) and says(m[1], float(np.linalg.det(M))) and np.linalg.det(M) < 0
+    )
 
 
 def _translated(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -119,13 +125,19 @@ def _turned(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _locked(run: Run, k: int, m: re.Match[str]) -> bool:
     triple = tuple(number(part) for part in m[1].split(", "))
-    same = close(rotation_of(run.params, triple), rotation_of(run.params, run.params.angles), atol=1e-9)
+    same = close(
+        rotation_of(run.params, triple), rotation_of(run.params, run.params.angles), atol=1e-9
+    )
     return same and triple != run.params.angles and outer_axes_apart(run.params) < 0.01
 
 
 def _beside(run: Run, k: int, m: re.Match[str]) -> bool:
     off = [distance for distance in readings(run) if distance >= SMALL]
-    low, high = (says_length(m[1], min(off)), says_length(m[2] or m[1], max(off))) if off else (False, False)
+    low, high = (
+        (says_length(m[1], min(off)), says_length(m[2] or m[1], max(off)))
+        if off
+        else (False, False)
+    )
     return low and high and k == complete_at(run)
 
 
@@ -140,7 +152,9 @@ def _all_same(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _front(run: Run, k: int, m: re.Match[str]) -> bool:
     v, w = fronts(run, k)
-    return says(m[1], float(np.degrees(np.arccos(v @ w / np.linalg.norm(v) / np.linalg.norm(w)))), 2)
+    return says(
+        m[1], float(np.degrees(np.arccos(v @ w / np.linalg.norm(v) / np.linalg.norm(w)))), 2
+    )
 
 
 def _off(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -148,22 +162,35 @@ def _off(run: Run, k: int, m: re.Match[str]) -> bool:
     origin = float(np.linalg.norm(state.T_world_body[:3, 3] - t * poses(run.params)[1][:3, 3]))
     on_path = origin < SMALL if m[2] is None else says_length(m[2], origin)
     off = turn_between(at_best(run, k), state.T_world_body)
-    return on_path and (off < 1e-5 if m[1].startswith("on the") else says(m[1].split("°")[0], off, 2))
+    return on_path and (
+        off < 1e-5 if m[1].startswith("on the") else says(m[1].split("°")[0], off, 2)
+    )
 
 
 def _gone(run: Run, k: int, m: re.Match[str]) -> bool:
     t = k / (len(run.states) - 1)
-    return says(m[1], t) and says(m[2], float(turned(run, k).sum())) and says(m[3], float(turned(run, k)[-1]))
+    return (
+        says(m[1], t)
+        and says(m[2], float(turned(run, k).sum()))
+        and says(m[3], float(turned(run, k)[-1]))
+    )
 
 
 def _volume(run: Run, k: int, m: re.Match[str]) -> bool:
     R = run.states[k].T_world_body[:3, :3]
-    return says(m[1], 100 * float(volumes(run, k)[-1]), 3) and not close(R.T @ R, np.eye(3), atol=1e-9)
+    return says(m[1], 100 * float(volumes(run, k)[-1]), 3) and not close(
+        R.T @ R, np.eye(3), atol=1e-9
+    )
 
 
 def _best_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
-    """By squares: no rotation of a grid of them about the middle brings the mirrored house nearer than Kabsch's."""
-    p, q = run.states[0].body.solid.p, mapped(product(run, complete_at(run)), run.states[0].body.solid.p)
+    """By squares: no rotation of a grid of them about the middle brings the mirrored house nearer
+    than Kabsch's.
+    """
+    p, q = (
+        run.states[0].body.solid.p,
+        mapped(product(run, complete_at(run)), run.states[0].body.solid.p),
+    )
     p, q = p - p.mean(axis=0), q - q.mean(axis=0)
     best = squares(run)
     tried = Rotation.random(400, rng=np.random.default_rng(0))
@@ -171,48 +198,77 @@ def _best_of_all(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _stays(run: Run, k: int, m: re.Match[str]) -> bool:
-    """The last body does not lie on the first, by the factors that are named, and has so much of its volume."""
+    """The last body does not lie on the first, by the factors that are named, and has so much of
+    its volume.
+    """
     p, params = run.states[0].body.solid.p, run.params
-    named = {"scale": params.scale != (1, 1, 1), "shear": params.shear != 0, "division by w": params.perspective != 0,
-             "reflection": params.mirror != "none"}  # fmt: skip
+    named = {
+        "scale": params.scale != (1, 1, 1),
+        "shear": params.shear != 0,
+        "division by w": params.perspective != 0,
+        "reflection": params.mirror != "none",
+    }
     grown = abs(volume(run, k) / volume(run, 0))
     size = abs(grown - 1) < SMALL if m[2] is None else says(m[2], grown)
     apart_by = farthest(product(run, k), np.eye(4), p)
     return (
-        m[1].split(" and the ") == [name for name, is_there in named.items() if is_there] and size and apart_by > 0.01
+        m[1].split(" and the ") == [name for name, is_there in named.items() if is_there]
+        and size
+        and apart_by > 0.01
     )
 
 
 CAPTIONS = (
     Claim("Beside it: best rigid motion", _best_of_all),
-    Claim(rf"The \S+ before anything is done: ({NUMBER}) vertices, volume ({NUMBER}) m³; T is the identity", _start),
-    Claim(rf"edges change by up to ({NUMBER}) %, volumes × ({NUMBER})", _scaled),
-    Claim(rf"angles change by up to ({NUMBER})°, yet det is ({NUMBER}): the volume stays", _sheared),
     Claim(
-        rf"straight edges stay straight, but edges that were parallel are now up to ({NUMBER})° apart. The last row of T is"
+        rf"The \S+ before anything is done: ({NUMBER}) vertices, volume ({NUMBER}) m³; T is the"
+        r" identity",
+        _start,
+    ),
+    Claim(rf"edges change by up to ({NUMBER}) %, volumes × ({NUMBER})", _scaled),
+    Claim(
+        rf"angles change by up to ({NUMBER})°, yet det is ({NUMBER}): the volume stays", _sheared
+    ),
+    Claim(
+        rf"straight edges stay straight, but edges that were parallel are now up to ({NUMBER})°"
+        r" apart. The last row of T is"
         " no longer 0 0 0 1",
         _divided,
     ),
     Claim(
-        rf"det is ({NUMBER}). Every length and angle is kept, but a left hand would now be a right one; no rotation does"
+        rf"det is ({NUMBER}). Every length and angle is kept, but a left hand would now be a right"
+        r" one; no rotation does"
         " that",
         _mirrored,
     ),
     Claim(rf"every point \(w = 1\) moved ({LENGTH}), every direction \(w = 0\) 0 m", _translated),
     Claim(rf"vertex (\d+) moved ({LENGTH}), and every length, angle and volume survived", _turned),
-    Claim("that is not at all: nothing moved", lambda run, k, m: bool(moved_by(run, k).max() < SMALL)),
-    Claim(r"Gimbal lock: angles 1 and 3 turn about one axis; \((.*?)\)° is the same rotation", _locked),
-    Claim(rf"(?<=, )farthest vertex ({LENGTH})(?: to ({LENGTH}))? off", lambda run, k, m: _beside(run, k, m) and len(
-        readings(run)) == sum(distance >= SMALL for distance in readings(run))),
+    Claim(
+        "that is not at all: nothing moved", lambda run, k, m: bool(moved_by(run, k).max() < SMALL)
+    ),
+    Claim(
+        r"Gimbal lock: angles 1 and 3 turn about one axis; \((.*?)\)° is the same rotation", _locked
+    ),
+    Claim(
+        rf"(?<=, )farthest vertex ({LENGTH})(?: to ({LENGTH}))? off",
+        lambda run, k, m: (
+            _beside(run, k, m)
+            and len(readings(run)) == sum(distance >= SMALL for distance in readings(run))
+        ),
+    ),
     Claim(rf"(?<=: )farthest vertex ({LENGTH})(?: to ({LENGTH}))? off", _beside),
     Claim(rf"({NUMBER}) of ({NUMBER}) the same", _count),
     Claim(rf"(?:all ({NUMBER}) )?the same motion", _all_same),
     Claim(rf"The front taken with w = 1 points ({NUMBER})° away from it", _front),
     Claim(
         rf"all ({NUMBER}) vertices are where they were before the motion",
-        lambda run, k, m: left_after_undo(run) < SMALL and number(m[1]) == len(run.states[0].body.solid.p),
+        lambda run, k, m: (
+            left_after_undo(run) < SMALL and number(m[1]) == len(run.states[0].body.solid.p)
+        ),
     ),
-    Claim(rf"The (.*?) came before it and stays?(?:, and with it the volume × ({NUMBER}))?\.", _stays),
+    Claim(
+        rf"The (.*?) came before it and stays?(?:, and with it the volume × ({NUMBER}))?\.", _stays
+    ),
     Claim(
         rf"leaves its farthest vertex ({LENGTH}) off",
         lambda run, k, m: says_length(m[1], farthest(*wrong_undo(run), run.states[0].body.solid.p)),
@@ -221,17 +277,23 @@ CAPTIONS = (
         rf"[Tt]he shortest turn(?: to the end)? is ({NUMBER})°",
         lambda run, k, m: says(m[1], turn_between(*poses(run.params))),
     ),
-    Claim(rf"t = ({NUMBER}) by .*: turned ({NUMBER})° so far, pose by pose, ({NUMBER})° of it in this step", _gone),
+    Claim(
+        rf"t = ({NUMBER}) by .*: turned ({NUMBER})° so far, pose by pose, ({NUMBER})° of it in this"
+        r" step",
+        _gone,
+    ),
     Claim(rf"the volume is ({NUMBER}) % of the start's, so this is no rotation", _volume),
     Claim(
-        rf"((?:{NUMBER}° from|on) the shortest turn)(?:, its origin ({LENGTH}) from where lerp has it)?", _off
+        rf"((?:{NUMBER}° from|on) the shortest turn)(?:, its origin ({LENGTH}) from where lerp has"
+        r" it)?",
+        _off,
     ),
     Claim(
         rf"on the way the volume fell to ({NUMBER}) %",
         lambda run, k, m: says(m[1], 100 * float(volumes(run, k).min()), 3),
     ),
     Claim("The end is met", lambda run, k, m: met(run)),
-)  # fmt: skip
+)
 
 
 def _order(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -247,22 +309,34 @@ def _helix(run: Run, k: int, m: re.Match[str]) -> bool:
     climb, flat = np.diff(origins @ n), origins - np.outer(origins @ n, n)
     c = np.linalg.lstsq(2 * np.diff(flat, axis=0), np.diff((flat**2).sum(axis=1)))[0]
     radius = np.linalg.norm(flat - c, axis=1)
-    return bool(np.ptp(climb) < SMALL and abs(climb[0]) > 1e-3 and np.ptp(radius) < 1e-6 and radius[0] > 0.1)
+    return bool(
+        np.ptp(climb) < SMALL and abs(climb[0]) > 1e-3 and np.ptp(radius) < 1e-6 and radius[0] > 0.1
+    )
 
 
 def _squeezed(run: Run, k: int, m: re.Match[str]) -> bool:
     middle = run.states[(len(run.states) - 1) // 2]
     long, *short = np.linalg.svd(middle.T_world_body[:3, :3])[1]
-    return bool(close(long, 1) and max(short) < 0.1) and close(turn_between(*poses(run.params)), 170)
+    return bool(close(long, 1) and max(short) < 0.1) and close(
+        turn_between(*poses(run.params)), 170
+    )
 
 
 def _layers(run: Run, k: int, m: re.Match[str]) -> bool:
     S, p = run.states[1].factor.matrix, run.states[0].body.solid.p
     moved = mapped(S, p) - p
-    flat = np.abs(moved[:, 2]).max() < SMALL and np.abs(np.diff(moved[np.argsort(p[:, 2]), 0]) >= -SMALL).all()
+    flat = (
+        np.abs(moved[:, 2]).max() < SMALL
+        and np.abs(np.diff(moved[np.argsort(p[:, 2]), 0]) >= -SMALL).all()
+    )
     parallel = apart(run, 1) < 1e-4
     changed = np.abs(lengths(run, 1) / lengths(run, 0) - 1).max() > 0.05
-    return bool(flat and parallel and changed and np.abs(corner_angles(run, 1) - corner_angles(run, 0)).max() > 5)
+    return bool(
+        flat
+        and parallel
+        and changed
+        and np.abs(corner_angles(run, 1) - corner_angles(run, 0)).max() > 5
+    )
 
 
 def _one_point(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -284,7 +358,10 @@ def _grown(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _misread(run: Run, k: int, m: re.Match[str]) -> bool:
     w, x, y, z = np.cos(np.radians(20)), 0, 0, np.sin(np.radians(20))
-    meant, got = Rotation.from_quat([x, y, z, w]).as_rotvec(), Rotation.from_quat([w, x, y, z]).as_rotvec()
+    meant, got = (
+        Rotation.from_quat([x, y, z, w]).as_rotvec(),
+        Rotation.from_quat([w, x, y, z]).as_rotvec(),
+    )
     ghost = run.states[complete_at(run)].ghosts[0].T[:3, :3]
     return (
         close(np.degrees(meant), (0, 0, 40))
@@ -301,13 +378,17 @@ def _misses_by_more(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _pace(run: Run, k: int, m: re.Match[str]) -> bool:
-    off = max(turn_between(at_best(run, j), state.T_world_body) for j, state in enumerate(run.states))
+    off = max(
+        turn_between(at_best(run, j), state.T_world_body) for j, state in enumerate(run.states)
+    )
     steps = turned(run, len(run.states) - 1)
     return off > 10 and steps.max() > 1.5 * steps.min()
 
 
 def _steady(run: Run, k: int, m: re.Match[str]) -> bool:
-    off = max(turn_between(at_best(run, j), state.T_world_body) for j, state in enumerate(run.states))
+    off = max(
+        turn_between(at_best(run, j), state.T_world_body) for j, state in enumerate(run.states)
+    )
     steps = turned(run, len(run.states) - 1)
     return off < SMALL and steps.max() < (1 + SMALL) * steps.min() and met(run)
 
@@ -315,62 +396,119 @@ def _steady(run: Run, k: int, m: re.Match[str]) -> bool:
 LINES = {
     "order": (Claim("a rotation turns about the world's origin, so it swings along", _order),),
     "gimbal": (
-        Claim("The pose is reached all the same, even by a whole family of triples", lambda run, k, m: (
-            max(readings(run)) < SMALL and len(readings(run)) > 2)),
+        Claim(
+            "The pose is reached all the same, even by a whole family of triples",
+            lambda run, k, m: max(readings(run)) < SMALL and len(readings(run)) > 2,
+        ),
     ),
     "conventions": (
-        Claim(r"\(40, 30, 70\)° are four different rotations", lambda run, k, m: run.params.angles == (40, 30, 70) and min(
-            turn_between(rigid(rotation_of(None, run.params.angles, a), np.zeros(3)),
-                         rigid(rotation_of(None, run.params.angles, b), np.zeros(3)))
-            for a, b in itertools.combinations(("xyz", "XYZ", "ZYX", "ZXZ"), 2)) > 5),
+        Claim(
+            r"\(40, 30, 70\)° are four different rotations",
+            lambda run, k, m: (
+                run.params.angles == (40, 30, 70)
+                and min(
+                    turn_between(
+                        rigid(rotation_of(None, run.params.angles, a), np.zeros(3)),
+                        rigid(rotation_of(None, run.params.angles, b), np.zeros(3)),
+                    )
+                    for a, b in itertools.combinations(("xyz", "XYZ", "ZYX", "ZXZ"), 2)
+                )
+                > 5
+            ),
+        ),
     ),
     "fixed-own": (
-        Claim("xyz about fixed axes is ZYX about carried axes with the numbers in reverse", lambda run, k, m: (
-            readings(run)[0] < SMALL)),
+        Claim(
+            "xyz about fixed axes is ZYX about carried axes with the numbers in reverse",
+            lambda run, k, m: readings(run)[0] < SMALL,
+        ),
         Claim("XYZ with the same numbers is not", lambda run, k, m: readings(run)[1] > 0.1),
     ),
     "mirror": (
-        Claim("Every length and angle survives, yet det is −1", lambda run, k, m: bool(
-            close(np.linalg.det(product(run, 1)), -1) and close(lengths(run, 1), lengths(run, 0)))),
-        Claim("the best of all rigid motions, by the sum of squared distances: it does not fit", lambda run, k, m: (
-            _best_of_all(run, k, m) and squares(run) > 0.1)),
+        Claim(
+            "Every length and angle survives, yet det is −1",
+            lambda run, k, m: bool(
+                close(np.linalg.det(product(run, 1)), -1)
+                and close(lengths(run, 1), lengths(run, 0))
+            ),
+        ),
+        Claim(
+            "the best of all rigid motions, by the sum of squared distances: it does not fit",
+            lambda run, k, m: _best_of_all(run, k, m) and squares(run) > 0.1,
+        ),
     ),
     "shear": (Claim("Each horizontal layer slides as it is, the higher the farther", _layers),),
     "perspective": (Claim("keeps straight lines straight.*run to one point", _one_point),),
-    "transpose": (Claim("80° from where it belongs", lambda run, k, m: close(
-        turn_between(motion_of(run.params), run.states[complete_at(run)].ghosts[0].T), 80)),),
+    "transpose": (
+        Claim(
+            "80° from where it belongs",
+            lambda run, k, m: close(
+                turn_between(motion_of(run.params), run.states[complete_at(run)].ghosts[0].T), 80
+            ),
+        ),
+    ),
     "inverse": (
         Claim(r"\(Rᵀ, −Rᵀt\) returns to the start", lambda run, k, m: left_after_undo(run) < SMALL),
         Claim(
-            rf"this quarter turn \(Rᵀ, −t\) misses it by ({NUMBER}) m, farther than t is long \(({NUMBER}) m\)",
+            rf"this quarter turn \(Rᵀ, −t\) misses it by ({NUMBER}) m, farther than t is long"
+            rf" \(({NUMBER}) m\)",
             _misses_by_more,
         ),
     ),
     "hidden-scale": (Claim("the house ends 1.3² = 1.69 times as long, wide and high", _grown),),
     "xyzw": (Claim("a turn of 40° about z has become one of 140° about x", _misread),),
-    "direction": (Claim("no longer points to the front", lambda run, k, m: (
-        float(np.linalg.norm(np.cross(*fronts(run, complete_at(run))))) > 0.1)),),
+    "direction": (
+        Claim(
+            "no longer points to the front",
+            lambda run, k, m: float(np.linalg.norm(np.cross(*fronts(run, complete_at(run))))) > 0.1,
+        ),
+    ),
     "minus-q": (
-        Claim("still arrives, but turns 300° where 60° would do", lambda run, k, m: met(run) and close(
-            turned(run, k).sum(), 300) and close(turn_between(*poses(run.params)), 60)),
-        Claim("the wrong one", lambda run, k, m: turned(run, k).sum() > turn_between(*poses(run.params)) + 1),
+        Claim(
+            "still arrives, but turns 300° where 60° would do",
+            lambda run, k, m: (
+                met(run)
+                and close(turned(run, k).sum(), 300)
+                and close(turn_between(*poses(run.params)), 60)
+            ),
+        ),
+        Claim(
+            "the wrong one",
+            lambda run, k, m: turned(run, k).sum() > turn_between(*poses(run.params)) + 1,
+        ),
     ),
     "one-axis": (Claim("the body turns about it at constant speed", _steady),),
     "wobble": (Claim("the body leaves the shortest turn and changes its pace", _pace),),
-    "average": (Claim("Two headings, 20° apart", lambda run, k, m: bool(
-        close(turn_between(*poses(run.params)), 20) and turned(run, k).sum() > 180)),),
-    "entries": (Claim("Each entry of the matrix runs evenly to that of a rotation 170° away", _squeezed),),
-    "screw": (
-        Claim("The origin follows a helix, not a straight line|the origin follows a helix, not a straight line", _helix),
+    "average": (
+        Claim(
+            "Two headings, 20° apart",
+            lambda run, k, m: bool(
+                close(turn_between(*poses(run.params)), 20) and turned(run, k).sum() > 180
+            ),
+        ),
     ),
-}  # fmt: skip
+    "entries": (
+        Claim("Each entry of the matrix runs evenly to that of a rotation 170° away", _squeezed),
+    ),
+    "screw": (
+        Claim(
+            "The origin follows a helix, not a straight line|the origin follows a helix, not a"
+            " straight line",
+            _helix,
+        ),
+    ),
+}
 
 
 def _two_directions(run: Run, k: int, m: re.Match[str]) -> bool:
     """As many as small changes of the angles reach, by finite differences."""
     R, tiny = rotation_of(run.params, run.params.angles), 1e-5
-    J = [Rotation.from_matrix(rotation_of(run.params, tuple(np.array(run.params.angles) + tiny * e)) @ R.T).as_rotvec()
-         for e in np.eye(3)]  # fmt: skip
+    J = [
+        Rotation.from_matrix(
+            rotation_of(run.params, tuple(np.array(run.params.angles) + tiny * e)) @ R.T
+        ).as_rotvec()
+        for e in np.eye(3)
+    ]
     return number(m[1]) == np.sum(np.linalg.svd(J)[1] > 1e-3 * np.radians(tiny))
 
 
@@ -383,16 +521,44 @@ def _jump(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 WHYS = {
-    "which-order": (Claim(rf"({NUMBER}) m: turned last, .* are √2 · 1.5 m apart", lambda run, k, m: says(
-        m[1], readings(run)[0]) and close(readings(run)[0], 1.5 * np.sqrt(2))),),
+    "which-order": (
+        Claim(
+            rf"({NUMBER}) m: turned last, .* are √2 · 1.5 m apart",
+            lambda run, k, m: (
+                says(m[1], readings(run)[0]) and close(readings(run)[0], 1.5 * np.sqrt(2))
+            ),
+        ),
+    ),
     "lost-direction": (
         Claim(rf"({NUMBER}): angles 1 and 3 turn about the same line", _two_directions),
         Claim(r"needs a jump from \((.*?)\)° to \((.*?)\)°", _jump),
     ),
-    "sheared-volume": (Claim(rf"It is ({NUMBER}) % of what it was.*det = ({NUMBER})", lambda run, k, m: says(
-        m[1], 100 * volume(run, 1) / volume(run, 0)) and says(m[2], float(np.linalg.det(product(run, 1))))),),
-    "mean-heading": (Claim(rf"({NUMBER})°: the number runs through 0°. The two headings are only ({NUMBER})° apart", lambda
-        run, k, m: says(m[1], float(turned(run, k).sum())) and says(m[2], turn_between(*poses(run.params)))),),
-    "mean-matrix": (Claim(rf"({NUMBER}) %: across the axis every length shrinks to cos 85° = 0.087", lambda run, k, m: says(
-        m[1], 100 * np.cos(np.radians(85)) ** 2) and says(m[1], 100 * float(volumes(run, 15)[-1]))),),
-}  # fmt: skip
+    "sheared-volume": (
+        Claim(
+            rf"It is ({NUMBER}) % of what it was.*det = ({NUMBER})",
+            lambda run, k, m: (
+                says(m[1], 100 * volume(run, 1) / volume(run, 0))
+                and says(m[2], float(np.linalg.det(product(run, 1))))
+            ),
+        ),
+    ),
+    "mean-heading": (
+        Claim(
+            rf"({NUMBER})°: the number runs through 0°. The two headings are only ({NUMBER})°"
+            r" apart",
+            lambda run, k, m: (
+                says(m[1], float(turned(run, k).sum()))
+                and says(m[2], turn_between(*poses(run.params)))
+            ),
+        ),
+    ),
+    "mean-matrix": (
+        Claim(
+            rf"({NUMBER}) %: across the axis every length shrinks to cos 85° = 0.087",
+            lambda run, k, m: (
+                says(m[1], 100 * np.cos(np.radians(85)) ** 2)
+                and says(m[1], 100 * float(volumes(run, 15)[-1]))
+            ),
+        ),
+    ),
+}

@@ -1,4 +1,6 @@
-"""A server that is attacked while somebody works there: the others go on, and nothing is left of anybody."""
+"""A server that is attacked while somebody works there: the others go on, and nothing is left of
+anybody.
+"""
 
 import asyncio
 import contextlib
@@ -7,7 +9,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from tests import fake
 from tests.fake_page import FakePage
 from tests.loops import run_apart
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 from workbench.viewer.server import Server
 
 HERE = "?lesson=fake"
@@ -27,7 +29,10 @@ async def goes_on(page: FakePage) -> None:
     """See a page make a few steps."""
     for k in (1, 4, 2, 0):
         await page.seek(k)
-        assert page.step["step"]["caption"] == Timeline(fake.lesson, fake.Params()).complete()[k].caption.text
+        assert (
+            page.step["step"]["caption"]
+            == Timeline(fake.lesson, fake.Params()).complete()[k].caption.text
+        )
 
 
 async def until(holds: Callable[[], bool]) -> None:

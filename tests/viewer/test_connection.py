@@ -1,4 +1,6 @@
-"""A page's requests on the live server, without a browser: what comes from another thread wakes a page that is at rest."""
+"""A page's requests on the live server, without a browser: what comes from another thread wakes a
+page that is at rest.
+"""
 
 import asyncio
 import json
@@ -9,9 +11,9 @@ import numpy as np
 
 from tests import fake
 from tests.loops import run_apart
-from workbench import links
 from workbench.lesson import Lesson, Preset, View
-from workbench.timeline import Timeline
+from workbench.run import links
+from workbench.run.timeline import Timeline
 from workbench.viewer.connection import PageConnection
 from workbench.viewer.runs import Runs
 
@@ -72,7 +74,9 @@ def test_steps_are_those_of_the_timeline():
         await me.at_rest()
         for k in (2, 1, 3):
             me.say(verb="seek", k=k)
-            step = await me.until(lambda message, k=k: message["tell"] == "step" and message["k"] == k)
+            step = await me.until(
+                lambda message, k=k: message["tell"] == "step" and message["k"] == k
+            )
             assert step["step"]["caption"] == here[k].caption.text
 
     talk(script)
@@ -84,7 +88,9 @@ def test_a_wish_of_another_thread_wakes_a_page_at_rest():
     async def script(me: Talk) -> None:
         me.say(verb="open", query="?lesson=fake", lesson="fake")
         await me.at_rest()
-        threading.Timer(0.2, lambda: me.student.tell_where(fake.lesson, news)).start()  # when the loop sleeps
+        threading.Timer(
+            0.2, lambda: me.student.tell_where(fake.lesson, news)
+        ).start()  # when the loop sleeps
         await me.until(lambda message: message["tell"] == "notice")
 
     talk(script)
@@ -97,7 +103,9 @@ def test_another_caption_draws_no_scene_anew():
         assert me.scenes
         me.scenes.clear()
         me.say(verb="change", values={"angle": "steep"})
-        await me.until(lambda message: message["tell"] == "step" and message["step"]["tone"] == "wrong")
+        await me.until(
+            lambda message: message["tell"] == "step" and message["step"]["tone"] == "wrong"
+        )
         me.say(verb="seek", k=3)
         await me.until(lambda message: message["tell"] == "step" and message["k"] == 3)
         assert [head["k"] for head in me.scenes] == [3]
@@ -130,7 +138,11 @@ def test_after_an_answer_a_preset_has_the_file_of_the_command_line_again(tmp_pat
 
     async def script(me: Talk) -> None:
         async def caption(points: str) -> None:
-            await me.until(lambda told: told["tell"] == "step" and f" {points} points" in told["step"]["caption"])
+            await me.until(
+                lambda told: (
+                    told["tell"] == "step" and f" {points} points" in told["step"]["caption"]
+                )
+            )
             me.told.clear()
 
         me.student.start = links.Place(fake.lesson, mine)

@@ -40,7 +40,10 @@ async def opened(address: str, query: str) -> AsyncIterator[FakePage]:
         await page.close()
 
 
-@pytest.mark.skipif(sys.platform != "linux" or not best().holds, reason=f"nothing shuts submissions in: {best().why}")
+@pytest.mark.skipif(
+    sys.platform != "linux" or not best().holds,
+    reason=f"nothing shuts submissions in: {best().why}",
+)
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
 def test_a_live_student_s_file_ends_with_the_server(tmp_path, how):
     file = tmp_path / "my_invert_rigid.py"
@@ -56,7 +59,9 @@ def test_a_live_student_s_file_ends_with_the_server(tmp_path, how):
     with running("show", "transforms", "--with", str(file), "--port", "0") as (process, address):
         pids = run_apart(visit(address))
         _, said = process.communicate(timeout=300)
-        assert (process.returncode, said) == ((0, "") if how == signal.SIGTERM else (-signal.SIGKILL, said))
+        assert (process.returncode, said) == (
+            (0, "") if how == signal.SIGTERM else (-signal.SIGKILL, said)
+        )
         until(lambda: not there(pids))
         assert not family(process.pid)
 
@@ -70,7 +75,9 @@ def test_a_lesson_that_blocks_for_ever_does_not_keep_ctrl_c_from_ending_a_server
             await page.say(verb="seek", k=4)
             async with httpx.AsyncClient(base_url=address, trust_env=False) as browser:
                 with contextlib.suppress(httpx.ReadTimeout):
-                    await browser.get("picture/blocks", timeout=0.5)  # the thread that makes pictures blocks as well
+                    await browser.get(
+                        "picture/blocks", timeout=0.5
+                    )  # the thread that makes pictures blocks as well
             with pytest.raises(TimeoutError):
                 await page.until(lambda page: page.step.get("k") == 4, 0.5)
             await page.seek(1)

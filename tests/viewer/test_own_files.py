@@ -1,4 +1,6 @@
-"""A person's own files on a page, over HTTP: bounded, under names of ours, gone with the page; no path from outside."""
+"""A person's own files on a page, over HTTP: bounded, under names of ours, gone with the page; no
+path from outside.
+"""
 
 import contextlib
 import json
@@ -17,15 +19,25 @@ from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
 from tests import fake
-from workbench import links
+from workbench.run import links
 from workbench.viewer import own_files
 from workbench.viewer.server import Server
 
 HOSTILE = (
-    "../../../etc/passwd", "..", ".", "", "/etc/passwd", "a/b.npy", "..\\..\\x.npy", "x.npy\0.txt", "x." + "a" * 300,
+    "../../../etc/passwd",
+    "..",
+    ".",
+    "",
+    "/etc/passwd",
+    "a/b.npy",
+    "..\\..\\x.npy",
+    "x.npy\0.txt",
+    "x." + "a" * 300,
     "~/.ssh/id",
-    "con.npy ", "‮ypn.exe", "x.n/../../y",
-)  # fmt: skip
+    "con.npy ",
+    "‮ypn.exe",
+    "x.n/../../y",
+)
 
 
 @pytest.fixture
@@ -53,7 +65,9 @@ class Page:
             if told and what(told):
                 return told
 
-    def give(self, content: bytes, name: str = "mine.npy", field: str = "scan", origin: str | None = None):
+    def give(
+        self, content: bytes, name: str = "mine.npy", field: str = "scan", origin: str | None = None
+    ):
         return httpx.post(
             f"{self.server.address}/files/{self.token}/{field}",
             params={"name": name},
@@ -102,17 +116,27 @@ def test_a_file_sets_its_field_stays_through_reset_and_goes_with_its_page(server
 
 
 def test_a_question_s_run_puts_a_file_aside_until_the_next_preset_or_reset(server, tmp_path):
-    for verb, more in (("reset", {}), ("run", {"run": "half"}), ("run", {"run": "default", "step": 0})):
+    for verb, more in (
+        ("reset", {}),
+        ("run", {"run": "half"}),
+        ("run", {"run": "default", "step": 0}),
+    ):
         with opened(server) as page:
             assert page.give(points(7)).status_code == 204
-            page.until(lambda told: told["tell"] == "step" and "7 points" in told["step"]["caption"])
+            page.until(
+                lambda told: told["tell"] == "step" and "7 points" in told["step"]["caption"]
+            )
             page.say(verb="predict", question="end", given=None)
             aside = page.until(lambda told: told["tell"] == "run" and told["aside"])
             assert aside["files"] == {"scan": "scan.npy"}
-            page.until(lambda told: told["tell"] == "step" and "200 points" in told["step"]["caption"])
+            page.until(
+                lambda told: told["tell"] == "step" and "200 points" in told["step"]["caption"]
+            )
             page.say(verb=verb, **more)
             assert not page.until(lambda told: told["tell"] == "run")["aside"]
-            page.until(lambda told: told["tell"] == "step" and "7 points" in told["step"]["caption"])
+            page.until(
+                lambda told: told["tell"] == "step" and "7 points" in told["step"]["caption"]
+            )
     with opened(server) as page:
         assert page.give(points(7)).status_code == 204
         page.say(verb="predict", question="end", given=None)
@@ -140,7 +164,9 @@ def test_a_name_is_never_a_path(server, tmp_path, name):
         assert page.give(points(3), name).status_code in (204, 422)
         kept = [path for path in tmp_path.rglob("*") if path.is_file()]
         assert len(kept) == 1
-        assert re.fullmatch(r"workbench-\w+/\d+/scan(\.[a-z0-9]{1,6}){0,2}", str(kept[0].relative_to(tmp_path)))
+        assert re.fullmatch(
+            r"workbench-\w+/\d+/scan(\.[a-z0-9]{1,6}){0,2}", str(kept[0].relative_to(tmp_path))
+        )
 
 
 @pytest.mark.parametrize("field", ["angle", "nope", "__class__", "..", "%2e%2e%2fscan"])
@@ -151,7 +177,9 @@ def test_only_a_field_that_names_a_file_takes_one(server, tmp_path, field):
 
 
 @pytest.mark.parametrize("with_length", [True, False])
-def test_what_is_too_large_or_empty_is_refused_and_nothing_is_kept(server, tmp_path, monkeypatch, with_length):
+def test_what_is_too_large_or_empty_is_refused_and_nothing_is_kept(
+    server, tmp_path, monkeypatch, with_length
+):
     monkeypatch.setattr(own_files, "MOST_BYTES", 100_000)
     content = bytes(150_000)
     with opened(server) as page:
@@ -159,7 +187,9 @@ def test_what_is_too_large_or_empty_is_refused_and_nothing_is_kept(server, tmp_p
         answer = page.give(content if with_length else (content[i::10] for i in range(10)))  # type: ignore[arg-type]
         assert (answer.status_code, answer.text[:24]) == (422, "this file is larger than")
         assert page.give(b"").status_code == 422
-        assert [path.stat().st_size < 1000 for path in tmp_path.rglob("*") if path.is_file()] == [True]
+        assert [path.stat().st_size < 1000 for path in tmp_path.rglob("*") if path.is_file()] == [
+            True
+        ]
         student = next(iter(server.students.values()))
         assert student.session is not None
         assert student.session.params.scan.read_bytes() == points(7)  # the one before stays
@@ -185,7 +215,9 @@ def test_files_of_the_command_line_stay_whatever_the_address_says(server, tmp_pa
                 assert student.session is not None
                 assert student.session.params.scan == mine
                 page.say(verb="change", values={"scan": "/etc/passwd", "angle": 31})
-                told = page.until(lambda told: told["tell"] == "run" and told["params"]["angle"] == 31)
+                told = page.until(
+                    lambda told: told["tell"] == "run" and told["params"]["angle"] == 31
+                )
                 assert told["files"] == {"scan": "cloud.npy"}
                 assert str(tmp_path) not in json.dumps(told)
         assert mine.exists()
@@ -194,13 +226,23 @@ def test_files_of_the_command_line_stay_whatever_the_address_says(server, tmp_pa
 
 
 @pytest.mark.parametrize("path", ["/etc/passwd", "../scan.npy", "", None, 7, ["a"], {"a": 1}])
-@pytest.mark.parametrize("verb", ["change", "open", "run", "predict", "forget", "seek", "reset", "pin"])
+@pytest.mark.parametrize(
+    "verb", ["change", "open", "run", "predict", "forget", "seek", "reset", "pin"]
+)
 def test_no_verb_takes_a_path(server, verb, path):
     with opened(server) as page:
         page.say(
-            verb=verb, values={"scan": path}, scan=path, field="scan", run=path, k=path, question=path,
-            query=f"?lesson=fake&scan={path}", lesson="fake", given=path,
-        )  # fmt: skip
+            verb=verb,
+            values={"scan": path},
+            scan=path,
+            field="scan",
+            run=path,
+            k=path,
+            question=path,
+            query=f"?lesson=fake&scan={path}",
+            lesson="fake",
+            given=path,
+        )
         page.say(verb="seek", k=1)
         page.until(lambda told: told["tell"] == "step" and told["k"] == 1)
         student = server.students[page.token]

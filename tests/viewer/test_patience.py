@@ -23,7 +23,7 @@ UNBOUND = resource.RLIM_INFINITY
 FULL = """
 import os, resource, sys
 from tests import fake
-from workbench import links
+from workbench.run import links
 from workbench.viewer.server import Server
 
 server = Server(links.Place(fake.lesson, fake.Params()))
@@ -47,7 +47,9 @@ for command in sys.stdin:
         ((UNBOUND, UNBOUND), []),
     ],
 )
-def test_a_server_asks_for_the_files_of_a_large_class_and_never_for_fewer_than_it_has(monkeypatch, limits, asked):
+def test_a_server_asks_for_the_files_of_a_large_class_and_never_for_fewer_than_it_has(
+    monkeypatch, limits, asked
+):
     found = []
     monkeypatch.setattr(resource, "getrlimit", lambda which: limits)
     monkeypatch.setattr(resource, "setrlimit", lambda which, wanted: found.append(wanted))
@@ -67,7 +69,11 @@ def test_where_it_may_have_no_more_it_goes_on(monkeypatch):
 @pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 def test_at_the_limit_of_open_files_it_says_a_line_a_second_and_open_pages_go_on():
     with subprocess.Popen(
-        [sys.executable, "-c", FULL], cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        [sys.executable, "-c", FULL],
+        cwd=ROOT,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
     ) as process:
         asked, answers, complaints = process.stdin, process.stdout, process.stderr
         assert asked is not None
@@ -105,4 +111,6 @@ def test_at_the_limit_of_open_files_it_says_a_line_a_second_and_open_pages_go_on
             process.kill()
             said = complaints.read().decode().splitlines()
         assert 1 <= len(said) <= 6, "\n".join(said)
-        assert all(line.startswith("workbench: ") and "Too many open files" in line for line in said), said
+        assert all(
+            line.startswith("workbench: ") and "Too many open files" in line for line in said
+        ), said

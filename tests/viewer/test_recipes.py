@@ -1,4 +1,6 @@
-"""The recipes of docs/serving, as they stand there: nginx before one server and before several, and the container's."""
+"""The recipes of docs/serving, as they stand there: nginx before one server and before several, and
+the container's.
+"""
 
 import asyncio
 import contextlib
@@ -21,9 +23,10 @@ import pytest
 
 from tests.fake_page import FakePage
 from tests.loops import run_apart
-from workbench import cli, flags
+from workbench import cli
 from workbench.lesson import catalog
-from workbench.timeline import Timeline
+from workbench.run import flags
+from workbench.run.timeline import Timeline
 from workbench.viewer.server import Server
 
 ROOT = Path(__file__).parents[2]
@@ -31,7 +34,9 @@ RECIPES = ROOT / "docs" / "serving"
 NGINX = shutil.which("nginx") or shutil.which("nginx", path="/usr/sbin")
 NAME = "class.example.org"
 
-needs_nginx = pytest.mark.skipif(NGINX is None, reason="no nginx here (Debian: apt-get install nginx-light)")
+needs_nginx = pytest.mark.skipif(
+    NGINX is None, reason="no nginx here (Debian: apt-get install nginx-light)"
+)
 
 
 @contextlib.contextmanager
@@ -40,14 +45,17 @@ def nginx(folder: Path, http: str, location: str) -> Iterator[int]:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     places = "".join(
-        f"{kind}_temp_path {folder}/{kind};" for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
+        f"{kind}_temp_path {folder}/{kind};"
+        for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
     )
     (folder / "nginx.conf").write_text(
-        f"daemon off; pid {folder}/pid; error_log stderr; events {{}}\n"
-        f"http {{ access_log off; {places}\n{http}\nserver {{ listen 127.0.0.1:{port};\n{location}\n}} }}\n"
+        f"daemon off; pid {folder}/pid; error_log stderr; events {{}}\nhttp {{ access_log off;"
+        f" {places}\n{http}\nserver {{ listen 127.0.0.1:{port};\n{location}\n}} }}\n"
     )
     assert NGINX is not None
-    process = subprocess.Popen([NGINX, "-p", str(folder), "-c", str(folder / "nginx.conf")], stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        [NGINX, "-p", str(folder), "-c", str(folder / "nginx.conf")], stderr=subprocess.PIPE
+    )
     try:
         deadline = time.monotonic() + 30
         while True:
@@ -73,7 +81,9 @@ def server() -> Iterator[Server]:
 
 @pytest.fixture
 def site(server, tmp_path) -> Iterator[int]:
-    location = (RECIPES / "nginx.conf").read_text().replace("127.0.0.1:8080", f"127.0.0.1:{server.port}")
+    location = (
+        (RECIPES / "nginx.conf").read_text().replace("127.0.0.1:8080", f"127.0.0.1:{server.port}")
+    )
     with nginx(tmp_path, "", location) as port:
         yield port
 
@@ -86,7 +96,9 @@ async def asked(port: int, path: str, host: str = NAME) -> tuple[int, dict[str, 
     with contextlib.suppress(OSError):
         await writer.wait_closed()
     lines = head.decode().split("\r\n")
-    headers = {name.lower(): value for name, _, value in (line.partition(": ") for line in lines[1:])}
+    headers = {
+        name.lower(): value for name, _, value in (line.partition(": ") for line in lines[1:])
+    }
     return int(lines[0].split()[1]), headers, body.decode(errors="replace")
 
 
@@ -120,7 +132,9 @@ def test_behind_a_prefix_every_address_of_a_page_leads_somewhere(site):
         assert (status, headers["location"]) == (301, "workbench/?lesson=icp&step=3")
         status, _, page = await asked(site, "/workbench/?lesson=icp")
         assert status == 200
-        found = [one for one in re.findall(r'(?:src|href)="([^"]+)"', page) if not urlsplit(one).scheme]
+        found = [
+            one for one in re.findall(r'(?:src|href)="([^"]+)"', page) if not urlsplit(one).scheme
+        ]
         files = {one.replace("&amp;", "&") for one in found if not one.startswith("#")}
         assert {"page/page.css", "page/page.js", "page/live.js"} <= files
         for one in files:
@@ -138,14 +152,25 @@ def jupyter(tmp_path_factory) -> Iterator[str]:
     folder = tmp_path_factory.mktemp("jupyter")
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
-    words = ["--no-browser", "--allow-root", "--ServerApp.ip=127.0.0.1", f"--ServerApp.port={port}",
-             "--ServerApp.port_retries=0", f"--ServerApp.root_dir={folder}", "--IdentityProvider.token=",
-             "--ServerApp.jpserver_extensions={'jupyter_server_proxy': True}"]  # fmt: skip
+    words = [
+        "--no-browser",
+        "--allow-root",
+        "--ServerApp.ip=127.0.0.1",
+        f"--ServerApp.port={port}",
+        "--ServerApp.port_retries=0",
+        f"--ServerApp.root_dir={folder}",
+        "--IdentityProvider.token=",
+        "--ServerApp.jpserver_extensions={'jupyter_server_proxy': True}",
+    ]
     homes = {
-        name: str(folder) for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_DATA_DIR", "IPYTHONDIR")
+        name: str(folder)
+        for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_DATA_DIR", "IPYTHONDIR")
     }
     with subprocess.Popen(
-        [sys.executable, "-m", "jupyter_server", *words], cwd=folder, env=os.environ | homes, stderr=subprocess.DEVNULL
+        [sys.executable, "-m", "jupyter_server", *words],
+        cwd=folder,
+        env=os.environ | homes,
+        stderr=subprocess.DEVNULL,
     ) as process:
         try:
             deadline = time.monotonic() + 120
@@ -166,7 +191,9 @@ def test_behind_jupyter_a_page_runs_takes_a_file_and_gives_its_recording(jupyter
     run = Timeline(lesson, lesson.params(start_angle=120.0))
     while len(run) < 6:
         run.extend()
-    scan = b"\n".join(b"%f %f %f" % tuple(p) for p in np.random.default_rng(0).normal(size=(200, 3)))
+    scan = b"\n".join(
+        b"%f %f %f" % tuple(p) for p in np.random.default_rng(0).normal(size=(200, 3))
+    )
 
     async def visit() -> None:
         page = await FakePage(folder, "?lesson=icp&start_angle=120&step=3").open()
@@ -180,12 +207,18 @@ def test_behind_jupyter_a_page_runs_takes_a_file_and_gives_its_recording(jupyter
             assert "icp" in answer.headers["content-disposition"]
             for field in ("source", "target"):
                 sent = await browser.post(
-                    f"files/{page.token}/{field}?name=scan.xyz", content=scan, headers={"Origin": jupyter}
+                    f"files/{page.token}/{field}?name=scan.xyz",
+                    content=scan,
+                    headers={"Origin": jupyter},
                 )
                 assert sent.status_code == 204, sent.text
             await page.until(lambda page: {"source", "target"} <= set(page.run["files"]))
             document = (await browser.get("?lesson=icp")).text
-            found = [one for one in re.findall(r'(?:src|href)="([^"]+)"', document) if not urlsplit(one).scheme]
+            found = [
+                one
+                for one in re.findall(r'(?:src|href)="([^"]+)"', document)
+                if not urlsplit(one).scheme
+            ]
             for one in {one.replace("&amp;", "&") for one in found if not one.startswith("#")}:
                 assert (await browser.get(one)).status_code == 200, one
             assert (await browser.get("scene/")).status_code == 200
@@ -215,9 +248,13 @@ def test_before_several_servers_a_page_and_its_scene_meet(tmp_path):
     location = (RECIPES / "nginx.conf").read_text().replace("127.0.0.1:8080", "workbench")
 
     async def visit(port: int) -> list[int]:
-        pages = await asyncio.gather(*(visitor(port, "?lesson=transforms").open() for _ in range(12)))
+        pages = await asyncio.gather(
+            *(visitor(port, "?lesson=transforms").open() for _ in range(12))
+        )
         for page in pages:
-            await page.until(lambda page: page.step and page.scene_bytes > 1000)  # a scene that nobody met is empty
+            await page.until(
+                lambda page: page.step and page.scene_bytes > 1000
+            )  # a scene that nobody met is empty
         shares = [len(one.students) for one in servers]
         await asyncio.gather(*(page.close() for page in pages))
         return shares
@@ -239,7 +276,11 @@ def test_a_page_that_is_only_read_stays_open():
 
 
 def test_the_container_s_recipe_agrees_with_the_project():
-    lines = [line for line in (RECIPES / "Dockerfile").read_text().splitlines() if line and not line.startswith("#")]
+    lines = [
+        line
+        for line in (RECIPES / "Dockerfile").read_text().splitlines()
+        if line and not line.startswith("#")
+    ]
     steps = [(line.split()[0], line.partition(" ")[2]) for line in lines]
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     image = dict(steps)["FROM"]
@@ -251,23 +292,32 @@ def test_the_container_s_recipe_agrees_with_the_project():
     assert all((ROOT / name).exists() for name in copied)
     assert {"workbench", "lessons", "pyproject.toml", project["readme"], "LICENSE"} <= set(copied)
     sent = {
-        line.removeprefix("!") for line in (ROOT / ".dockerignore").read_text().splitlines() if line.startswith("!")
+        line.removeprefix("!")
+        for line in (ROOT / ".dockerignore").read_text().splitlines()
+        if line.startswith("!")
     }
     assert sent == set(copied)
     kinds = [kind for kind, _ in steps]
     user = dict(steps)["USER"]
     assert int(user) > 0, "not root, and a number, which a cluster can check"
-    assert any(kind == "RUN" and words.startswith("useradd") and f"--uid {user} " in words for kind, words in steps)
+    assert any(
+        kind == "RUN" and words.startswith("useradd") and f"--uid {user} " in words
+        for kind, words in steps
+    )
     assert kinds.index("USER") < kinds.index("ENTRYPOINT")
     command = json.loads(dict(steps)["ENTRYPOINT"])
     assert command[0] in project["scripts"]
-    called = flags.parse(cli.serve, command[1:], "workbench", "")
+    called = flags.parse(cli.serve, command[1:], "workbench", description="")
     assert callable(called)
     assert command[command.index("--port") + 1] == dict(steps)["EXPOSE"]
 
 
 def test_the_container_s_health_is_that_the_server_answers():
-    line = next(line for line in (RECIPES / "Dockerfile").read_text().splitlines() if line.startswith("HEALTHCHECK"))
+    line = next(
+        line
+        for line in (RECIPES / "Dockerfile").read_text().splitlines()
+        if line.startswith("HEALTHCHECK")
+    )
     words = json.loads(line.partition("CMD ")[2])
     assert words[:2] == ["python", "-c"]
     server = Server(host="0.0.0.0")

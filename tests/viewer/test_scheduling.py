@@ -17,9 +17,9 @@ from tests import fake
 from tests.loops import run_apart
 from workbench.knobs import Knob
 from workbench.lesson import Lesson
+from workbench.run.session import Session
+from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Scene
-from workbench.session import Session
-from workbench.timeline import Timeline
 from workbench.viewer import runs as runs_module
 from workbench.viewer import scheduling
 from workbench.viewer.runs import Runs, caches

@@ -1,4 +1,6 @@
-"""Browsers that answer nothing, take nothing or send garbage: others go on, and when they have gone nothing is left."""
+"""Browsers that answer nothing, take nothing or send garbage: others go on, and when they have gone
+nothing is left.
+"""
 
 import asyncio
 import contextlib
@@ -20,9 +22,9 @@ from tests import fake
 from tests.fake_page import FakePage
 from tests.loops import run_apart
 from tests.viewer.attacked import HERE, goes_on, meanwhile, until
-from workbench import links
 from workbench.knobs import fields_of
 from workbench.lesson import catalog
+from workbench.run import links
 from workbench.viewer import connection as connection_module
 from workbench.viewer import patience
 from workbench.viewer import server as server_module
@@ -55,7 +57,9 @@ def test_connections_that_say_nothing_are_closed(monkeypatch):
     monkeypatch.setattr(patience.Patience.__init__, "__defaults__", (1.0,))
     server = Server(links.Place(fake.lesson, fake.Params()))
     try:
-        quiet = [socket.create_connection(("127.0.0.1", server.port), timeout=30) for _ in range(20)]
+        quiet = [
+            socket.create_connection(("127.0.0.1", server.port), timeout=30) for _ in range(20)
+        ]
         for one in quiet[10:]:
             one.sendall(b"GET / HTTP/1.1\r\nHost: 127.0")
         for one in quiet:
@@ -113,7 +117,9 @@ def test_a_connection_that_takes_nothing_is_closed_after_a_while(monkeypatch):
         most = 0
         while connections:
             assert time.monotonic() < deadline, "it is still open"
-            most = max([most, *(one.transport.get_write_buffer_size() for one in tuple(connections))])
+            most = max(
+                [most, *(one.transport.get_write_buffer_size() for one in tuple(connections))]
+            )
             time.sleep(0.01)
         assert most < 4e6, "no more waits than one answer"
         slow.close()
@@ -143,8 +149,21 @@ def test_a_scene_that_is_not_taken_is_not_buffered_without_bound(server):
     meanwhile(server, attack)
 
 
-GARBAGE = ("", "{", "[]", "null", "7", '"open"', '{"verb": 1}', '{"verb": "__init__"}', '{"verb": ["seek"]}', "[" * 19_000,
-           '{"verb": "click"}', '{"verb": "seek"}' + " " * 30_000, "\x00")  # fmt: skip
+GARBAGE = (
+    "",
+    "{",
+    "[]",
+    "null",
+    "7",
+    '"open"',
+    '{"verb": 1}',
+    '{"verb": "__init__"}',
+    '{"verb": ["seek"]}',
+    "[" * 19_000,
+    '{"verb": "click"}',
+    '{"verb": "seek"}' + " " * 30_000,
+    "\x00",
+)
 ODD = (
     None,
     True,
@@ -164,7 +183,18 @@ ODD = (
 
 @pytest.mark.parametrize("verb", ["open", "seek", "run", "change", "reset", "predict", "click"])
 def test_garbage_in_every_wish_is_ignored(server, verb, capfd):
-    keys = ("query", "lesson", "k", "run", "step", "values", "question", "given", "p_origin", "v_ray")
+    keys = (
+        "query",
+        "lesson",
+        "k",
+        "run",
+        "step",
+        "values",
+        "question",
+        "given",
+        "p_origin",
+        "v_ray",
+    )
 
     async def attack(page: FakePage) -> None:
         bad = await FakePage(f"{server.address}/", HERE).open()
@@ -173,7 +203,9 @@ def test_garbage_in_every_wish_is_ignored(server, verb, capfd):
         await bad.live.send(b"\xff\x00")
         for value in ODD:
             await bad.say(verb=verb, **dict.fromkeys(keys, value))
-            await bad.say(verb=verb, values=dict.fromkeys(("self", *fake.Params.__dataclass_fields__), value))
+            await bad.say(
+                verb=verb, values=dict.fromkeys(("self", *fake.Params.__dataclass_fields__), value)
+            )
         for question in fake.lesson.questions:
             for value in ODD:
                 await bad.say(verb="predict", question=question.name, given=value)
@@ -193,7 +225,16 @@ def test_a_click_is_three_numbers_and_three_numbers_or_nothing():
     p_origin, v_ray = connection_module._ray(good) or (None, None)
     np.testing.assert_array_equal(p_origin, [0, 1, 2])  # type: ignore[arg-type]
     np.testing.assert_array_equal(v_ray, [0, 0, -1])  # type: ignore[arg-type]
-    lists = ([], [0, 0], [0, 0, 0, 0], [0, 0, "1"], [True, 0, 0], [float("nan")] * 3, [2**70, 0, 0], [[1, 2, 3]] * 3)
+    lists = (
+        [],
+        [0, 0],
+        [0, 0, 0, 0],
+        [0, 0, "1"],
+        [True, 0, 0],
+        [float("nan")] * 3,
+        [2**70, 0, 0],
+        [[1, 2, 3]] * 3,
+    )
     odd = (None, "x", {}, *lists)
     for key in good:
         for value in odd:
@@ -204,14 +245,18 @@ def test_a_click_is_three_numbers_and_three_numbers_or_nothing():
 def test_a_flood_of_wishes_is_one_of_each_kind(server, monkeypatch):
     runs = []
     get = server.runs.timelines.get
-    monkeypatch.setattr(server.runs.timelines, "get", lambda *asked: runs.append(asked) or get(*asked))
+    monkeypatch.setattr(
+        server.runs.timelines, "get", lambda *asked: runs.append(asked) or get(*asked)
+    )
 
     async def attack(page: FakePage) -> None:
         bad = await FakePage(f"{server.address}/", HERE).open()
         wishes = [json.dumps({"verb": "change", "values": {"angle": k / 100}}) for k in range(3000)]
         for wish in wishes:
             await bad.live.send(wish)
-        await bad.until(lambda page: page.run and page.run["params"]["angle"] == 29.99 and page.run["finished"])
+        await bad.until(
+            lambda page: page.run and page.run["params"]["angle"] == 29.99 and page.run["finished"]
+        )
         await bad.close()
 
     meanwhile(server, attack)
@@ -278,12 +323,18 @@ def test_when_all_have_gone_threads_and_runs_are_back():
         students.extend(weakref.ref(one) for one in server.students.values())
         for angle in (10, 20, 30):
             await page.say(verb="change", values={"angle": angle})
-            await page.until(lambda page, angle=angle: page.run["params"]["angle"] == angle and page.run["finished"])
+            await page.until(
+                lambda page, angle=angle: (
+                    page.run["params"]["angle"] == angle and page.run["finished"]
+                )
+            )
         await page.say(verb="change", values={"angle": 90.0})
 
     meanwhile(server, attack)
     deadline = time.monotonic() + 60
-    while time.monotonic() < deadline and (any(one() for one in students) or server.runs.timelines.alive()):
+    while time.monotonic() < deadline and (
+        any(one() for one in students) or server.runs.timelines.alive()
+    ):
         server.runs.make_room([], [])
         gc.collect()
         time.sleep(0.05)
@@ -311,14 +362,40 @@ def test_when_nobody_is_there_for_a_while_nothing_is_held(monkeypatch):
 
 
 def test_no_wish_link_or_knob_opens_a_file(server):
-    """Thirteen fields by nine paths, through every verb and link, while an audit hook notes what is opened."""
-    names = ["scan", "query", "lesson", "run", "step", "question", "given", "k", "on", "dark", "verb", "preset", "file"]
+    """Thirteen fields by nine paths, through every verb and link, while an audit hook notes what is
+    opened.
+    """
+    names = [
+        "scan",
+        "query",
+        "lesson",
+        "run",
+        "step",
+        "question",
+        "given",
+        "k",
+        "on",
+        "dark",
+        "verb",
+        "preset",
+        "file",
+    ]
     lessons = (fake.lesson, *catalog().values())
     names += sorted(
-        {field.name for lesson in lessons for field in fields_of(lesson.params) if field.sensitive} - {"scan"}
+        {field.name for lesson in lessons for field in fields_of(lesson.params) if field.sensitive}
+        - {"scan"}
     )
-    paths = ["/etc/passwd", "../../../etc/passwd", "file:///etc/passwd", "/proc/self/environ", "~/.ssh/id_rsa", "/dev/zero",
-             "..%2f..%2fetc%2fpasswd", "/etc/passwd\x00.npy", "http://127.0.0.1:1/x.npy"]  # fmt: skip
+    paths = [
+        "/etc/passwd",
+        "../../../etc/passwd",
+        "file:///etc/passwd",
+        "/proc/self/environ",
+        "~/.ssh/id_rsa",
+        "/dev/zero",
+        "..%2f..%2fetc%2fpasswd",
+        "/etc/passwd\x00.npy",
+        "http://127.0.0.1:1/x.npy",
+    ]
     marks = ("passwd", "environ", "id_rsa", "/dev/zero", "127.0.0.1:1")
     opened: list[str] = []
     watching = True
@@ -348,16 +425,25 @@ def test_no_wish_link_or_knob_opens_a_file(server):
             for name, path in itertools.product(
                 [field.name for field in fields_of(lesson.params) if field.sensitive], paths
             ):
-                await bad.say(verb="change", values={name: path})  # one by one: else the next takes its place
+                await bad.say(
+                    verb="change", values={name: path}
+                )  # one by one: else the next takes its place
                 await bad.seek(0)
         await bad.say(verb="open", query=HERE, lesson="fake")
         await bad.seek(1)
         assert "/etc" not in json.dumps(bad.run)
         await bad.close()
         reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
-        for path in (*paths, "/page/../../../etc/passwd", "/page/..%2f..%2fpage.css", "/scene/x/../../etc/passwd"):
+        for path in (
+            *paths,
+            "/page/../../../etc/passwd",
+            "/page/..%2f..%2fpage.css",
+            "/scene/x/../../etc/passwd",
+        ):
             asked = path.replace("\x00", "%00")
-            writer.write(f"GET /{asked.lstrip('/')} HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode())
+            writer.write(
+                f"GET /{asked.lstrip('/')} HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\n\r\n".encode()  # noqa: E501
+            )
             assert (await reader.readuntil(b"\r\n")).split()[1] in (b"404", b"200", b"307")
             head = await reader.readuntil(b"\r\n\r\n")
             length = int(head.lower().partition(b"content-length: ")[2].partition(b"\r\n")[0])

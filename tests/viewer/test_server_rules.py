@@ -10,7 +10,7 @@ import websockets
 from tests.fake_page import FakePage
 from tests.loops import run_apart
 from workbench.errors import InputError
-from workbench.hosts import Hosts, is_loopback
+from workbench.machinery.hosts import Hosts, is_loopback
 from workbench.viewer.addresses import addresses
 from workbench.viewer.rules import Rules
 from workbench.viewer.server import Server
@@ -40,7 +40,11 @@ def get(server: Server, path: str = "/", **headers: str) -> tuple[int, dict[str,
             asked.putheader(name.replace("_", "-"), value)
         asked.endheaders()
         answer = asked.getresponse()
-        return answer.status, {k.lower(): v for k, v in answer.getheaders()}, answer.read().decode(errors="replace")
+        return (
+            answer.status,
+            {k.lower(): v for k, v in answer.getheaders()},
+            answer.read().decode(errors="replace"),
+        )
 
 
 def enters(server: Server, path: str, **headers: str) -> bool:
@@ -48,7 +52,8 @@ def enters(server: Server, path: str, **headers: str) -> bool:
 
     async def attempt() -> bool:
         page = FakePage(
-            f"http://127.0.0.1:{server.port}/", headers={k.replace("_", "-"): v for k, v in headers.items()}
+            f"http://127.0.0.1:{server.port}/",
+            headers={k.replace("_", "-"): v for k, v in headers.items()},
         )
         options = {"subprotocols": ["viser-v1.1.1"]} if path.startswith("scene") else {}
         try:
@@ -92,15 +97,25 @@ def test_on_loopback_only_names_of_this_machine_are_answered(local):
 def test_a_page_of_another_origin_opens_no_websocket(local, path):
     own = f"http://127.0.0.1:{local.port}"
     assert enters(local, path, Origin=own)
-    for origin in ("http://evil.example", "null", "http://127.0.0.1:1", f"{own}.evil.example", "http://localhost", "",
-                   f"https://evil.example:{local.port}", f"file://127.0.0.1:{local.port}"):  # fmt: skip
+    for origin in (
+        "http://evil.example",
+        "null",
+        "http://127.0.0.1:1",
+        f"{own}.evil.example",
+        "http://localhost",
+        "",
+        f"https://evil.example:{local.port}",
+        f"file://127.0.0.1:{local.port}",
+    ):
         assert not enters(local, path, Origin=origin), origin
 
 
 def test_a_page_of_another_origin_reads_nothing(local):
     assert get(local, Origin="http://evil.example")[0] == 403
     assert get(local, Sec_Fetch_Site="cross-site", Sec_Fetch_Mode="no-cors")[0] == 403
-    assert get(local, Sec_Fetch_Site="cross-site", Sec_Fetch_Mode="navigate")[0] == 200, "a link leads here"
+    assert get(local, Sec_Fetch_Site="cross-site", Sec_Fetch_Mode="navigate")[0] == 200, (
+        "a link leads here"
+    )
 
 
 def test_the_token_lets_in_and_is_kept_in_a_cookie(public):
@@ -123,7 +138,9 @@ def test_the_token_lets_in_and_is_kept_in_a_cookie(public):
     assert (status, headers["location"]) == (303, "?lesson=icp&step=3")
     assert "httponly" in headers["set-cookie"].lower()
     assert "samesite=lax" in headers["set-cookie"].lower()
-    assert "path" not in headers["set-cookie"].lower(), "the browser's own default is right behind any prefix"
+    assert "path" not in headers["set-cookie"].lower(), (
+        "the browser's own default is right behind any prefix"
+    )
     cookie = headers["set-cookie"].split(";")[0]
     status, _, said = get(public, "/?lesson=icp", Cookie=cookie)
     assert (status, token in said) == (200, False)
@@ -140,7 +157,9 @@ def test_an_open_server_lets_everybody_in_but_no_other_origin_and_says_what_that
         assert server.rules.token is None
         assert "Everybody" in server.doors.welcome()
         assert get(server, Host=f"192.168.1.7:{server.port}")[0] == 200
-        assert get(server, Host="evil.example")[0] == 403, "a name can be given any address by whoever owns it"
+        assert get(server, Host="evil.example")[0] == 403, (
+            "a name can be given any address by whoever owns it"
+        )
         assert not enters(server, SOCKETS[0], Origin="http://evil.example")
     finally:
         server.stop()
@@ -180,7 +199,10 @@ def test_answers_say_what_keeps_a_browser_safe(local):
     nonce = headers["content-security-policy"].partition("'nonce-")[2].partition("'")[0]
     assert said.count("<script") == said.count(f'<script nonce="{nonce}"') > 5
     assert get(local)[1]["content-security-policy"] != headers["content-security-policy"]
-    assert "unsafe" not in headers["content-security-policy"].partition("script-src")[2].partition(";")[0]
+    assert (
+        "unsafe"
+        not in headers["content-security-policy"].partition("script-src")[2].partition(";")[0]
+    )
 
 
 def test_all_addresses_of_a_page_are_relative(local):
@@ -191,8 +213,12 @@ def test_all_addresses_of_a_page_are_relative(local):
 
 
 def test_which_hosts_are_of_this_machine():
-    assert all(is_loopback(host) for host in ("127.0.0.1", "127.1.2.3", "localhost", "::1", "[::1]"))
-    assert not any(is_loopback(host) for host in ("0.0.0.0", "::", "", "192.168.1.7", "example.org"))
+    assert all(
+        is_loopback(host) for host in ("127.0.0.1", "127.1.2.3", "localhost", "::1", "[::1]")
+    )
+    assert not any(
+        is_loopback(host) for host in ("0.0.0.0", "::", "", "192.168.1.7", "example.org")
+    )
     assert Hosts("127.1.2.3").know("127.1.2.3:8080"), "where it listens is where it is"
     assert Hosts("::1").know("[::1]:8080")
     assert Hosts("class.example.org").know("Class.Example.org")

@@ -14,7 +14,7 @@ import pytest
 
 from workbench.cli import main
 from workbench.errors import InputError
-from workbench.hosts import listening
+from workbench.machinery.hosts import listening
 from workbench.viewer.serving import serve
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -23,7 +23,9 @@ ROOT = Path(__file__).resolve().parents[2]
 @contextmanager
 def running(*words: str) -> Iterator[tuple[subprocess.Popen, str]]:
     command = [sys.executable, "-m", "workbench", *words, "--no-browser"]
-    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(
+        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
         assert process.stdout is not None
         address = process.stdout.readline().strip()
         try:
@@ -41,12 +43,17 @@ def test_the_course_is_served_at_the_address_that_is_printed_until_interrupted()
         port = address.rpartition(":")[2]
         done = subprocess.run(
             [sys.executable, "-m", "workbench", "show", "icp", "--no-browser", "--port", port],
-            cwd=ROOT, capture_output=True, text=True, check=False,
-        )  # fmt: skip
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         assert done.returncode == 2
         assert done.stdout == ""
-        assert done.stderr == (
-            f"workbench: port {port} is in use: stop the other program, or choose another with --port (0 picks a free one)\n"
+        assert (
+            done.stderr
+            == f"workbench: port {port} is in use: stop the other program, or choose another with"
+            " --port (0 picks a free one)\n"
         )
         process.send_signal(signal.SIGINT)
         out, said = process.communicate(timeout=300)
@@ -54,7 +61,10 @@ def test_the_course_is_served_at_the_address_that_is_printed_until_interrupted()
 
 
 def test_a_lesson_opens_at_its_params_and_step_and_the_course_is_one_link_away(tmp_path):
-    with running("show", "icp", "--start-angle", "120", "--step", "-1", "--port", "0") as (_, address):
+    with running("show", "icp", "--start-angle", "120", "--step", "-1", "--port", "0") as (
+        _,
+        address,
+    ):
         answer = httpx.get(f"{address}/")
         assert answer.headers["location"] == "?lesson=icp&start_angle=120&step=-1"
         assert "no-store" in answer.headers["cache-control"]
@@ -63,12 +73,15 @@ def test_a_lesson_opens_at_its_params_and_step_and_the_course_is_one_link_away(t
         assert 'data-lesson="icp"' in page.text
         assert "workbench exercise align_rigid" in page.text
         assert 'href="?course"' in page.text
-        assert '<ol class="cards">' in httpx.get(f"{address}/?course").text
+        assert 'data-card="icp"' in httpx.get(f"{address}/?course").text
 
 
 @pytest.mark.parametrize(
     ("host", "port", "why"),
-    [("127.0.0.1", 70_000, "from 0 to 65535"), ("no.such.host.invalid", 0, "no address of this machine")],
+    [
+        ("127.0.0.1", 70_000, "from 0 to 65535"),
+        ("no.such.host.invalid", 0, "no address of this machine"),
+    ],
 )
 def test_where_it_cannot_listen_is_said(host, port, why):
     with pytest.raises(InputError, match=why):
@@ -107,7 +120,9 @@ def test_no_collection_of_garbage_looks_at_what_a_server_is_made_of(monkeypatch)
 
 @pytest.mark.parametrize("workers", [0, 2, 16])
 def test_more_processes_than_one_are_refused_in_one_line_that_says_where_more_is_told(workers):
-    with pytest.raises(InputError, match=rf"^--workers {workers}: one process .*docs/classroom.md$"):
+    with pytest.raises(
+        InputError, match=rf"^--workers {workers}: one process .*docs/classroom.md$"
+    ):
         serve(port=0, browser=False, workers=workers)
 
 

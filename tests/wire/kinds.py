@@ -3,7 +3,18 @@
 import numpy as np
 
 from tests.fake import PHOTO, K
-from workbench.scene import Axes, Camera, Classes, Field, Label, Mesh, Picture, Points, Scene, Segments
+from workbench.scene import (
+    Axes,
+    Camera,
+    Classes,
+    Field,
+    Label,
+    Mesh,
+    Picture,
+    Points,
+    Scene,
+    Segments,
+)
 
 MOVED = np.array([[0.0, -1, 0, 0.3], [1, 0, 0, 0.2], [0, 0, 1, 0.1], [0, 0, 0, 1]])
 SHEARED = np.array([[1.0, 0.5, 0, 0.3], [0, 1, 0, 0.2], [0, 0, 2, 0.1], [0, 0, 0, 1]])
@@ -17,7 +28,11 @@ KINDS: tuple[Scene, ...] = (
     {"x": Points(np.eye(3), GREEN, opacity=0.5)},
     {"x": Points(np.eye(3)[:2], "target", T_world_object=SHEARED)},
     {"x": Segments(ENDS, "source", T_world_object=MOVED)},
-    {"x": Segments(ENDS, Classes(np.array([0, 1]), ("truth", "wrong"), ("a", "b")), 3.0, opacity=0.4)},
+    {
+        "x": Segments(
+            ENDS, Classes(np.array([0, 1]), ("truth", "wrong"), ("a", "b")), 3.0, opacity=0.4
+        )
+    },
     {"x": Segments(ENDS[:0])},
     {"x": Mesh(np.eye(3), FACE, "source", MOVED)},
     {"x": Mesh(np.eye(3), FACE, "target", opacity=0.4)},

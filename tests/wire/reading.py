@@ -8,7 +8,9 @@ import numpy as np
 
 
 class Reader:
-    """What a page has, message by message; what it is sent twice, or refers to without having it, is an error."""
+    """What a page has, message by message; what it is sent twice, or refers to without having it,
+    is an error.
+    """
 
     def __init__(self) -> None:
         self.kinds: dict[str, Any] = {}
@@ -33,7 +35,9 @@ class Reader:
         return head
 
     def nodes(self, listed: list[Any]) -> dict[str, dict[str, Any]]:
-        """Return nodes by name, each with its type, its properties with arrays in them, and its pose."""
+        """Return nodes by name, each with its type, its properties with arrays in them, and its
+        pose.
+        """
         return {name: self.node(key, pose) for name, key, pose in listed}
 
     def node(self, key: str, pose: list[float]) -> dict[str, Any]:

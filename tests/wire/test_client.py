@@ -1,4 +1,6 @@
-"""viser's client: one file, the same plain and compressed, with the page in the place of its worker."""
+"""viser's client: one file, the same plain and compressed, with the page in the place of its
+worker.
+"""
 
 import gzip
 from pathlib import Path
@@ -24,7 +26,9 @@ def test_the_client_is_one_file_whose_worker_is_the_page():
     assert len(compressed) < len(plain)
     assert client_bytes()[2] == etag
     assert etag[0] == etag[-1] == '"'
-    own = (Path(str(viser.__file__)).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
+    own = (Path(str(viser.__file__)).parent / "client" / "build" / "index.html").read_text(
+        encoding="utf-8"
+    )
     before, inserted, after = html.partition(client._WORKER)
     assert inserted
     assert before + after == own
@@ -33,7 +37,9 @@ def test_the_client_is_one_file_whose_worker_is_the_page():
 
 def test_who_has_the_client_is_sent_nothing_and_who_reads_gzip_the_compressed_one():
     def asked(**headers: str) -> Any:
-        request: Any = SimpleNamespace(headers={name.replace("_", "-"): value for name, value in headers.items()})
+        request: Any = SimpleNamespace(
+            headers={name.replace("_", "-"): value for name, value in headers.items()}
+        )
         return scene_response(request, *client_bytes())
 
     plain, compressed, etag = client_bytes()
@@ -74,6 +80,8 @@ def test_a_viser_that_makes_scenes_in_another_way_is_refused_in_one_line(monkeyp
             """Take what this version asks for."""
 
     monkeypatch.setattr(listener.viser, "SceneApi", Other)
-    with pytest.raises(InputError, match=f"viser {viser.__version__} makes scenes in another way") as raised:
+    with pytest.raises(
+        InputError, match=f"viser {viser.__version__} makes scenes in another way"
+    ) as raised:
         Maker().nodes(fake.draw(fake._state(0)), View())
     assert "\n" not in str(raised.value)

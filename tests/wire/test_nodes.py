@@ -1,4 +1,6 @@
-"""Of equal content equal keys, of what only moves a pose alone, and the colours and places that a scene states."""
+"""Of equal content equal keys, of what only moves a pose alone, and the colours and places that a
+scene states.
+"""
 
 import gc
 import io
@@ -22,8 +24,20 @@ from tests.fake import PHOTO, K
 from tests.wire.kinds import ENDS, FACE, KINDS, MOVED, SHEARED
 from tests.wire.reading import Reader
 from workbench.lesson import View
-from workbench.scene import PALETTE, Camera, Classes, Field, Label, Mesh, Picture, Points, Scene, Segments, color_rows
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
+from workbench.scene import (
+    PALETTE,
+    Camera,
+    Classes,
+    Field,
+    Label,
+    Mesh,
+    Picture,
+    Points,
+    Scene,
+    Segments,
+    color_rows,
+)
 from workbench.wire.nodes import SCENE, Maker, Node
 from workbench.wire.packing import PageWire
 from workbench.wire.primitives import AT_ORIGIN, wxyz_of
@@ -36,7 +50,9 @@ TURN = st.floats(-np.pi, np.pi)
 def shown(scene: Scene, maker: Maker | None = None) -> dict[str, Node]:
     """Return the nodes of a scene alone, by what follows `/scene/`."""
     nodes = (maker or Maker()).nodes(scene, VIEW)
-    return {name.removeprefix(SCENE): node for name, node in nodes.items() if name.startswith(SCENE)}
+    return {
+        name.removeprefix(SCENE): node for name, node in nodes.items() if name.startswith(SCENE)
+    }
 
 
 def props_of(scene: Scene, name: str = "x") -> dict[str, Any]:
@@ -60,10 +76,17 @@ def test_equal_content_has_an_equal_key_and_other_content_another(k):
     }
     for kind, _ in one.values():
         assert json.loads(kind.text).keys() <= {"type", "props", "fade", "visible"}
-        assert len({array.key for array in kind.arrays}) == len({array.data for array in kind.arrays})
+        assert len({array.key for array in kind.arrays}) == len(
+            {array.data for array in kind.arrays}
+        )
     maker = Maker()
-    made = [frozenset((name, kind.key, pose) for name, (kind, pose) in shown(scene, maker).items()) for scene in KINDS]
-    assert [i for i, nodes in enumerate(made) if nodes == made[k] and nodes] == ([k] if made[k] else [])
+    made = [
+        frozenset((name, kind.key, pose) for name, (kind, pose) in shown(scene, maker).items())
+        for scene in KINDS
+    ]
+    assert [i for i, nodes in enumerate(made) if nodes == made[k] and nodes] == (
+        [k] if made[k] else []
+    )
 
 
 def test_every_kind_says_how_opaque_it_is_and_is_drawn_in_full_colours():
@@ -74,7 +97,9 @@ def test_every_kind_says_how_opaque_it_is_and_is_drawn_in_full_colours():
             for name, (kind, _) in shown(scene).items():
                 said = json.loads(kind.text)
                 assert said.pop("fade", 1) == opacity
-                assert said == json.loads(full[name][0].text), "the page mixes colours, and nobody before it"
+                assert said == json.loads(full[name][0].text), (
+                    "the page mixes colours, and nobody before it"
+                )
 
 
 @pytest.mark.parametrize(
@@ -95,14 +120,18 @@ def test_what_moves_keeps_its_kind_and_is_sent_as_a_pose(primitive):
     assert {name: kind.key for name, (kind, _) in before.items()} == {
         name: kind.key for name, (kind, _) in after.items()
     }
-    np.testing.assert_allclose(after["x"][1], (np.sqrt(0.5), 0, 0, np.sqrt(0.5), *MOVED[:3, 3]), atol=1e-12)
+    np.testing.assert_allclose(
+        after["x"][1], (np.sqrt(0.5), 0, 0, np.sqrt(0.5), *MOVED[:3, 3]), atol=1e-12
+    )
     wire.step({}, {"x": primitive}, VIEW)
     message = wire.step({}, {"x": moved}, VIEW)
     assert Reader().read(message)["arrays"] == []
     assert len(message) < len(wire.step({}, {}, VIEW)) + 300
 
 
-@pytest.mark.parametrize("T", [None, np.eye(4), MOVED, SHEARED, np.diag([-1.0, 1, 1, 1]), np.diag([2.0, 2, 2, 1])])
+@pytest.mark.parametrize(
+    "T", [None, np.eye(4), MOVED, SHEARED, np.diag([-1.0, 1, 1, 1]), np.diag([2.0, 2, 2, 1])]
+)
 def test_points_stand_where_their_motion_puts_them_rigid_or_not(T):
     p = RNG.normal(size=(5, 3))
     M = np.eye(4) if T is None else T
@@ -114,11 +143,17 @@ def test_points_stand_where_their_motion_puts_them_rigid_or_not(T):
     }
     reader = Reader()
     nodes = reader.nodes(reader.read(PageWire(Maker()).step({}, things, VIEW))["nodes"])
-    for name, key, wanted in (("points", "points", p), ("lines", "points", p[:4]), ("mesh", "vertices", p)):
+    for name, key, wanted in (
+        ("points", "points", p),
+        ("lines", "points", p[:4]),
+        ("mesh", "vertices", p),
+    ):
         node = nodes[SCENE + name]
         found = world(node["props"][key].reshape(-1, 3), node["pose"])
         np.testing.assert_allclose(found, wanted @ M[:3, :3].T + M[:3, 3], atol=1e-5)
-    np.testing.assert_allclose(nodes[SCENE + "word"]["pose"], (1, 0, 0, 0, *(M[:3, :3] @ p[0] + M[:3, 3])))
+    np.testing.assert_allclose(
+        nodes[SCENE + "word"]["pose"], (1, 0, 0, 0, *(M[:3, :3] @ p[0] + M[:3, 3]))
+    )
     if T is SHEARED:
         assert nodes[SCENE + "points"]["pose"] == list(AT_ORIGIN)
 
@@ -159,15 +194,25 @@ def test_a_coloured_mesh_is_matt_and_has_its_own_colours():
 def test_colours_are_one_for_all_or_one_for_each_and_for_both_ends():
     two = Classes(np.array([0, 1]), ("truth", "wrong"), ("a", "b"))
     each = np.array([PALETTE["truth"], PALETTE["wrong"]])
-    np.testing.assert_array_equal(props_of({"x": Segments(ENDS, "source")})["colors"], PALETTE["source"])
-    np.testing.assert_array_equal(props_of({"x": Segments(ENDS, two)})["colors"], np.repeat(each, 2, axis=0).ravel())
-    np.testing.assert_array_equal(props_of({"x": Points(np.eye(3)[:2], two)})["colors"], each.ravel())
-    np.testing.assert_array_equal(props_of({"x": Points(np.eye(3), "target")})["colors"], PALETTE["target"])
+    np.testing.assert_array_equal(
+        props_of({"x": Segments(ENDS, "source")})["colors"], PALETTE["source"]
+    )
+    np.testing.assert_array_equal(
+        props_of({"x": Segments(ENDS, two)})["colors"], np.repeat(each, 2, axis=0).ravel()
+    )
+    np.testing.assert_array_equal(
+        props_of({"x": Points(np.eye(3)[:2], two)})["colors"], each.ravel()
+    )
+    np.testing.assert_array_equal(
+        props_of({"x": Points(np.eye(3), "target")})["colors"], PALETTE["target"]
+    )
 
 
 def test_no_segments_are_no_node_and_what_stands_beside_is_none():
     assert shown({"x": Segments(np.zeros((0, 2, 3)))}) == {}
-    beside = {path: one for path, one in fake.draw(fake._state(0)).items() if path.startswith("beside/")}
+    beside = {
+        path: one for path, one in fake.draw(fake._state(0)).items() if path.startswith("beside/")
+    }
     assert beside
     assert shown(beside) == {}
 
@@ -176,9 +221,15 @@ def test_a_path_below_another_does_not_move_with_it():
     moved = np.eye(4)
     moved[:3, 3] = (5.0, 0.0, 0.0)
     p = np.zeros((1, 3))
-    nodes = shown({"camera": Points(p, T_world_object=moved), "camera/point": Points(p, T_world_object=moved)})
+    nodes = shown(
+        {"camera": Points(p, T_world_object=moved), "camera/point": Points(p, T_world_object=moved)}
+    )
     assert len(nodes) == 2
-    assert not [(one, other) for one, other in itertools.permutations(nodes, 2) if other.startswith(one + "/")]
+    assert not [
+        (one, other)
+        for one, other in itertools.permutations(nodes, 2)
+        if other.startswith(one + "/")
+    ]
     assert {pose[4:] for _, pose in nodes.values()} == {(5.0, 0.0, 0.0)}
 
 
@@ -186,11 +237,16 @@ def test_a_camera_with_an_image_is_a_frustum_and_its_picture():
     assert list(shown({"x": Camera(K, 64, 48, MOVED)})) == ["x"]
     nodes = shown({"x": Camera(K, 64, 48, MOVED, depth=2.0, image=PHOTO)})
     assert list(nodes) == ["x", "x/image"]
-    assert [json.loads(kind.text)["type"] for kind, _ in nodes.values()] == ["LineSegmentsMessage", "ImageMessage"]
+    assert [json.loads(kind.text)["type"] for kind, _ in nodes.values()] == [
+        "LineSegmentsMessage",
+        "ImageMessage",
+    ]
     middle = np.linalg.inv(K) @ (31.5, 23.5, 1.0)  # of the pixels, whose first one is centred at 0
     np.testing.assert_allclose(nodes["x/image"][1], (1, 0, 0, 0, *(2.0 * middle)), atol=1e-9)
     size = json.loads(nodes["x/image"][0].text)["props"]
-    assert (size["render_width"], size["render_height"]) == pytest.approx((2.0 * 64 / 40, 2.0 * 48 / 40))
+    assert (size["render_width"], size["render_height"]) == pytest.approx(
+        (2.0 * 64 / 40, 2.0 * 48 / 40)
+    )
     grey = shown({"x": Camera(K, 64, 48, MOVED, image=PHOTO[:, :, 0])})
     assert list(grey) == ["x", "x/image"]
 
@@ -215,7 +271,10 @@ def test_what_nobody_shows_any_more_is_let_go():
 def test_who_asks_at_the_same_time_gets_the_same():
     timeline = Timeline(fake.lesson, fake.Params(steps=4, colors="classes")).complete()
     scenes = [step.scene for step in timeline.known()]
-    alone = [[(name, kind.key, pose) for name, (kind, pose) in Maker().nodes(s, View()).items()] for s in scenes]
+    alone = [
+        [(name, kind.key, pose) for name, (kind, pose) in Maker().nodes(s, View()).items()]
+        for s in scenes
+    ]
     maker, found, together = Maker(), [], threading.Barrier(8)
 
     def ask(first: int) -> None:
@@ -233,5 +292,8 @@ def test_who_asks_at_the_same_time_gets_the_same():
     assert len(found) == 8 * len(scenes)
     assert all(nodes == alone[at] for at, nodes in found)
     again = [maker.nodes(scene, View()) for scene in scenes]
-    assert all(maker.nodes(s, View())[name][0] is kind for s, nodes in zip(scenes, again, strict=True)
-               for name, (kind, _) in nodes.items())  # fmt: skip
+    assert all(
+        maker.nodes(s, View())[name][0] is kind
+        for s, nodes in zip(scenes, again, strict=True)
+        for name, (kind, _) in nodes.items()
+    )

@@ -1,4 +1,6 @@
-"""What a page is sent: every kind and array once, a stage where it is another one, a whole run as its steps one by one."""
+"""What a page is sent: every kind and array once, a stage where it is another one, a whole run as
+its steps one by one.
+"""
 
 import base64
 import json
@@ -14,8 +16,8 @@ from tests import fake
 from tests.wire.kinds import KINDS
 from tests.wire.reading import Reader, alike
 from workbench.lesson import View
+from workbench.run.timeline import Timeline
 from workbench.scene import Points
-from workbench.timeline import Timeline
 from workbench.wire import packing
 from workbench.wire.nodes import Content, Kind, Maker, digest
 from workbench.wire.packing import PageWire, packed, run_bytes, run_text
@@ -26,7 +28,9 @@ RNG = np.random.default_rng(3)
 
 @pytest.fixture(scope="module", params=["field", "classes", "measured", "role"])
 def timeline(request) -> Timeline:
-    return Timeline(fake.lesson, fake.Params(colors=request.param, wobble=request.param == "role")).complete()
+    return Timeline(
+        fake.lesson, fake.Params(colors=request.param, wobble=request.param == "role")
+    ).complete()
 
 
 def test_what_is_packed_is_what_is_read():
@@ -93,7 +97,15 @@ def test_a_stage_is_told_where_the_view_or_the_lesson_is_another():
     def told(view: View, lesson: str) -> bool:
         return "stage" in reader.read(wire.step({}, {}, view, lesson))
 
-    asked = [(VIEW, "a"), (VIEW, "a"), (replace(VIEW), "a"), (other, "a"), (other, "a"), (other, "b"), (VIEW, "b")]
+    asked = [
+        (VIEW, "a"),
+        (VIEW, "a"),
+        (replace(VIEW), "a"),
+        (other, "a"),
+        (other, "a"),
+        (other, "b"),
+        (VIEW, "b"),
+    ]
     assert [told(*one) for one in asked] == [True, False, False, True, False, True, True]
     wire.forget()
     assert told(VIEW, "b")
@@ -112,8 +124,14 @@ def test_a_run_holds_step_by_step_what_a_live_page_is_sent(timeline):
         shown = {}
         for one in listed:
             names_alone += isinstance(one, str)
-            name, node = (one, before[one]) if isinstance(one, str) else (one[0], reader.node(one[1], one[2]))
-            assert not (isinstance(one, list) and alike(before.get(name), node)), f"{name} is as it was, and said again"
+            name, node = (
+                (one, before[one])
+                if isinstance(one, str)
+                else (one[0], reader.node(one[1], one[2]))
+            )
+            assert not (isinstance(one, list) and alike(before.get(name), node)), (
+                f"{name} is as it was, and said again"
+            )
             shown[name] = node
         assert list(shown) == [name for name, _, _ in head["nodes"]]
         assert alike(shown, live.nodes(head["nodes"]))

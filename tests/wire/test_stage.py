@@ -33,7 +33,12 @@ def test_a_page_is_told_the_camera_that_a_lesson_states(name):
 
 @pytest.mark.parametrize(
     ("up", "plane"),
-    [((0.0, 0.0, 1.0), "xy"), ((0.0, 1.0, 0.0), "xz"), ((0.0, -1.0, 0.0), "xz"), ((-1.0, 0.0, 0.0), "yz")],
+    [
+        ((0.0, 0.0, 1.0), "xy"),
+        ((0.0, 1.0, 0.0), "xz"),
+        ((0.0, -1.0, 0.0), "xz"),
+        ((-1.0, 0.0, 0.0), "yz"),
+    ],
 )
 def test_the_grid_lies_across_what_is_up_and_the_scene_is_not_turned(up, plane):
     view = View(eye=(2.0, 1.0, 0.5), up=up, grid=0.25, grid_height=0.4)
@@ -42,7 +47,9 @@ def test_the_grid_lies_across_what_is_up_and_the_scene_is_not_turned(up, plane):
     assert (grid["props"]["plane"], grid["props"]["cell_size"]) == (plane, 0.25)
     np.testing.assert_allclose(grid["pose"], (1, 0, 0, 0, *(0.4 * np.array(up))))
     assert told["camera"]["up"] == list(up)
-    assert "" not in nodes, "the client would take the camera's place for one in the frame before the turn"
+    assert "" not in nodes, (
+        "the client would take the camera's place for one in the frame before the turn"
+    )
     assert not [said for said in told["light"] if "Orientation" in said["type"]]
     assert all(node["pose"][:4] == [1, 0, 0, 0] for node in nodes.values())
 
@@ -58,7 +65,10 @@ def test_axes_have_names_at_their_ends_and_are_drawn_where_a_view_wants_them():
         np.testing.assert_allclose(word["pose"][4:], along * direction)
     bare, _ = stage(View(grid=None, axes=False))
     assert not {"/grid", "/axes", "/axis/x", "/axis/y", "/axis/z"} & bare.keys()
-    assert bare["/WorldAxes"].get("visible", True) is False or not bare["/WorldAxes"]["props"]["show_axes"]
+    assert (
+        bare["/WorldAxes"].get("visible", True) is False
+        or not bare["/WorldAxes"]["props"]["show_axes"]
+    )
 
 
 def test_no_shadow_is_cast_and_nothing_is_mirrored():
@@ -90,7 +100,9 @@ def test_a_knob_that_leads_to_something_of_another_size_turns_the_camera_and_no_
         ("ransac", "model", "line"),
     ],
 )
-def test_a_choice_that_leads_to_other_things_brings_the_camera_of_their_presets(name, choice, value):
+def test_a_choice_that_leads_to_other_things_brings_the_camera_of_their_presets(
+    name, choice, value
+):
     lesson, aim = catalog()[name], Aim()
     params = replace(lesson.params(), **{choice: value}, seed=lesson.params().seed + 1)
     theirs = [preset.view for preset in lesson.presets if getattr(preset.params, choice) == value]
@@ -103,16 +115,22 @@ def test_a_choice_that_leads_to_other_things_brings_the_camera_of_their_presets(
     assert aim.view(lesson, params) in theirs
 
 
-@pytest.mark.parametrize(("grid", "height", "stays"), [(0.7, 0.0, False), (None, 1.0, False), (None, 0.0, True)])
+@pytest.mark.parametrize(
+    ("grid", "height", "stays"), [(0.7, 0.0, False), (None, 1.0, False), (None, 0.0, True)]
+)
 def test_the_view_of_a_preset_stays_behind_a_knob_unless_its_grid_is_another(grid, height, stays):
-    lesson, aim = catalog()["icp"], Aim()
+    lesson, aim = catalog()["fitting"], Aim()
     usual = lesson.view
-    own = replace(usual, eye=(9.0, 9.0, 9.0), grid=grid or usual.grid, grid_height=usual.grid_height + height)
+    own = replace(
+        usual, eye=(9.0, 9.0, 9.0), grid=grid or usual.grid, grid_height=usual.grid_height + height
+    )
     preset = replace(lesson.presets[0], view=own)
     lesson = replace(lesson, presets=(preset, *lesson.presets[1:]))
     aim.open(lesson, preset.params)
     assert aim.view(lesson, preset.params) == own
-    assert aim.view(lesson, replace(preset.params, seed=preset.params.seed + 1)) == (own if stays else usual)
+    assert aim.view(lesson, replace(preset.params, seed=preset.params.seed + 1)) == (
+        own if stays else usual
+    )
 
 
 def test_before_anything_is_opened_a_run_is_seen_by_its_own_view():
@@ -144,7 +162,13 @@ def test_a_view_along_its_up_is_one_picture_with_a_right_and_an_up(view, right, 
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"eye": (0.0, 0.0, 0.0)}, {"up": (0.0, 0.0, 0.0)}, {"target": (np.nan, 0.0, 0.0)}, {"eye": (1.0, 2.0)}]
+    "wrong",
+    [
+        {"eye": (0.0, 0.0, 0.0)},
+        {"up": (0.0, 0.0, 0.0)},
+        {"target": (np.nan, 0.0, 0.0)},
+        {"eye": (1.0, 2.0)},
+    ],
 )
 def test_a_view_from_nowhere_is_refused(wrong):
     with pytest.raises(ValueError, match="View"):

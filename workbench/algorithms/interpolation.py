@@ -1,10 +1,11 @@
-"""Five ways from one pose to another. All start and end alike; what lies between is what tells them apart.
+"""Five ways from one pose to another; what lies between the ends tells them apart.
 
-Every one yields `State`s at the given times, 0 at the start and 1 at the end. The place goes straight at constant speed,
-except along the screw.
+Every one yields `State`s at the given times, 0 at the start and 1 at the end. The place goes
+straight at constant speed, except along the screw. Places are in metres, angles in radians.
 
-References: Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985 (slerp); Murray, Li and Sastry, A
-Mathematical Introduction to Robotic Manipulation, 1994, chapter 2 (Rodrigues' formula and screws).
+References: Shoemake, Animating rotation with quaternion curves, SIGGRAPH 1985 (slerp); Murray, Li
+and Sastry, A Mathematical Introduction to Robotic Manipulation, 1994, chapter 2 (Rodrigues' formula
+and screws).
 """
 
 from collections.abc import Callable, Iterator
@@ -14,7 +15,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.geometry.motions import exp_se3, log_se3, motion
-from workbench.geometry.rotations import (
+from workbench.geometry.motions.rotations import (
     EulerOrder,
     axis_angle_from_rotation,
     great_circle,
@@ -41,16 +42,9 @@ class State:
 
 @traced
 def slerp_and_lerp(
-    T_world_start: Pose, T_world_end: Pose, times: Times, rotation_from_axis_angle: Rodrigues
+    T_world_start: Pose, T_world_end: Pose, times: Times, *, rotation_from_axis_angle: Rodrigues
 ) -> Iterator[State]:
-    """Yield poses on the shortest turn about one axis at constant speed (slerp), the place on a straight line.
-
-    Args:
-        T_world_start: The pose at time 0, metres.
-        T_world_end: The pose at time 1.
-        times: When to yield a state, from 0 to 1.
-        rotation_from_axis_angle: Makes the rotations.
-    """
+    """Yield poses on the shortest turn about one axis at constant speed (slerp)."""
     R_start, R_end = T_world_start[:3, :3], T_world_end[:3, :3]
     p_start, p_end = T_world_start[:3, 3], T_world_end[:3, 3]
     axis, angle = axis_angle_from_rotation(R_end @ R_start.T)
@@ -62,14 +56,9 @@ def slerp_and_lerp(
 
 @traced
 def slerp_to_minus_q(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
-    """Yield poses on the great circle to the farther of the two quaternions that both are the end's rotation.
+    """Yield poses on the great circle to the farther of the end's two quaternions.
 
-    It shows what an implementation of slerp does that does not choose the sign: the body turns the long way round.
-
-    Args:
-        T_world_start: The pose at time 0, metres.
-        T_world_end: The pose at time 1.
-        times: When to yield a state, from 0 to 1.
+    A slerp that does not choose the sign turns the body so, the long way round.
     """
     p_start, p_end = T_world_start[:3, 3], T_world_end[:3, 3]
     q_start = quaternion_from_matrix(T_world_start[:3, :3])
@@ -86,22 +75,13 @@ def lerp_of_euler_angles(
     angles_start: Float[np.ndarray, "3"],
     angles_end: Float[np.ndarray, "3"],
     order: EulerOrder,
+    *,
     p_start: Float[np.ndarray, "3"],
     p_end: Float[np.ndarray, "3"],
     times: Times,
     euler_to_matrix: FromEuler,
 ) -> Iterator[State]:
-    """Yield poses with each Euler angle interpolated linearly; axis and speed of the resulting turn are not constant.
-
-    Args:
-        angles_start: Radians at time 0, one for each letter of the order.
-        angles_end: Radians at time 1.
-        order: As in `euler_to_matrix`.
-        p_start: The place at time 0, world frame, metres.
-        p_end: The place at time 1.
-        times: When to yield a state, from 0 to 1.
-        euler_to_matrix: Makes the rotations.
-    """
+    """Yield poses with Euler angles interpolated; axis and speed of the turn are not constant."""
     for t in times:
         angles = (1 - t) * angles_start + t * angles_end
         R = euler_to_matrix(angles, order)
@@ -111,13 +91,7 @@ def lerp_of_euler_angles(
 
 @traced
 def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Iterator[State]:
-    """Yield matrices with each of the sixteen entries interpolated linearly; between the ends they are no rigid motions.
-
-    Args:
-        T_world_start: The pose at time 0, metres.
-        T_world_end: The pose at time 1.
-        times: When to yield a state, from 0 to 1.
-    """
+    """Yield matrices with all entries interpolated; between the ends they are no rigid motions."""
     for t in times:
         T = (1 - t) * T_world_start + t * T_world_end
         yield State(t, T)
@@ -125,16 +99,13 @@ def lerp_of_entries(T_world_start: Pose, T_world_end: Pose, times: Times) -> Ite
 
 @traced
 def along_a_screw(
-    T_world_start: Pose, T_world_end: Pose, times: Times, invert_rigid: Callable[[np.ndarray], np.ndarray]
+    T_world_start: Pose,
+    T_world_end: Pose,
+    times: Times,
+    *,
+    invert_rigid: Callable[[np.ndarray], np.ndarray],
 ) -> Iterator[State]:
-    """Yield poses on the screw from start to end: the geodesic exp(t log) of SE(3), at constant speed.
-
-    Args:
-        T_world_start: The pose at time 0, metres.
-        T_world_end: The pose at time 1.
-        times: When to yield a state, from 0 to 1.
-        invert_rigid: The inverse of a rigid motion.
-    """
+    """Yield poses on the screw from start to end: the geodesic exp(t log) of SE(3)."""
     twist = log_se3(T_world_end @ invert_rigid(T_world_start))
     for t in times:
         T = exp_se3(t * twist) @ T_world_start

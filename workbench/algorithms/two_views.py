@@ -1,7 +1,11 @@
-"""From matches to the motion between two cameras, step by step; and before that, one pixel's ray seen by the other camera.
+"""From matches to the motion between two cameras; and one pixel's ray seen by the other camera.
 
-Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.1 (the line), 11.2 (eight points), 9.6 (four motions),
-chapter 12 (triangulation), 11.4.3 (refinement); Fusiello, Trucco and Verri 2000 (rectification).
+Pixels are `uv`, intrinsics K in pixels; motions T_second_first take the first camera's frame to the
+second's, lengths in units of the baseline where it is not known.
+
+Reference: Hartley and Zisserman, Multiple View Geometry, 2nd ed., 9.1 (the line), 11.2 (eight
+points), 9.6 (four motions), chapter 12 (triangulation), 11.4.3 (refinement); Fusiello, Trucco and
+Verri 2000 (rectification).
 """
 
 from collections.abc import Callable, Iterator
@@ -13,17 +17,21 @@ from jaxtyping import Float
 
 from workbench.errors import InputError
 from workbench.geometry.cameras import normalize
-from workbench.geometry.epipolar import (
+from workbench.geometry.motions import angle_between, apply
+from workbench.geometry.two_views.epipolar import (
     epipolar_constraints,
     fundamental_from_cameras,
     rank_two,
     refine_fundamental,
 )
-from workbench.geometry.essential import equal_singular_values, essential_from_fundamental, refine_motion
-from workbench.geometry.homography import homogeneous
-from workbench.geometry.motions import angle_between, apply
-from workbench.geometry.rectification import Rectification, rectify
-from workbench.geometry.triangulation import before_both, camera_matrix
+from workbench.geometry.two_views.essential import (
+    equal_singular_values,
+    essential_from_fundamental,
+    refine_motion,
+)
+from workbench.geometry.two_views.homography import homogeneous
+from workbench.geometry.two_views.rectification import Rectification, rectify
+from workbench.geometry.two_views.triangulation import before_both, camera_matrix
 from workbench.tracing import traced
 
 EightPoint = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -31,10 +39,19 @@ EightPoint = Callable[[np.ndarray, np.ndarray], np.ndarray]
 Poses = Callable[[np.ndarray], np.ndarray]
 """essential_to_poses(E) -> the four motions T_second_first (4, 4, 4), translations of length 1."""
 Triangulate = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
-"""triangulate(P_first, P_second, uv_first, uv_second) -> points (n, 3) in the first camera's frame."""
+"""triangulate(P_first, P_second, uv_first, uv_second) -> points (n, 3) in the first camera's frame.
+"""
 Route = Literal["eight-point", "refined F", "refined pose"]
 Stage = Literal[
-    "equations", "rank three", "rank two", "refined F", "essential", "pose", "points", "refined", "rectified"
+    "equations",
+    "rank three",
+    "rank two",
+    "refined F",
+    "essential",
+    "pose",
+    "points",
+    "refined",
+    "rectified",
 ]
 
 MOST_ROUNDS = 8
@@ -47,9 +64,10 @@ class Followed:
     """The ray of one pixel, as far as it was followed.
 
     Attributes:
-        stage: "ray" while points are taken on it; then the plane through both centres, then the pencil of all lines.
+        stage: "ray" while points are taken on it; then the plane through both centres, then the
+            pencil of all lines.
         depths: Of the points so far, metres; infinity is the last.
-        p_first: The points, in the first camera's frame, metres; the one at infinity very far away.
+        p_first: The points, metres; the one at infinity very far away.
         uv_second: Their pixels in the second picture, NaN where it cannot see them.
     """
 
@@ -64,14 +82,13 @@ class Related:
     """How far the motion between two cameras is found.
 
     Attributes:
-        stage: What was done last.
         singular_values: Of the equations, nine; the last belongs to the answer.
         F: The fundamental matrix so far.
-        E_values: The singular values of the essential matrix before they were made equal.
-        tested: Motions T_second_first that were tried, with |t| = 1.
+        E_values: Of the essential matrix before they were made equal.
+        tested: Motions that were tried, with |t| = 1.
         in_front: How many points each of them puts in front of both cameras.
-        T_second_first: The motion so far: the one under test, then the one that was chosen, then the refined one.
-        p_first: The points by that motion, in the first camera's frame, lengths in units of the baseline.
+        T_second_first: The one under test, then the chosen one, then the refined one.
+        p_first: The points by that motion.
         rounds: Rounds of refinement done.
         rectification: In the end, where there is one.
     """
@@ -93,17 +110,13 @@ def follow_ray(
     uv_first: Float[np.ndarray, "2"],
     depths: Float[np.ndarray, " m"],
     T_second_first: Float[np.ndarray, "4 4"],
+    *,
     K_first: Float[np.ndarray, "3 3"],
     K_second: Float[np.ndarray, "3 3"],
 ) -> Iterator[Followed]:
-    """Yield ever more points of a pixel's ray with their pixels in the second picture, then the plane, then the pencil.
+    """Yield ever more points of a pixel's ray and their second pixels, its plane, the pencil.
 
-    Args:
-        uv_first: A pixel of the first picture.
-        depths: Where points are taken, metres, infinity allowed.
-        T_second_first: Motion from the first camera's frame to the second's.
-        K_first: Intrinsics of the first camera, pixels.
-        K_second: Intrinsics of the second camera, pixels.
+    Depths are in metres, infinity allowed.
     """
     ray = homogeneous(normalize(uv_first[None], K_first))[0]
     p_first = np.minimum(depths, FAR)[:, None] * ray
@@ -124,8 +137,8 @@ class Linear:
 
     Attributes:
         singular_values: Of the equations, nine.
-        F: Their answer in pixels, of rank three where the matches have noise.
-        F_rank_two: The same with its smallest singular value dropped, in the coordinates of the equations.
+        F: In pixels, of rank three where the matches have noise.
+        F_rank_two: Without its smallest singular value, in the coordinates of the equations.
     """
 
     singular_values: np.ndarray
@@ -139,19 +152,17 @@ def solve_linear(
     T_first: Float[np.ndarray, "3 3"],
     T_second: Float[np.ndarray, "3 3"],
 ) -> Linear:
-    """Return the answer that minimises the algebraic error in given coordinates: the identity's are raw pixels.
-
-    Args:
-        uv_first: Pixels of the first image.
-        uv_second: Their matches in the second.
-        T_first: Takes pixels of the first image to its coordinates.
-        T_second: Likewise for the second.
+    """Return the answer with the least algebraic error in given coordinates, T times the pixels.
 
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997.
     """
-    constraints = epipolar_constraints((T_first @ homogeneous(uv_first).T).T, (T_second @ homogeneous(uv_second).T).T)
+    constraints = epipolar_constraints(
+        (T_first @ homogeneous(uv_first).T).T, (T_second @ homogeneous(uv_second).T).T
+    )
     _, values, Vt = np.linalg.svd(constraints)
-    F, F_two = (T_second.T @ G @ T_first for G in (Vt[-1].reshape(3, 3), rank_two(Vt[-1].reshape(3, 3))))
+    F, F_two = (
+        T_second.T @ G @ T_first for G in (Vt[-1].reshape(3, 3), rank_two(Vt[-1].reshape(3, 3)))
+    )
     nine = np.zeros(9)
     nine[: len(values)] = values
     return Linear(nine, F / np.linalg.norm(F), F_two / np.linalg.norm(F_two))
@@ -162,8 +173,8 @@ def relate(
     uv_first: Float[np.ndarray, "n 2"],
     uv_second: Float[np.ndarray, "n 2"],
     K_first: Float[np.ndarray, "3 3"],
-    K_second: Float[np.ndarray, "3 3"],
     *,
+    K_second: Float[np.ndarray, "3 3"],
     linear: Linear,
     eight_point: EightPoint,
     essential_to_poses: Poses,
@@ -171,17 +182,10 @@ def relate(
     route: Route,
     keep_upright: bool = True,
 ) -> Iterator[Related]:
-    """Yield the way from matches to a motion: F, its rank, E, four motions, points, a refined motion, a rectified pair.
+    """Yield the way from eight matches or more to F, E, four motions, points, and a rectified pair.
 
     Args:
-        uv_first: Pixels of the first image, eight or more.
-        uv_second: Their matches in the second.
-        K_first: Intrinsics of the first camera, pixels.
-        K_second: Intrinsics of the second camera, pixels.
         linear: The equations' answer before anything is known of F's rank.
-        eight_point: Gives F from the matches.
-        essential_to_poses: Gives the four motions of E.
-        triangulate: Gives points.
         route: What is refined, and whether.
         keep_upright: As `rectify` takes it.
 
@@ -189,8 +193,12 @@ def relate(
         InputError: If one of the functions returns what is no number.
     """
     none = np.empty((0, 4, 4))
-    yield Related(stage="equations", singular_values=linear.singular_values, F=linear.F, tested=none)
-    now = Related(stage="rank three", singular_values=linear.singular_values, F=linear.F, tested=none)
+    yield Related(
+        stage="equations", singular_values=linear.singular_values, F=linear.F, tested=none
+    )
+    now = Related(
+        stage="rank three", singular_values=linear.singular_values, F=linear.F, tested=none
+    )
     yield now
     F = _numbers(eight_point(uv_first, uv_second), "eight_point")
     now = replace(now, stage="rank two", F=F)
@@ -212,7 +220,12 @@ def relate(
     for k in range(len(Ts)):
         tested = Ts[: k + 1]
         now = replace(
-            now, stage="pose", tested=tested, in_front=in_front[: k + 1], T_second_first=Ts[k], p_first=found[k]
+            now,
+            stage="pose",
+            tested=tested,
+            in_front=in_front[: k + 1],
+            T_second_first=Ts[k],
+            p_first=found[k],
         )
         yield now
     best = int(np.argmax(in_front))
@@ -222,11 +235,15 @@ def relate(
     for k in range(MOST_ROUNDS if route == "refined pose" else 0):
         before, T_second_first = (
             T_second_first,
-            refine_motion(T_second_first, uv_first, uv_second, K_first, K_second, steps=1),
+            refine_motion(
+                T_second_first, uv_first, uv_second, K_first=K_first, K_second=K_second, steps=1
+            ),
         )
         p_first = triangulate(P_first, camera_matrix(K_second, T_second_first), uv_first, uv_second)
         F = fundamental_from_cameras(K_first, K_second, T_second_first)
-        now = replace(now, stage="refined", T_second_first=T_second_first, p_first=p_first, F=F, rounds=k + 1)
+        now = replace(
+            now, stage="refined", T_second_first=T_second_first, p_first=p_first, F=F, rounds=k + 1
+        )
         yield now
         if _moved(before, T_second_first) < STILL:
             break
@@ -239,7 +256,9 @@ def relate(
 
 def _moved(T: np.ndarray, other: np.ndarray) -> float:
     """Return by how much the rotation or the direction changed, radians."""
-    return max(float(np.abs(T[:3, :3] - other[:3, :3]).max()), angle_between(T[:3, 3], other[:3, 3]))
+    return max(
+        float(np.abs(T[:3, :3] - other[:3, :3]).max()), angle_between(T[:3, 3], other[:3, 3])
+    )
 
 
 def _numbers(answer: np.ndarray, name: str) -> np.ndarray:

@@ -1,7 +1,9 @@
-"""Finds in a text what only a live page lets people do: click, drag, hand over a file, turn a knob that is not published.
+"""Finds in a text what only a live page lets people do: click, drag, hand over a file, turn a knob
+that is not published.
 
-A published page, a notebook and a recording have links, steps, a scene to look at from all sides and, of the knobs, those of
-`sweeps`. Words are found where they ask somebody to do it; "outliers drag the line" and "each turn of the frame" are not.
+A published page, a notebook and a recording have links, steps, a scene to look at from all sides
+and, of the knobs, those of `sweeps`. Words are found where they ask somebody to do it; "outliers
+drag the line" and "each turn of the frame" are not.
 """
 
 import functools
@@ -10,15 +12,20 @@ from collections.abc import Iterator, Mapping
 
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson
-from workbench.typeset import WORDING
+from workbench.words.typeset import WORDING
 
-_CLAUSE = r"(?:\A|\n\s*\n|\n\s*(?:[-*#|]|\d+\.)|[.:;,!?(|–—…])\s*(?:(?:and|or|then|now|just|simply|please)\s+)?"
+_CLAUSE = r"(?:\A|\n\s*\n|\n\s*(?:[-*#|]|\d+\.)|[.:;,!?(|–—…])\s*(?:(?:and|or|then|now|just|simply|please)\s+)?"  # noqa: E501
 _ASKED = rf"(?:{_CLAUSE}|\b(?:you|you\s+(?:can|may|must)|or|then)\s+)"
-_THING = r"(?:it|them|an?|the|one|two|three|any|its|your|another|this|that|these|those|each|every)\b"
+_THING = (
+    r"(?:it|them|an?|the|one|two|three|any|its|your|another|this|that|these|those|each|every)\b"
+)
 _DOING = tuple(
     re.compile(pattern, re.IGNORECASE)
     for pattern in (
-        r"(?<!\ba )(?<!\bthe )(?<!\bone )(?<!\bper )(?<!\beach )(?<!\bevery )(?P<said>\bclick(?:ed|ing)?\b)",
+        (
+            r"(?<!\ba )(?<!\bthe )(?<!\bone )(?<!\bper )(?<!\beach )(?<!\bevery"
+            r" )(?P<said>\bclick(?:ed|ing)?\b)"
+        ),
         rf"{_ASKED}(?P<said>(?:drag|tap|pinch|hover\s+over)\s+{_THING})",
         r"(?P<said>\b(?:can|may|could|must)\s+be\s+dragged\b)",
         rf"{_CLAUSE}(?P<said>(?:upload|hand\s+over|drop)\s+(?:an?|your)\s+(?:own\s+)?\w+)",
@@ -31,7 +38,8 @@ _TURN = r"(?:turn|raise|lower|increase|reduce|decrease|vary|change|set)"
 _COMMANDS = re.compile(r"(?:(?!\n\s*\n).)*`[^`]*--[a-z](?:(?!\n\s*\n).)*", re.DOTALL)
 _HIDDEN = re.compile(
     r"```.*?```|\$\$.*?\$\$|\$[^$\n]*\$"  # code and formulas
-    r"|\]\([^)\s]*\)|\[\[(?:[^\]|\n]*\|)?|[\[\]*]",  # what links, terms and emphasis are written with
+    # what links, terms and emphasis are written with
+    r"|\]\([^)\s]*\)|\[\[(?:[^\]|\n]*\|)?|[\[\]*]",
     re.DOTALL,
 )
 
@@ -39,14 +47,19 @@ _HIDDEN = re.compile(
 def live_words(text: str, lesson: Lesson) -> Iterator[tuple[int, str]]:
     """Yield where a text asks for what only a live page can, and the words.
 
-    A paragraph with flags of the command line, `--scan`, speaks of a command and its files, and names what it likes.
+    A paragraph with flags of the command line, `--scan`, speaks of a command and its files, and
+    names what it likes.
 
     Args:
         text: Plain text or a part of a page that every home shows.
-        lesson: The lesson, whose knobs are not to be named except those of its sweeps. A knob is named in backticks or
-            quotes, by its field or its label, or in words where it is to be turned.
+        lesson: The lesson, whose knobs are not to be named except those of its sweeps. A knob is
+            named in backticks or quotes, by its field or its label, or in words where it is to be
+            turned.
     """
-    text = _HIDDEN.sub(lambda found: _blank(found[0]), _COMMANDS.sub(lambda found: found[0].replace("`", " "), text))
+    text = _HIDDEN.sub(
+        lambda found: _blank(found[0]),
+        _COMMANDS.sub(lambda found: found[0].replace("`", " "), text),
+    )
     found: dict[int, str] = {}
     for pattern in (*_DOING, *_naming(lesson.params, swept(lesson))):
         found |= {match.start("said"): match["said"] for match in pattern.finditer(text)}
@@ -54,20 +67,28 @@ def live_words(text: str, lesson: Lesson) -> Iterator[tuple[int, str]]:
 
 
 def on_page(lesson: Lesson) -> Iterator[tuple[int, str]]:
-    """Yield the lines of a lesson's page that ask for such things where nothing can be computed, and the words."""
+    """Yield the lines of a lesson's page that ask for such things where nothing can be computed,
+    and the words.
+    """
     text = WORDING.sub(_only_of_site, lesson.text())
     yield from ((text.count("\n", 0, place) + 1, said) for place, said in live_words(text, lesson))
 
 
 def elsewhere(lesson: Lesson) -> Mapping[str, str]:
-    """Return the other texts that every home shows before a run is seen, by what they are called."""
+    """Return the other texts that every home shows before a run is seen, by what they are
+    called.
+    """
     texts = {"its title": lesson.title, "its summary": lesson.summary}
     for preset in lesson.presets:
         texts[f"preset {preset.name!r}"] = f"{preset.title}\n\n{preset.line}"
     for question in lesson.questions:
         texts[f"question {question.name!r}"] = "\n\n".join((question.text, *question.choices))
     published = swept(lesson)
-    texts |= {f"knob {field.name}": field.knob.hint for field in fields_of(lesson.params) if field.name in published}
+    texts |= {
+        f"knob {field.name}": field.knob.hint
+        for field in fields_of(lesson.params)
+        if field.name in published
+    }
     return texts
 
 
@@ -83,8 +104,10 @@ def _naming(params: type, published: frozenset[str]) -> tuple[re.Pattern[str], .
         return ()
     names = "|".join(re.escape(field.name) for field in fields)
     labels = "|".join(re.escape(field.label) for field in fields)
-    spoken = "|".join(re.escape(word) for field in fields for word in (field.name.replace("_", " "), field.label))
-    end = r"(?=\s*(?:[.,:;!?)|]|\Z|\n\s*\n)|\s+(?:to\s+[-−\d]|up\b|down\b|and\s+(?:see|look|watch)\b))"
+    spoken = "|".join(
+        re.escape(word) for field in fields for word in (field.name.replace("_", " "), field.label)
+    )
+    end = r"(?=\s*(?:[.,:;!?)|]|\Z|\n\s*\n)|\s+(?:to\s+[-−\d]|up\b|down\b|and\s+(?:see|look|watch)\b))"  # noqa: E501
     return tuple(
         re.compile(pattern, re.IGNORECASE)
         for pattern in (
@@ -96,7 +119,9 @@ def _naming(params: type, published: frozenset[str]) -> tuple[re.Pattern[str], .
 
 
 def _only_of_site(found: re.Match[str]) -> str:
-    """Leave of two wordings the one for pages that cannot compute; all that stays keeps its line."""
+    """Leave of two wordings the one for pages that cannot compute; all that stays keeps its
+    line.
+    """
     whole, words = found[0], found[2] if found[1] == "site" else ""
     before, _, after = whole.partition(words) if words else (whole, "", "")
     return _blank(before) + words + _blank(after)

@@ -1,4 +1,6 @@
-"""Every own-data knob of a lesson is handed a made file, and a bad one: a good one shows, a bad one is told in one line."""
+"""Every own-data knob of a lesson is handed a made file, and a bad one: a good one shows, a bad one
+is told in one line.
+"""
 
 import io
 import tempfile
@@ -11,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from workbench.authoring.promises import Found, Subject, promise
-from workbench.authors import at
 from workbench.knobs import paths_of, showing
+from workbench.machinery.authors import at
 
 Given = dict[str, str]
 """By own-data knob the name of the file that it is handed."""
@@ -22,7 +24,9 @@ BAD = "bad.zzz"
 
 @promise
 def own_files_are_read(subject: Subject) -> Found:
-    """Every knob that takes a file shows one of some kind, and refuses a bad one in a line that names no flag."""
+    """Every knob that takes a file shows one of some kind, and refuses a bad one in a line that
+    names no flag.
+    """
     fields = paths_of(subject.lesson.params)
     where = f"{subject.who}: {at(subject.lesson.run)}"
     with tempfile.TemporaryDirectory(prefix="workbench-made-") as folder:
@@ -30,11 +34,17 @@ def own_files_are_read(subject: Subject) -> Found:
         taken = _taken(subject, files, fields)
         for field in fields:
             if field not in taken:
-                yield f"{where}{field} took none of {len(files) - 1} made files: {', '.join(sorted(files))}"
+                yield (
+                    f"{where}{field} took none of {len(files) - 1} made files:"
+                    f" {', '.join(sorted(files))}"
+                )
                 continue
             said = _refusal(subject, files, taken[field] | {field: BAD})
             if said is None:
-                yield f"{where}{field} = {BAD} shows the lesson all the same: it is not read; say what it `needs`"
+                yield (
+                    f"{where}{field} = {BAD} shows the lesson all the same: it is not read; say"
+                    " what it `needs`"
+                )
             elif "--" in said or not said.isprintable():
                 yield f"{where}{field} = {BAD}: {said!r}: name knobs by `called`, in one line"
             else:
@@ -48,7 +58,12 @@ def _taken(subject: Subject, files: dict[str, Path], fields: list[str]) -> dict[
     pending = list(fields)
     while pending:
         found = next(
-            (given for given in _tried(bases, pending, files) if _refusal(subject, files, given) is None), None
+            (
+                given
+                for given in _tried(bases, pending, files)
+                if _refusal(subject, files, given) is None
+            ),
+            None,
         )
         if found is None:
             return taken
@@ -60,7 +75,9 @@ def _taken(subject: Subject, files: dict[str, Path], fields: list[str]) -> dict[
 
 
 def _tried(bases: list[Given], pending: list[str], files: dict[str, Path]) -> Iterator[Given]:
-    """Yield what may be handed over: one file more than what was taken, or the same for two knobs that go together."""
+    """Yield what may be handed over: one file more than what was taken, or the same for two knobs
+    that go together.
+    """
     kinds = [name for name in files if name != BAD]
     for base in bases:
         yield from (base | {field: kind} for field in pending for kind in kinds)
@@ -69,17 +86,25 @@ def _tried(bases: list[Given], pending: list[str], files: dict[str, Path]) -> It
 
 
 def _refusal(subject: Subject, files: dict[str, Path], given: Given) -> str | None:
-    """Return why the lesson does not even show its first step with these files, None where it does."""
-    params: Any = replace(subject.lesson.params(), **{field: files[kind] for field, kind in given.items()})
+    """Return why the lesson does not even show its first step with these files, None where it
+    does.
+    """
+    params: Any = replace(
+        subject.lesson.params(), **{field: files[kind] for field, kind in given.items()}
+    )
     timeline = subject.fresh(showing(params, given), f"with own files {given}", steps=1)
     return None if len(timeline) else timeline.stopped or "it shows nothing"
 
 
 def made_files(folder: Path) -> dict[str, Path]:
-    """Write small good files of every kind that a lesson may read, and a bad one; return their paths by name."""
+    """Write small good files of every kind that a lesson may read, and a bad one; return their
+    paths by name.
+    """
     rng = np.random.default_rng(0)
     p, faces = _ball()
-    cloud = p[rng.integers(len(p), size=400)] * [1.0, 0.7, 0.5] + 0.02 * rng.standard_normal((400, 3))
+    cloud = p[rng.integers(len(p), size=400)] * [1.0, 0.7, 0.5] + 0.02 * rng.standard_normal(
+        (400, 3)
+    )
     turn = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
     K = np.array([[800.0, 0.0, 320.0], [0.0, 800.0, 240.0], [0.0, 0.0, 1.0]])
     scene = rng.uniform([-1.0, -1.0, 4.0], [1.0, 1.0, 6.0], (40, 3))
@@ -91,7 +116,11 @@ def made_files(folder: Path) -> dict[str, Path]:
     coin = _disc()
     contents = {
         "cloud.xyz": _rows(cloud),
-        "mesh.off": b"OFF\n%d %d 0\n" % (len(p), len(faces)) + _rows(p) + _rows(np.c_[np.full(len(faces), 3), faces]),
+        "mesh.off": (
+            b"OFF\n%d %d 0\n" % (len(p), len(faces))
+            + _rows(p)
+            + _rows(np.c_[np.full(len(faces), 3), faces])
+        ),
         "places.csv": b"51.5,-0.1,one\n35.7,139.7,two\n-33.9,151.2,three\n",
         "edges.csv": b"a,b,1\nb,c,2\nc,a,1\nc,d,1\nd,e,1\ne,c,3\n",
         "circle.txt": _rows(np.c_[np.cos(turn), np.sin(turn)]),
@@ -111,9 +140,13 @@ def made_files(folder: Path) -> dict[str, Path]:
 
 
 def _ball() -> tuple[np.ndarray, np.ndarray]:
-    """Return an octahedron halved twice and blown up: a closed mesh, its faces counterclockwise from outside."""
+    """Return an octahedron halved twice and blown up: a closed mesh, its faces counterclockwise
+    from outside.
+    """
     p = np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float)
-    faces = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]])
+    faces = np.array(
+        [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]]
+    )
     for _ in range(2):
         corners = p[faces]
         halves = (corners + np.roll(corners, -1, axis=1)) / 2
@@ -138,14 +171,18 @@ def _tilted(p: np.ndarray, a: float, b: float) -> np.ndarray:
 
 
 def _disc() -> np.ndarray:
-    """Return a photograph of something round and bright on a ground with some texture, (h, w) uint8."""
+    """Return a photograph of something round and bright on a ground with some texture, (h, w)
+    uint8.
+    """
     v, u = np.mgrid[: SIZE[1], : SIZE[0]]
     ground = 40 + 25 * np.sin(u / 7) * np.cos(v / 5) + 15 * np.sin((u + 2 * v) / 23)
     return np.where(np.hypot(u - 337, v - 125) < 60, 220, ground).astype(np.uint8)
 
 
 def _rows(table: np.ndarray) -> bytes:
-    return "".join(" ".join(f"{x:.9g}" for x in row) + "\n" for row in np.asarray(table).tolist()).encode()
+    return "".join(
+        " ".join(f"{x:.9g}" for x in row) + "\n" for row in np.asarray(table).tolist()
+    ).encode()
 
 
 def _png(image: np.ndarray) -> bytes:

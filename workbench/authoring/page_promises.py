@@ -1,4 +1,6 @@
-"""What the page of every lesson promises: its parts, its formulas, and that every reference in it leads somewhere."""
+"""What the page of every lesson promises: its parts, its formulas, and that every reference in it
+leads somewhere.
+"""
 
 import re
 from collections.abc import Iterator
@@ -6,13 +8,16 @@ from collections.abc import Iterator
 from workbench.authoring.live_words import elsewhere, live_words, on_page
 from workbench.authoring.new import TEMPLATE, TITLE
 from workbench.authoring.promises import ONLY_LIVE, Found, Subject, length_of, opens, promise
-from workbench.authors import place
 from workbench.errors import AuthorError, InputError
+from workbench.machinery.authors import place
 from workbench.page.article import LINK, TERM, article_html
-from workbench.typeset import page_of
+from workbench.story import has_story
+from workbench.words.typeset import page_of
 
 PARTS = ("Conventions", "Watch", "Predict", "Break it", "Your turn", "Pitfalls", "References")
-"""What a page has, among other parts."""
+"""What a page without a story has, among other parts."""
+STORY_PARTS = ("Your turn", "Conventions", "Pitfalls", "References")
+"""What a page with a story has beside its scenes."""
 WORDS = (350, 1100)
 LEFTOVER = 60
 """Characters of a line that nobody writes by chance as the scaffold has it."""
@@ -20,14 +25,19 @@ LEFTOVER = 60
 
 @promise
 def the_page_has_its_parts(subject: Subject) -> Found:
-    """There is a page, long enough and no longer, with the parts that people look for, and its pictures are there."""
+    """There is a page, long enough and no longer, with the parts that people look for, and its
+    pictures are there.
+    """
     lesson = subject.lesson
     if lesson.page is None:
-        yield f"{subject.who}: it has no page; page=Path(__file__).with_name('page.md') gives it one"
+        yield (
+            f"{subject.who}: it has no page; page=Path(__file__).with_name('page.md') gives it one"
+        )
         return
     text, where = lesson.text(), f"{subject.who}: {lesson.page}"
-    yield length_of(f"{where}: the page", len(text.split()), WORDS, "words")
-    for part in PARTS:
+    tells = has_story(lesson)
+    yield None if tells else length_of(f"{where}: the page", len(text.split()), WORDS, "words")
+    for part in STORY_PARTS if tells else PARTS:
         yield None if part.lower() in text.lower() else f"{where}: the page has no part {part!r}"
     try:
         page_of(text, lesson.page)
@@ -38,14 +48,18 @@ def the_page_has_its_parts(subject: Subject) -> Found:
 
 @promise
 def nothing_is_asked_for_that_a_published_page_cannot(subject: Subject) -> Found:
-    """Where nothing can be computed, no text asks for a click, a drag, a file or a knob that no sweep publishes."""
+    """Where nothing can be computed, no text asks for a click, a drag, a file or a knob that no
+    sweep publishes.
+    """
     for what, text in elsewhere(subject.lesson).items():
         asked = next(live_words(text, subject.lesson), None)
         yield None if asked is None else f"{subject.who}, {what} says {asked[1]!r}; {ONLY_LIVE}"
     if subject.lesson.page is not None:
         page = str(subject.lesson.page)
         told = [f"{place(page, line)}: it says {said!r}" for line, said in on_page(subject.lesson)]
-        yield from [f"{subject.who}: {one}; {ONLY_LIVE}: write {{{{live: ...}}}}" for one in told] or [None]
+        yield from [
+            f"{subject.who}: {one}; {ONLY_LIVE}: write {{{{live: ...}}}}" for one in told
+        ] or [None]
 
 
 @promise
@@ -55,20 +69,31 @@ def every_formula_is_read(subject: Subject) -> Found:
     if lesson.page is None:
         return
     text = lesson.text()
-    formulas = re.findall(r"<math.*?</math>", page_of(re.sub(r"!\[.*?\]\(.*?\)", "", text), None), re.DOTALL)
-    yield None if formulas else f"{subject.who}: {lesson.page}: the page has no formula between $ and $"
+    formulas = re.findall(
+        r"<math.*?</math>", page_of(re.sub(r"!\[.*?\]\(.*?\)", "", text), None), re.DOTALL
+    )
+    yield (
+        None
+        if formulas
+        else f"{subject.who}: {lesson.page}: the page has no formula between $ and $"
+    )
     for formula in formulas:
         unknown = re.search(r"\\[a-zA-Z]*", formula)
         if unknown is None:
             yield None
             continue
         line = next((i for i, row in enumerate(text.splitlines(), 1) if unknown[0] in row), 1)
-        yield f"{subject.who}: {place(str(lesson.page), line)}: {unknown[0]} is a TeX command that is not known here"
+        yield (
+            f"{subject.who}: {place(str(lesson.page), line)}: {unknown[0]} is a TeX command that is"
+            " not known here"
+        )
 
 
 @promise
 def every_reference_of_the_page_leads_somewhere(subject: Subject) -> Found:
-    """A link names a run that there is and a step that it has; a term names a thing that some run shows."""
+    """A link names a run that there is and a step that it has; a term names a thing that some run
+    shows.
+    """
     lesson = subject.lesson
     if lesson.page is None:
         return
@@ -81,7 +106,11 @@ def every_reference_of_the_page_leads_somewhere(subject: Subject) -> Found:
 
     links = [(where(match.start()), match[1], match[2]) for match in LINK.finditer(text)]
     sought = {match[1]: where(match.start()) for match in TERM.finditer(text)}
-    yield from (f"{at}: a link runs {name!r}, which is no preset" for at, name, _ in links if name not in runs)
+    yield from (
+        f"{at}: a link runs {name!r}, which is no preset"
+        for at, name, _ in links
+        if name not in runs
+    )
     for name, params in runs.items():
         steps = [(at, int(step)) for at, linked, step in links if linked == name and step]
         if not steps and not sought:
@@ -90,7 +119,10 @@ def every_reference_of_the_page_leads_somewhere(subject: Subject) -> Found:
         yield from (opens(run, f"{at}: the link to {name!r}", step) for at, step in steps)
         shown = {path for step in run.known() for path in step.scene}
         sought = {path: at for path, at in sought.items() if not _is_shown(path, shown)}
-    yield from (f"{at}: [[{path}]] names nothing that a run of the lesson shows" for path, at in sought.items())
+    yield from (
+        f"{at}: [[{path}]] names nothing that a run of the lesson shows"
+        for path, at in sought.items()
+    )
 
 
 def _is_shown(path: str, shown: set[str]) -> bool:
@@ -109,7 +141,11 @@ def every_term_of_the_page_is_read(subject: Subject) -> Found:
         return
     seen = re.sub(r"<(code|pre|math)\b.*?</\1>", "", html, flags=re.DOTALL)
     left = re.search(r"\[\[[^<\n]{0,40}", seen)
-    yield None if left is None else f"{subject.who}: {subject.lesson.page}: {left[0]!r} is no term: [[path|words]]"
+    yield (
+        None
+        if left is None
+        else f"{subject.who}: {subject.lesson.page}: {left[0]!r} is no term: [[path|words]]"
+    )
 
 
 @promise
@@ -120,7 +156,8 @@ def nothing_is_left_of_the_scaffold(subject: Subject) -> Found:
     scaffold = frozenset(_long_lines((TEMPLATE / "page.md").read_text(encoding="utf-8")))
     for number, line in enumerate(subject.lesson.text().splitlines(), 1):
         left = (
-            f"{subject.who}: {place(str(subject.lesson.page), number)}: this line is the scaffold's, not of your lesson"
+            f"{subject.who}: {place(str(subject.lesson.page), number)}: this line is the"
+            " scaffold's, not of your lesson"
         )
         yield left if line.strip() in scaffold else None
 

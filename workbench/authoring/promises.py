@@ -1,26 +1,25 @@
-"""What every lesson promises, each as a function that looks and tells: what holds, and in sentences what does not.
+"""What every lesson promises, each as a function that looks and tells: what holds, and in sentences
+what does not.
 
-A promise yields None for everything that it found to hold, and one line for everything that does not; the line names the
-lesson's file, line, preset, question, knob or scene path. `workbench validate` and the tests of the course run the same.
+A promise yields None for everything that it found to hold, and one line for everything that does
+not; the line names the lesson's file, line, preset, question, knob or scene path. `workbench
+validate` and the tests of the course run the same.
 """
 
 import inspect
 import re
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import Any, TypeAlias
 
 from workbench.authoring.live_words import live_words
-from workbench.authors import at
 from workbench.errors import InputError
-from workbench.flags import RESERVED
-from workbench.knobs import Field, changed, fields_of, from_json, to_json
 from workbench.lesson import Lesson, Preset, Question
-from workbench.questions import Answer, answer
+from workbench.machinery.authors import at
+from workbench.run.questions import Answer, answer
+from workbench.run.timeline import Timeline
 from workbench.scene import Scene, in_space, same
-from workbench.timeline import Timeline
-from workbench.typeset import inline_html
+from workbench.words.typeset import inline_html
 
 Found: TypeAlias = Iterator[str | None]
 """None for each thing that holds, a line for each that does not."""
@@ -43,7 +42,8 @@ class Subject:
 
     Args:
         lesson: The lesson.
-        whole: Returns a finished run at these params; by default it is made here, kept, and cut after `seconds`.
+        whole: Returns a finished run at these params; by default it is made here, kept, and cut
+            after `seconds`.
         seconds: How long one run may take.
         tell: Told what is run now, again at every step.
     """
@@ -61,7 +61,9 @@ class Subject:
         self._kept: dict[Any, Timeline] = {}
 
     def whole(self, params: Any, doing: str) -> Timeline:
-        """Return the run at these params, computed to its end or until it has taken too long, which `stopped` says."""
+        """Return the run at these params, computed to its end or until it has taken too long, which
+        `stopped` says.
+        """
         if self._whole is not None:
             return self._whole(params)
         if params not in self._kept:
@@ -78,7 +80,9 @@ class Subject:
         while (steps is None or len(timeline) < steps) and timeline.extend():
             self.tell(f"{doing}, after step {len(timeline) - 1}")
             if time.monotonic() > end and not timeline.finished:
-                timeline.stopped = f"{self.who}: {at(self.lesson.run)}the run takes over {self._seconds:g} s; "
+                timeline.stopped = (
+                    f"{self.who}: {at(self.lesson.run)}the run takes over {self._seconds:g} s; "
+                )
                 timeline.stopped += f"it is at step {len(timeline) - 1}"
                 timeline.finished = True
         return timeline
@@ -96,11 +100,16 @@ def promise(function: Callable[[Subject], Found]) -> Callable[[Subject], Found]:
 
 @promise
 def the_default_run_ends_well(subject: Subject) -> Found:
-    """The default run comes to its end by itself, in two steps or more, and opens at one of them."""
+    """The default run comes to its end by itself, in two steps or more, and opens at one of
+    them.
+    """
     lesson, run = subject.lesson, subject.default()
     yield run.stopped
     if run.stopped is None:
-        few = f"{subject.who}: {at(lesson.run)}the default run has {len(run)} step; a lesson shows two or more"
+        few = (
+            f"{subject.who}: {at(lesson.run)}the default run has {len(run)} step; a lesson shows"
+            " two or more"
+        )
         yield few if len(run) < 2 else None
         yield opens(run, subject.who, lesson.first_step)
 
@@ -112,16 +121,26 @@ def every_step_says_what_happened(subject: Subject) -> Found:
     yield from _captions(where, subject.default())
     captions = {step.caption.text for step in subject.default().known()}
     if len(subject.default()) > 1:
-        yield f"{where}every step has the caption {min(captions)[:60]!r}" if len(captions) == 1 else None
+        yield (
+            f"{where}every step has the caption {min(captions)[:60]!r}"
+            if len(captions) == 1
+            else None
+        )
 
 
 def _captions(where: str, run: Timeline) -> Found:
     before = None
     for k, step in enumerate(run.known()):
         text = step.caption.text
-        yield length_of(f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters")
+        yield length_of(
+            f"{where}step {k}: the caption {text[:60]!r}", len(text), CAPTION, "characters"
+        )
         asked = None if text == before else next(live_words(text, run.lesson), None)
-        yield None if asked is None else f"{where}step {k}: the caption says {asked[1]!r}; {ONLY_LIVE}"
+        yield (
+            None
+            if asked is None
+            else f"{where}step {k}: the caption says {asked[1]!r}; {ONLY_LIVE}"
+        )
         before = text
 
 
@@ -132,12 +151,19 @@ def every_step_shows_something_in_space(subject: Subject) -> Found:
     where = f"{subject.who}: {at(subject.lesson.draw)}"
     for k, step in enumerate(subject.default().known()):
         seen = any(in_space(primitive) for primitive in step.scene.values())
-        yield None if seen else f"{where}step {k} shows nothing in space; a scene has at least one thing there"
+        yield (
+            None
+            if seen
+            else f"{where}step {k} shows nothing in space; a scene has at least one thing there"
+        )
         for path, primitive in step.scene.items():
             kind = kinds.setdefault(path, type(primitive))
             if kind is not type(primitive):
                 now, before = type(primitive).__name__, kind.__name__
-                yield f"{where}step {k}: {path!r} is of the kind {now} now, and was of the kind {before}"
+                yield (
+                    f"{where}step {k}: {path!r} is of the kind {now} now, and was of the kind"
+                    f" {before}"
+                )
 
 
 @promise
@@ -148,10 +174,13 @@ def a_run_is_reproducible(subject: Subject) -> Found:
     where = f"{subject.who}: {at(subject.lesson.run)}"
     hint = "take all chance from np.random.default_rng(params.seed)"
     if len(run) != len(again):
-        yield f"{where}the default run has {len(run)} steps, and {len(again)} when it is run again; {hint}"
+        yield (
+            f"{where}the default run has {len(run)} steps, and {len(again)} when it is run again;"
+            f" {hint}"
+        )
         return
     for k, (one, two) in enumerate(zip(run.known(), again.known(), strict=True)):
-        path = _differs(one.scene, two.scene)
+        path = differs(one.scene, two.scene)
         if path is not None:
             yield f"{where}run again, step {k} shows something else at {path!r}; {hint}"
             return
@@ -163,100 +192,30 @@ def the_code_of_every_step_can_be_shown(subject: Subject) -> Found:
     """Every step knows the line at which the algorithm stands."""
     for k, step in enumerate(subject.default().known()):
         if step.moment is None:
-            yield f"{subject.who}: {at(subject.lesson.run)}step {k} has no line to show; run is a generator function"
+            yield (
+                f"{subject.who}: {at(subject.lesson.run)}step {k} has no line to show; run is a"
+                " generator function"
+            )
             return
         lines, first = step.moment.source
         inside = first <= step.moment.line < first + len(lines)
-        yield None if inside else f"{subject.who}: {at(step.moment.function)}step {k} stands outside of its function"
-
-
-@promise
-def every_knob_goes_to_its_ends(subject: Subject) -> Found:
-    """With each knob at each end of its range, or at each of its choices, the run begins, or says why not in one line.
-
-    Where the default run does not meet what a knob needs, the run would be the same again.
-    """
-    base = subject.lesson.params()
-    for field in fields_of(subject.lesson.params):
-        if any(getattr(base, name, None) not in wanted for name, wanted in field.knob.needs.items()):
-            continue
-        for value in ends(field):
-            where = f"{field.name} = {value}"
-            run = subject.fresh(replace(base, **{field.name: value}), f"the run at {where}", MOST_STEPS)
-            fine = run.failure is None or run.stopped == subject.default().stopped  # which is told already
-            yield None if fine else f"{run.stopped} (at {where})"
-
-
-@promise
-def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
-    """Where a knob says what it needs to have an effect, it has none while another knob is set otherwise."""
-    fields = {field.name: field for field in fields_of(subject.lesson.params)}
-    idle: dict[Any, list[Field]] = {}  # knobs without effect at some params
-    for field in fields.values():
-        for name, wanted in field.knob.needs.items():
-            of_file = name in fields and fields[name].kind == "path" and wanted == (None,)
-            if not of_file and (name not in fields or fields[name].kind not in ("choice", "bool")):
-                yield f"{subject.who}: {field.name} needs {name!r}, which is no choice or switch of this lesson"
-                continue
-            met = {other: values[0] for other, values in field.knob.needs.items()}
-            for other in [value for value in ends(fields[name]) if value not in wanted]:
-                base = replace(subject.lesson.params(), **{**met, name: other})
-                idle.setdefault(base, []).append(field)
-    for base, turned in idle.items():
-        plain = subject.fresh(base, "a run", MOST_STEPS)
-        if _all_turned(subject, turned, base, plain):
-            for field in turned:
-                yield from _has_no_effect(subject, field, base, plain)
-        else:
-            yield from [None] * len(turned)
-
-
-def _all_turned(subject: Subject, fields: list[Field], base: Any, plain: Timeline) -> bool:
-    """Whether knobs that are turned together, to each of their ends once, change a run; own files have no ends."""
-    values = {field.name: ends(field) for field in fields if field.kind != "path"}
-    for k in range(max(map(len, values.values()), default=0)):
-        all_at = {name: several[k % len(several)] for name, several in values.items()}
-        if _effect(plain, subject.fresh(replace(base, **all_at), "a run with idle knobs turned", MOST_STEPS)):
-            return True
-    return False
-
-
-def _has_no_effect(subject: Subject, field: Field, base: Any, plain: Timeline) -> Found:
-    for value in [value for value in ends(field) if value != getattr(base, field.name)]:
-        turned = subject.fresh(replace(base, **{field.name: value}), f"a run at {field.name} = {value}", MOST_STEPS)
-        found = _effect(plain, turned)
-        where = f"{field.name} = {value} changes {found!r} although its needs are not met"
-        yield f"{subject.who}: {where}, at {changed(base)}" if found else None
-
-
-def _effect(plain: Timeline, turned: Timeline) -> str | None:
-    """Return what differs between two runs: the path of the first thing, or that they end otherwise."""
-    pairs = zip(plain.known(), turned.known(), strict=False)
-    found = next((path for one, two in pairs if (path := _differs(one.scene, two.scene))), None)
-    same_end = plain.stopped == turned.stopped and len(plain) == len(turned)
-    return found or (None if same_end else "how the run ends")
-
-
-@promise
-def params_survive_the_way_through_text(subject: Subject) -> Found:
-    """Params are the same after they were written to a link or recording, and no field has a name that commands use."""
-    kind = subject.lesson.params
-    for params in (kind(), *(preset.params for preset in subject.lesson.presets)):
-        again = from_json(kind, to_json(params))
-        kept = again == params and hash(again) == hash(params)
         yield (
-            None if kept else f"{subject.who}: {kind.__name__} written as text and read again is {again}, not {params}"
+            None
+            if inside
+            else f"{subject.who}: {at(step.moment.function)}step {k} stands outside of its function"
         )
-    for field in fields_of(kind):
-        taken = field.name in RESERVED
-        yield f"{subject.who}: {kind.__name__}.{field.name}: commands use this name" if taken else None
 
 
 @promise
 def every_preset_runs_and_promises_something(subject: Subject) -> Found:
-    """There are presets; each runs to its end, opens at one of its steps, and says in a line what to look for."""
+    """There are presets; each runs to its end, opens at one of its steps, and says in a line what
+    to look for.
+    """
     presets = subject.lesson.presets
-    few = f"{subject.who}: it has {len(presets)} presets; {LEAST_PRESETS} or more show what there is to see"
+    few = (
+        f"{subject.who}: it has {len(presets)} presets; {LEAST_PRESETS} or more show what there is"
+        " to see"
+    )
     yield few if len(presets) < LEAST_PRESETS else None
     for preset in presets:
         yield from _preset(subject, preset)
@@ -275,8 +234,14 @@ def _preset(subject: Subject, preset: Preset) -> Found:
 
 @promise
 def every_question_is_answered_by_its_run(subject: Subject) -> Found:
-    """There are questions; the run of each gives a finite answer and a reason, and opens at one of its steps."""
-    yield None if subject.lesson.questions else f"{subject.who}: it has no question to answer before looking"
+    """There are questions; the run of each gives a finite answer and a reason, and opens at one of
+    its steps.
+    """
+    yield (
+        None
+        if subject.lesson.questions
+        else f"{subject.who}: it has no question to answer before looking"
+    )
     for question in subject.lesson.questions:
         yield from _question(subject, question)
 
@@ -309,38 +274,62 @@ def _known_wrong(who: str, question: Question, found: Answer) -> Found:
     """What is said to a wrong answer is said to nobody who is right."""
     if question.choices:
         reply = question.reply(found.value)
-        yield f"{who}: {found.truth!r} is right, and its why is for who chose it wrongly" if reply else None
+        yield (
+            f"{who}: {found.truth!r} is right, and its why is for who chose it wrongly"
+            if reply
+            else None
+        )
     for low, high, words in question.wrong:
         ends = f"{who}: its wrong answer from {low:g} to {high:g}"
-        yield f"{ends} belongs to numbers, and this question has choices" if question.choices else None
-        yield None if low <= high and words.strip() else f"{ends} wants a lowest number, a highest one, and words"
+        yield (
+            f"{ends} belongs to numbers, and this question has choices"
+            if question.choices
+            else None
+        )
+        yield (
+            None
+            if low <= high and words.strip()
+            else f"{ends} wants a lowest number, a highest one, and words"
+        )
         nearest = min(max(low, found.value), high)
         right = abs(nearest - found.value) <= question.tolerance
-        yield f"{ends} meets the right one, {found.value:g} ± {question.tolerance:g}" if right else None
+        yield (
+            f"{ends} meets the right one, {found.value:g} ± {question.tolerance:g}"
+            if right
+            else None
+        )
 
 
 @promise
 def run_takes_only_keywords_beside_params(subject: Subject) -> Found:
-    """`run` takes `params`, and by keyword functions that have defaults; the lesson's name can be a folder."""
-    lesson = subject.lesson
-    first, *slots = inspect.signature(lesson.run).parameters.values()
+    """`run` takes `params`, its subject, and by keyword functions that have defaults; the name
+    can be a folder.
+    """
+    lesson, inputs = subject.lesson, subject.lesson.form.inputs
+    first, *others = inspect.signature(lesson.run).parameters.values()
     where = f"{subject.who}: {at(lesson.run)}run"
-    yield None if first.name == "params" else f"{where} calls its first argument {first.name!r}; it is 'params'"
-    for slot in slots:
+    yield (
+        None
+        if first.name == "params"
+        else f"{where} calls its first argument {first.name!r}; it is 'params'"
+    )
+    for slot in others[len(inputs) - 1 :]:
+        if slot.kind is slot.VAR_KEYWORD and len(inputs) > 1:
+            named = (
+                f"{where} passes on **{slot.name}; slots=(...) of the lesson names what it can hold"
+            )
+            yield None if lesson.slots else named
+            continue
         good = slot.kind is slot.KEYWORD_ONLY and slot.default is not slot.empty
-        wanted = f"beside params it takes keywords with defaults: `*, {slot.name}=...`"
+        wanted = (
+            f"beside {' and '.join(inputs)} it takes keywords with defaults: `*, {slot.name}=...`"
+        )
         yield None if good else f"{where} takes {slot.name!r}; {wanted}"
-    yield None if NAME.fullmatch(lesson.name) else f"{subject.who}: a lesson's name is letters, digits, - and _"
-
-
-def ends(field: Field) -> list[Any]:
-    """Return the values of a knob at each end of its range, or each of its choices."""
-    low, high = field.knob.low, field.knob.high
-    if field.kind in ("float", "int"):
-        return [field.clean(low), field.clean(high)]
-    if field.kind in ("floats", "ints"):
-        return [field.clean([end] * field.length) for end in (low, high)]
-    return [False, True] if field.kind == "bool" else list(field.choices)
+    yield (
+        None
+        if NAME.fullmatch(lesson.name)
+        else f"{subject.who}: a lesson's name is letters, digits, - and _"
+    )
 
 
 def opens(run: Timeline, who: str, step: int) -> str | None:
@@ -355,9 +344,13 @@ def opens(run: Timeline, who: str, step: int) -> str | None:
 def length_of(what: str, length: int, wanted: tuple[int, int], unit: str) -> str | None:
     """Return a line where something is shorter or longer than wanted."""
     least, most = wanted
-    return None if least <= length <= most else f"{what} has {length} {unit}; wanted are {least} to {most:,}"
+    return (
+        None
+        if least <= length <= most
+        else f"{what} has {length} {unit}; wanted are {least} to {most:,}"
+    )
 
 
-def _differs(one: Scene, two: Scene) -> str | None:
+def differs(one: Scene, two: Scene) -> str | None:
     """Return the first path at which two scenes differ, None where they are the same."""
     return next((path for path in {**one, **two} if not same(one.get(path), two.get(path))), None)

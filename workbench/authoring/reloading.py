@@ -1,4 +1,6 @@
-"""Follows the files of a lesson while they are edited: every save is a new lesson, or says why it is none."""
+"""Follows the files of a lesson while they are edited: every save is a new lesson, or says why it
+is none.
+"""
 
 import os
 from collections.abc import Iterator
@@ -8,8 +10,8 @@ from typing import Any
 from workbench import knobs
 from workbench.errors import AuthorError, InputError
 from workbench.lesson import Lesson
-from workbench.loading import load, taken_by
-from workbench.timeline import Timeline
+from workbench.run.loading import load, taken_by
+from workbench.run.timeline import Timeline
 
 FOLLOWED = (".py", ".md", ".svg", ".png", ".jpg", ".jpeg", ".webp")
 
@@ -18,7 +20,8 @@ class Edited:
     """A lesson that was given by its path.
 
     Args:
-        path: Its file or folder. Of a folder all code, text and pictures are followed, of a file it and its page.
+        path: Its file or folder. Of a folder all code, text and pictures are followed, of a file it
+            and its page.
         lesson: The lesson as it is now.
 
     Attributes:
@@ -32,7 +35,8 @@ class Edited:
         self._stamp = self._stamp_now()
 
     def changed(self) -> bool:
-        """Load the lesson again if something was saved since, and tell whether; its code runs, which may take a while.
+        """Load the lesson again if something was saved since, and tell whether; its code runs,
+        which may take a while.
 
         A lesson whose default run has no first step counts as broken: the one before is kept.
         """
@@ -44,7 +48,9 @@ class Edited:
             lesson = load(self.path)
             other = taken_by(lesson)
             if other is not None:
-                raise InputError(f"{self.path}: its name {lesson.name!r} is taken by {other}; give it another")
+                raise InputError(
+                    f"{self.path}: its name {lesson.name!r} is taken by {other}; give it another"
+                )
             first = Timeline(lesson, lesson.params())
             first.extend()
             if first.stopped is not None and not len(first):
@@ -52,7 +58,9 @@ class Edited:
         except InputError as error:
             self.trouble = error
         except SystemExit:
-            self.trouble = AuthorError(f"lesson {self.lesson.name}: {self.path}: its code ends the program")
+            self.trouble = AuthorError(
+                f"lesson {self.lesson.name}: {self.path}: its code ends the program"
+            )
         else:
             self.lesson, self.trouble = lesson, None
         return True
@@ -61,7 +69,9 @@ class Edited:
         return dict(self._files())
 
     def _files(self) -> Iterator[tuple[str, tuple[int, int]]]:
-        """Yield each file with what tells that it was saved; one that an editor is replacing right now is left out."""
+        """Yield each file with what tells that it was saved; one that an editor is replacing right
+        now is left out.
+        """
         pages = [] if self.lesson.page is None else [str(self.lesson.page)]
         for file in [*pages, *(_in_folder(self.path) if self.path.is_dir() else [str(self.path)])]:
             try:
@@ -74,13 +84,18 @@ class Edited:
 def _in_folder(folder: Path) -> Iterator[str]:
     for place, folders, files in os.walk(folder):
         folders[:] = [name for name in folders if not name.startswith((".", "__"))]
-        yield from (os.path.join(place, name) for name in files if name.endswith(FOLLOWED) and name[0] != ".")
+        yield from (
+            os.path.join(place, name)
+            for name in files
+            if name.endswith(FOLLOWED) and name[0] != "."
+        )
 
 
 def carried(params: Any, lesson: Lesson) -> Any:
     """Return the params of one version of a lesson as those of another.
 
-    What is a field of both keeps its value, moved into its new range; what cannot be kept has its default.
+    What is a field of both keeps its value, moved into its new range; what cannot be kept has its
+    default.
     """
     before = {field.name: getattr(params, field.name) for field in knobs.fields_of(type(params))}
     kept = {}

@@ -1,7 +1,7 @@
 """Holds a lesson and its exercises to what is promised of them, in a process of its own.
 
-The lesson's code may raise, end its process, never come back or take all memory: that costs its own process only, and is
-one more line, with the place where the code stood.
+The lesson's code may raise, end its process, never come back or take all memory: that costs its own
+process only, and is one more line, with the place where the code stood.
 """
 
 import contextlib
@@ -18,14 +18,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from workbench.authoring import own_data, page_promises, view_promises  # noqa: F401 each adds to OF_LESSONS
+from workbench.authoring import (  # noqa: F401 each adds to OF_LESSONS
+    knob_promises,
+    own_data,
+    page_promises,
+    story_promises,
+    view_promises,
+)
 from workbench.authoring.exercise_promises import OF_EXERCISES
 from workbench.authoring.promises import OF_LESSONS, SECONDS, Found, Subject
-from workbench.authors import described, is_ours, place
 from workbench.errors import InputError, one_line
 from workbench.exercise.finding import exercises_of
 from workbench.lesson import catalog, find
-from workbench.loading import is_path, lesson_given
+from workbench.machinery.authors import described, is_ours, place
+from workbench.machinery.docstrings import summary_of
+from workbench.run.loading import is_path, lesson_given
 
 MEGABYTES = 6144
 _FRAME = re.compile(r'^  File "(.*)", line (\d+) in ', re.MULTILINE)
@@ -33,7 +40,9 @@ _FRAME = re.compile(r'^  File "(.*)", line (\d+) in ', re.MULTILINE)
 
 @dataclass(frozen=True)
 class Verdict:
-    """What validating found: the lesson's name (or the word for it), how many things were looked at, and what is wrong."""
+    """What validating found: the lesson's name (or the word for it), how many things were looked
+    at, and what is wrong.
+    """
 
     name: str
     looked_at: int
@@ -41,9 +50,11 @@ class Verdict:
 
 
 def look_at(subject: Subject) -> Found:
-    """Yield what every promise finds of a lesson and of its exercises; a promise that cannot be looked at is a line too."""
+    """Yield what every promise finds of a lesson and of its exercises; a promise that cannot be
+    looked at is a line too.
+    """
     for promise in OF_LESSONS:
-        yield from _guarded(lambda promise=promise: promise(subject), subject, promise.__doc__ or "")
+        yield from _guarded(lambda promise=promise: promise(subject), subject, summary_of(promise))
     try:
         exercises = exercises_of(subject.lesson)
     except (Exception, SystemExit) as error:
@@ -52,14 +63,17 @@ def look_at(subject: Subject) -> Found:
     for exercise in exercises:
         for promise in OF_EXERCISES:
             look = lambda promise=promise, exercise=exercise: promise(subject, exercise)  # noqa: E731
-            yield from _guarded(look, subject, f"exercise {exercise.name}: {promise.__doc__ or ''}")
+            yield from _guarded(look, subject, f"exercise {exercise.name}: {summary_of(promise)}")
 
 
 def _guarded(look: Callable[[], Found], subject: Subject, what: str) -> Found:
     try:
         yield from look()
     except (Exception, SystemExit) as error:
-        yield f"{subject.who}: {described(error, subject.lesson.run)} (while looking whether: {what.rstrip('.')})"
+        yield (
+            f"{subject.who}: {described(error, subject.lesson.run)} (while looking whether:"
+            f" {what.rstrip('.')})"
+        )
 
 
 def validate(word: str, told: Callable[[str], object], *, seconds: float = SECONDS) -> Verdict:
@@ -97,12 +111,20 @@ def validate(word: str, told: Callable[[str], object], *, seconds: float = SECON
                     tell(one_line(message["holds"]))
         if not ended:
             last_words.seek(0)
-            tell(one_line(f"{name}: {_how_it_ended(last_words.read(), child.returncode, seconds)}, at: {doing}"))
+            tell(
+                one_line(
+                    f"{name}: {_how_it_ended(last_words.read(), child.returncode, seconds)}, at:"
+                    f" {doing}"
+                )
+            )
     return Verdict(name, looked_at, tuple(wrong))
 
 
 def _started(word: str, seconds: float, last_words: Any) -> subprocess.Popen:
-    begin = "import sys; from workbench.authoring.validate import main; main(sys.argv[1], float(sys.argv[2]))"
+    begin = (
+        "import sys; from workbench.authoring.validate import main; main(sys.argv[1],"
+        " float(sys.argv[2]))"
+    )
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
     return subprocess.Popen(
         [sys.executable, "-P", "-c", begin, word, str(seconds)],
@@ -122,10 +144,13 @@ def _how_it_ended(said: str, code: int, seconds: float) -> str:
     if "Timeout (" in said:
         return f"{stood}the code did not come back for {seconds:g} s"
     reason = "MemoryError" if "MemoryError" in said else f"exit code {code}"
-    return f"{stood}the process ended ({reason}); does the code end it, crash a library, or take all memory?"
+    return (
+        f"{stood}the process ended ({reason}); does the code end it, crash a library, or take all"
+        " memory?"
+    )
 
 
-# in the other process ---------------------------------------------------------------------------------------------------
+# in the other process -----------------------------------------------------------------------------
 
 
 def main(word: str, seconds: float) -> None:
@@ -146,7 +171,9 @@ def main(word: str, seconds: float) -> None:
     faulthandler.enable()
     catalog()  # of which the lesson's own time is none
     send(doing="loading it")
-    for found in _looked_at(word, seconds, lambda doing: send(doing=doing), lambda name: send(name=name)):
+    for found in _looked_at(
+        word, seconds, lambda doing: send(doing=doing), named=lambda name: send(name=name)
+    ):
         send(holds=found)
     send(end=True)
     out.close()
@@ -154,7 +181,7 @@ def main(word: str, seconds: float) -> None:
 
 
 def _looked_at(
-    word: str, seconds: float, tell: Callable[[str], object], named: Callable[[str], object]
+    word: str, seconds: float, tell: Callable[[str], object], *, named: Callable[[str], object]
 ) -> Iterator[str | None]:
     try:
         lesson = lesson_given(word)
@@ -171,4 +198,6 @@ def _limit_memory() -> None:
 
         hard = resource.getrlimit(resource.RLIMIT_AS)[1]
         most = MEGABYTES << 20
-        resource.setrlimit(resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+        resource.setrlimit(
+            resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard)
+        )

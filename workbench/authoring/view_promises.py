@@ -11,12 +11,16 @@ from workbench.scene import Axes, Camera, Label, Mesh, Picture, Points, Primitiv
 ASPECT = 4 / 3
 """Width over height of the frame that is asked for, about that of the stage on a desktop."""
 LEAST_SEEN = 0.25
-"""Of the named things of a step, this share has a place in the frame: a close-up leaves others out, some lie at infinity."""
+"""Of the named things of a step, this share has a place in the frame: a close-up leaves others out,
+some lie at infinity.
+"""
 
 
 @promise
 def the_picture_lies_in_its_frame(subject: Subject) -> Found:
-    """At every step of every preset, enough of the things with a name have a place in the frame of its camera."""
+    """At every step of every preset, enough of the things with a name have a place in the frame of
+    its camera.
+    """
     runs = {"the default run": subject.lesson.params()}
     runs |= {f"preset {preset.name!r}": preset.params for preset in subject.lesson.presets}
     for what, params in runs.items():
@@ -24,7 +28,10 @@ def the_picture_lies_in_its_frame(subject: Subject) -> Found:
         for k, step in enumerate(subject.whole(params, what).known()):
             places = dict(_named_places(step.scene))
             lost = [path for path, p in places.items() if not in_frame(view, p).any()]
-            out = f"{subject.who}, {what}, step {k}: out of its frame are {', '.join(lost)}; give it a view of its own"
+            out = (
+                f"{subject.who}, {what}, step {k}: out of its frame are {', '.join(lost)}; give it"
+                " a view of its own"
+            )
             yield out if len(lost) > (1 - LEAST_SEEN) * len(places) else None
 
 
@@ -42,7 +49,9 @@ def in_frame(view: View, p_world: np.ndarray) -> np.ndarray:
 
 
 def _named_places(scene: Scene) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield the path of each named thing in space and its finite points in the world, (n, 3), one or more."""
+    """Yield the path of each named thing in space and its finite points in the world, (n, 3), one
+    or more.
+    """
     for path, primitive in scene.items():
         p = _own_points(primitive)
         if p is None:
@@ -55,7 +64,9 @@ def _named_places(scene: Scene) -> Iterator[tuple[str, np.ndarray]]:
 
 
 def _own_points(primitive: Primitive) -> np.ndarray | None:
-    """Return the points of a thing with a name, (n, 3), in its own frame; None of what has no name or no place."""
+    """Return the points of a thing with a name, (n, 3), in its own frame; None of what has no name
+    or no place.
+    """
     if isinstance(primitive, Label):
         return primitive.p[None]
     if isinstance(primitive, Picture) and primitive.width is not None:

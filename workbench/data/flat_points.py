@@ -1,4 +1,4 @@
-"""Points that people bring in the plane: two columns of a text file; and of something round, in the plane or in space."""
+"""Points that people bring in the plane: two columns of text; and of something round."""
 
 import functools
 from pathlib import Path
@@ -9,29 +9,27 @@ from jaxtyping import Float
 
 from workbench.apart import apart
 from workbench.data.files import finite, number_rows, read_cloud, stamp
-from workbench.data.formats import is_number, text_of, words_of
+from workbench.data.files.formats import is_number, text_of, words_of
 from workbench.data.framing import box
 from workbench.data.thinning import evenly
 from workbench.errors import InputError
-from workbench.geometry.algebraic_fits import fit_algebraic
+from workbench.geometry.shapes.algebraic_fits import fit_algebraic
 
-WIDTH = 2.0  # metres that points are long in the picture, where nothing round says how large they are
+WIDTH = (
+    2.0  # metres that points are long in the picture, where nothing round says how large they are
+)
 LARGEST = 3.0  # times as large as the points a circle may be that they are shown by
 LOOK = 100_000  # signs at the beginning of a file that tell how many columns it has
 _TEXT = (".xyz", ".txt", ".csv", ".tsv", ".dat")
 
 
 def read_flat_or_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n d"]:
-    """Return places in the plane (n, 2) from a text file of two columns, and else a cloud (n, 3), as `read_cloud` does.
+    """Return places in the plane (n, 2) of a text file of two columns, else a cloud (n, 3).
 
     Columns are separated by commas, semicolons, tabs or spaces; a header is passed over.
 
-    Args:
-        path: The file.
-        fewest: How many points are needed.
-
     Raises:
-        InputError: If it is not understood, or has fewer points.
+        InputError: If it is not understood, or has fewer than `fewest` points.
     """
     return _read(path, fewest, stamp(path))
 
@@ -39,20 +37,14 @@ def read_flat_or_cloud(path: Path, fewest: int = 3) -> Float[np.ndarray, "n d"]:
 def read_round(
     path: Path, shape: Literal["circle", "sphere", "cylinder", "plane"], most: int
 ) -> tuple[Float[np.ndarray, "n d"], float]:
-    """Return the points of a shape about the origin, where the circle or sphere that fits them has about the radius 1 m.
+    """Return a shape's points about the origin, its radius about 1 m, and the file's unit per m.
 
-    Args:
-        path: The file, as `read_flat_or_cloud` takes it.
-        shape: What they are points of: of a circle they have two coordinates, of the others three.
-        most: How many points are used; evenly chosen of more.
-
-    Returns:
-        The points, and how many units of the file 1 m of them is. Of a cylinder or a plane, and of an arc so short that its
-        circle is far larger, the box is about the origin, 2 m long.
+    At most `most` points are used, evenly chosen. Of a cylinder or a plane, and of an arc so short
+    that its circle is far larger, the box is about the origin, 2 m long.
 
     Raises:
-        InputError: If the file is not understood, has other columns, or all points lie at one place; and where something
-            round is wanted, if they lie on a line or a plane.
+        InputError: If the file is not understood, has other columns, or all points lie at one
+            place; and where something round is wanted, if they lie on a line or a plane.
     """
     p = read_flat_or_cloud(path, fewest=6)
     p, wanted = p[evenly(len(p), most)], 2 if shape == "circle" else 3
@@ -65,7 +57,9 @@ def read_round(
     center, unit = (low + high) / 2, size / WIDTH
     if shape != "plane" and np.linalg.matrix_rank(p - p.mean(axis=0), tol=1e-9 * size) < wanted:
         flat = "line" if wanted == 2 else "plane"
-        raise InputError(f"{path.name}: the points lie on a {flat}, and nothing round fits them best")
+        raise InputError(
+            f"{path.name}: the points lie on a {flat}, and nothing round fits them best"
+        )
     found = fit_algebraic(p) if shape in ("circle", "sphere") else None
     if found is not None and found[-1] < LARGEST * size:
         center, unit = found[:-1], found[-1]
@@ -87,12 +81,20 @@ def _flat(path: Path, fewest: int) -> np.ndarray | None:
     stamp(path)
     text = text_of(path.read_bytes(), path.name)
     begin = text[: text.rfind("\n", 0, LOOK) + 1] if len(text) > LOOK else text
-    if max((len(words_of(line)) for line in begin.splitlines() if line.lstrip()[:1] != "#"), default=0) != 2:
+    if (
+        max(
+            (len(words_of(line)) for line in begin.splitlines() if line.lstrip()[:1] != "#"),
+            default=0,
+        )
+        != 2
+    ):
         return None
     rows = [words for _, words in number_rows(path, "points", _TEXT)]
     if not all(len(row) == 2 and all(is_number(word) for word in row) for row in rows):
         raise InputError(f"{path.name}: two numbers x y are wanted on each line")
     p = finite(np.array(rows, float).reshape(-1, 2), path.name)
     if len(p) < fewest:
-        raise InputError(f"{path.name}: at least {fewest} lines of two finite numbers x y are wanted")
+        raise InputError(
+            f"{path.name}: at least {fewest} lines of two finite numbers x y are wanted"
+        )
     return p

@@ -1,7 +1,7 @@
 """Brings a person's own data into the picture, whatever their unit, size, place and upward axis.
 
-A frame says how: p_world = scale R_world_file (p_file - centre) + offset. Its box may leave out far points, so that a few of
-them do not shrink the rest.
+A frame says how: p_world = scale R_world_file (p_file - centre) + offset. Its box may leave out far
+points, so that a few of them do not shrink the rest.
 """
 
 from dataclasses import dataclass, field, replace
@@ -18,7 +18,9 @@ Unit = Literal["m", "cm", "mm", "km"]
 METRES: dict[Unit, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
 Up = Literal["z", "y", "-y", "x"]
 Upward = Literal["auto", Up]
-UPRIGHT: dict[Up, np.ndarray] = {  # R_world_file: takes the axis of the file that points up to the world's +Z
+UPRIGHT: dict[
+    Up, np.ndarray
+] = {  # R_world_file: takes the axis of the file that points up to the world's +Z
     "z": np.eye(3),
     "y": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
     "-y": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
@@ -32,9 +34,8 @@ class Frame:
     """How data of a file stand in the picture; by default as they are.
 
     Attributes:
-        centre: The place in the file that the picture is about, in the file's unit.
+        centre: The place that the picture is about, in the file's unit.
         scale: Metres of the picture per unit of the file.
-        R_world_file: How the data are turned.
         offset: Where the centre comes to in the picture, metres.
     """
 
@@ -48,37 +49,33 @@ class Frame:
         return self.scale * (p_file - self.centre) @ self.R_world_file.T + self.offset
 
     def shown_motion(self, T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
-        """Return a motion or an affine map of the file's points as one of the points that are shown.
-
-        It holds that `apply(shown_motion(T), shown(p))` is `shown(apply(T, p))`.
-        """
+        """Return the map S of shown points with S(shown(p)) = shown(T(p)); T may be affine."""
         A, R = T[:3, :3], self.R_world_file
         A_world = R @ A @ R.T
         moved = self.scale * R @ (apply(T, self.centre) - self.centre)
         return motion(A_world, moved + self.offset - A_world @ self.offset)
 
     def shown_camera(self, T_camera_file: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
-        """Return where a camera that sees points of the file stands in the picture, and how it is turned."""
+        """Return the pose in the picture of a camera that sees points of the file."""
         T_file_camera = inverse(T_camera_file)
         return motion(self.R_world_file @ T_file_camera[:3, :3], self.shown(T_file_camera[:3, 3]))
 
     def standing(self, p_file: Float[np.ndarray, "n 3"], floor: float = 0.0) -> "Frame":
-        """Return the frame raised or lowered until the lowest of these points stands at the height `floor`."""
+        """Return the frame whose lowest point stands at the height `floor`."""
         rise = floor - self.shown(p_file)[:, 2].min()
         return replace(self, offset=self.offset + np.array([0.0, 0.0, rise]))
 
 
-def frame(p_file: Float[np.ndarray, "n 3"], width: float, *, up: Up = "z", far: float = 0.0) -> Frame:
-    """Return the frame in which the box of the points is `width` metres long, upright and about the origin.
+def frame(
+    p_file: Float[np.ndarray, "n 3"], width: float, *, up: Up = "z", far: float = 0.0
+) -> Frame:
+    """Return the frame in which the points' box is `width` metres long, upright, about the origin.
+
+    Where all points lie at one place, a unit of the file is `width` metres long.
 
     Args:
-        p_file: Points, in any unit.
-        width: The longest edge of the box in the picture, metres.
         up: The axis of the file that points up.
         far: Per cent of the points at either end of each axis that the box leaves out.
-
-    Note:
-        Where all points lie at one place, a unit of the file is `width` metres long.
     """
     low, high = box(p_file, far)
     scale = width / (extent(p_file, far) or 1.0)
@@ -86,7 +83,7 @@ def frame(p_file: Float[np.ndarray, "n 3"], width: float, *, up: Up = "z", far: 
 
 
 def box(p: Float[np.ndarray, "n d"], far: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lowest and the highest corner of the points' box, `far` per cent at either end of each axis left out."""
+    """Return two corners of the box, `far` per cent left out at either end of each axis."""
     low, high = np.percentile(p, [far, 100.0 - far], axis=0)
     return low, high
 
@@ -103,7 +100,7 @@ def upward(p: Float[np.ndarray, "n 3"], path: Path, up: Upward) -> Up:
 
 
 def own_points(p: Float[np.ndarray, "n 3"], path: Path, up: Upward, width: float) -> np.ndarray:
-    """Return the points of a person's file as the picture has them: upright, about the origin, `width` metres long.
+    """Return the points of a person's file upright, about the origin, `width` metres long.
 
     Raises:
         InputError: If all of them lie at one place; names the file.
@@ -116,12 +113,9 @@ def own_points(p: Float[np.ndarray, "n 3"], path: Path, up: Upward, width: float
 def likely_up(p: Float[np.ndarray, "n 3"], kind: str) -> Up:
     """Return the axis of a mesh file that is likely to point up.
 
-    It is the one on which the mesh stands, its lowest point being near 0 or above while the other axis has the mesh on both
-    sides; where neither or both are so, z in stl files (machines and printers), and y in all others (graphics).
-
-    Args:
-        p: The vertices.
-        kind: The ending of the file's name, with its dot, in lower case.
+    It is the one on which the mesh stands, its lowest point being near 0 or above while the other
+    axis has the mesh on both sides; where neither or both are so, z in stl files (machines and
+    printers), and y in all others (graphics). `kind` is the ending in lower case.
     """
     stands = p.min(axis=0) > -0.05 * extent(p)
     if stands[1] != stands[2]:
@@ -129,15 +123,12 @@ def likely_up(p: Float[np.ndarray, "n 3"], kind: str) -> Up:
     return "z" if kind == ".stl" else "y"
 
 
-def broad_side_to(p: Float[np.ndarray, "n 3"], eye: Float[np.ndarray, "3"], up: Up) -> Float[np.ndarray, "3 3"]:
-    """Return R_world_file: the axis `up` becomes +Z, and the broad side of the points turns to an eye.
+def broad_side_to(
+    p: Float[np.ndarray, "n 3"], eye: Float[np.ndarray, "3"], up: Up
+) -> Float[np.ndarray, "3 3"]:
+    """Return R_world_file: `up` becomes +Z, and a broad side of the points turns to an eye.
 
-    Of the two broad sides it is the one that needs the smaller turn about the vertical.
-
-    Args:
-        p: Points, in any unit.
-        eye: Where they are seen from, of which only the direction along the ground counts.
-        up: The axis of the file that points up.
+    It is the side that needs the smaller turn about the vertical; the eye's height does not count.
     """
     R_up = UPRIGHT[up]
     xy = (p @ R_up.T)[:, :2]
@@ -149,13 +140,13 @@ def broad_side_to(p: Float[np.ndarray, "n 3"], eye: Float[np.ndarray, "3"], up: 
 
 
 def round_below(length: float) -> float:
-    """Return the largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) that is no longer than a positive length."""
+    """Return the largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) up to a positive length."""
     power = 10.0 ** np.floor(np.log10(length))
     return float(power * max(digit for digit in (1, 2, 5) if digit * power <= length * (1 + 1e-9)))
 
 
 def ground_grid(cell: float, height: float, reach: float = 1.5) -> Float[np.ndarray, "n 2 3"]:
-    """Return the segments of a level grid about the origin: squares `cell` metres wide, at least `reach` to a side."""
+    """Return segments of a level grid about the origin, squares of `cell` metres."""
     n = int(np.ceil(reach / cell))
     at, end = cell * np.arange(-n, n + 1), n * cell
     lines = np.array([[[x, -end, height], [x, end, height]] for x in at])

@@ -1,4 +1,4 @@
-"""A person's pictures of views, in a folder or a zip: found by name, and decoded one by one when they are shown."""
+"""A person's pictures of views, in a folder or a zip; each is decoded when it is shown."""
 
 import functools
 import io
@@ -14,7 +14,7 @@ from jaxtyping import UInt8
 
 from workbench.apart import apart
 from workbench.data.files import opened_image, stamp
-from workbench.data.formats import not_too_large
+from workbench.data.files.formats import not_too_large
 from workbench.errors import InputError
 
 if TYPE_CHECKING:
@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 MOST_PICTURES = 500
 ENDINGS = (".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff", ".bmp")
 TURNED = 0x0112, (5, 6, 7, 8)
-"""Where a camera writes how it was held, and what stands there where width and height change places."""
+"""Where a camera writes how it was held, and what stands there where width and height change
+places.
+"""
 
 
 @dataclass(frozen=True)
@@ -32,8 +34,8 @@ class Pictures:
 
     Attributes:
         path: The folder or zip that they are in, or a picture itself.
-        names: Of every view the name of its picture there, or None where it has none.
-        size: Their width and height, upright as a camera says that it was held.
+        names: Of every view the name of its picture, or None.
+        size: Width and height, upright as a camera says that it was held.
     """
 
     path: Path
@@ -41,17 +43,17 @@ class Pictures:
     size: tuple[int, int]
 
     def shown(self, view: int, most: int) -> UInt8[np.ndarray, "h w *channels"] | None:
-        """Return the picture of a view, (h, w) grey or (h, w, 3) RGB, or None where it has none.
-
-        Args:
-            view: Which view, from 0 on.
-            most: It is shrunk to this many pixels along its longer side, where it has more.
+        """Return the picture of a view, or None, its longer side at most `most` pixels.
 
         Raises:
             InputError: If it cannot be read any more.
         """
         name = self.names[view]
-        return None if name is None else _decoded(self.path, name, stamp_of(self.path, name), most)
+        return (
+            None
+            if name is None
+            else _decoded(self.path, name, stamp_of(self.path, name), most=most)
+        )
 
 
 @apart
@@ -65,7 +67,7 @@ def grey_picture(path: Path, name: str) -> UInt8[np.ndarray, "h w"]:
 
 
 def stamp_of(path: Path, name: str) -> tuple[int, int]:
-    """Return when a picture of a folder or zip, or what holds it, was changed, and its size.
+    """Return when a picture, or what holds it, was changed, and its size.
 
     Raises:
         InputError: If it is gone.
@@ -85,30 +87,38 @@ def names_in(path: Path) -> tuple[str, ...]:
     In a folder only what lies there itself is taken, no link that leads out of it.
 
     Raises:
-        InputError: If there is no such file, no picture in it, or too many, or two of the same name.
+        InputError: If there is no such file, no picture, too many, or two of the same name.
     """
     if path.is_dir():
         home = path.resolve()
-        found = [one.name for one in path.iterdir() if _is_picture(one.name) and one.is_file()
-                 and one.resolve().parent == home]  # fmt: skip
+        found = [
+            one.name
+            for one in path.iterdir()
+            if _is_picture(one.name) and one.is_file() and one.resolve().parent == home
+        ]
     else:
         stamp(path)
         with _opened_zip(path) as packed:
             found = [one.filename for one in packed.infolist() if _is_picture(one.filename)]
     if not 0 < len(found) <= MOST_PICTURES:
         raise InputError(
-            f"{path.name or path}: {len(found) or 'no'} pictures in it; up to {MOST_PICTURES} jpg or png are taken"
+            f"{path.name or path}: {len(found) or 'no'} pictures in it; up to {MOST_PICTURES} jpg"
+            " or png are taken"
         )
     stems = [_stem(name) for name in found]
-    twice = next((name for name, stem in zip(found, stems, strict=True) if stems.count(stem) > 1), None)
+    twice = next(
+        (name for name, stem in zip(found, stems, strict=True) if stems.count(stem) > 1), None
+    )
     if twice is not None:
-        raise InputError(f"{path.name or path}: two pictures are called {PurePosixPath(twice).stem}")
+        raise InputError(
+            f"{path.name or path}: two pictures are called {PurePosixPath(twice).stem}"
+        )
     return tuple(sorted(found, key=_counted))
 
 
 @apart
 def pictures_of(path: Path, names: tuple[str | None, ...]) -> Pictures:
-    """Return pictures by their names, of every view one or None, once all are seen to be pictures of one size.
+    """Return pictures by their names, once all are seen to be pictures of one size.
 
     Raises:
         InputError: If one cannot be read, or has another size than the first.
@@ -118,22 +128,20 @@ def pictures_of(path: Path, names: tuple[str | None, ...]) -> Pictures:
     for name, size in sizes.items():
         if size != sizes[first]:
             raise InputError(
-                f"{path.name or path}: {name} has {size[0]} x {size[1]} pixels, {first} {sizes[first][0]} x"
-                f" {sizes[first][1]}: pictures of one camera have one size"
+                f"{path.name or path}: {name} has {size[0]} x {size[1]} pixels, {first}"
+                f" {sizes[first][0]} x {sizes[first][1]}: pictures of one camera have one size"
             )
     return Pictures(path, names, sizes[first])
 
 
 def matched(path: Path, views: Sequence[str], count: int) -> tuple[str | None, ...]:
-    """Return of every view the name of its picture: the one of the view's name, or else all in the order of their names.
+    """Return of every view its picture: the one of the view's name, or else all in order.
 
-    Args:
-        path: A folder or a zip.
-        views: What the pictures of the views are called, with or without ending; empty where nobody said.
-        count: How many views there are.
+    `views` are what their pictures are called; empty where nobody said.
 
     Raises:
-        InputError: If no name fits and there are not as many pictures as views, or as `names_in` does.
+        InputError: If no name fits and there are not as many pictures as views, or as `names_in`
+            does.
     """
     found = names_in(path)
     by_stem = {_stem(name): name for name in found}
@@ -147,7 +155,9 @@ def matched(path: Path, views: Sequence[str], count: int) -> tuple[str | None, .
 
 
 def _is_picture(name: str) -> bool:
-    return PurePosixPath(name).suffix.lower() in ENDINGS and not PurePosixPath(name).name.startswith(".")
+    return PurePosixPath(name).suffix.lower() in ENDINGS and not PurePosixPath(
+        name
+    ).name.startswith(".")
 
 
 def _stem(name: str) -> str:
@@ -157,18 +167,23 @@ def _stem(name: str) -> str:
 
 def _counted(name: str) -> list[tuple[int, str]]:
     """Return a key by which numbers in names count as numbers."""
-    return [(int(part), "") if part.isdecimal() else (0, part) for part in re.split(r"([0-9]+)", name.casefold())]
+    return [
+        (int(part), "") if part.isdecimal() else (0, part)
+        for part in re.split(r"([0-9]+)", name.casefold())
+    ]
 
 
 def _opened_zip(path: Path) -> zipfile.ZipFile:
     try:
         return zipfile.ZipFile(path)
     except Exception as error:  # what is damaged raises many kinds
-        raise InputError(f"{path.name or path}: not readable as a zip ({type(error).__name__})") from None
+        raise InputError(
+            f"{path.name or path}: not readable as a zip ({type(error).__name__})"
+        ) from None
 
 
 def _source(path: Path, name: str) -> Path | io.BytesIO:
-    """Return where a picture is read from: a file, or the bytes of a zip's member, never more than it said or may have."""
+    """Return a file, or the bytes of a zip's member, never more than it said or may have."""
     if not holds_many(path):
         stamp(path)
         return path
@@ -181,22 +196,28 @@ def _source(path: Path, name: str) -> Path | io.BytesIO:
         except InputError:
             raise
         except Exception as error:  # damaged, encrypted, packed in a way that is not known
-            raise InputError(f"{path.name or path}: {name} cannot be unpacked ({type(error).__name__})") from None
+            raise InputError(
+                f"{path.name or path}: {name} cannot be unpacked ({type(error).__name__})"
+            ) from None
 
 
 def _size(path: Path, name: str) -> tuple[int, int]:
     with opened_image(_source(path, name), PurePosixPath(name).name) as image:
         w, h = image.size
-        return (h, w) if _is_of_a_camera(image) and image.getexif().get(TURNED[0]) in TURNED[1] else (w, h)
+        return (
+            (h, w)
+            if _is_of_a_camera(image) and image.getexif().get(TURNED[0]) in TURNED[1]
+            else (w, h)
+        )
 
 
 def _is_of_a_camera(image: "Image.Image") -> bool:
-    """Tell whether a camera may have written how it was held; of a PNG that is only known once all is decoded."""
+    """Tell whether a camera may have written how it was held."""
     return image.format != "PNG"
 
 
 @functools.lru_cache(maxsize=48)
-def _decoded(path: Path, name: str, _stamp: tuple[int, int], most: int) -> np.ndarray:
+def _decoded(path: Path, name: str, _stamp: tuple[int, int], *, most: int) -> np.ndarray:
     return _upright(path, name, most)
 
 
@@ -207,8 +228,11 @@ def _upright(path: Path, name: str, most: int | None = None, kind: str | None = 
     with opened_image(_source(path, name), PurePosixPath(name).name) as image:
         kind = kind or ("L" if image.mode in ("1", "L", "LA") else "RGB")
         if most is not None:
-            image.draft(kind, (most, most))  # a JPEG is decoded at half or quarter size where that is enough
-        upright = (ImageOps.exif_transpose(image) if _is_of_a_camera(image) else image).convert(kind)
+            # a JPEG is decoded at half or quarter size where that is enough
+            image.draft(kind, (most, most))
+        upright = (ImageOps.exif_transpose(image) if _is_of_a_camera(image) else image).convert(
+            kind
+        )
         if most is not None and max(upright.size) > most:
             upright.thumbnail((most, most))
         return np.array(upright)

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from workbench.apart import apart
 from workbench.data.files import text_rows
-from workbench.data.formats import is_number
+from workbench.data.files.formats import is_number
 from workbench.errors import InputError
 
 MOST_PLACES = 2000
@@ -45,37 +45,56 @@ def between_cities(route: str) -> Places:
 
 @apart
 def read_places(path: Path) -> Places:
-    """Return the places of a text file: per line latitude, longitude and maybe a name, between commas, semicolons or tabs.
+    """Return the places of a text file: per line latitude, longitude and maybe a name.
 
-    Lines that begin with #, empty ones, and a first line of words are left out. Longitudes may run to 360.
+    Lines that begin with #, empty ones, and a first line of words are left out. Longitudes may run
+    to 360.
 
     Raises:
-        InputError: If the file is missing, of another kind, not understood, or has fewer than two places.
+        InputError: If the file is missing, of another kind, not understood, or has fewer than two
+            places.
     """
     rows = text_rows(path, "places", KINDS)
     names, degrees = list[str](), list[tuple[float, float]]()
     for i, line in rows:
         cells = _cells(line)
-        if i == rows[0][0] and len(cells) > 1 and not is_number(cells[0]) and not is_number(cells[1]):
+        if (
+            i == rows[0][0]
+            and len(cells) > 1
+            and not is_number(cells[0])
+            and not is_number(cells[1])
+        ):
             continue
         degrees.append(_place(cells, path.name, i))
         names.append(" ".join(cells[2:])[:40] or f"place {len(degrees)}")
     if not 2 <= len(degrees) <= MOST_PLACES:
-        raise InputError(f"{path.name}: {len(degrees):,} places; 2 to {MOST_PLACES:,} are wanted, one on each line")
+        raise InputError(
+            f"{path.name}: {len(degrees):,} places; 2 to {MOST_PLACES:,} are wanted, one on each"
+            " line"
+        )
     return Places(tuple(names), np.array(degrees))
 
 
 def _cells(line: str) -> list[str]:
     mark = next((mark for mark in "\t;" if mark in line), ",")
-    return [cell.strip() for cell in next(csv.reader([line], delimiter=mark, skipinitialspace=True))]
+    return [
+        cell.strip() for cell in next(csv.reader([line], delimiter=mark, skipinitialspace=True))
+    ]
 
 
 def _place(cells: list[str], name: str, line: int) -> tuple[float, float]:
     if len(cells) < 2 or not (is_number(cells[0]) and is_number(cells[1])):
-        raise InputError(f"{name}, line {line}: a latitude, a longitude and maybe a name are wanted")
+        raise InputError(
+            f"{name}, line {line}: a latitude, a longitude and maybe a name are wanted"
+        )
     latitude, longitude = float(cells[0]), float(cells[1])
     if not abs(latitude) <= 90:
-        raise InputError(f"{name}, line {line}: latitude {cells[0][:12]} is beyond a pole; the latitude comes first")
+        raise InputError(
+            f"{name}, line {line}: latitude {cells[0][:12]} is beyond a pole; the latitude comes"
+            " first"
+        )
     if not -180 <= longitude <= 360:
-        raise InputError(f"{name}, line {line}: longitude {cells[1][:12]} is not between −180 and 360")
+        raise InputError(
+            f"{name}, line {line}: longitude {cells[1][:12]} is not between −180 and 360"
+        )
     return latitude, longitude - 360.0 * (longitude > 180)

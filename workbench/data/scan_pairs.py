@@ -1,4 +1,4 @@
-"""Two scans of one thing, each in a frame of its own: thinned for descriptors, fine for ICP, and their true motion."""
+"""Two scans of one thing, thinned for descriptors, fine for ICP, and their true motion."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -10,8 +10,8 @@ from workbench.data.files import read_cloud, read_pose
 from workbench.data.framing import FAR, Up, extent, frame
 from workbench.data.thinning import some_points, voxel_means
 from workbench.errors import InputError
-from workbench.geometry.alignment import MotionError, motion_error
 from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions.alignment import MotionError, motion_error
 
 FINE_SOURCE, FINE_TARGET = 5000, 40_000
 FEWEST, MOST = 20, 5000  # points after thinning
@@ -19,13 +19,9 @@ FEWEST, MOST = 20, 5000  # points after thinning
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Scans:
-    """Two scans in their own frames, metres.
+    """Two scans in their own frames, metres, thinned and as ICP has them.
 
     Attributes:
-        p_target: Thinned points of the target.
-        p_source: Thinned points of the source.
-        fine_target: The target as ICP has it.
-        fine_source: The source likewise.
         T_truth: The true T_target_source; None where nobody knows it.
         own: Whether they are a person's.
     """
@@ -41,8 +37,10 @@ class Scans:
         """Return how far a motion is from the truth."""
         return motion_error(T_target_source, self.T_truth, self.p_source)
 
-    def right(self, pairs: Int[np.ndarray, "n 2"], distance: float) -> Bool[np.ndarray, " n"] | None:
-        """Return which pairs (source, target) lie within a distance of each other in truth; None where nobody knows."""
+    def right(
+        self, pairs: Int[np.ndarray, "n 2"], distance: float
+    ) -> Bool[np.ndarray, " n"] | None:
+        """Return which pairs (source, target) are that near in truth; None if not known."""
         if self.T_truth is None:
             return None
         off = apply(self.T_truth, self.p_source[pairs[:, 0]]) - self.p_target[pairs[:, 1]]
@@ -50,21 +48,27 @@ class Scans:
 
 
 def read_scans(
-    target: Path, source: Path, truth: Path | None, *, width: float, up: Up, voxel: float, rng: np.random.Generator
+    target: Path,
+    source: Path,
+    truth: Path | None,
+    *,
+    width: float,
+    up: Up,
+    voxel: float,
+    rng: np.random.Generator,
 ) -> Scans:
-    """Return a person's two scans, each about its own middle and as large as its unit makes it beside the target.
+    """Return a person's two scans, each about its own middle, in one unit.
 
     Args:
-        target: The file of the scan that lies still.
-        source: The file of the other.
-        truth: The source's pose in the target's frame, in the unit of the files, or a list of poses.
+        truth: The source's pose in the target's frame, in the unit of the files, or a list of
+            poses.
         width: The longest edge of the target's box in the picture, metres.
-        up: The axis of both files that points up.
         voxel: The edge of the voxels that thin them, as a share of that edge.
         rng: Draws what ICP has.
 
     Raises:
-        InputError: If a file cannot be read, all points of a scan lie at one place, or too few or too many are left.
+        InputError: If a file cannot be read, a scan is one place, or too few or too many points are
+            left.
     """
     files, p = (target, source), [read_cloud(file) for file in (target, source)]
     for file, points in zip(files, p, strict=True):
@@ -76,12 +80,19 @@ def read_scans(
     thinned = [voxel_means(points, voxel * width) for points in fine]
     for file, points in zip(files, thinned, strict=True):
         if len(points) < FEWEST:
-            raise InputError(f"{file.name}: {len(points)} points are left after thinning; {FEWEST} at least are needed")
+            raise InputError(
+                f"{file.name}: {len(points)} points are left after thinning; {FEWEST} at least are"
+                " needed"
+            )
         if len(points) > MOST:
-            raise InputError(f"{file.name}: {len(points):,} points after thinning, at most {MOST:,}; raise voxel")
+            raise InputError(
+                f"{file.name}: {len(points):,} points after thinning, at most {MOST:,}; raise voxel"
+            )
     T_truth = None
     if truth is not None:
-        T_truth = how.shown_motion(read_pose(truth, *files)) @ motion(np.eye(3), how.shown(theirs.centre))
+        T_truth = how.shown_motion(read_pose(truth, *files)) @ motion(
+            np.eye(3), how.shown(theirs.centre)
+        )
     return Scans(
         p_target=thinned[0],
         p_source=thinned[1],

@@ -1,7 +1,4 @@
-"""Fewer rows: one per voxel, so that dense and sparse parts of a scan count alike; some by chance; or evenly spaced ones.
-
-And how far apart the points of a cloud are.
-"""
+"""Fewer rows: one per voxel, some by chance, or evenly spaced; and how far apart points are."""
 
 import numpy as np
 import scipy
@@ -13,46 +10,45 @@ from workbench.geometry.meshes import distinct_rows
 def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "m 3"]:
     """Return the mean of the points in each occupied cube of a grid, in the order of the cubes.
 
-    Args:
-        p: Points, in any unit. The grid begins at their smallest coordinates.
-        size: The edge of a cube, in the same unit.
+    The grid begins at the smallest coordinates; its `size` is in the points' unit.
 
     Raises:
         ValueError: If the size is not positive.
     """
     if not size > 0:
         raise ValueError(f"a voxel has a positive size, not {size}")
-    voxels = np.floor((p - p.min(axis=0)) / size)  # stay floats: a far stray point would overflow whole numbers
+    # stay floats: a far stray point would overflow whole numbers
+    voxels = np.floor((p - p.min(axis=0)) / size)
     order = np.lexsort(voxels.T[::-1])
     starts = np.flatnonzero(np.r_[True, (np.diff(voxels[order], axis=0) != 0).any(axis=1)])
-    origin = p[order[starts]]  # means about a point of the voxel keep their digits far from the origin
+    # means about a point of the voxel keep their digits far from the origin
+    origin = p[order[starts]]
     counts = np.diff(np.r_[starts, len(p)])
     offsets = p[order] - np.repeat(origin, counts, axis=0)
     return origin + np.add.reduceat(offsets, starts, axis=0) / counts[:, None]
 
 
-def some_points(p: Float[np.ndarray, "n d"], most: int, rng: np.random.Generator) -> Float[np.ndarray, "m d"]:
-    """Return so many points drawn by chance, in the order they had; all of them where there are no more.
-
-    Nothing is drawn from `rng` where all are returned.
-    """
+def some_points(
+    p: Float[np.ndarray, "n d"], most: int, rng: np.random.Generator
+) -> Float[np.ndarray, "m d"]:
+    """Return so many points drawn by chance, in their order; all, without a draw, if not more."""
     return p if len(p) <= most else p[np.sort(rng.choice(len(p), most, replace=False))]
 
 
 def every(count: int, most: int) -> slice:
-    """Return the slice that takes every so many rows, the first included, so that at most `most` of `count` are taken."""
+    """Return the slice of every so many rows, from the first, that takes `most` at most."""
     return slice(None, None, max(1, -(-count // most)))
 
 
 def evenly(count: int, most: int) -> np.ndarray:
-    """Return the indices of at most `most` of `count` rows, evenly spaced, the first and the last included."""
+    """Return at most `most` of `count` indices, evenly spaced, first and last included."""
     return np.unique(np.linspace(0, count - 1, min(most, count)).round().astype(int))
 
 
 def spacing(p: Float[np.ndarray, "n 3"]) -> float:
-    """Return the median distance from a point to the nearest other place with a point, judged by a few hundred points.
+    """Return the median distance to the nearest other place with a point; 1e-9 without one.
 
-    It is 1e-9 where all points are at one place, so that it can divide.
+    A few hundred points tell it.
     """
     places = p[distinct_rows(p)[0]]
     some = places[:: max(1, len(places) // 400)]
@@ -61,6 +57,6 @@ def spacing(p: Float[np.ndarray, "n 3"]) -> float:
 
 
 def growing(most: int, per_power: int = 8) -> tuple[int, ...]:
-    """Return ever larger counts for a run that draws more and more: 10, so many for each power of ten, and `most`."""
+    """Return ever larger counts: 10, so many for each power of ten, and `most`."""
     counts = np.rint(10 ** np.arange(1, np.log10(most) - 1e-9, 1 / per_power)).astype(int)
     return (*counts.tolist(), most)

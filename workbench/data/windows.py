@@ -8,9 +8,12 @@ LEAST_SPAN = 60.0  # grey levels: noise alone shall not look like a texture
 
 
 def framed(
-    picture: UInt8[np.ndarray, "h w 3"], center: tuple[int, int], window: int, frame: tuple[int, int, int]
+    picture: UInt8[np.ndarray, "h w 3"],
+    center: tuple[int, int],
+    window: int,
+    frame: tuple[int, int, int],
 ) -> UInt8[np.ndarray, "h w 3"]:
-    """Return a copy of a picture with a frame of a colour around the window at `center` (u, v), as far as it is inside."""
+    """Return a copy of a picture with a frame around the window at `center` (u, v)."""
     u, v = center
     half = max(window // 2, 1) + 1
     h, w = picture.shape[:2]
@@ -31,17 +34,9 @@ def side_by_side(
     *,
     frame: tuple[int, int, int],
 ) -> UInt8[np.ndarray, "k m 3"]:
-    """Return the windows around left (u, v) and right (u - d, v) side by side, both brightened alike, each framed.
+    """Return the windows around left (u, v) and right (u - d, v) beside each other, each framed.
 
-    What lies outside the pictures is grey.
-
-    Args:
-        left: The first picture.
-        right: The second.
-        uv: Column and row in the first.
-        d: How many columns further left the second window is.
-        window: Side of the windows, pixels.
-        frame: The colour of the frames around them.
+    Both are brightened alike; what lies outside the pictures is grey.
     """
     u, v = uv
     half = max(window // 2, 3) + 1

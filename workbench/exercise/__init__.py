@@ -1,8 +1,8 @@
 """Exercises: one function of a lesson, written by a student, watched live and graded on geometry.
 
-`model` says what an exercise is and has the decorators that make one, `judging` what many checks need, `finding` looks
-exercises up, `sandbox` runs a student's file in a child process, `grading` judges it, the rest reports. A student's file
-is never imported into this process.
+`model` says what an exercise is and has the decorators that make one, `judging` what many checks
+need, `finding` looks exercises up, `sandbox` runs a student's file in a child process, `grading`
+judges it, the rest reports. A student's file is never imported into this process.
 """
 
 from workbench.exercise.judging import (

@@ -1,4 +1,4 @@
-"""A function under test: calls the student's function, holds its results to the contract, and remembers every call."""
+"""Calls a function under test, holds its results to the contract, remembers every call."""
 
 import builtins
 import functools
@@ -14,8 +14,10 @@ from workbench.exercise.sandbox import StudentError
 MOST_SHOWN = 12
 """How many numbers a call may have that is shown to the student."""
 LARGEST = 1e60
-"""How large a number of an answer may be, where the right ones are no larger than 1: squares and products of three such
-numbers are finite still, so that no check takes an overflow for a small distance."""
+"""How large a number of an answer may be, where the right ones are no larger than 1: squares and
+products of three such numbers are finite still, so that no check takes an overflow for a small
+distance.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +30,7 @@ class Answer:
 
 @dataclass(frozen=True, eq=False)
 class Call:
-    """One call of a candidate: what it was given, what it said, and what our function says.
+    """One call of a candidate: its arguments, its answer, and ours.
 
     Attributes:
         args: The arguments.
@@ -44,17 +46,18 @@ class Call:
     def key(self) -> tuple[Any, ...]:
         """The arguments as what can be looked up: arrays as (shape, type, bytes)."""
         return tuple(
-            (arg.shape, arg.dtype.str, arg.tobytes()) if isinstance(arg, np.ndarray) else arg for arg in self.args
+            (arg.shape, arg.dtype.str, arg.tobytes()) if isinstance(arg, np.ndarray) else arg
+            for arg in self.args
         )
 
 
 class Candidate:
-    """A function whose results have the shape, kind and finiteness of the reference's, else a StudentError says why not.
+    """A function held to the reference's shape, kind and finiteness, else a StudentError.
 
     Args:
         function: The student's function in its process, or one of ours (a mistake, an alternative).
-        reference: Ours, called with the same arguments for the shape of the answer.
-        remember: Whether the calls are kept, to recognise mistakes by; a run that is only watched does not need them.
+        remember: Whether calls are kept, to recognise mistakes by; a run that is watched needs
+            none.
     """
 
     def __init__(self, function: Function, reference: Function, *, remember: bool = True):
@@ -73,7 +76,8 @@ class Candidate:
         """Return the function's answer as plain float64, int64 or bool values.
 
         Raises:
-            StudentError: If it gave no answer, or one of another shape or kind than the contract says.
+            StudentError: If it gave no answer, or one of another shape or kind than the contract
+                says.
         """
         right = self._right(args)
         self.expected = right.value
@@ -88,10 +92,14 @@ class Candidate:
         except Exception as error:  # one of our own functions, which may be wrong on purpose
             self._keep(args, raised(error), right)
             name, names = type(error).__name__, tuple(kind.__name__ for kind in type(error).__mro__)
-            raise StudentError(f"{self.__name__} raised {name}: {error}", "raised", name, errors=names) from None
+            raise StudentError(
+                f"{self.__name__} raised {name}: {error}", "raised", name, errors=names
+            ) from None
         self._keep(args, Answer(value, ""), right)
         pairs = zip(args, given, strict=True)
-        self._changed = any(isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs)
+        self._changed = any(
+            isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs
+        )
         if self.changed_inputs:
             self.changing.append(args)
         try:
@@ -101,7 +109,7 @@ class Candidate:
 
     @property
     def changed_inputs(self) -> bool:
-        """Whether the last call changed what it was given, in a student's process or, for one of ours, in this one."""
+        """Whether the last call changed what it was given."""
         return self._changed or bool(getattr(self.function, "changed_inputs", False))
 
     def _keep(self, args: tuple[Any, ...], answer: Answer, right: Answer) -> None:
@@ -109,7 +117,7 @@ class Candidate:
             self.calls.append(Call(args, answer, right))
 
     def _right(self, args: tuple[Any, ...]) -> Answer:
-        """Ours; None and an error on input for which the contract asks for one: nothing to hold the answer to."""
+        """Ours; None and an error on input for which the contract asks for one."""
         try:
             with np.errstate(all="ignore"):
                 return Answer(self._reference(*_copied(args)), "")
@@ -118,7 +126,7 @@ class Candidate:
 
 
 def raised(error: Exception) -> Answer:
-    """Return what a function said that raised this: the name of Python's own error that it is one of."""
+    """Return what a function said that raised this: Python's own error that it is one of."""
     return Answer(None, _known(kind.__name__ for kind in type(error).__mro__))
 
 
@@ -132,7 +140,7 @@ def _copied(args: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def held_to_contract(value: Any, expected: Any, name: str) -> Any:
-    """Return a value as plain float64, int64 or bool, if it has the shape and kind of what is expected.
+    """Return a value as plain float64, int64 or bool, of the expected shape and kind.
 
     Raises:
         StudentError: Says what came and what the contract asks for.
@@ -143,46 +151,61 @@ def held_to_contract(value: Any, expected: Any, name: str) -> Any:
         value = _as_values(value, expected)
         if not isinstance(value, (tuple, list)) or len(value) != len(expected):
             raise StudentError(
-                f"{name} returned {_kind(value)}; the contract asks for {len(expected)} values", "result"
+                f"{name} returned {_kind(value)}; the contract asks for {len(expected)} values",
+                "result",
             )
         return tuple(
-            held_to_contract(v, e, f"{name}[{i}]") for i, (v, e) in enumerate(zip(value, expected, strict=True))
+            held_to_contract(v, e, f"{name}[{i}]")
+            for i, (v, e) in enumerate(zip(value, expected, strict=True))
         )
     wanted = np.asarray(expected)
     if value is None or isinstance(value, str):
         raise StudentError(
-            f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}. Is a return missing?", "result"
+            f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}. Is a return"
+            " missing?",
+            "result",
         )
     try:
         got = np.asarray(value)
     except ValueError:
         raise StudentError(
-            f"{name} returned rows of unequal length; the contract asks for {_kind(expected)}", "result"
+            f"{name} returned rows of unequal length; the contract asks for {_kind(expected)}",
+            "result",
         ) from None
     if got.shape != wanted.shape:
-        raise StudentError(f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}", "result")
+        raise StudentError(
+            f"{name} returned {_kind(value)}; the contract asks for {_kind(expected)}", "result"
+        )
     if got.dtype.kind not in "biuf" or (wanted.dtype.kind in "iu" and got.dtype.kind not in "iu"):
-        raise StudentError(f"{name} returned {got.dtype} values; the contract asks for {_kind(expected)}", "result")
+        raise StudentError(
+            f"{name} returned {got.dtype} values; the contract asks for {_kind(expected)}", "result"
+        )
     if wanted.dtype.kind == "b" and got.dtype.kind != "b":
-        raise StudentError(f"{name} returned {got.dtype} values; the contract asks for true or false", "result")
-    plain = got.astype({"b": np.bool_, "i": np.int64, "u": np.int64}.get(wanted.dtype.kind, np.float64))
+        raise StudentError(
+            f"{name} returned {got.dtype} values; the contract asks for true or false", "result"
+        )
+    plain = got.astype(
+        {"b": np.bool_, "i": np.int64, "u": np.int64}.get(wanted.dtype.kind, np.float64)
+    )
     if wanted.dtype.kind == "f":
         _must_be_judgeable(plain, wanted, name)
     return plain if isinstance(expected, np.ndarray) else plain.item()
 
 
 def _as_values(value: Any, expected: Sequence[Any]) -> Any:
-    """Return an array that has a part for each value asked for as these parts, numbers that count as whole ones."""
+    """Return an array with a part for each value asked for as these parts."""
     if not isinstance(value, np.ndarray) or value.shape[:1] != (len(expected),):
         return value
     whole = [np.asarray(one).dtype.kind in "iu" for one in expected]
     counted = [value.dtype.kind == "f" and bool((np.mod(part, 1) == 0).all()) for part in value]
     pairs = zip(value, whole, counted, strict=True)
-    return [part.astype(np.int64) if asked and is_whole else part for part, asked, is_whole in pairs]
+    return [
+        part.astype(np.int64) if asked and is_whole else part for part, asked, is_whole in pairs
+    ]
 
 
 def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
-    """Raise StudentError where a number that should be finite is not, or is too large to be computed with."""
+    """Raise StudentError where a number is not finite, or too large, and should not be."""
     known = np.isfinite(wanted)
     finite = np.isfinite(got)
     most = LARGEST * np.abs(wanted[known]).max(initial=1.0)
@@ -191,7 +214,11 @@ def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
         what = f"{got}" if got.ndim == 0 else f"{strange.sum()} of {got.size} values not finite"
     elif np.abs(got[finite]).max(initial=0.0) > most:
         strange, asked = finite & (np.abs(got) > most), "numbers that can be computed with"
-        what = f"{got}" if got.ndim == 0 else f"{strange.sum()} of {got.size} values too large to be judged"
+        what = (
+            f"{got}"
+            if got.ndim == 0
+            else f"{strange.sum()} of {got.size} values too large to be judged"
+        )
     else:
         return
     at = tuple(int(i) for i in np.argwhere(strange)[0])
@@ -213,8 +240,16 @@ def _kind(value: Any) -> str:
     if value is None:
         return "nothing"
     if isinstance(value, np.ndarray) and value.ndim:
-        what = {"b": "true or false", "i": "whole numbers", "u": "whole numbers"}.get(value.dtype.kind, "numbers")
+        what = {"b": "true or false", "i": "whole numbers", "u": "whole numbers"}.get(
+            value.dtype.kind, "numbers"
+        )
         return f"an array {value.shape} of {what}"
     if isinstance(value, (list, tuple)):
         return f"{len(value)} values"
-    return "a text" if isinstance(value, str) else "a whole number" if isinstance(value, int) else "a number"
+    return (
+        "a text"
+        if isinstance(value, str)
+        else "a whole number"
+        if isinstance(value, int)
+        else "a number"
+    )

@@ -1,4 +1,4 @@
-"""Judges one file: every exercise that it is handed in for, those that cannot be graded with one line each."""
+"""Judges one file for every exercise that it is handed in for."""
 
 from pathlib import Path
 from typing import Any
@@ -18,11 +18,7 @@ def check_file(
 ) -> tuple[list[Report], list[dict[str, Any]]]:
     """Return the reports on a file, and what could not be graded, as `ungraded` says it.
 
-    Args:
-        file: The student's file.
-        lesson: The lesson whose exercises are looked for; all of the catalogue's where none is given.
-        hidden: Whether hidden checks are run too.
-        wall: What shuts the student's process in.
+    Exercises are those of the lesson, or of the whole catalogue.
     """
     reports: list[Report] = []
     failed: list[dict[str, Any]] = []

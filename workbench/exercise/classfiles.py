@@ -21,23 +21,25 @@ HOW = {
 
 
 def is_full(result: Result, worth: Mapping[str, float] | None = None) -> bool:
-    """Whether all that a student handed in, and all of an assignment, was graded and has full marks."""
+    """Whether all that was handed in, and all of an assignment, has full marks."""
     full = all(report["points"] == report["possible"] for report in result["reports"])
     whole = set(worth or ()) <= {report["exercise"] for report in result["reports"]}
     return bool(result["reports"]) and not result["ungraded"] and full and whole
 
 
 def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = None) -> str:
-    """Return one row per student: points in all and per exercise, and what was wrong but for wrong answers.
+    """Return one row per student: points in all and per exercise, and what else went wrong.
 
-    What could not be graded counts out of its full points; what was not handed in is empty.
-
-    Args:
-        results: The class.
-        worth: The points of an assignment's exercises, in its order. Every student's points are out of all of them, and
-            other exercises count nothing. None counts the points of the checks, out of what was handed in.
+    What could not be graded counts out of its full points; what was not handed in is empty. `worth`
+    has the points of an assignment's exercises, in its order: other exercises count nothing. None
+    counts the points of the checks, out of what was handed in.
     """
-    names = list(worth or dict.fromkeys(i["exercise"] for result in results for i in _items(result) if i["exercise"]))
+    names = list(
+        worth
+        or dict.fromkeys(
+            i["exercise"] for result in results for i in _items(result) if i["exercise"]
+        )
+    )
     counted = ["handed in"] if worth is None and any(result["handed"] for result in results) else []
     rows = [["student", "points", "possible", *names, *counted, "trouble"]]
     for result in results:
@@ -45,11 +47,21 @@ def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = Non
         for item in _items(result):
             if item["exercise"] in names:
                 factor = 1.0 if worth is None else worth[item["exercise"]] / item["possible"]
-                points[item["exercise"]] = points.get(item["exercise"], 0.0) + factor * item["points"]
-        possible = sum(item["possible"] for item in _items(result)) if worth is None else sum(worth.values())
+                points[item["exercise"]] = (
+                    points.get(item["exercise"], 0.0) + factor * item["points"]
+                )
+        possible = (
+            sum(item["possible"] for item in _items(result))
+            if worth is None
+            else sum(worth.values())
+        )
         cells = [f"{points[name]:g}" if name in points else "" for name in names]
-        other = dict.fromkeys(item["exercise"] for item in _items(result) if item["exercise"] not in (None, *names))
-        trouble = "; ".join(filter(None, [_trouble(result), *(f"{name} is not asked for" for name in other)]))
+        other = dict.fromkeys(
+            item["exercise"] for item in _items(result) if item["exercise"] not in (None, *names)
+        )
+        trouble = "; ".join(
+            filter(None, [_trouble(result), *(f"{name} is not asked for" for name in other)])
+        )
         rows.append(
             [
                 result["student"],
@@ -64,9 +76,14 @@ def class_csv(results: Sequence[Result], worth: Mapping[str, float] | None = Non
 
 
 def matrix_csv(results: Sequence[Result]) -> str:
-    """Return students by checks: the share of the points, or how it failed; below, sums and the most frequent mistake."""
+    """Return students by checks: shares or failures; below, sums and the most frequent mistake."""
     checks = list(
-        dict.fromkeys((r["exercise"], c["name"]) for result in results for r in result["reports"] for c in r["checks"])
+        dict.fromkeys(
+            (r["exercise"], c["name"])
+            for result in results
+            for r in result["reports"]
+            for c in r["checks"]
+        )
     )
     rows = [["student", *(f"{exercise}.{name}" for exercise, name in checks)]]
     mistakes: dict[tuple[str, str], Counter] = {check: Counter() for check in checks}
@@ -76,7 +93,9 @@ def matrix_csv(results: Sequence[Result]) -> str:
         for report in result["reports"]:
             for found in report["checks"]:
                 key = (report["exercise"], found["name"])
-                shares[key].append(found["points"] / found["possible"] if found["possible"] else 0.0)
+                shares[key].append(
+                    found["points"] / found["possible"] if found["possible"] else 0.0
+                )
                 cells[key] = HOW.get(found["kind"], f"{shares[key][-1]:g}")
                 if report["mistake"] and found["name"] in report["mistake"]["checks"]:
                     mistakes[key][report["mistake"]["name"]] += 1
@@ -84,31 +103,45 @@ def matrix_csv(results: Sequence[Result]) -> str:
     rows.append(["graded", *(str(len(shares[key])) for key in checks)])
     rows.append(["full marks", *(str(sum(share == 1 for share in shares[key])) for key in checks)])
     rows.append(["mean share", *(f"{sum(shares[key]) / len(shares[key]):.3g}" for key in checks)])
-    frequent = [next((f"{name} ({n})" for name, n in mistakes[key].most_common(1)), "") for key in checks]
+    frequent = [
+        next((f"{name} ({n})" for name, n in mistakes[key].most_common(1)), "") for key in checks
+    ]
     return _csv([*rows, ["most frequent mistake", *frequent]])
 
 
 def summary(results: Sequence[Result], worth: Mapping[str, float] | None = None) -> str:
-    """Return the class in a few lines of Markdown; of an assignment's exercises, where it is given."""
+    """Return the class, or an assignment's exercises, in a few lines of Markdown."""
     graded = [result for result in results if result["reports"]]
     perfect = sum(is_full(result, worth) for result in results)
     lines = [f"# {counted(len(results), 'submission')}", ""]
     perfectly = f"{perfect} with full marks{_of_what(results, worth)}"
-    lines.append(f"{len(graded)} graded, {perfectly}, {len(results) - len(graded)} could not be graded.")
+    lines.append(
+        f"{len(graded)} graded, {perfectly}, {len(results) - len(graded)} could not be graded."
+    )
     seeds = dict.fromkeys(result["seed"] for result in results if result["seed"] is not None)
     if seeds:
         lines += ["", f"Hidden checks are drawn from seed {', '.join(map(str, seeds))}."]
     if any(result["sandbox"] == "none" for result in results):
         lines += ["", f"**{UNSAFE}**"]
-    parts = Counter(part for result in results for part in result["handed"]) if worth is None else Counter()
+    parts = (
+        Counter(part for result in results for part in result["handed"])
+        if worth is None
+        else Counter()
+    )
     if parts:
         lines += ["", "Of these lessons not all exercises were handed in:", ""]
         lines += [f"- {part}: {_students(count)}" for part, count in sorted(parts.items())]
-    mistakes = Counter(r["mistake"]["sentence"] for result in graded for r in result["reports"] if r["mistake"])
+    mistakes = Counter(
+        r["mistake"]["sentence"] for result in graded for r in result["reports"] if r["mistake"]
+    )
     if mistakes:
         told = (f"- {count} × {_plain(said)}" for said, count in mistakes.most_common(8))
         lines += ["", "Most frequent mistakes:", "", *told]
-    troubled = [f"- {_plain(result['student'])}: {_plain(said)}" for result in results if (said := _trouble(result))]
+    troubled = [
+        f"- {_plain(result['student'])}: {_plain(said)}"
+        for result in results
+        if (said := _trouble(result))
+    ]
     if troubled:
         lines += ["", "To look at:", "", *troubled]
     return "\n".join(lines) + "\n"
@@ -122,14 +155,24 @@ def _items(result: Result) -> Iterator[dict[str, Any]]:
 def _trouble(result: Result) -> str:
     said = [item["error"] for item in result["ungraded"]]
     for report in result["reports"]:
-        kinds = Counter(HOW[check["kind"]] for check in report["checks"] if check["kind"] in ("timeout", "died"))
-        said += list(dict.fromkeys(check["message"] for check in report["checks"] if check["kind"] == "forbidden"))
+        kinds = Counter(
+            HOW[check["kind"]] for check in report["checks"] if check["kind"] in ("timeout", "died")
+        )
+        said += list(
+            dict.fromkeys(
+                check["message"] for check in report["checks"] if check["kind"] == "forbidden"
+            )
+        )
         said += [f"{report['exercise']} {how} in {_checks(count)}" for how, count in kinds.items()]
     return "; ".join([*said, *([result["note"]] if result["note"] else [])])
 
 
 def _of_what(results: Sequence[Result], worth: Mapping[str, float] | None) -> str:
-    return " in what they handed in" if worth is None and any(result["handed"] for result in results) else ""
+    return (
+        " in what they handed in"
+        if worth is None and any(result["handed"] for result in results)
+        else ""
+    )
 
 
 def _students(count: int) -> str:
@@ -142,7 +185,9 @@ def _checks(count: int) -> str:
 
 def _csv(rows: Sequence[Sequence[str]]) -> str:
     out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows([[_inert(one_line(cell)) for cell in row] for row in rows])
+    csv.writer(out, lineterminator="\n").writerows(
+        [[_inert(one_line(cell)) for cell in row] for row in rows]
+    )
     return out.getvalue()
 
 

@@ -1,7 +1,8 @@
-"""Grades a folder of submissions in parallel, so that one of them costs nobody else anything, and sums a class up.
+"""Grades a folder of submissions in parallel, none at another's cost, and sums a class up.
 
-Every finished student is written at once; a batch that was interrupted goes on where it stopped. What changed since is
-graded again: a student's files, the exercises, the grader, Python, or what shuts submissions in.
+Every finished student is written at once; a batch that was interrupted goes on where it stopped.
+What changed since is graded again: a student's files, the exercises, the grader, Python, or what
+shuts submissions in.
 """
 
 import contextlib
@@ -16,15 +17,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, TextIO
 
-from workbench.atomic import write_atomic
 from workbench.errors import InputError, one_line
 from workbench.exercise.classfiles import class_csv, is_full, matrix_csv, summary
 from workbench.exercise.marking import Asked, Result, digest, empty, grade_student, summed
 from workbench.exercise.reports import SCHEMA_VERSION, ungraded
 from workbench.exercise.sandbox import best, named
 from workbench.exercise.submissions import HandIn, handed_in, with_roster
-from workbench.progress import Progress, bar
-from workbench.workers import parallel_map
+from workbench.machinery.atomic import write_atomic
+from workbench.machinery.progress import Progress, bar
+from workbench.machinery.workers import parallel_map
 
 Task = tuple[HandIn, Asked]
 LONGEST_SECONDS = 900.0
@@ -42,16 +43,14 @@ def grade_class(
     jobs: int = 2,
     progress: Progress | None = None,
 ) -> list[Result]:
-    """Grade all submissions of a folder and write results, class.csv, matrix.csv and summary.md into `out`.
+    """Grade all submissions of a folder; write results, tables and a summary into `out`.
+
+    Submissions are read before the first of them runs; results in `out` that still fit stay.
 
     Args:
-        folder: Where the submissions are; they are read before the first of them runs.
-        out: Where the results go; what is there and still fits is not graded again.
-        asked: Which exercises, and what shuts submissions in.
         roster: A table of those who should have handed in.
         worth: The points of an assignment's exercises; None counts the points of the checks.
         executor: Where the work runs; None uses `jobs` processes of this machine.
-        jobs: How many students are graded at a time.
         progress: Told of each that is done.
 
     Raises:
@@ -88,13 +87,19 @@ def grade_class(
     return ordered
 
 
-def _graded(waiting: list[Task], executor: Executor | None, jobs: int) -> Generator[tuple[str, Result], None, None]:
+def _graded(
+    waiting: list[Task], executor: Executor | None, jobs: int
+) -> Generator[tuple[str, Result], None, None]:
     if executor is None:
-        graded = parallel_map(_grade, waiting, jobs, seconds=LONGEST_SECONDS, lost=_lost, start="fork")
+        graded = parallel_map(
+            _grade, waiting, jobs, seconds=LONGEST_SECONDS, lost=_lost, start="fork"
+        )
         with contextlib.closing(graded):  # type: ignore[type-var]
             yield from ((handed.student, result) for (handed, _), result in graded)
         return
-    futures: dict[Future, str] = {executor.submit(_grade, task): task[0].student for task in waiting}
+    futures: dict[Future, str] = {
+        executor.submit(_grade, task): task[0].student for task in waiting
+    }
     for future in as_completed(futures):
         yield futures[future], future.result()
 
@@ -110,7 +115,7 @@ def _lost(task: Task) -> Result:
 
 
 def stems(names: Mapping[str, Any]) -> dict[str, str]:
-    """Return the name of each student's file: none is another's, not even where capitals do not count."""
+    """Return the name of each student's file: none is another's, capitals apart."""
     plain = {name: re.sub(r"[^\w.-]", "_", name)[:80] for name in names}
     counted: dict[str, int] = {}
     for stem in plain.values():
@@ -119,7 +124,7 @@ def stems(names: Mapping[str, Any]) -> dict[str, str]:
     def told_apart(name: str) -> str:
         if plain[name] == name and counted[name.casefold()] == 1:
             return name
-        return f"{plain[name]}-{hashlib.sha256(name.encode('utf-8', 'surrogateescape')).hexdigest()[:8]}"
+        return f"{plain[name]}-{hashlib.sha256(name.encode('utf-8', 'surrogateescape')).hexdigest()[:8]}"  # noqa: E501
 
     return {name: told_apart(name) for name in names}
 
@@ -139,7 +144,7 @@ def _write(path: Path, text: str) -> None:
         raise InputError(f"{path}: {error.strerror or 'cannot be written'}") from None
 
 
-# the command ----------------------------------------------------------------------------------------------------------
+# the command --------------------------------------------------------------------------------------
 
 
 def grade_folder(
@@ -154,24 +159,27 @@ def grade_folder(
     tell: TextIO,
     result: TextIO,
 ) -> int:
-    """Grade a folder as the command does, with a progress bar on `tell` and the summary on `result`.
+    """Grade a folder as the command does: a progress bar on `tell`, the summary on `result`.
 
     Returns:
-        0 when every submission has full marks, 1 when not, 2 when none could be graded, 130 when it was interrupted.
+        0 when all have full marks, 1 when not, 2 when none could be graded, 130 when interrupted.
 
     Raises:
-        InputError: If it cannot be done; also where nothing would shut submissions in and that was not asked for.
+        InputError: If it cannot be done; also where nothing shuts submissions in and nobody asked
+            for that.
     """
     if jobs is not None and jobs < 1:
         raise InputError(f"--jobs {jobs}: at least 1")
     asked.exercises()  # one that is not there is told before the first student
     wall = best() if asked.sandbox == "auto" else named(asked.sandbox)
     if wall.name == "user":
-        raise InputError("--sandbox user: is for one submission in a container; here it could read the others")
+        raise InputError(
+            "--sandbox user: is for one submission in a container; here it could read the others"
+        )
     if not wall.holds and asked.sandbox != "none":
         raise InputError(
-            f"nothing here shuts submissions in, so marks would not be safe: {wall.why}. Mend that, or say --sandbox none "
-            "where the machine is the wall (a container without network)"
+            f"nothing here shuts submissions in, so marks would not be safe: {wall.why}. Mend that,"
+            " or say --sandbox none where the machine is the wall (a container without network)"
         )
     asked = replace(asked, sandbox=wall.name)
     done = [0, 0]
@@ -196,7 +204,10 @@ def grade_folder(
                 progress=progress,
             )
         except KeyboardInterrupt:
-            tell.write(f"\nInterrupted: {done[0]} of {done[1] or '?'} graded; the same command goes on from there.\n")
+            tell.write(
+                f"\nInterrupted: {done[0]} of {done[1] or '?'} graded; the same command goes on"
+                " from there.\n"
+            )
             return 130
     result.write(summary(graded, worth) + f"\nResults: {out / 'class.csv'}, {out / 'matrix.csv'}\n")
     some = [one for one in graded if one["reports"]]
@@ -225,7 +236,9 @@ def _dask_executor(address: str, stack: contextlib.ExitStack) -> Executor:
     try:
         from distributed import Client  # type: ignore[import-not-found]
     except ImportError:
-        raise InputError("--dask needs the package `distributed`: pip install distributed") from None
+        raise InputError(
+            "--dask needs the package `distributed`: pip install distributed"
+        ) from None
     try:
         client = stack.enter_context(Client(address, timeout="10s"))
     except OSError:

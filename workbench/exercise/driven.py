@@ -1,6 +1,6 @@
-"""A lesson with the student's function in the slot, the reference's run beside it as a ghost, step by step.
+"""A lesson with the student's function in the slot, the reference's run beside it as a ghost.
 
-The result is an ordinary lesson, so it is watched live, stepped back through and recorded like any other.
+The result is an ordinary lesson, so it is watched live, stepped back through and recorded.
 """
 
 import itertools
@@ -14,9 +14,20 @@ from workbench.exercise.candidate import Candidate
 from workbench.exercise.model import Exercise, Function
 from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError
+from workbench.form import Form, Look
 from workbench.lesson import Lesson
-from workbench.scene import Caption, Mesh, Points, Primitive, Scalar, Scene, Segments, caption_of, ghost
-from workbench.timeline import Step, Timeline
+from workbench.run.timeline import Step, Timeline
+from workbench.scene import (
+    Caption,
+    Mesh,
+    Points,
+    Primitive,
+    Scalar,
+    Scene,
+    Segments,
+    caption_of,
+    ghost,
+)
 
 TOLERANCE = 1e-6  # of the larger of 1 and the size of what is compared
 DIFFERENCE = "exercise/difference"
@@ -24,13 +35,12 @@ DIFFERENCE = "exercise/difference"
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """One step of both runs, drawn once: `theirs` is None where the student's function gave nothing.
+    """One step of both runs, drawn once.
 
-    Args:
-        ours: The reference's state.
-        theirs: The state of the student's run.
+    Attributes:
+        ours, theirs: The states; None where the student's function gave nothing.
         trouble: Why there is none.
-        line: The student's own line where it went wrong, 0 where it did not or the line is not known.
+        line: The student's own line where it went wrong, 0 where it is not known.
         difference: How far the two scenes are apart.
         first: Whether this is the first step at which they differ.
         called: Whether the run has called the student's function, up to this step.
@@ -50,13 +60,16 @@ class Pair:
 
 
 class _Beside:
-    """A student's function as a run calls it; remembers whether it was called, and whether it answered otherwise than ours.
+    """A student's function as a run calls it; remembers whether it was called, and differed.
 
-    Where it never did, the two runs part by rounding at most, however far: equal costs are told apart by it.
+    Where it never did, the two runs part by rounding at most: equal costs are told apart by it.
     """
 
     def __init__(self, function: Function, exercise: Exercise):
-        self._candidate, self._contract = Candidate(function, exercise.reference, remember=False), exercise.contract
+        self._candidate, self._contract = (
+            Candidate(function, exercise.reference, remember=False),
+            exercise.contract,
+        )
         self.called = self.differed = False
 
     def __call__(self, *args: Any) -> Any:
@@ -70,22 +83,35 @@ class _Beside:
 
 def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
     """Return the lesson driven by a student's function, with the reference's run as its ghost."""
+    form = lesson.form
 
-    def run(params: Any) -> Iterator[Pair]:
+    def run(params: Any, subject: Any) -> Iterator[Pair]:
         beside = _Beside(function, exercise)
-        ours, theirs = lesson.run(params), lesson.run(params, **{exercise.contract.slot: beside})
+        ours = form.run(params, subject)
+        theirs = form.run(params, subject, **{exercise.contract.slot: beside})
+        draw_ours, draw_theirs = _Drawn(form, params, subject), _Drawn(form, params, subject)
         state_ours, scene_ours, differed = None, {}, False
         while True:
             for state_ours in itertools.islice(ours, 1):
-                scene_ours = lesson.draw(state_ours)
+                scene_ours = draw_ours(state_ours)
             try:
                 state = next(theirs)
-                scene = lesson.draw(state)
+                scene = draw_theirs(state)
             except StopIteration:
                 return
             except Exception as error:
                 trouble, line = _trouble(error, exercise)
-                yield Pair(state_ours, None, trouble, line, float("nan"), not differed, beside.called, scene_ours, {})
+                yield Pair(
+                    state_ours,
+                    None,
+                    trouble,
+                    line,
+                    float("nan"),
+                    not differed,
+                    beside.called,
+                    scene_ours,
+                    {},
+                )
                 return
             difference = gap(scene_ours, scene)
             differs = beside.differed and not difference <= TOLERANCE
@@ -94,39 +120,67 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             yield Pair(state_ours, state, "", 0, difference, first, beside.called, scene, behind)
             differed = differed or differs
 
-    def draw(pair: Pair) -> Scene:
+    def draw(look: Look[Any, Any, Pair]) -> Scene:
+        pair = look.now
         scene = {**pair.scene, **pair.ghost}
         if pair.theirs is None:
-            return scene | {"caption": Caption(pair.trouble, "wrong"), DIFFERENCE: _difference(float("nan"))}
+            return scene | {
+                "caption": Caption(pair.trouble, "wrong"),
+                DIFFERENCE: _difference(float("nan")),
+            }
         if pair.first:
             said = caption_of(scene).text
             scene["caption"] = Caption(
-                f"Here your run first differs from the reference (its ghost is faint). {said}", "wrong"
+                f"Here your run first differs from the reference (its ghost is faint). {said}",
+                "wrong",
             )
         return scene | ({DIFFERENCE: _difference(pair.difference)} if pair.called else {})
 
-    return replace(lesson, run=run, draw=draw, questions=(), tries=None)
+    return replace(lesson, setup=form.setup, run=run, draw=draw, slots=(), questions=(), tries=None)
+
+
+class _Drawn:
+    """Draws the states of one run in their order."""
+
+    def __init__(self, form: Form, params: Any, subject: Any):
+        self._form, self._params, self._subject = form, params, subject
+        self._past: tuple[Any, ...] = ()
+
+    def __call__(self, state: Any) -> Scene:
+        look = Look(params=self._params, subject=self._subject, now=state, past=self._past)
+        self._past = (*self._past, state)
+        return self._form.draw(look)
 
 
 def _trouble(error: Exception, exercise: Exercise) -> tuple[str, int]:
-    """Say what went wrong, and in which line: the student's own error, or that the lesson cannot use what came back."""
+    """Say what went wrong, and in which line: the student's own error, or the lesson's."""
     if isinstance(error, StudentError):
         return str(error), error.line
     said = " ".join(str(error).split())[:200]
-    return f"The lesson cannot go on with what {exercise.name} returned ({type(error).__name__}: {said}).", 0
+    return (
+        (
+            f"The lesson cannot go on with what {exercise.name} returned ({type(error).__name__}:"
+            f" {said})."
+        ),
+        0,
+    )
 
 
 def _difference(value: float) -> Scalar:
     return Scalar(
-        value if np.isfinite(value) else float("nan"), "largest difference", "Difference to the reference", "", "wrong"
+        value if np.isfinite(value) else float("nan"),
+        "largest difference",
+        "Difference to the reference",
+        "",
+        "wrong",
     )
 
 
 def gap(a: Scene, b: Scene) -> float:
-    """Return how far two scenes are apart: the largest distance between their points, or difference of their scalars.
+    """Return how far two scenes are apart: the largest distance of points, or of scalars.
 
-    Scalars are compared relative to their size where that is above 1. Things that one scene lacks, or that have another
-    number of points, are infinitely far apart.
+    Scalars are compared relative to their size where that is above 1. Things that one scene lacks,
+    or that have another number of points, are infinitely far apart.
     """
     largest = 0.0
     for path in a.keys() | b.keys():
@@ -147,7 +201,9 @@ def _apart(a: Primitive, b: Primitive) -> float:
         p_a, p_b = _in_world(a), _in_world(b)
         if p_a.shape != p_b.shape:
             return float("inf")
-        return float(np.abs(p_a - p_b).max(initial=0.0)) / max(1.0, float(np.abs(p_a).max(initial=0.0)))
+        return float(np.abs(p_a - p_b).max(initial=0.0)) / max(
+            1.0, float(np.abs(p_a).max(initial=0.0))
+        )
     return 0.0
 
 
@@ -158,7 +214,7 @@ def _in_world(primitive: Points | Mesh | Segments) -> np.ndarray:
 
 
 def calls_it(timeline: Timeline) -> bool | None:
-    """Return whether a student's run calls the function; None where it is none, or that is not known yet."""
+    """Return whether a student's run calls the function; None where that is not known."""
     steps = timeline.known()
     if not steps or not isinstance(steps[-1].state, Pair):
         return None
@@ -168,7 +224,7 @@ def calls_it(timeline: Timeline) -> bool | None:
 
 
 def first_difference(steps: Iterable[Step]) -> int | None:
-    """Return the first step at which the student's run differs or fails, None where it never does or there is none."""
+    """Return the first step at which the student's run differs or fails, or None."""
     for k, step in enumerate(steps):
         if not isinstance(step.state, Pair):
             return None

@@ -3,7 +3,6 @@
 import functools
 import importlib
 import importlib.util
-import inspect
 import pkgutil
 import re
 import warnings
@@ -19,26 +18,36 @@ from workbench.lesson import Lesson, catalog, course
 def exercises() -> dict[str, Exercise]:
     """Return the exercises of all lessons by name, in course order.
 
-    A third party's exercise whose name is taken, or that cannot be loaded, is left out with a warning.
+    A third party's exercise whose name is taken, or that cannot be loaded, is left out with a
+    warning.
     """
-    return {exercise.name: exercise for lesson in catalog().values() for exercise in exercises_of(lesson)}
+    return {
+        exercise.name: exercise
+        for lesson in catalog().values()
+        for exercise in exercises_of(lesson)
+    }
 
 
 def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
-    """Return the exercises of a lesson: the files of the `exercises` folder beside it, in the order of its run's keywords.
+    """Return the exercises of a lesson, its folder's files, in the order of its run's keywords.
 
-    Of a third party's lesson, those that cannot be loaded or whose name is taken are left out with a warning.
+    Of a third party's lesson, those that cannot be loaded or whose name is taken are left out with
+    a warning.
 
     Raises:
-        InputError: If an exercise of the course, or of a lesson that is not in the catalogue, says too little.
+        InputError: If one of the course, or of a lesson outside the catalogue, says too little.
     """
     listed = catalog().get(lesson.name)
-    return _exercises_in(lesson) if listed is None or listed.params is not lesson.params else usable()[lesson.name]
+    return (
+        _exercises_in(lesson)
+        if listed is None or listed.params is not lesson.params
+        else usable()[lesson.name]
+    )
 
 
 @functools.cache
 def usable() -> dict[str, tuple[Exercise, ...]]:
-    """Return the exercises of the catalogue's lessons by the lesson's name; the course's come first where names clash.
+    """Return the catalogue's exercises by lesson; the course's come first where names clash.
 
     Raises:
         InputError: If two lessons of the course have an exercise of one name; tells both places.
@@ -49,7 +58,8 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
         for exercise in found[name]:
             if exercise.name in places:
                 raise InputError(
-                    f"exercise {exercise.name} is in {places[exercise.name]} and in {_place(lesson)}: rename one"
+                    f"exercise {exercise.name} is in {places[exercise.name]} and in"
+                    f" {_place(lesson)}: rename one"
                 )
             places[exercise.name] = _place(lesson)
     for lesson in catalog().values():
@@ -63,11 +73,18 @@ def _not_taken(lesson: Lesson, places: dict[str, str]) -> tuple[Exercise, ...]:
     try:
         for exercise in _exercises_in(lesson):
             if exercise.name in places:
-                _leave_out(f"exercise {exercise.name} of", lesson, f"its name is taken by {places[exercise.name]}")
+                _leave_out(
+                    f"exercise {exercise.name} of",
+                    lesson,
+                    f"its name is taken by {places[exercise.name]}",
+                )
             else:
                 kept.append(exercise)
                 places[exercise.name] = _place(lesson)
-    except (Exception, SystemExit) as error:  # somebody else's exercises must not take the course's down
+    except (
+        Exception,
+        SystemExit,
+    ) as error:  # somebody else's exercises must not take the course's down
         _leave_out("the exercises of", lesson, f"{type(error).__name__}: {error}")
     return tuple(kept)
 
@@ -79,19 +96,21 @@ def _exercises_in(lesson: Lesson) -> tuple[Exercise, ...]:
     folder = importlib.import_module(f"{package}.exercises")
     names = [f"{folder.__name__}.{info.name}" for info in pkgutil.iter_modules(folder.__path__)]
     found = [exercise_in(importlib.import_module(name), lesson.name) for name in names]
-    slots = list(inspect.signature(lesson.run).parameters)
+    slots = lesson.form.slots
     for exercise in found:
-        if exercise.contract.slot not in slots[1:]:
+        if exercise.contract.slot not in slots:
             raise InputError(
-                f"exercise {exercise.name}: run of lesson {lesson.name} has no keyword {exercise.contract.slot!r}; it has: "
-                f"{', '.join(slots[1:]) or 'none'}"
+                f"exercise {exercise.name}: run of lesson {lesson.name} has no keyword"
+                f" {exercise.contract.slot!r}; it has: {', '.join(slots) or 'none'}"
             )
         if exercise.contract.preset is not None:
             try:
                 lesson.preset(exercise.contract.preset)
             except InputError as error:
                 raise InputError(f"exercise {exercise.name}: {error}") from None
-    return tuple(sorted(found, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name)))
+    return tuple(
+        sorted(found, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name))
+    )
 
 
 def _leave_out(what: str, lesson: Lesson, why: str) -> None:
@@ -116,59 +135,72 @@ def find_exercise(name: str, lesson: Lesson | None = None) -> Exercise:
 
 def known(lesson: Lesson | None) -> dict[str, Exercise]:
     """Return the exercises of a lesson by name; of the catalogue where none is given."""
-    return exercises() if lesson is None else {exercise.name: exercise for exercise in exercises_of(lesson)}
+    return (
+        exercises()
+        if lesson is None
+        else {exercise.name: exercise for exercise in exercises_of(lesson)}
+    )
 
 
 def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
     """Return the exercises that a student's file is handed in for, without running it.
 
-    They are those that `said_for` finds; where it finds none, those whose functions the file defines.
-
-    Args:
-        given: The file, or what was read of it.
-        lesson: The lesson whose exercises are looked for; all of the catalogue's where none is given.
+    They are those that `said_for` finds; where it finds none, those whose functions the file
+    defines.
 
     Raises:
-        InputError: If the file cannot be read, does not parse (with the line), or defines none of them.
+        InputError: If the file cannot be read, does not parse (with the line), or defines none.
     """
     submission = given if isinstance(given, Submission) else read_submission(given)
     if submission.broken:
         raise InputError(submission.broken)
     asked = known(lesson)
     said = said_for(submission, lesson)
-    found = said or tuple(exercise for name, exercise in asked.items() if name in submission.defines)
+    found = said or tuple(
+        exercise for name, exercise in asked.items() if name in submission.defines
+    )
     if not found:
         listed = ", ".join(asked) or "there are none"
         raise InputError(f"{submission.file}: defines none of the exercises' functions ({listed})")
     missing = [exercise.name for exercise in found if exercise.name not in submission.defines]
     if missing:
-        raise InputError(f"{submission.file}: is for {', '.join(missing)} and defines {_nearly(submission, missing)}")
+        raise InputError(
+            f"{submission.file}: is for {', '.join(missing)} and defines"
+            f" {_nearly(submission, missing)}"
+        )
     return found
 
 
 def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
     """Return the exercises that a file says it is handed in for, whether or not it is Python.
 
-    A starter's first line says so, or else words of the file's name. What it says counts where the file defines such a
-    function. Where it does not, the first line still counts, and so does a name like `my_match.py`; other words may be no
-    exercise's ("final_project.py"), and count only where the file defines no exercise's function at all.
+    A starter's first line says so, or else words of the file's name. What it says counts where the
+    file defines such a function. Where it does not, the first line still counts, and so does a name
+    like `my_match.py`; other words count only where the file defines no exercise's function at all.
     """
     asked = known(lesson)
-    lines, words = [name for name in submission.said if name in asked], _in_words(submission.file, asked)
+    lines, words = (
+        [name for name in submission.said if name in asked],
+        _in_words(submission.file, asked),
+    )
     said = next((names for names in (lines, words) if not submission.defines.isdisjoint(names)), [])
-    if not said and (lines or submission.defines.isdisjoint(asked) or _begins_with_my(submission.file, words)):
+    if not said and (
+        lines or submission.defines.isdisjoint(asked) or _begins_with_my(submission.file, words)
+    ):
         said = lines or words
     return tuple(asked[name] for name in said)
 
 
 def _in_words(file: str, names: Iterable[str]) -> list[str]:
-    """Return those of some names whose words stand in a row in a file's name, in any case; of two there the longer."""
+    """Return the names whose words stand in a row in a file's name; of two the longer."""
     words = _words(file)
     places: list[tuple[int, int, str]] = []
     for name in names:
         parts = name.lower().split("_")
         ends = range(len(parts), len(words) + 1)
-        places += [(end - len(parts), end, name) for end in ends if words[end - len(parts) : end] == parts]
+        places += [
+            (end - len(parts), end, name) for end in ends if words[end - len(parts) : end] == parts
+        ]
     longest = [
         (first, end, name)
         for first, end, name in places
@@ -192,4 +224,8 @@ def _nearly(submission: Submission, missing: list[str]) -> str:
     """Say that a file has no such function, and which other spelling it has."""
     wanted = {name.replace("_", "").lower() for name in missing}
     near = [name for name in sorted(submission.defines) if name.replace("_", "").lower() in wanted]
-    return f"no such function; it defines {near[0]}, which is another name" if near else "no such function"
+    return (
+        f"no such function; it defines {near[0]}, which is another name"
+        if near
+        else "no such function"
+    )

@@ -1,6 +1,7 @@
 """What a hand-in uses that its exercise forbids, because it solves the task in one call.
 
-It is a rule for students, read off what they wrote: nothing of it is run. It is no wall; those are in `sandbox`.
+It is a rule for students, read off what they wrote: nothing of it is run. It is no wall; those are
+in `sandbox`.
 """
 
 from workbench.exercise.model import Exercise
@@ -8,9 +9,9 @@ from workbench.exercise.submission import Part, Submission
 
 
 def forbidden_use(given: Submission, exercise: Exercise) -> str:
-    """Return one line that says what a file uses though its exercise forbids it; nothing where it does not.
+    """Return one line that says what a file uses though its exercise forbids it, or nothing.
 
-    What only functions use that the exercise's own does not call, such as those of another exercise, does not count.
+    What only functions use that the exercise's own does not call does not count.
     """
     forbid = exercise.contract.forbid
     if not forbid:
@@ -21,13 +22,15 @@ def forbidden_use(given: Submission, exercise: Exercise) -> str:
         for path, line in (use for part in parts for use in part.uses):
             module = next((one for one in forbid if f"{path}.".startswith(f"{one}.")), None)
             if module is not None:
-                where = f"{file}, line {line}: uses {module}, which is forbidden for {exercise.name}"
+                where = (
+                    f"{file}, line {line}: uses {module}, which is forbidden for {exercise.name}"
+                )
                 return f"{where}, since it solves the task: write it yourself."
     return ""
 
 
 def _counting(parts: tuple[Part, ...], name: str) -> list[Part]:
-    """Return the statements of a file without the functions that one does not reach, and what only those read."""
+    """Return the statements without functions that `name` does not reach, and their own needs."""
     ours = _reached([k for k, part in enumerate(parts) if part.runs or name in part.binds], parts)
     others = [k for k, part in enumerate(parts) if part.defines and k not in ours]
     left = _reached(others, parts) - ours
@@ -35,7 +38,7 @@ def _counting(parts: tuple[Part, ...], name: str) -> list[Part]:
 
 
 def _reached(begin: list[int], parts: tuple[Part, ...]) -> set[int]:
-    """Return the indices of some statements, and of all that give the names which they read a value."""
+    """Return the indices of statements, and of all that bind the names which they read."""
     places: dict[str, list[int]] = {}
     for k, part in enumerate(parts):
         for name in part.binds:

@@ -19,10 +19,8 @@ class Outcome:
     """What one check found.
 
     Attributes:
-        check: What was promised.
-        verdict: How it was kept.
-        kind: Why there was no answer to judge: a `kind` of StudentError (`timeout`, `died`, `raised`, `result`), `forbidden`
-            where the file uses what the contract forbids, or nothing.
+        verdict: How the promise was kept.
+        kind: Why there was no answer to judge: a `kind` of StudentError, `forbidden`, or nothing.
     """
 
     check: Check
@@ -40,7 +38,6 @@ class Report:
     """What grading one function found.
 
     Attributes:
-        exercise: What was asked.
         file: The student's file, as it was named.
         outcomes: One per check that was run.
         not_run: Checks that were not run here.
@@ -48,7 +45,7 @@ class Report:
         concerned: The names of the checks in which it makes that mistake.
         printed: The beginning of what the student's code printed.
         wall: What shut the student's code in; nothing where it was ours.
-        seed: The teacher's number that the hidden checks were drawn from, None where it was the usual one.
+        seed: The teacher's number for the hidden checks, None where it was the usual one.
     """
 
     exercise: Exercise
@@ -83,7 +80,7 @@ class Report:
 
     @property
     def said_once(self) -> str:
-        """The sentence that all of several checks say, such as that nothing is written yet; nothing where they differ."""
+        """The sentence that all of several checks say; nothing where they differ."""
         said = {outcome.verdict.message for outcome in self.outcomes}
         return said.pop() if len(said) == 1 and self.outcomes[1:] else ""
 
@@ -100,9 +97,6 @@ def grade_file(
     """Grade a student's file in a process of its own.
 
     Args:
-        given: The file, or what was read of it.
-        exercise: What is asked.
-        hidden: Whether hidden checks are run too.
         wall: What shuts the process in; the best of this machine by default.
         megabytes: Address space of the process; MEGABYTES by default.
         seed: What the hidden checks are drawn from, 0 or more; None takes their usual seeds.
@@ -115,25 +109,24 @@ def grade_file(
     with SandboxedFunction(
         given, exercise.name, seconds=seconds, wall=wall, budget=CallBudget(seconds), **room
     ) as student:
-        return grade_function(student, exercise, hidden=hidden, file=student.submission.file, seed=seed)
+        return grade_function(
+            student, exercise, hidden=hidden, file=student.submission.file, seed=seed
+        )
 
 
 def grade_function(
-    function: Function, exercise: Exercise, *, hidden: bool = True, file: str = "", seed: int | None = None
+    function: Function,
+    exercise: Exercise,
+    *,
+    hidden: bool = True,
+    file: str = "",
+    seed: int | None = None,
 ) -> Report:
-    """Grade a callable: a student's function in its process, or one of ours.
-
-    Args:
-        function: Called with the checks' arguments.
-        exercise: What is asked of it.
-        hidden: Whether hidden checks are run too.
-        file: How the report names it.
-        seed: What the hidden checks are drawn from, 0 or more; None takes their usual seeds.
-    """
+    """Grade a callable: a student's function in its process, or one of ours; as `grade_file`."""
     if isinstance(function, SandboxedFunction):
         said = forbidden_use(function.submission, exercise)
         if said:
-            return _refused(said, exercise, hidden, file, function.wall, seed)
+            return _refused(said, exercise, hidden, file=file, wall=function.wall, seed=seed)
         function.start()
     outcomes: list[Outcome] = []
     asked: dict[str, Candidate] = {}
@@ -160,12 +153,19 @@ def grade_function(
     )
 
 
-def _refused(said: str, exercise: Exercise, hidden: bool, file: str, wall: Wall, seed: int | None) -> Report:
-    """Return the report on a file that uses what is forbidden: nothing of it is run, and every check says why."""
+def _refused(
+    said: str, exercise: Exercise, hidden: bool, *, file: str, wall: Wall, seed: int | None
+) -> Report:
+    """Return the report on a file that uses what is forbidden: every check says why."""
     run = [check for check in exercise.checks if check.public or hidden]
     outcomes = tuple(Outcome(check, fail(said), "forbidden") for check in run)
     return Report(
-        exercise, file, outcomes, tuple(one for one in exercise.checks if one not in run), wall=wall, seed=seed
+        exercise,
+        file,
+        outcomes,
+        tuple(one for one in exercise.checks if one not in run),
+        wall=wall,
+        seed=seed,
     )
 
 
@@ -176,8 +176,13 @@ def _judged(check: Check, candidate: Candidate) -> Outcome:
         return Outcome(check, Verdict(verdict.share, one_line(verdict.message)))
     except StudentError as error:
         return Outcome(check, fail(str(error)), error.kind)
-    except Exception as error:  # a check of ours that stumbles over an odd answer must not stop a batch
-        return Outcome(check, fail(one_line(f"The answer could not be judged ({type(error).__name__}: {error}).")))
+    except (
+        Exception
+    ) as error:  # a check of ours that stumbles over an odd answer must not stop a batch
+        return Outcome(
+            check,
+            fail(one_line(f"The answer could not be judged ({type(error).__name__}: {error}).")),
+        )
 
 
 def _inputs_looked_at(outcomes: list[Outcome], asked: dict[str, Candidate]) -> list[Outcome]:

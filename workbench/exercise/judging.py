@@ -1,6 +1,6 @@
-"""Verdicts that many exercises need: the worst of several, motions in degrees and metres, errors asked for, inputs kept.
+"""Verdicts that many exercises need; they know numpy only.
 
-They know numpy only, so that what judges an answer is independent of the functions that made the right one.
+So what judges an answer is independent of the functions that made the right one.
 """
 
 from collections.abc import Iterable
@@ -21,17 +21,28 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def rotation_verdict(
-    R: np.ndarray, R_right: np.ndarray, hint: str, *, good: float = 0.1, fair: float = 2.0, name: str = "R"
+    R: np.ndarray,
+    R_right: np.ndarray,
+    hint: str,
+    *,
+    good: float = 0.1,
+    fair: float = 2.0,
+    name: str = "R",
 ) -> Verdict:
-    """Judge a rotation by the angle to the right one, in degrees; what is no rotation earns nothing."""
+    """Judge a rotation by the angle to the right one, degrees; no rotation earns nothing."""
     hint = beside(R, R_right, hint, name)
     off, det = float(np.abs(R.T @ R - np.eye(3)).max()), float(np.linalg.det(R))
     if off > SKEWED or det < 0:
         if off <= SKEWED:
             return fail(f"{name} mirrors: its determinant is {number(det, 3)}, right is 1. {hint}")
         told = f", its determinant is {against(det, 1.0, 3)}" if abs(det - 1.0) > SKEWED else ""
-        return fail(f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}{told}. {hint}")
-    return band("Rotation error", degrees_between(R, R_right), "degrees", good=good, fair=fair, hint=hint)
+        return fail(
+            f"{name} is no rotation: R^T R differs from the identity by {number(off, 2)}{told}."
+            f" {hint}"
+        )
+    return band(
+        "Rotation error", degrees_between(R, R_right), "degrees", good=good, fair=fair, hint=hint
+    )
 
 
 def motion_verdict(
@@ -44,25 +55,26 @@ def motion_verdict(
     metres: tuple[float, float] = (1e-3, 2e-2),
     name: str = "T",
 ) -> Verdict:
-    """Judge a motion by its rotation error in degrees and by how far it takes points from where they belong.
+    """Judge a motion by its rotation error and by how far it takes points from where they belong.
 
     Args:
-        T: The answer.
-        T_right: The right one.
-        hint: What to look at where it is wrong.
         p: The points, in metres; the origin where they are not given.
         degrees: Up to where all, and up to where half the points are earned.
         metres: The same for the largest distance.
-        name: What the answer is called.
     """
     off = float(np.abs(T[3] - [0.0, 0.0, 0.0, 1.0]).max())
     if off > SKEWED:
         return fail(f"The last row of {name} is {number(T[3])}, right is (0, 0, 0, 1). {hint}")
-    turned = rotation_verdict(T[:3, :3], T_right[:3, :3], hint, good=degrees[0], fair=degrees[1], name=name)
+    turned = rotation_verdict(
+        T[:3, :3], T_right[:3, :3], hint, good=degrees[0], fair=degrees[1], name=name
+    )
     p = np.zeros((1, 3)) if p is None else p
     away = np.linalg.norm(p @ (T - T_right)[:3, :3].T + (T - T_right)[:3, 3], axis=1).max()
     told = beside(
-        T[:3, 3], T_right[:3, 3], hint, "The rotation is right; the last column" if turned.share == 1 else "t"
+        T[:3, 3],
+        T_right[:3, 3],
+        hint,
+        "The rotation is right; the last column" if turned.share == 1 else "t",
     )
     moved = band("Position error", float(away), "m", good=metres[0], fair=metres[1], hint=told)
     if turned.share == moved.share == 1.0:
@@ -78,7 +90,7 @@ def degrees_between(R: np.ndarray, other: np.ndarray) -> float:
 
 
 def refused(candidate: Function, *args: Any, what: str) -> Verdict:
-    """Judge a call on which the contract asks for a ValueError: all for one, half for an error of another name."""
+    """Judge a call that asks for a ValueError: all for one, half for another error."""
     try:
         value = candidate(*args)
     except StudentError as error:
@@ -92,9 +104,9 @@ def refused(candidate: Function, *args: Any, what: str) -> Verdict:
 
 
 def left_alone(candidate: Function, verdict: Verdict) -> Verdict:
-    """Return the verdict on the last call's answer, or the failure to leave the arguments as they were.
+    """Return the verdict on the last call's answer, or that the call changed its arguments.
 
-    The check that returns this one fails too where any call of another check changed its arguments.
+    The check that returns this one fails too where any call of another check changed them.
     """
     if isinstance(candidate, Candidate):
         candidate.looks_at_inputs = True
@@ -107,31 +119,32 @@ def left_alone(candidate: Function, verdict: Verdict) -> Verdict:
 
 def changed(args: tuple[Any, ...]) -> Verdict:
     """Return the failure to leave these arguments as they were."""
-    arrays = [arg.ravel() for arg in args if isinstance(arg, np.ndarray) and arg.dtype.kind in "biuf"]
+    arrays = [
+        arg.ravel() for arg in args if isinstance(arg, np.ndarray) and arg.dtype.kind in "biuf"
+    ]
     values = np.concatenate(arrays) if arrays else np.zeros(0)
     with np.errstate(invalid="ignore"):
         what = (
             " with nan in it"
             if np.isnan(values).any()
-            else " with inf in it"
-            if np.isinf(values).any()
-            else " without entries"
-            if any(array.size == 0 for array in arrays)
-            else ""
+            else (
+                " with inf in it"
+                if np.isinf(values).any()
+                else " without entries"
+                if any(array.size == 0 for array in arrays)
+                else ""
+            )
         )
     return fail(
-        f"Your function changed an array{what} that it was given. Work on a copy: a /= b writes into a, a = a / b not."
+        f"Your function changed an array{what} that it was given. Work on a copy: a /= b writes"
+        " into a, a = a / b not."
     )
 
 
 def beside(got: Any, right: Any, hint: str, name: str = "") -> str:
-    """Return the hint behind the two numbers, yours and the right one, where an answer is farthest off.
+    """Return the hint behind the two numbers, yours and right, where an answer is farthest off.
 
-    Args:
-        got: The answer: a number, a vector, a matrix, or points in rows, of which the whole row is told.
-        right: The right one, of the same shape.
-        hint: What to look at.
-        name: What the answer is called, such as R.
+    Of points in rows the whole row is told.
     """
     got, right = np.asarray(got, dtype=float), np.asarray(right, dtype=float)
     if got.shape != right.shape or got.size == 0:

@@ -1,4 +1,4 @@
-"""Marks what one student handed in: which files are for which exercises, each graded, whatever goes wrong said."""
+"""Marks what one student handed in: which files for which exercises, each graded."""
 
 import functools
 import hashlib
@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import scipy
 
-import workbench
 from workbench.errors import InputError, one_line
 from workbench.exercise import finding
 from workbench.exercise.grading import Report, grade_file
@@ -22,7 +21,7 @@ from workbench.exercise.sandbox import Wall, named
 from workbench.exercise.submission import Submission, submission
 from workbench.exercise.submissions import HandIn
 from workbench.lesson import Lesson
-from workbench.loading import load
+from workbench.run.loading import load
 
 Result = dict[str, Any]
 MOST_STRAYS = 5
@@ -35,9 +34,10 @@ class Asked:
 
     Attributes:
         only: The exercises that are graded; empty for those that each file is handed in for.
-        lesson: The path of a lesson that the catalogue does not have; the processes that grade load it by that.
+        lesson: The path of a lesson that the catalogue does not have.
         sandbox: The name of the wall that shuts submissions in.
-        seed: A teacher's number that the hidden checks are drawn from; None takes their usual seeds.
+        seed: A teacher's number that the hidden checks are drawn from; None takes their usual
+            seeds.
     """
 
     only: tuple[str, ...] = ()
@@ -77,12 +77,15 @@ class Asked:
         else:
             asked = self.exercises() or finding.exercises().values()
             folders = [Path(inspect.getfile(exercise.reference)).parent for exercise in asked]
-        return f"{self.only} {self.sandbox} {self.seed} {_grader()} {''.join(map(_text, dict.fromkeys(folders)))}"
+        return (
+            f"{self.only} {self.sandbox} {self.seed} {_grader()}"
+            f" {''.join(map(_text, dict.fromkeys(folders)))}"
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A file of a student that is graded by an exercise: by its path in the student's folder, and as it was read."""
+    """A file that an exercise grades: its path in the student's folder, and as it was read."""
 
     file: str
     given: Submission
@@ -113,8 +116,8 @@ def _loaded(path: Path) -> Lesson:
 
 @functools.cache
 def _grader() -> str:
-    """Return what tells one grader from another: the text of the workbench, and the versions beneath."""
-    ours = "".join(_text(Path(place)) for place in workbench.__path__)
+    """Return what tells one grader from another: the workbench's text, and the versions beneath."""
+    ours = _text(Path(__file__).parents[1])
     return f"{ours} {sys.version} {np.__version__} {scipy.__version__}"
 
 
@@ -125,7 +128,7 @@ def _text(folder: Path) -> str:
 
 
 def grade_student(handed: HandIn, asked: Asked) -> Result:
-    """Grade what one student handed in and return the result as plain data; whatever goes wrong is part of it."""
+    """Grade what one student handed in; whatever goes wrong is part of the result."""
     result = empty(handed, asked)
     try:
         wall = named(asked.sandbox)
@@ -139,25 +142,26 @@ def grade_student(handed: HandIn, asked: Asked) -> Result:
             else:
                 result["ungraded"].append(graded)
         if asked.only:
-            result["ungraded"] += [not_handed_in(exercise) for exercise in found.missing if handed.files]
+            result["ungraded"] += [
+                not_handed_in(exercise) for exercise in found.missing if handed.files
+            ]
         else:
             result["handed"] = _parts_of_lessons(result, asked)
         result["note"] = "; ".join(filter(None, [handed.note, *found.notes]))
     except Exception as error:  # a fault of ours with one student must not stop a class
-        said = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {one_line(str(error))}"
+        said = (
+            str(error)
+            if isinstance(error, InputError)
+            else f"{type(error).__name__}: {one_line(str(error))}"
+        )
         result["ungraded"].append(ungraded("", None, f"could not be graded: {said}"))
     return summed(result)
 
 
-def marked(part: Part, wall: Wall, megabytes: int | None = None, seed: int | None = None) -> Report | dict[str, Any]:
-    """Return the report on a file, or as what `ungraded` makes of it that it cannot be graded.
-
-    Args:
-        part: The file, and the exercise.
-        wall: What shuts the student's process in.
-        megabytes: Address space of that process, where it is not what it has everywhere.
-        seed: What the hidden checks are drawn from; None takes their usual seeds.
-    """
+def marked(
+    part: Part, wall: Wall, megabytes: int | None = None, seed: int | None = None
+) -> Report | dict[str, Any]:
+    """Return the report on a file, or what `ungraded` makes of it that it cannot be graded."""
     try:
         report = grade_file(part.given, part.exercise, wall=wall, megabytes=megabytes, seed=seed)
         return replace(report, file=part.file)
@@ -171,12 +175,18 @@ def not_handed_in(exercise: Exercise) -> dict[str, Any]:
 
 
 def _parts_of_lessons(result: Result, asked: Asked) -> list[str]:
-    """Say of each lesson of which some exercises are there and others not how many are: "pose 2 of 3"."""
+    """Say of each lesson of which only some exercises are there how many: "pose 2 of 3"."""
     all_of_them = finding.known(asked.loaded()).values()
     there = {item["exercise"] for item in (*result["reports"], *result["ungraded"])}
     lessons = dict.fromkeys(exercise.lesson for exercise in all_of_them if exercise.name in there)
-    named = {lesson: {one.name for one in all_of_them if one.lesson == lesson} for lesson in lessons}
-    return [f"{lesson} {len(names & there)} of {len(names)}" for lesson, names in named.items() if names - there]
+    named = {
+        lesson: {one.name for one in all_of_them if one.lesson == lesson} for lesson in lessons
+    }
+    return [
+        f"{lesson} {len(names & there)} of {len(names)}"
+        for lesson, names in named.items()
+        if names - there
+    ]
 
 
 def empty(handed: HandIn, asked: Asked) -> Result:
@@ -201,7 +211,7 @@ def summed(result: Result) -> Result:
 
 
 def chosen(handed: HandIn, asked: Asked) -> Chosen:
-    """Return what is graded of what a student handed in, and what cannot be; what only helps other files is neither."""
+    """Return what is graded of a hand-in, and what cannot be; files that only help are neither."""
     troubles = [ungraded(file, None, said) for file, said in handed.troubles]
     read: dict[str, Submission] = {}
     with Reader() as reader:
@@ -210,13 +220,19 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
                 read[file] = _read_one(handed, file, reader)
             except InputError as error:
                 troubles.append(ungraded(file, None, str(error)))
-    helping = {str(PurePosixPath(file).with_name(f"{name}.py")) for file, one in read.items() for name in one.modules}
+    helping = {
+        str(PurePosixPath(file).with_name(f"{name}.py"))
+        for file, one in read.items()
+        for name in one.modules
+    }
     found: dict[str, list[Part]] = {}
     strays: list[dict[str, Any]] = []
     for file, one in read.items():
         said = asked.wanted(one)
         if said and asked.only and not any(exercise.name in asked.only for exercise in said):
-            strays.append(ungraded(file, None, f"{file}: is for {said[0].name}, which is not asked for"))
+            strays.append(
+                ungraded(file, None, f"{file}: is for {said[0].name}, which is not asked for")
+            )
         elif said or file not in helping:
             try:
                 parts = [Part(file, one, exercise) for exercise in asked.of(one)]
@@ -225,7 +241,9 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
                 if not parts:
                     strays.append(ungraded(file, None, _defines_none(file, asked)))
             except InputError as error:
-                wanted = [exercise for exercise in said if not asked.only or exercise.name in asked.only]
+                wanted = [
+                    exercise for exercise in said if not asked.only or exercise.name in asked.only
+                ]
                 troubles += [ungraded(file, exercise, str(error)) for exercise in wanted]
                 told = str(error) if one.broken or not asked.only else _defines_none(file, asked)
                 strays += [] if wanted else [ungraded(file, None, told)]
@@ -244,7 +262,9 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
     there = {part.exercise.name for part in graded} | {item["exercise"] for item in troubles}
     missing = [exercise for exercise in asked.exercises() if exercise.name not in there]
     if len(asked.only) == len(missing) == 1 and troubles:  # whatever was handed in was meant for it
-        troubles = [ungraded(item["file"], missing[0], item["error"]) for item in troubles[:1]] + troubles[1:]
+        troubles = [
+            ungraded(item["file"], missing[0], item["error"]) for item in troubles[:1]
+        ] + troubles[1:]
         missing = []
     return Chosen(graded=graded, troubles=troubles, notes=notes, missing=missing)
 
@@ -271,7 +291,7 @@ def _read_one(handed: HandIn, file: str, reader: Reader) -> Submission:
 
 
 def digest(handed: HandIn, asked: Asked) -> str:
-    """Return what a kept result must agree with: what was handed in, what was asked for, and who graded it."""
+    """Return what a kept result must agree with: hand-in, what was asked for, and the grader."""
     parts = [handed.student, handed.note, asked.digest(), repr(handed.troubles)]
     parts += [f"{name} {hashlib.sha256(data).hexdigest()}" for name, data in handed.files.items()]
     return hashlib.sha256("\0".join(parts).encode("utf-8", "surrogateescape")).hexdigest()

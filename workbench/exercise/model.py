@@ -1,10 +1,10 @@
-"""What an exercise is: the function a student writes, the checks that judge it, and the mistakes that are known.
+"""What an exercise is: the function to write, the checks that judge it, the known mistakes.
 
-An exercise is one file, `exercises/NAME.py` in its lesson's folder: its docstring is the task, `@contract` marks our
-function, `@check` what is judged, `@mistake` known wrong functions and `@alternative` other right ones.
-
-A check gets the candidate, a callable that runs the student's function in another process and gives back plain values,
-and returns a `Verdict`. It judges geometry in degrees and metres, properties and contracts, never bits.
+An exercise is one file, `exercises/NAME.py` in its lesson's folder: its docstring is the task,
+`@contract` marks our function, `@check` what is judged, `@mistake` known wrong functions and
+`@alternative` other right ones. A check gets the candidate, a callable that runs the student's
+function in another process and gives back plain values, and returns a `Verdict`. It judges geometry
+in degrees and metres, properties and contracts, never bits.
 """
 
 import math
@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.machinery.docstrings import summary_of
 from workbench.numerals import brief, fixed_or_power
 
 Function = Callable[..., Any]
@@ -23,7 +24,7 @@ Function = Callable[..., Any]
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a check found: the share of its points that is earned, and one sentence with a number and, if any, a hint."""
+    """What a check found: the share of its points, and one sentence with a number and any hint."""
 
     share: float
     message: str
@@ -54,7 +55,7 @@ def fail(message: str) -> Verdict:
 
 
 def band(what: str, value: float, unit: str, *, good: float, fair: float, hint: str) -> Verdict:
-    """Judge a number that should be small: all points up to `good`, half up to `fair`, none beyond or if not finite."""
+    """Judge a number that should be small: all points up to `good`, half up to `fair`, or none."""
     shown = f"{what} {number(value, 3)} {unit}".rstrip()
     limit = f"{brief(good)} {unit}".rstrip()
     if not math.isfinite(value):
@@ -67,7 +68,7 @@ def band(what: str, value: float, unit: str, *, good: float, fair: float, hint: 
 
 
 def number(value: Any, digits: int = 4) -> str:
-    """Write a number of an answer as messages do, several in brackets; nan and inf as Python writes them."""
+    """Write a number of an answer as messages do, several in brackets."""
     if getattr(value, "ndim", isinstance(value, (list, tuple))):
         return f"({', '.join(number(one, digits) for one in value)})"
     value = float(value)
@@ -76,8 +77,8 @@ def number(value: Any, digits: int = 4) -> str:
     return brief(value, digits) if abs(value) < 1e7 else fixed_or_power(value, 0)
 
 
-def against(got: Any, right: Any, digits: int = 4, unit: str = "") -> str:
-    """Write an answer and the right one, "0.64, right is −0.64", with as many more digits as it takes to tell them apart."""
+def against(got: Any, right: Any, digits: int = 4, *, unit: str = "") -> str:
+    """Write an answer and the right one, "0.64, right is −0.64", with digits enough to differ."""
     behind = f" {unit}" if unit else ""
     for more in range(digits, 18):
         yours, wanted = number(got, more), number(right, more)
@@ -94,10 +95,9 @@ class Check:
 
     Args:
         name: Its key in reports.
-        promise: What holds when it passes, one line; shown in reports.
-        points: What it is worth.
+        promise: What holds when it passes, one line.
         public: Whether a student sees it run; hidden ones run where a class is graded.
-        judge: Calls the candidate and returns a verdict. It may let the candidate's errors pass through.
+        judge: Calls the candidate and returns a verdict; the candidate's errors may pass through.
     """
 
     name: str
@@ -107,21 +107,25 @@ class Check:
     judge: Callable[[Function], Verdict]
 
 
-def check(points: float, *, public: bool = True) -> Callable[[Callable[[Function], Verdict]], Check]:
-    """Make a check of a function of the candidate: its name is the key, the first line of its docstring the promise."""
+def check(
+    points: float, *, public: bool = True
+) -> Callable[[Callable[[Function], Verdict]], Check]:
+    """Make a check of a function of the candidate; its first paragraph is the promise."""
 
     def made(judge: Callable[[Function], Verdict]) -> Check:
-        lines = (judge.__doc__ or "").strip().splitlines()
-        if not lines:
-            raise TypeError(f"check {judge.__name__} needs a docstring: the promise that the report shows")
-        return Check(judge.__name__, lines[0].rstrip("."), points, public, judge)
+        promise = summary_of(judge)
+        if not promise:
+            raise TypeError(
+                f"check {judge.__name__} needs a docstring: the promise that the report shows"
+            )
+        return Check(judge.__name__, promise.rstrip("."), points, public, judge)
 
     return made
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Contract:
-    """The function that a student writes, as ours does it: its signature and docstring are what the starter file says.
+    """The function that a student writes, as ours does it, signature and docstring included.
 
     Called, it answers as our function does. `contract` makes it, and tells of its attributes.
     """
@@ -139,7 +143,7 @@ class Contract:
         return self.function(*args)
 
     def others(self, value: Any) -> list[Any]:
-        """Return the answers that are as right as this one; none where it is not of the kind that the contract asks for."""
+        """Return the answers that are as right as this one; none for another kind."""
         try:
             made = [] if self.either is None else self.either(value)
         except (TypeError, ValueError):
@@ -156,30 +160,33 @@ def contract(
     preset: str | None = None,
     forbid: tuple[str, ...] = (),
 ) -> Callable[[Function], Contract]:
-    """Make the contract of an exercise of our function: it has the name of its file, which is that of the exercise.
+    """Make the contract of an exercise of our function, which has the name of its file.
 
     Args:
         slot: The keyword of the lesson's run that the student's function replaces.
-        examples: Calls with their results for the starter, as `(call in Python, result in Python)` text.
+        examples: Calls with their results for the starter, both as text in Python.
         seconds: How long one call may take.
-        either: Where the contract leaves open which of some answers is given (a plane's normal may point to either side):
-            makes the other of the one, or a list of the others.
-        preset: The lesson's preset at which a student's own function is first watched, where the default run does not
-            call it.
-        forbid: Modules, or what is in them, by whole paths such as "scipy.spatial", that solve the task in one call: who
-            uses them earns nothing.
+        either: Where several answers are right (a plane's normal may point to either side): makes
+            the other of the one, or a list of the others.
+        preset: The preset at which a student's own function is first watched, where the default run
+            does not call it.
+        forbid: Whole paths such as "scipy.spatial" that solve the task in one call: who uses them
+            earns nothing.
     """
     return lambda function: Contract(
-        function=function, slot=slot, examples=examples, seconds=seconds, either=either, preset=preset, forbid=forbid
+        function=function,
+        slot=slot,
+        examples=examples,
+        seconds=seconds,
+        either=either,
+        preset=preset,
+        forbid=forbid,
     )
 
 
 @dataclass(frozen=True, eq=False)
 class Mistake:
-    """A plausible wrong function, and the sentence for a student whose function gives what it gives.
-
-    Called, it answers as the wrong function does.
-    """
+    """A plausible wrong function, called as such, and the sentence for a student who wrote it."""
 
     function: Function
     sentence: str
@@ -200,7 +207,7 @@ class Mistake:
 
 
 def mistake(sentence: str) -> Callable[[Function], Mistake]:
-    """Make a known mistake of a wrong function; the sentence tells a student who makes it what is wrong, and what to do."""
+    """Make a known mistake of a wrong function; the sentence says what is wrong and what to do."""
     return lambda function: Mistake(function, sentence)
 
 
@@ -225,10 +232,8 @@ class Exercise:
     """One function for students to write: what a file in a lesson's `exercises` folder holds.
 
     Args:
-        name: Its name in commands and files; the student's function has the same name.
-        lesson: The lesson's name.
+        name: Of the exercise and of the student's function.
         task: What to do and why, two or three sentences: the docstring of the file.
-        contract: What is asked for.
         checks: The promises; public ones first.
         mistakes: At least three that students make.
         alternatives: Other right solutions.
@@ -259,28 +264,39 @@ class Exercise:
 
 
 def exercise_in(module: ModuleType, lesson: str) -> Exercise:
-    """Return the exercise that a module defines by its decorators, in the order in which they stand.
+    """Return the exercise that a module defines by its decorators, in their order.
 
     Raises:
-        InputError: If it has no docstring, contract or check, or two of them have one name; names the file.
+        InputError: If it has no docstring, contract or check, or one name twice; names the file.
     """
     own = list(vars(module).values())
-    contracts = [item for item in own if isinstance(item, Contract) and _is_of(item.function, module)]
+    contracts = [
+        item for item in own if isinstance(item, Contract) and _is_of(item.function, module)
+    ]
     checks = tuple(item for item in own if isinstance(item, Check) and _is_of(item.judge, module))
     name, task = module.__name__.rpartition(".")[2], " ".join((module.__doc__ or "").split())
     if [item.function.__name__ for item in contracts] != [name]:
-        raise InputError(f"{module.__file__}: it needs one function `{name}` with @contract: what a student writes")
+        raise InputError(
+            f"{module.__file__}: it needs one function `{name}` with @contract: what a student"
+            " writes"
+        )
     if not task or not checks:
-        raise InputError(f"{module.__file__}: it needs a docstring, the task, and functions with @check")
+        raise InputError(
+            f"{module.__file__}: it needs a docstring, the task, and functions with @check"
+        )
     return Exercise(
         name=name,
         lesson=lesson,
         task=task,
         contract=contracts[0],
         checks=checks,
-        mistakes=tuple(item for item in own if isinstance(item, Mistake) and _is_of(item.function, module)),
+        mistakes=tuple(
+            item for item in own if isinstance(item, Mistake) and _is_of(item.function, module)
+        ),
         alternatives=tuple(
-            item.function for item in own if isinstance(item, Alternative) and _is_of(item.function, module)
+            item.function
+            for item in own
+            if isinstance(item, Alternative) and _is_of(item.function, module)
         ),
     )
 

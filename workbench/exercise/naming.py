@@ -1,7 +1,8 @@
 """Names the mistake that a function makes, from what it answered to the checks' calls.
 
-A call speaks for or against a mistake where the right answer is known: where the contract asks for an error, or leaves
-open which of several answers is given (the alternatives differ), right functions differ too, and it tells little.
+A call speaks for or against a mistake where the right answer is known: where the contract asks for
+an error, or leaves open which of several answers is given (the alternatives differ), right
+functions differ too, and it tells little.
 """
 
 import functools
@@ -16,15 +17,20 @@ from workbench.exercise.candidate import Answer, Call, raised
 from workbench.exercise.model import Exercise, Function, Mistake
 
 ENOUGH = 3
-"""How much must tell a mistake from the right answer where a function makes it in some checks only: of an array each wrong
-entry counts, of single numbers each one that is not like another, a fraction twice."""
+"""How much must tell a mistake from the right answer where a function makes it in some checks only:
+of an array each wrong entry counts, of single numbers each one that is not like another, a fraction
+twice.
+"""
 RANGE = 1e-50, 1e50
-"""Sizes of numbers, 0 apart, that our functions are asked about: beyond, squares overflow and LAPACK may never end."""
+"""Sizes of numbers, 0 apart, that our functions are asked about: beyond, squares overflow and
+LAPACK may never end.
+"""
 KEPT_ANSWERS = 2048
 ROUNDING = 1e-6  # relative
 NEAR, FAR = 0.05, 5.0
-"""Where right answers differ, by this share of their size at most, a mistake's is told from them if it is from each of
-them at least a fifth as far as they are from each other."""
+"""Where right answers differ, by this share of their size at most, a mistake's is told from them if
+it is from each of them at least a fifth as far as they are from each other.
+"""
 SINGLE_ROUNDING = 1e-4  # the same for single precision, after some sums
 
 
@@ -33,7 +39,7 @@ class Evidence:
     """How some calls speak for a mistake.
 
     Attributes:
-        weight: How much in the answers differs from the right ones as the mistake's do, and is not given by chance.
+        weight: How much in the answers is wrong as the mistake's are, and not by chance.
         made: On how many calls for which the contract asks for an error the mistake was made.
         spared: On how many of those on which the mistake is one the right error was raised.
         other: On how many such calls something else went wrong.
@@ -50,17 +56,15 @@ class Evidence:
         return not self.other and bool(self.weight or not self.spared)
 
 
-def diagnose(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> Mistake | None:
-    """Return the one mistake whose answers are those of the calls and are not the right ones; None if there is none.
+def diagnose(
+    calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise
+) -> Mistake | None:
+    """Return the one mistake whose answers are those of the calls and not the right ones, or None.
 
-    It is looked for in all calls first, then in those of each failing check alone: who makes two mistakes makes one of
-    them in most of the checks that fail, or it is not what to mend first. A mistake that refused calls alone tell of, and
-    one whose sentence says that all else is right, is named only where all else is right.
-
-    Args:
-        calls: By check, what the student's function was asked, and what it said.
-        failing: The names of the checks that failed.
-        exercise: Whose mistakes are compared.
+    It is looked for in all calls first, then in those of each failing check alone: who makes two
+    mistakes makes one of them in most of the checks that fail, or it is not what to mend first. A
+    mistake that refused calls alone tell of, and one whose sentence says that all else is right, is
+    named only where all else is right.
     """
     if not failing:
         return None
@@ -82,7 +86,9 @@ def concerned(
     return frozenset(name for name, found in told.items() if found and (found.weight or found.made))
 
 
-def _in_some_checks(calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise) -> dict[Mistake, int]:
+def _in_some_checks(
+    calls: Mapping[str, Sequence[Call]], failing: set[str], exercise: Exercise
+) -> dict[Mistake, int]:
     weights = {}
     for mistake in exercise.mistakes:
         told = [_evidence(mistake, calls[name], exercise) for name in failing]
@@ -93,7 +99,7 @@ def _in_some_checks(calls: Mapping[str, Sequence[Call]], failing: set[str], exer
 
 
 def _the_most(weights: dict[Mistake, int], least: int) -> Mistake | None:
-    """Return the mistake with the most weight, if it has at least this much; none where two have as much."""
+    """Return the mistake with the most weight, at least this; none where two have as much."""
     most = max(weights.values(), default=0)
     first = [mistake for mistake, weight in weights.items() if weight == most]
     return first[0] if most >= least and len(first) == 1 else None
@@ -112,7 +118,10 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
             else:
                 other += 1
         else:
-            mistaken, others = _answer(mistake.function, call), [_answer(f, call) for f in exercise.alternatives]
+            mistaken, others = (
+                _answer(mistake.function, call),
+                [_answer(f, call) for f in exercise.alternatives],
+            )
             is_open = any(not _alike(other, call.right, exercise) for other in others)
             if _alike(call.answer, mistaken, exercise):
                 wrong = not _alike(mistaken, call.right, exercise)
@@ -125,7 +134,7 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
 
 
 def _is_apart(mistaken: Answer, right: Sequence[Answer]) -> bool:
-    """Tell whether right answers that differ are near to each other, and the mistake's is none of them."""
+    """Tell whether the mistake's answer is none of the right ones, which are near each other."""
     spread = max(_gap(one, right[0]) for one in right)
     return _size(right[0]) * NEAR > spread < FAR * min(_gap(one, mistaken) for one in right)
 
@@ -141,14 +150,18 @@ def _gap(a: Answer, b: Answer) -> float:
     try:
         first, second = np.asarray(a.value, dtype=float), np.asarray(b.value, dtype=float)
         with np.errstate(invalid="ignore"):
-            off = np.where((first == second) | (np.isnan(first) & np.isnan(second)), 0.0, np.abs(first - second))
+            off = np.where(
+                (first == second) | (np.isnan(first) & np.isnan(second)),
+                0.0,
+                np.abs(first - second),
+            )
     except (TypeError, ValueError):
         return np.inf
     return float(np.nan_to_num(off, nan=np.inf, posinf=np.inf).max(initial=0.0))
 
 
 def _wrong_entries(mistaken: Any, right: Any, numbers: set[float]) -> int:
-    """Return how many entries of an array are wrong; a single number is added to those that were given."""
+    """Return how many entries are wrong; a single number is added to those given."""
     try:
         wrong, known = np.asarray(mistaken, dtype=float), np.asarray(right, dtype=float)
     except (TypeError, ValueError):
@@ -164,7 +177,9 @@ def _wrong_entries(mistaken: Any, right: Any, numbers: set[float]) -> int:
 def _alike(a: Answer, b: Answer, exercise: Exercise) -> bool:
     if a.error or b.error:
         return a.error == b.error
-    return any(values_alike(a.value, form) for form in (b.value, *exercise.contract.others(b.value)))
+    return any(
+        values_alike(a.value, form) for form in (b.value, *exercise.contract.others(b.value))
+    )
 
 
 def values_alike(a: Any, b: Any) -> bool:
@@ -177,14 +192,18 @@ def values_alike(a: Any, b: Any) -> bool:
         first, second = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
     except (TypeError, ValueError):
         return a is None and b is None
-    rounding = SINGLE_ROUNDING if np.float32 in (getattr(a, "dtype", None), getattr(b, "dtype", None)) else ROUNDING
+    rounding = (
+        SINGLE_ROUNDING
+        if np.float32 in (getattr(a, "dtype", None), getattr(b, "dtype", None))
+        else ROUNDING
+    )
     scale = max(1e-12, float(np.abs(second[np.isfinite(second)]).max(initial=0.0)))
     return first.shape == second.shape and bool(
         np.allclose(first, second, rtol=rounding, atol=0.1 * rounding * scale, equal_nan=True)
     )
 
 
-# what one of our functions says to a call, kept for the next student -----------------------------------------------------
+# what one of our functions says to a call, kept for the next student ------------------------------
 
 
 def _answer(function: Function, call: Call) -> Answer:
@@ -204,7 +223,7 @@ def _answered(function: Function, key: tuple[Any, ...]) -> Answer:
 
 
 def _is_beyond(arg: Any) -> bool:
-    """Tell whether an argument, which may come from a student's answer, has numbers that are too large or too small."""
+    """Tell whether an argument has numbers that are too large or too small."""
     if not (isinstance(arg, float) or (isinstance(arg, np.ndarray) and arg.dtype.kind == "f")):
         return False
     size = np.abs(arg)[()]

@@ -1,4 +1,4 @@
-"""Has hand-ins read by a process with limits, so that none of them can stall the grader or take its memory."""
+"""Has hand-ins read by a process with limits, so that none can stall the grader."""
 
 import base64
 import contextlib
@@ -15,13 +15,15 @@ from workbench.errors import InputError
 
 READING = Path(__file__).with_name("child") / "reading.py"
 MOST_SECONDS = 30.0
-"""How long a reply is waited for where the machine is busy; the process itself may compute for three seconds a file."""
+"""How long a reply is waited for where the machine is busy; the process itself may compute for
+three seconds a file.
+"""
 MOST_LOST = 3
 """After how many files that could not be read in that time no more of a student's are tried."""
 
 
 class Reader:
-    """Reads files, one after the other, in one process that is started when it is needed, and anew after one that hangs."""
+    """Reads files in one process, started when it is needed, and anew after one that hangs."""
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
@@ -42,14 +44,21 @@ class Reader:
             InputError: If it is no text, or takes too long or too much memory to read; one line.
         """
         if self._lost >= MOST_LOST:
-            raise InputError(f"{file}: not read, since {self._lost} other files took too long to read")
-        asked = json.dumps({"file": file, "content": base64.b64encode(content).decode()}).encode() + b"\n"
+            raise InputError(
+                f"{file}: not read, since {self._lost} other files took too long to read"
+            )
+        asked = (
+            json.dumps({"file": file, "content": base64.b64encode(content).decode()}).encode()
+            + b"\n"
+        )
         try:
             reply = self._asked(asked)
         except (OSError, ValueError):  # it ended, or was ended; what it said is no whole line
             self._end()
             self._lost += 1
-            raise InputError(f"{file}: takes too long or too much memory to read as Python") from None
+            raise InputError(
+                f"{file}: takes too long or too much memory to read as Python"
+            ) from None
         if "unreadable" in reply:
             raise InputError(reply["unreadable"])
         return reply
@@ -58,7 +67,9 @@ class Reader:
         if self._process is None:
             command = [sys.executable, "-I", "-S", "-B", "-W", "ignore", str(READING)]
             pipe, silent = subprocess.PIPE, subprocess.DEVNULL
-            self._process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=silent, start_new_session=True)
+            self._process = subprocess.Popen(
+                command, stdin=pipe, stdout=pipe, stderr=silent, start_new_session=True
+            )
             os.set_blocking(self._process.stdin.fileno(), False)  # type: ignore[union-attr]
         return json.loads(_answer(self._process, request, time.monotonic() + MOST_SECONDS))
 
@@ -81,7 +92,9 @@ def _answer(process: subprocess.Popen[bytes], request: bytes, until: float) -> b
     into, out = process.stdin.fileno(), process.stdout.fileno()  # type: ignore[union-attr]
     rest, parts = memoryview(request), list[bytes]()
     while not parts or not parts[-1].endswith(b"\n"):
-        readable, writable, _ = select.select([out], [into] if rest else [], [], max(0.0, until - time.monotonic()))
+        readable, writable, _ = select.select(
+            [out], [into] if rest else [], [], max(0.0, until - time.monotonic())
+        )
         if not readable and not writable:
             raise TimeoutError
         if writable:

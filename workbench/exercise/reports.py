@@ -1,4 +1,4 @@
-"""What grading found, as text and as files: terminal, our JSON, Gradescope, JUnit, a Markdown summary."""
+"""What grading found, as text and files: terminal, JSON, Gradescope, JUnit, Markdown."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -6,27 +6,31 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-import workbench
-from workbench.atomic import write_atomic
 from workbench.errors import InputError, one_line
 from workbench.exercise.grading import Outcome, Report
 from workbench.exercise.model import Exercise
+from workbench.machinery.atomic import write_atomic
+from workbench.machinery.version import __version__
 
 SCHEMA_VERSION = 2
 SCHEMA = Path(__file__).with_name("result.schema.json")
 UNSAFE = (
-    "Marks are not safe: nothing but limits stood between this code and the machine that graded it (--sandbox none)."
+    "Marks are not safe: nothing but limits stood between this code and the machine that graded it"
+    " (--sandbox none)."
 )
 PRINTED_LINES, PRINTED_SIGNS = 5, 160
 MARKS = {"pass": "✓", "partial": "◐", "fail": "✗"}
 
 
 def terminal(report: Report) -> str:
-    """Return a report for a person: per check its mark, points, promise and what was found, then what was run."""
+    """Return a report for a person: per check its mark, points, promise and what was found."""
     lines = [f"{report.exercise.name} · {one_line(report.file)}"]
     for outcome in report.outcomes:
         points = f"{outcome.points:g}/{outcome.check.points:g}"
-        lines.append(f"  {MARKS[outcome.verdict.word]} {outcome.verdict.word:<7} {points:>5}  {outcome.check.promise}")
+        lines.append(
+            f"  {MARKS[outcome.verdict.word]} {outcome.verdict.word:<7} {points:>5} "
+            f" {outcome.check.promise}"
+        )
         lines += [] if report.said_once else [f"{'':18}{outcome.verdict.message}"]
     lines += [f"  {report.said_once}"] if report.said_once else []
     if report.mistake is not None:
@@ -41,7 +45,7 @@ def terminal(report: Report) -> str:
 
 
 def counted(report: Report) -> str:
-    """Return the last line of a report: what passed, and what was not run here. Never a sentence that reads as done."""
+    """Return the last line of a report: what passed, and what was not run here."""
     parts = []
     for word, public in (("public", True), ("hidden", False)):
         run = [outcome for outcome in report.outcomes if outcome.check.public is public]
@@ -55,7 +59,7 @@ def counted(report: Report) -> str:
 
 
 def shown(printed: str) -> list[str]:
-    """Return the first lines of what was printed, with signs that a terminal would obey written out."""
+    """Return the first lines of what was printed, signs for a terminal written out."""
     lines = [one_line(line)[:PRINTED_SIGNS] for line in printed.split("\n") if line.strip()]
     return [*lines[:PRINTED_LINES], *(["..."] if len(lines) > PRINTED_LINES else [])]
 
@@ -65,7 +69,7 @@ def _is_unsafe(report: Report) -> bool:
 
 
 def ungraded(file: str, exercise: Exercise | None, error: str) -> dict[str, Any]:
-    """Return what could not be graded as plain data: it has no points out of all those there were."""
+    """Return what could not be graded as plain data: no points out of all there were."""
     return {
         "file": one_line(file),
         "exercise": None if exercise is None else exercise.name,
@@ -79,7 +83,7 @@ def as_dict(report: Report) -> dict[str, Any]:
     """Return a report as plain data, after `result.schema.json`."""
     return {
         "schema": SCHEMA_VERSION,
-        "workbench": workbench.__version__,
+        "workbench": __version__,
         "exercise": report.exercise.name,
         "lesson": report.exercise.lesson,
         "file": report.file,
@@ -87,13 +91,19 @@ def as_dict(report: Report) -> dict[str, Any]:
         "possible": report.possible,
         "checks": [_check(outcome) for outcome in report.outcomes],
         "not_run": [check.name for check in report.not_run],
-        "mistake": None
-        if report.mistake is None
-        else {
-            "name": report.mistake.name,
-            "sentence": report.mistake.sentence,
-            "checks": [outcome.check.name for outcome in report.outcomes if outcome.check.name in report.concerned],
-        },
+        "mistake": (
+            None
+            if report.mistake is None
+            else {
+                "name": report.mistake.name,
+                "sentence": report.mistake.sentence,
+                "checks": [
+                    outcome.check.name
+                    for outcome in report.outcomes
+                    if outcome.check.name in report.concerned
+                ],
+            }
+        ),
         "printed": shown(report.printed),
         "sandbox": None if report.wall is None else report.wall.name,
         "seed": report.seed,
@@ -124,16 +134,19 @@ def gradescope(
     """Return the `results.json` that Gradescope reads.
 
     Args:
-        reports: What was graded.
-        failed: What could not be, as `ungraded` says it.
-        factors: What a point of an exercise is worth, by the exercise's name; 1 where nothing is said.
+        failed: What could not be graded, as `ungraded` says it.
+        factors: What a point of an exercise is worth, by name; 1 where nothing is said.
         hidden: When hidden checks are shown: `after_published` or `after_due_date`.
         notes: What else is to be said.
 
     Source: Gradescope autograder specification, "Output format".
     """
     worth = dict(factors or {})
-    tests = [_said_once(report, worth.get(report.exercise.name, 1.0)) for report in reports if report.said_once]
+    tests = [
+        _said_once(report, worth.get(report.exercise.name, 1.0))
+        for report in reports
+        if report.said_once
+    ]
     tests += [
         {
             "name": f"{report.exercise.name}: {outcome.check.promise}",
@@ -160,10 +173,16 @@ def gradescope(
     ]
     said = [*dict.fromkeys(item["error"] for item in failed), *notes]
     said += [
-        f"{report.exercise.name} printed:\n" + "\n".join(shown(report.printed)) for report in reports if report.printed
+        f"{report.exercise.name} printed:\n" + "\n".join(shown(report.printed))
+        for report in reports
+        if report.printed
     ]
     said += [UNSAFE] if any(map(_is_unsafe, reports)) else []
-    return {"score": sum(test["score"] for test in tests), "output": "\n".join(said), "tests": tests}
+    return {
+        "score": sum(test["score"] for test in tests),
+        "output": "\n".join(said),
+        "tests": tests,
+    }
 
 
 def _said_once(report: Report, factor: float) -> dict[str, Any]:
@@ -173,24 +192,35 @@ def _said_once(report: Report, factor: float) -> dict[str, Any]:
         "score": report.points * factor,
         "max_score": report.possible * factor,
         "status": "passed" if report.is_full else "failed",
-        "output": "\n".join([report.said_once, *([report.mistake.sentence] if report.mistake else [])]),
+        "output": "\n".join(
+            [report.said_once, *([report.mistake.sentence] if report.mistake else [])]
+        ),
         "visibility": "visible",
     }
 
 
 def _named(report: Report, outcome: Outcome) -> list[str]:
-    return [report.mistake.sentence] if report.mistake and outcome.check.name in report.concerned else []
+    return (
+        [report.mistake.sentence]
+        if report.mistake and outcome.check.name in report.concerned
+        else []
+    )
 
 
 def junit(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> str:
-    """Return JUnit XML, as Jenkins reads it: a suite per function, a case per check; an error where none could be run."""
+    """Return JUnit XML: a suite per function, a case per check; an error where none was run."""
     root = ElementTree.Element("testsuites")
     for report in reports:
         failures = sum(outcome.verdict.share < 1.0 for outcome in report.outcomes)
-        suite = _suite(root, report.exercise.name, tests=len(report.outcomes), failures=failures, errors=0)
+        suite = _suite(
+            root, report.exercise.name, tests=len(report.outcomes), failures=failures, errors=0
+        )
         for outcome in report.outcomes:
             case = ElementTree.SubElement(
-                suite, "testcase", classname=printable(report.file) or report.exercise.name, name=outcome.check.name
+                suite,
+                "testcase",
+                classname=printable(report.file) or report.exercise.name,
+                name=outcome.check.name,
             )
             if outcome.verdict.share < 1.0:
                 ElementTree.SubElement(
@@ -204,7 +234,10 @@ def junit(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> s
     for item in failed:
         name = printable(item["exercise"] or item["file"] or "file")
         case = ElementTree.SubElement(
-            _suite(root, name, tests=1, failures=0, errors=1), "testcase", classname=name, name="can be graded"
+            _suite(root, name, tests=1, failures=0, errors=1),
+            "testcase",
+            classname=name,
+            name="can be graded",
         )
         ElementTree.SubElement(case, "error", message=printable(item["error"]), type="ungraded")
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=True)
@@ -232,7 +265,11 @@ def markdown(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -
         for outcome in report.outcomes:
             found = "" if report.said_once else outcome.verdict.message
             cells = (outcome.check.promise, f"{outcome.points:g}/{outcome.check.points:g}", found)
-            lines.append("| " + " | ".join([MARKS[outcome.verdict.word], *(_cell(cell) for cell in cells)]) + " |")
+            lines.append(
+                "| "
+                + " | ".join([MARKS[outcome.verdict.word], *(_cell(cell) for cell in cells)])
+                + " |"
+            )
         lines += ["", _cell(report.said_once)] if report.said_once else []
         if report.mistake is not None:
             lines += ["", f"> {_cell(report.mistake.sentence)}"]
@@ -240,13 +277,10 @@ def markdown(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -
     return "\n".join(lines)
 
 
-def write_files(reports: Sequence[Report], folder: Path, failed: Sequence[dict[str, Any]] = ()) -> None:
+def write_files(
+    reports: Sequence[Report], folder: Path, failed: Sequence[dict[str, Any]] = ()
+) -> None:
     """Write result.json, Gradescope's results.json, junit.xml and summary.md into a folder.
-
-    Args:
-        reports: What was graded.
-        folder: Made where it is not there.
-        failed: What could not be graded, as `ungraded` says it.
 
     Raises:
         InputError: If one of them cannot be written; names it.
@@ -272,7 +306,9 @@ def write_files(reports: Sequence[Report], folder: Path, failed: Sequence[dict[s
 
 def printable(text: str) -> str:
     """Return text without the control characters that XML cannot hold."""
-    return "".join(c for c in text if c in "\t\n" or (ord(c) >= 32 and not 0xD800 <= ord(c) <= 0xDFFF))
+    return "".join(
+        c for c in text if c in "\t\n" or (ord(c) >= 32 and not 0xD800 <= ord(c) <= 0xDFFF)
+    )
 
 
 def _cell(text: str) -> str:

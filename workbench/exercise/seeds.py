@@ -1,6 +1,7 @@
 """Seeds of hidden checks: fixed ones, unless a teacher's own number says what they are drawn from.
 
-A table of right answers learnt from the fixed seeds answers nothing that is drawn from another number.
+A table of right answers learnt from the fixed seeds answers nothing that is drawn from another
+number.
 """
 
 import contextlib
@@ -17,7 +18,7 @@ _teachers: ContextVar[int | None] = ContextVar("teachers", default=None)
 
 @dataclass(frozen=True)
 class HiddenSeed:
-    """The seed of a lesson's hidden checks; called, it is the one that holds now.
+    """The seed of a lesson's hidden checks: `usual`, where no teacher has said another.
 
     Args:
         usual: What it is where no teacher has said another.
@@ -26,16 +27,18 @@ class HiddenSeed:
     usual: int
 
     def __call__(self) -> int:
-        """Return the usual seed, or inside `drawn_from` the one that belongs to it and to the teacher's."""
+        """Return the usual seed, or the one made of it and the teacher's."""
         seed = _teachers.get()
         return (
-            self.usual if seed is None else int(np.random.SeedSequence([seed, self.usual]).generate_state(1)[0]) % MOST
+            self.usual
+            if seed is None
+            else int(np.random.SeedSequence([seed, self.usual]).generate_state(1)[0]) % MOST
         )
 
 
 @contextlib.contextmanager
 def drawn_from(seed: int | None) -> Iterator[None]:
-    """Let the hidden checks that run in this block be drawn from a teacher's number, 0 or more; None changes nothing."""
+    """Let hidden checks in this block be drawn from a teacher's number; None changes nothing."""
     before = _teachers.set(seed)
     try:
         yield

@@ -1,4 +1,4 @@
-"""Writes what a student starts from, a file with the signature, the contract and two examples, and a sample solution."""
+"""Writes what a student starts from: signature, contract, two examples, a sample solution."""
 
 import inspect
 import textwrap
@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from workbench.atomic import write_atomic
 from workbench.errors import InputError
 from workbench.exercise.model import Exercise
 from workbench.exercise.sandbox.budget import CALLS
@@ -16,16 +15,12 @@ from workbench.exercise.sandbox.function import MEGABYTES
 from workbench.exercise.sandbox.isolation import OUTPUT_BYTES
 from workbench.exercise.sandbox.python import ALLOWED
 from workbench.lesson import catalog
-from workbench.loading import word_for
+from workbench.machinery.atomic import write_atomic
+from workbench.run.loading import word_for
 
 
 def starter(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
-    """Return the text of a starter file.
-
-    Args:
-        exercise: What it is for.
-        megabytes: What one call may take where it is graded.
-    """
+    """Return the text of a starter file; one call may take `megabytes` where it is graded."""
     function = exercise.reference
     signature = inspect.signature(function)
     arguments = ", ".join(_argument(parameter) for parameter in signature.parameters.values())
@@ -61,13 +56,15 @@ def {exercise.name}({arguments}) -> {returned}:
 
 
 def sample(exercise: Exercise) -> str:
-    """Return the text of a file that earns full marks: a copy of the first alternative, which needs numpy alone.
+    """Return the text of a file that earns full marks: the first alternative, in numpy alone.
 
     Raises:
         InputError: If the exercise has no alternative.
     """
     if not exercise.alternatives:
-        raise InputError(f"exercise {exercise.name} has no @alternative, which would be the sample solution")
+        raise InputError(
+            f"exercise {exercise.name} has no @alternative, which would be the sample solution"
+        )
     function = exercise.alternatives[0]
     source = inspect.getsource(function).removeprefix("@alternative\n")
     return f'''"""Exercise {exercise.name}, lesson {exercise.lesson}.
@@ -88,17 +85,22 @@ def allowed(exercise: Exercise, megabytes: int = MEGABYTES) -> str:
     """Return what a student's function may use, in sentences."""
     room = f"{megabytes} MB" if megabytes % 1024 else f"{megabytes >> 10} GB"
     seconds, forbid = exercise.contract.seconds, exercise.contract.forbid
-    but = f" It may not use {' or '.join(forbid)}, which solves the task: who does earns nothing." if forbid else ""
+    but = (
+        f" It may not use {' or '.join(forbid)}, which solves the task: who does earns nothing."
+        if forbid
+        else ""
+    )
     return (
-        f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside this file.{but} One call "
-        f"may take {seconds:g} s and {room}, all calls together {CALLS * seconds:g} s. It may print: the first "
-        f"{OUTPUT_BYTES >> 10} KB are kept. It reaches no network, no other program and no file that is not its own. The "
-        "first line above says what this file is handed in for: leave it there."
+        f"It may use Python's own library, {' and '.join(ALLOWED)}, and modules that lie beside"
+        f" this file.{but} One call may take {seconds:g} s and {room}, all calls together"
+        f" {CALLS * seconds:g} s. It may print: the first {OUTPUT_BYTES >> 10} KB are kept. It"
+        " reaches no network, no other program and no file that is not its own. The first line"
+        " above says what this file is handed in for: leave it there."
     )
 
 
 def commands(exercise: Exercise) -> tuple[str, str, str]:
-    """Return what a student types to get the starter file, to watch the function, and to have it judged."""
+    """Return what a student types to get the starter, to watch the function, to have it judged."""
     lesson = word_for(exercise.lesson, exercise.reference.__module__)
     given = "" if lesson == exercise.lesson and lesson in catalog() else f" --lesson {lesson}"
     file = f"my_{exercise.name}.py"
@@ -138,7 +140,9 @@ def _plain(annotation: Any) -> str:
     if annotation is np.ndarray or hasattr(annotation, "dim_str"):
         return "np.ndarray"
     text = (
-        annotation.__name__ if isinstance(annotation, type) and not hasattr(annotation, "__args__") else str(annotation)
+        annotation.__name__
+        if isinstance(annotation, type) and not hasattr(annotation, "__args__")
+        else str(annotation)
     )
     return "tuple" if text.startswith("tuple") else text.replace("numpy.", "np.")
 
@@ -149,4 +153,8 @@ def _shapes(signature: inspect.Signature) -> Iterator[str]:
         dimensions = getattr(annotation, "dim_str", None)
         if dimensions is not None:
             kind = annotation.__name__.split("[")[0].lower()
-            yield f"{name}: ({', '.join(dimensions.split())}{',' if len(dimensions.split()) == 1 else ''}) {kind}"
+            yield (
+                f"{name}:"
+                f" ({', '.join(dimensions.split())}{',' if len(dimensions.split()) == 1 else ''})"
+                f" {kind}"
+            )

@@ -1,4 +1,4 @@
-"""What a student handed in, read once, before anything of it runs: text, and the modules beside it that it imports."""
+"""What a student handed in, read before anything of it runs: text, and its own modules."""
 
 import os
 import stat
@@ -21,7 +21,6 @@ class Part:
 
     Attributes:
         binds: The names that it gives a value.
-        reads: The names that it reads.
         defines: Whether it is the definition of a function or a class.
         runs: Whether it does something as the file is loaded, beyond that or an import.
         uses: The modules, and what is in them, that it uses: whole paths, each with its line.
@@ -39,7 +38,6 @@ class Submission:
     """One file of a student, as it was when it was read.
 
     Attributes:
-        file: How it is named to people.
         source: Its text; of a notebook, its definitions.
         modules: The modules beside it that it imports, text by name.
         said: The exercises that it says it is for, as a starter's first line does.
@@ -74,14 +72,10 @@ def read_submission(path: Path) -> Submission:
         return submission(path.name, content(path), extra_file, reader)
 
 
-def submission(file: str, data: bytes, extra_file: Callable[[str], bytes | None], reader: Reader) -> Submission:
-    """Return what the bytes of a file are.
-
-    Args:
-        file: Its name; a notebook ends in .ipynb.
-        data: What is in it.
-        extra_file: Gives what is in a file beside it by its name, None where there is none.
-        reader: What reads them.
+def submission(
+    file: str, data: bytes, extra_file: Callable[[str], bytes | None], reader: Reader
+) -> Submission:
+    """Return what the bytes of a file are; `extra_file` gives those beside it by name, or None.
 
     Raises:
         InputError: If they are no text, or take too long to read; one line.
@@ -132,13 +126,18 @@ def content(path: Path, root: Path | None = None) -> bytes:
         real = path.resolve(strict=True)
         if root is not None and not real.is_relative_to(root.resolve()):
             raise InputError(f"{path.name}: a link that leads out of the folder")
-        held = os.open(real, os.O_RDONLY | os.O_CLOEXEC | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))
+        held = os.open(
+            real,
+            os.O_RDONLY | os.O_CLOEXEC | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0),
+        )
         with os.fdopen(held, "rb") as file:
             if not stat.S_ISREG(os.fstat(held).st_mode):
                 raise InputError(f"{path.name}: no file, but a pipe, a device or a folder")
             data = file.read(MOST_BYTES + 1)
     except (OSError, RuntimeError) as error:  # a link that leads to itself is a RuntimeError
-        raise InputError(f"{path}: cannot be read as text ({getattr(error, 'strerror', None) or error})") from None
+        raise InputError(
+            f"{path}: cannot be read as text ({getattr(error, 'strerror', None) or error})"
+        ) from None
     if len(data) > MOST_BYTES:
         raise InputError(f"{path.name}: more than {MOST_BYTES >> 20} MB")
     return data

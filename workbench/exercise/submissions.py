@@ -1,4 +1,4 @@
-"""What a class handed in: a folder is read once, before anything of it runs; who handed in nothing is found by a roster."""
+"""What a class handed in, read before anything of it runs; a roster tells who is missing."""
 
 import csv
 import io
@@ -27,7 +27,6 @@ class HandIn:
         student: By the file's or the folder's name.
         files: What is in each Python file or notebook, by its path in the student's folder.
         troubles: What could not be read: the file, and one line.
-        note: What else is to be said of the student.
     """
 
     student: str
@@ -37,11 +36,9 @@ class HandIn:
 
 
 def handed_in(folder: Path, out: Path | None = None) -> dict[str, HandIn]:
-    """Return what each student handed in: `NAME.py`, `NAME.ipynb`, or a folder `NAME` with files at any depth.
+    """Return what each student handed in: `NAME.py`, `NAME.ipynb`, or a folder `NAME` of files.
 
-    Args:
-        folder: Where the students' files are.
-        out: Where the results are; it is no student's.
+    The results' folder `out` is no student's.
 
     Raises:
         InputError: If it is no folder or holds no file of any student.
@@ -50,7 +47,9 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, HandIn]:
         raise InputError(f"{folder}: no such folder")
     found: dict[str, HandIn] = {}
     for path in sorted(folder.iterdir()):
-        if path.name.startswith((".", "__")) or (out is not None and path.absolute() == out.absolute()):
+        if path.name.startswith((".", "__")) or (
+            out is not None and path.absolute() == out.absolute()
+        ):
             continue
         if path.suffix.lower() in SUFFIXES and not path.is_dir():
             handed = _read(path.stem, folder, [path])
@@ -80,12 +79,16 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, HandIn]:
 def handed_by(student: str, folder: Path) -> HandIn:
     """Return what one student handed in: the files of a folder, at any depth."""
     paths = list(_below(folder))
-    others = [path.relative_to(folder).as_posix() for path in paths if path.suffix.lower() not in SUFFIXES]
+    others = [
+        path.relative_to(folder).as_posix() for path in paths if path.suffix.lower() not in SUFFIXES
+    ]
     handed = _read(student, folder, [path for path in paths if path.suffix.lower() in SUFFIXES])
     if not others:
         return handed
     more = f" and {len(others) - MOST_NAMED} more" if others[MOST_NAMED:] else ""
-    return _noted(handed, f"not read, since neither .py nor .ipynb: {', '.join(others[:MOST_NAMED])}{more}")
+    return _noted(
+        handed, f"not read, since neither .py nor .ipynb: {', '.join(others[:MOST_NAMED])}{more}"
+    )
 
 
 def _noted(handed: HandIn, said: str) -> HandIn:
@@ -93,20 +96,23 @@ def _noted(handed: HandIn, said: str) -> HandIn:
 
 
 def _was_meant(path: Path) -> bool:
-    """Whether a file that is not read was handed in all the same: an archive, or Python under another name."""
+    """Whether an unread file was handed in all the same: an archive, or misnamed Python."""
     name = path.name.lower()
     return name.endswith(ARCHIVES) or any(f"{suffix}." in name for suffix in SUFFIXES)
 
 
 def with_roster(found: dict[str, HandIn], roster: Path) -> dict[str, HandIn]:
-    """Return what was handed in by those of a roster, in its order, then by those who are not in it.
+    """Return what was handed in by those of a roster, in its order, then by the others.
 
     Raises:
         InputError: If the roster cannot be read.
     """
     names = _names(roster)
     by_name = {name.casefold(): handed for name, handed in found.items()}
-    listed = {name: by_name.pop(name.casefold(), HandIn(name, {}, (("", "handed in nothing"),))) for name in names}
+    listed = {
+        name: by_name.pop(name.casefold(), HandIn(name, {}, (("", "handed in nothing"),)))
+        for name in names
+    }
     others = {handed.student: _noted(handed, NOT_IN_ROSTER) for handed in by_name.values()}
     return {handed.student: handed for handed in (*listed.values(), *others.values())}
 
@@ -117,12 +123,21 @@ def _names(roster: Path) -> list[str]:
     except UnicodeDecodeError:
         raise InputError(f"{roster}: not UTF-8") from None
     first = text.partition("\n")[0]
-    rows = [row for row in csv.reader(io.StringIO(text), delimiter=max(",;\t", key=first.count)) if any(row)]
+    rows = [
+        row
+        for row in csv.reader(io.StringIO(text), delimiter=max(",;\t", key=first.count))
+        if any(row)
+    ]
     header = [cell.strip().lower() for cell in rows[0]] if rows else []
     column = next((header.index(name) for name in COLUMNS if name in header), None)
-    names = [row[column or 0].strip() for row in rows[column is not None :] if len(row) > (column or 0)]
+    names = [
+        row[column or 0].strip() for row in rows[column is not None :] if len(row) > (column or 0)
+    ]
     if not any(names):
-        raise InputError(f"{roster}: names no student; its first row may say which column does: {', '.join(COLUMNS)}")
+        raise InputError(
+            f"{roster}: names no student; its first row may say which column does:"
+            f" {', '.join(COLUMNS)}"
+        )
     return list(dict.fromkeys(name for name in names if name))
 
 
@@ -135,7 +150,8 @@ def _read(student: str, root: Path, paths: list[Path]) -> HandIn:
         try:
             if len(files) >= MOST_FILES or left <= 0:
                 raise InputError(
-                    f"{name}: not read; a student may hand in {MOST_FILES} files, {MOST_TOGETHER >> 20} MB"
+                    f"{name}: not read; a student may hand in {MOST_FILES} files,"
+                    f" {MOST_TOGETHER >> 20} MB"
                 )
             files[name] = content(path, root)
             left -= len(files[name])
@@ -151,6 +167,8 @@ def _below(folder: Path) -> Iterator[Path]:
 
 
 def _clashing(one: HandIn, other: HandIn) -> HandIn:
-    files = sorted({*one.files, *other.files, *(file for each in (one, other) for file, _ in each.troubles)})
+    files = sorted(
+        {*one.files, *other.files, *(file for each in (one, other) for file, _ in each.troubles)}
+    )
     said = f"two things here are named {one.student} ({', '.join(files)[:200]}): leave one of them"
     return HandIn(one.student, {}, (("", said),))

@@ -1,4 +1,4 @@
-"""Follows a student's file while it is edited: the lesson it drives, and what its public checks say."""
+"""Follows a student's file while it is edited: the lesson it drives, what its checks say."""
 
 import os
 from pathlib import Path
@@ -18,15 +18,11 @@ GONE_AFTER = 4
 
 
 class Watched:
-    """A student's file beside a lesson.
-
-    Args:
-        lesson: The lesson whose run it drives.
-        path: The file; it defines the function of one of the lesson's exercises.
+    """A student's file beside a lesson, whose run it drives.
 
     Attributes:
         lesson: The lesson as the file drives it now.
-        said: What the public checks found of the file last, or one line that says why they found nothing.
+        said: What the public checks found last, or one line that says why they found nothing.
 
     Raises:
         InputError: If the file cannot be used, or holds no function of this lesson.
@@ -47,9 +43,11 @@ class Watched:
         return self._student.source
 
     def first_preset(self, params: Any) -> Preset | None:
-        """Return the preset that calls the function, where the run that was asked for is the default one, which does not."""
+        """Return the preset that calls the function, where the default run does not."""
         name = self.exercise.contract.preset
-        return None if name is None or params != self.original.params() else self.original.preset(name)
+        return (
+            None if name is None or params != self.original.params() else self.original.preset(name)
+        )
 
     def printed(self) -> str:
         """Return the beginning of what the function printed in the runs that it drives."""
@@ -63,7 +61,10 @@ class Watched:
         stamp = self._stamp_now()
         self._missing = self._missing + 1 if stamp is None else 0
         if stamp is None and self._missing == GONE_AFTER:
-            self._stamp, self.said = None, f"{self.path.name} is gone: what is shown ran before. Save it there again."
+            self._stamp, self.said = (
+                None,
+                f"{self.path.name} is gone: what is shown ran before. Save it there again.",
+            )
         if stamp is None or stamp == self._stamp:
             return False
         self._stamp, self.said = stamp, RUNNING
@@ -104,7 +105,9 @@ class Watched:
         self._student.close()
 
     def _new(self) -> SandboxedFunction:
-        return SandboxedFunction(self.path, self.exercise.name, seconds=self.exercise.contract.seconds)
+        return SandboxedFunction(
+            self.path, self.exercise.name, seconds=self.exercise.contract.seconds
+        )
 
     def _stamp_now(self) -> tuple[int, int] | None:
         try:

@@ -1,4 +1,9 @@
-"""Cuts segments and triangles at the near plane, lines and planes at a window, and edges into short pieces."""
+"""Cuts segments and triangles at planes, lines at windows, and edges into short pieces.
+
+A plane cuts away whatever is not at a positive signed distance `ahead`; results come with the row
+of `p` that each piece comes from. `low` and `high` are opposite corners of a rectangle or box.
+Reference: Liang and Barsky, A new concept and method for line clipping, 1984.
+"""
 
 import functools
 from collections.abc import Callable
@@ -12,33 +17,17 @@ MOST_CUTS = 12
 def clip_segments(
     p: Float[np.ndarray, "n 2 3"], ahead: Float[np.ndarray, "n 2"]
 ) -> tuple[Float[np.ndarray, "m 2 3"], Int[np.ndarray, " m"]]:
-    """Return the part of each segment that lies ahead of a plane.
-
-    Args:
-        p: Both ends of each segment, in any frame.
-        ahead: Signed distance of each end from the plane; what is not positive is cut away.
-
-    Returns:
-        The cut segments, and the row of `p` that each comes from.
-    """
+    """Return the part of each segment that lies ahead of a plane."""
     kept = np.flatnonzero((ahead > 0).any(axis=1))
     p, ahead = p[kept], ahead[kept]
-    crossing = _crossing(p[:, 0], p[:, 1], ahead[:, 0], ahead[:, 1])
+    crossing = _crossing(p[:, 0], p[:, 1], ahead[:, 0], ahead_b=ahead[:, 1])
     return np.where((ahead > 0)[:, :, None], p, crossing[:, None]), kept
 
 
 def clip_triangles(
     p: Float[np.ndarray, "n 3 3"], ahead: Float[np.ndarray, "n 3"]
 ) -> tuple[Float[np.ndarray, "m 3 3"], Int[np.ndarray, " m"]]:
-    """Return the part of each triangle that lies ahead of a plane: nothing, one triangle or two.
-
-    Args:
-        p: The corners of each triangle, in any frame.
-        ahead: Signed distance of each corner from the plane; what is not positive is cut away.
-
-    Returns:
-        The cut triangles, turning the same way round, and the row of `p` that each comes from.
-    """
+    """Return the part of each triangle ahead of a plane: up to two, turning the same way."""
     count = (ahead > 0).sum(axis=1)
     whole, tip, stump = (np.flatnonzero(count == number) for number in (3, 1, 2))
     a, _, _, ab, ac = _lone_corner_first(p[tip], ahead[tip], ahead[tip] > 0)
@@ -50,17 +39,9 @@ def clip_triangles(
 def clip_to_rectangle(
     uv: Float[np.ndarray, "n 2 2"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Return from which to which share of its length each segment lies in a rectangle.
+    """Return from which to which share of its length, in [0, 1], each segment lies in a rectangle.
 
-    Args:
-        uv: Both ends of each segment, pixels.
-        low: Lowest coordinates of the rectangle.
-        high: Its highest coordinates.
-
-    Returns:
-        Start and stop in [0, 1]; start is not below stop for a segment that misses the rectangle or has NaN ends.
-
-    Reference: Liang and Barsky, A new concept and method for line clipping, 1984.
+    Start is not below stop where a segment misses or has NaN ends (Liang and Barsky).
     """
     way = uv[:, 1] - uv[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -73,13 +54,7 @@ def clip_to_rectangle(
 def segments_inside(
     ends: Float[np.ndarray, "n 2 d"], low: Float[np.ndarray, "d"], high: Float[np.ndarray, "d"]
 ) -> Float[np.ndarray, "m 2 d"]:
-    """Return the segments whose ends are both finite and inside a rectangle or box; nothing is cut.
-
-    Args:
-        ends: Both ends of each segment.
-        low: The corner of the box with the smallest coordinates.
-        high: The corner with the largest.
-    """
+    """Return the segments whose ends are both finite and inside a rectangle or box; none is cut."""
     return ends[(np.isfinite(ends) & (ends >= low) & (ends <= high)).all(axis=(1, 2))]
 
 
@@ -88,13 +63,10 @@ def cut_to_rectangle(
 ) -> Float[np.ndarray, "m 2 2"]:
     """Return the parts of segments inside a rectangle; nothing of those whose ends are not finite.
 
-    Args:
-        ends: Both ends of each segment.
-        low: The corner of the rectangle with the smallest coordinates.
-        high: The corner with the largest.
-
     Examples:
-        >>> cut_to_rectangle(np.array([[[-3.0, 0.0], [1.0, 0.0]]]), np.full(2, -1.0), np.full(2, 2.0)).tolist()
+        >>> cut_to_rectangle(
+        ...     np.array([[[-3.0, 0.0], [1.0, 0.0]]]), np.full(2, -1.0), np.full(2, 2.0)
+        ... ).tolist()
         [[[-1.0, 0.0], [1.0, 0.0]]]
     """
     ends = ends[np.isfinite(ends).all(axis=(1, 2))]
@@ -106,13 +78,7 @@ def cut_to_rectangle(
 def clip_lines(
     lines: Float[np.ndarray, "n 3"], low: Float[np.ndarray, "2"], high: Float[np.ndarray, "2"]
 ) -> Float[np.ndarray, "m 2 2"]:
-    """Return the parts of infinite lines inside a rectangle; of a line that misses it, nothing.
-
-    Args:
-        lines: (a, b, c) with a x + b y + c = 0 and a unit normal (a, b).
-        low: The corner of the rectangle with the smallest coordinates.
-        high: The corner with the largest.
-    """
+    """Return the parts of infinite lines (a, b, c), (a, b) a unit normal, inside a rectangle."""
     normals, offsets = lines[:, :2], lines[:, 2:]
     foot = -normals * offsets
     direction = np.column_stack([-normals[:, 1], normals[:, 0]])
@@ -131,17 +97,13 @@ def clip_lines(
 def plane_in_box(
     plane: Float[np.ndarray, "4"], low: Float[np.ndarray, "3"], high: Float[np.ndarray, "3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return the corners, in order, of the part of a plane inside a box; none where it passes by.
-
-    A plane turned over, or rounded differently, has the same corners in the same order.
-
-    Args:
-        plane: (a, b, c, d) with a x + b y + c z + d = 0.
-        low: The corner of the box with the smallest coordinates.
-        high: The corner with the largest.
-    """
-    corners = np.array([[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)])
-    edges = np.array([(i, j) for i in range(8) for j in range(i + 1, 8) if bin(i ^ j).count("1") == 1])
+    """Return the corners of a plane's part inside a box, in one order for it and its negative."""
+    corners = np.array(
+        [[(low, high)[bit][axis] for axis, bit in enumerate(bits)] for bits in np.ndindex(2, 2, 2)]
+    )
+    edges = np.array(
+        [(i, j) for i in range(8) for j in range(i + 1, 8) if bin(i ^ j).count("1") == 1]
+    )
     sides = corners @ plane[:3] + plane[3]
     start, end = sides[edges[:, 0]], sides[edges[:, 1]]
     cut = (start > 0) != (end > 0)
@@ -162,17 +124,10 @@ def cut_finely(
     low: Float[np.ndarray, "2"],
     high: Float[np.ndarray, "2"],
 ) -> tuple[Float[np.ndarray, "m c 3"], Int[np.ndarray, " m"]]:
-    """Return segments or triangles with edges halved until all are short in a flat picture; those outside it are dropped.
+    """Return segments or triangles cut until no edge is longer than `longest` in a flat picture.
 
-    Args:
-        p: Segments (c = 2) or triangles (c = 3), all ahead of the camera.
-        flatten: Where points (n, 3) are in the flat picture, (n, 2).
-        longest: Length there that no edge of a piece exceeds (each edge is halved at most 12 times).
-        low: Lowest coordinates of the part of the flat picture that matters.
-        high: Its highest coordinates.
-
-    Returns:
-        The pieces, and the row of `p` that each comes from.
+    `flatten` gives places there, (n, 2). What is outside is dropped; edges are halved 12 times at
+    most.
     """
     source = np.arange(len(p))
     done = []
@@ -193,21 +148,27 @@ def cut_finely(
     return np.concatenate([p for p, _ in done]), np.concatenate([source for _, source in done])
 
 
-def over_corners(choose: np.ufunc, rows: Float[np.ndarray, "n c *more"]) -> Float[np.ndarray, "n *more"]:
-    """Return the minimum or maximum over the corners of each row; numpy's reduction is slow over so few."""
+def over_corners(
+    choose: np.ufunc, rows: Float[np.ndarray, "n c *more"]
+) -> Float[np.ndarray, "n *more"]:
+    """Return the minimum or maximum over the few corners of each row, faster than numpy does."""
     return functools.reduce(choose, (rows[:, corner] for corner in range(rows.shape[1])))
 
 
-def _lone_corner_first(p: np.ndarray, ahead: np.ndarray, alone: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Turn triangles so that the corner alone on its side leads; return a, b, c and the crossings on ab and ac."""
+def _lone_corner_first(
+    p: np.ndarray, ahead: np.ndarray, alone: np.ndarray
+) -> tuple[np.ndarray, ...]:
+    """Return triangles a, b, c turned so that the lone corner leads, and the cuts on ab and ac."""
     turn = (np.argmax(alone, axis=1)[:, None] + np.arange(3)) % 3
     a, b, c = np.take_along_axis(p, turn[:, :, None], axis=1).transpose(1, 0, 2)
     at_a, at_b, at_c = np.take_along_axis(ahead, turn, axis=1).T
-    return a, b, c, _crossing(a, b, at_a, at_b), _crossing(a, c, at_a, at_c)
+    return a, b, c, _crossing(a, b, at_a, ahead_b=at_b), _crossing(a, c, at_a, ahead_b=at_c)
 
 
-def _crossing(p_a: np.ndarray, p_b: np.ndarray, ahead_a: np.ndarray, ahead_b: np.ndarray) -> np.ndarray:
-    """Return where segments a-b cross the plane at which `ahead` is zero; anything for those that do not."""
+def _crossing(
+    p_a: np.ndarray, p_b: np.ndarray, ahead_a: np.ndarray, *, ahead_b: np.ndarray
+) -> np.ndarray:
+    """Return where segments a-b cross the plane at which `ahead` is zero, if they do."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return p_a + (ahead_a / (ahead_a - ahead_b))[:, None] * (p_b - p_a)
 
@@ -220,4 +181,7 @@ def _halves(p: np.ndarray) -> list[np.ndarray]:
 def _quarters(p: np.ndarray) -> list[np.ndarray]:
     a, b, c = p[:, 0], p[:, 1], p[:, 2]
     ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
-    return [np.stack(corners, axis=1) for corners in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+    return [
+        np.stack(corners, axis=1)
+        for corners in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    ]

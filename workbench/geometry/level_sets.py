@@ -1,8 +1,7 @@
-"""Where a field on a grid has a value: lines in the plane, and in space the surface where it is zero, by marching cubes with
-the places on the grid's edges made by a function.
+"""Where a field on a grid has a value: lines in the plane, and the surface where it is zero.
 
-Reference: Lorensen and Cline, Marching cubes, SIGGRAPH 1987. Lewiner et al., Efficient implementation of marching cubes'
-cases with topological guarantees, JGT 8(2), 2003.
+Reference: Lorensen and Cline, Marching cubes, SIGGRAPH 1987. Lewiner et al., Efficient
+implementation of marching cubes' cases with topological guarantees, JGT 8(2), 2003.
 """
 
 from collections.abc import Callable
@@ -10,8 +9,8 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float, Int
 
+from workbench.geometry.fields.voxels import Grid
 from workbench.geometry.polylines import segments
-from workbench.geometry.voxels import Grid
 
 EdgeCrossings = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 """edge_crossings(p_a, p_b, f_a, f_b) -> where the field is zero on each edge."""
@@ -23,16 +22,12 @@ def edge_crossings(
     f_a: Float[np.ndarray, " n"],
     f_b: Float[np.ndarray, " n"],
 ) -> Float[np.ndarray, "n 3"]:
-    """Return where a field that is linear along each edge is zero, m.
-
-    Args:
-        p_a: One end of each edge, m.
-        p_b: The other end, m.
-        f_a: The field at `p_a`.
-        f_b: The field at `p_b`, of the other sign; where both are zero the middle is returned.
+    """Return where a field that is linear along each edge is zero; the middle if it is all zero.
 
     Examples:
-        >>> edge_crossings(np.zeros((1, 3)), np.ones((1, 3)), np.array([-1.0]), np.array([3.0])).tolist()
+        >>> edge_crossings(
+        ...     np.zeros((1, 3)), np.ones((1, 3)), np.array([-1.0]), np.array([3.0])
+        ... ).tolist()
         [[0.25, 0.25, 0.25]]
     """
     apart = f_a - f_b
@@ -46,19 +41,11 @@ def level_lines(
     low: Float[np.ndarray, "2"],
     spacing: float,
 ) -> Float[np.ndarray, "n 2 2"]:
-    """Return the segments in the plane along which a field has one of some values.
-
-    Args:
-        values: The field at the points of a grid, a row for each y.
-        levels: The values.
-        low: x and y of the first point, m.
-        spacing: From point to point, m.
-
-    Returns:
-        Both ends of each segment; none where the field has no such value.
+    """Return the segments along which a field, a row for each y from `low`, has one of some values.
 
     Examples:
-        >>> level_lines(np.array([[0.0, 1.0], [0.0, 1.0]]), np.array([0.25]), np.zeros(2), 1.0).tolist()
+        >>> values = np.array([[0.0, 1.0], [0.0, 1.0]])
+        >>> level_lines(values, np.array([0.25]), np.zeros(2), 1.0).tolist()
         [[[0.25, 1.0], [0.25, 0.0]]]
     """
     from skimage.measure import find_contours
@@ -70,24 +57,18 @@ def level_lines(
 def level_surface(
     values: Float[np.ndarray, "x y z"], grid: Grid, edge_crossings: EdgeCrossings = edge_crossings
 ) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]:
-    """Return the surface where a field is zero, its faces counterclockwise seen from where the field is positive.
+    """Return the surface where a field is zero, its faces outwards: towards positive values.
 
-    Args:
-        values: The field at the middles of the cells.
-        grid: The cells, metres.
-        edge_crossings: Places the vertices: asked once for all edges between middles of different sign.
-
-    Returns:
-        Vertices, m, and faces; both empty where the field has one sign or the grid is one cell thin.
-
-    Note:
-        A vertex that marching cubes puts inside a cell, to keep ambiguous cells watertight, stays where it put it.
+    Values stand at the cells' middles. Both arrays are empty where the field has one sign or the
+    grid is one cell thin. `edge_crossings` places the vertices on all edges at once; one that
+    marching cubes puts inside a cell, to keep ambiguous cells watertight, stays there.
     """
     if min(values.shape) < 2 or not values.min() < 0 <= values.max():
         return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
     from skimage.measure import marching_cubes
 
-    # Negative is inside: `descent` turns the faces outwards (skimage follows the left-hand rule). Read-only it refuses.
+    # Negative is inside: `descent` turns the faces outwards (skimage follows the left-hand rule).
+    # Read-only it refuses.
     ijk, faces, _, _ = marching_cubes(values.copy(), 0.0, gradient_direction="descent")
     ijk = ijk.astype(float)
     below, above = np.floor(ijk).astype(np.int64), np.ceil(ijk).astype(np.int64)

@@ -1,4 +1,4 @@
-"""Minimises a sum of squares step by step: Levenberg-Marquardt on any space that has a retraction."""
+"""Minimises a sum of squares by Levenberg-Marquardt on any space that has a retraction."""
 
 from collections.abc import Callable
 from typing import TypeVar
@@ -19,18 +19,10 @@ def levenberg_marquardt(
 ) -> Unknown:
     """Return the unknown near `start` whose residuals have the smallest sum of squares.
 
-    The damping scales with the diagonal of the normal matrix (Marquardt), so the answer does not depend on the
-    units of the single parameters.
-
-    Args:
-        linearise: Gives the residuals (n,) at an unknown, and their Jacobian (n, k) with respect to a small step.
-        retract: Gives the unknown that a small step (k,) leads to.
-        start: The first unknown, of any kind.
-        steps: Linear systems solved at most.
-        tolerance: Stop when a step lowers the cost by less than this fraction.
-
-    Note:
-        The cost never rises. A step that cannot be computed (singular or not finite) counts as one that failed.
+    `linearise` gives the residuals (n,) at an unknown and their Jacobian (n, k) by a small step;
+    `retract` the unknown that such a step leads to. The damping scales with the diagonal of the
+    normal matrix (Marquardt): units do not matter. The cost never rises. It stops when a step
+    lowers it by less than the share `tolerance`.
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 10.3.
     """
     unknown, damping = start, 1e-6

@@ -16,7 +16,9 @@ from workbench.lesson import catalog
 MOST_POINTS = 1e6
 SERVICES = ("gradescope", "prairielearn", "folder")
 MEGABYTES = {"gradescope": 512}
-"""Address space of a student's process, where a service has less than we would give: its smallest machine has 768 MB."""
+"""Address space of a student's process, where a service has less than we would give: its smallest
+machine has 768 MB.
+"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,7 +45,9 @@ class Assignment:
     def name(self) -> str:
         """A name for files."""
         return (
-            "_".join(dict.fromkeys(e.lesson for e in self.exercises)) if self.exercises[1:] else self.exercises[0].name
+            "_".join(dict.fromkeys(e.lesson for e in self.exercises))
+            if self.exercises[1:]
+            else self.exercises[0].name
         )
 
     @property
@@ -59,7 +63,10 @@ class Assignment:
     @property
     def worth(self) -> dict[str, float]:
         """What each exercise is worth, by its name."""
-        return {exercise.name: weight for exercise, weight in zip(self.exercises, self.weights, strict=True)}
+        return {
+            exercise.name: weight
+            for exercise, weight in zip(self.exercises, self.weights, strict=True)
+        }
 
     @property
     def megabytes(self) -> int | None:
@@ -71,12 +78,17 @@ class Assignment:
         return self.worth[exercise.name] / exercise.points
 
     def identity(self, what: str) -> str:
-        """Return a UUID that is the same whenever the same is handed out, so that uploading again replaces."""
+        """Return a UUID that is the same whenever the same is handed out, so that uploading again
+        replaces.
+        """
         return str(uuid.uuid5(uuid.NAMESPACE_URL, f"geometry-workbench/{what}"))
 
     def text(self) -> str:
         """Return it as JSON, for `read`."""
-        dates = {name: day and day.isoformat() for name, day in (("release", self.release), ("due", self.due))}
+        dates = {
+            name: day and day.isoformat()
+            for name, day in (("release", self.release), ("due", self.due))
+        }
         said = {"service": self.service, "weights": self.worth, **dates, "sandbox": self.sandbox}
         return json.dumps(said, indent=1) + "\n"
 
@@ -88,7 +100,10 @@ def read(text: str) -> Assignment:
         InputError: If it names an exercise that there is not.
     """
     said = json.loads(text)
-    days = {name: said[name] and datetime.datetime.fromisoformat(said[name]) for name in ("release", "due")}
+    days = {
+        name: said[name] and datetime.datetime.fromisoformat(said[name])
+        for name in ("release", "due")
+    }
     return Assignment(
         service=said["service"],
         exercises=tuple(find_exercise(name) for name in said["weights"]),
@@ -107,7 +122,8 @@ def read_file(path: Path) -> Assignment:
     try:
         found = read(path.read_text(encoding="utf-8"))
         if not found.weights or not all(
-            isinstance(weight, int | float) and 0 < weight <= MOST_POINTS for weight in found.weights
+            isinstance(weight, int | float) and 0 < weight <= MOST_POINTS
+            for weight in found.weights
         ):
             raise ValueError
     except InputError as error:
@@ -148,16 +164,25 @@ def assigned(
     found = [
         exercise
         for name in names
-        for exercise in (exercises_of(catalog()[name]) if name in catalog() else (find_exercise(name),))
+        for exercise in (
+            exercises_of(catalog()[name]) if name in catalog() else (find_exercise(name),)
+        )
     ]
     twice = next((exercise.name for k, exercise in enumerate(found) if exercise in found[:k]), None)
     if twice or not found:
-        raise InputError(f"{twice} is named twice" if twice else f"{', '.join(names)}: has no exercises")
+        raise InputError(
+            f"{twice} is named twice" if twice else f"{', '.join(names)}: has no exercises"
+        )
     worth = {exercise.name: exercise.points for exercise in found} | dict(map(_weight, weights))
-    other = next((name for name in worth if name not in {exercise.name for exercise in found}), None)
+    other = next(
+        (name for name in worth if name not in {exercise.name for exercise in found}), None
+    )
     if other:
         raise InputError(f"--weight {other}: is not handed out here")
-    opens, closes = _moment("--release", release, datetime.time()), _moment("--due", due, datetime.time(23, 59, 59))
+    opens, closes = (
+        _moment("--release", release, datetime.time()),
+        _moment("--due", due, datetime.time(23, 59, 59)),
+    )
     if opens and closes and closes <= opens:
         raise InputError(f"--due {due}: is not after --release {release}")
     return Assignment(
@@ -187,7 +212,11 @@ def _moment(flag: str, text: str | None, whole_day: datetime.time) -> datetime.d
     try:
         moment = datetime.datetime.fromisoformat(text)
     except ValueError:
-        raise InputError(f"{flag} {text}: a day or a moment such as 2027-03-31 or 2027-03-31T18:00 is needed") from None
+        raise InputError(
+            f"{flag} {text}: a day or a moment such as 2027-03-31 or 2027-03-31T18:00 is needed"
+        ) from None
     if moment.tzinfo is not None:
         raise InputError(f"{flag} {text}: leave the time zone out; services take the course's own")
-    return datetime.datetime.combine(moment, whole_day) if len(text) <= len("2027-03-31") else moment
+    return (
+        datetime.datetime.combine(moment, whole_day) if len(text) <= len("2027-03-31") else moment
+    )

@@ -1,4 +1,5 @@
-"""The autograder of a Gradescope assignment: a zip with `setup.sh` and `run_autograder` at its root.
+"""The autograder of a Gradescope assignment: a zip with `setup.sh` and `run_autograder` at its
+root.
 
 Source: Gradescope autograder documentation, "Autograder specifications" and "Technical details".
 """
@@ -15,7 +16,10 @@ from workbench.handout.parcel import packages, requirements, static
 
 EXECUTABLE = ("setup.sh", "run_autograder")
 LONG_AGO = (1980, 1, 1, 0, 0, 0)
-BROKEN = "could not be graded: the grader did not start, or was ended. This is not about your code; tell your teacher."
+BROKEN = (
+    "could not be graded: the grader did not start, or was ended. This is not about your code; tell"
+    " your teacher."
+)
 
 
 def files(assignment: Assignment) -> dict[str, bytes]:
@@ -25,7 +29,9 @@ def files(assignment: Assignment) -> dict[str, bytes]:
 
 def autograder(assignment: Assignment) -> dict[str, bytes]:
     """Return what the zip holds."""
-    failed = [ungraded("", exercise, f"{exercise.name} {BROKEN}") for exercise in assignment.exercises]
+    failed = [
+        ungraded("", exercise, f"{exercise.name} {BROKEN}") for exercise in assignment.exercises
+    ]
     factors = {exercise.name: assignment.factor(exercise) for exercise in assignment.exercises}
     python = f"{sys.version_info.major}.{sys.version_info.minor}"
     return {
@@ -53,10 +59,19 @@ def zipped(held: Mapping[str, bytes]) -> bytes:
 def steps(assignment: Assignment) -> list[str]:
     """Return what a teacher does with it, in lines of Markdown."""
     return [
-        f"1. On Gradescope: a new *Programming Assignment* with {assignment.points:g} autograder points; upload "
-        "`autograder.zip` under *Configure Autograder* (base image Ubuntu).",
+        (
+            f"1. On Gradescope: a new *Programming Assignment* with {assignment.points:g}"
+            " autograder points; upload `autograder.zip` under *Configure Autograder* (base image"
+            " Ubuntu)."
+        ),
         "2. The smallest container will do (0.5 CPU, 0.75 GB); leave the time-out at 10 minutes.",
-        f"3. *Test Autograder* with the files of `teacher/full`: {assignment.points:g} of {assignment.points:g} points; "
-        "with those of `teacher/none`: 0. The end of the build's log says what shuts submissions in.",
-        "4. Give students what is in `student`. They upload a file of any name that ends in `.py`, a notebook, or several.",
+        (
+            f"3. *Test Autograder* with the files of `teacher/full`: {assignment.points:g} of"
+            f" {assignment.points:g} points; with those of `teacher/none`: 0. The end of the"
+            " build's log says what shuts submissions in."
+        ),
+        (
+            "4. Give students what is in `student`. They upload a file of any name that ends in"
+            " `.py`, a notebook, or several."
+        ),
     ]

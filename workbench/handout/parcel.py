@@ -1,4 +1,6 @@
-"""The grader as files: the headless part of the workbench, the lessons that are asked for, and what pip cannot be asked."""
+"""The grader as files: the headless part of the workbench, the lessons that are asked for, and what
+pip cannot be asked.
+"""
 
 import importlib.metadata
 import importlib.util
@@ -24,12 +26,19 @@ def packages(assignment: Assignment) -> dict[str, bytes]:
         InputError: If an exercise is of a lesson that is not one of the course's own.
     """
     ours, lessons = _folder("workbench"), _folder("lessons")
-    files = {f"workbench/{name}": data for name, data in _files(ours) if not name.startswith(LEFT_OUT)}
-    files |= {f"lessons/{name}": (lessons / name).read_bytes() for name in ("__init__.py", "py.typed")}
+    files = {
+        f"workbench/{name}": data for name, data in _files(ours) if not name.startswith(LEFT_OUT)
+    }
+    files |= {
+        f"lessons/{name}": (lessons / name).read_bytes() for name in ("__init__.py", "py.typed")
+    }
     for name in dict.fromkeys(exercise.lesson for exercise in assignment.exercises):
         folder = lessons / name
         if catalog()[name].params.__module__.split(".")[:2] != ["lessons", name]:
-            raise InputError(f"lesson {name} is not one of the course's own: hand its exercises out by `exercise`")
+            raise InputError(
+                f"lesson {name} is not one of the course's own: hand its exercises out by"
+                " `exercise`"
+            )
         files |= {f"lessons/{name}/{file}": data for file, data in _files(folder)}
     for package in CARRIED:
         files |= {f"{package}/{name}": data for name, data in _files(_folder(package))}
@@ -61,7 +70,11 @@ def _folder(package: str) -> Path:
 
 
 def _told_of(package: str) -> Iterator[tuple[str, bytes]]:
-    """Yield what an installation says of a package: its version, which it asks for itself, and its licence."""
+    """Yield what an installation says of a package: its version, which it asks for itself, and its
+    licence.
+    """
     for file in importlib.metadata.files(package) or ():
-        if ".dist-info/" in str(file) and (file.name == "METADATA" or "LICENSE" in file.name.upper()):
+        if ".dist-info/" in str(file) and (
+            file.name == "METADATA" or "LICENSE" in file.name.upper()
+        ):
             yield file.as_posix(), Path(str(file.locate())).read_bytes()

@@ -14,7 +14,8 @@ SIZE = 640, 400
 
 
 def pictured(exercise: Exercise, handed: HandIn, file: str, wall: Wall) -> list[dict[str, str]]:
-    """Return a picture of the failing case as a label and a data URL; none where the lesson's run shows none.
+    """Return a picture of the failing case as a label and a data URL; none where the lesson's run
+    shows none.
 
     Args:
         exercise: What the file is for.
@@ -42,4 +43,9 @@ def pictured(exercise: Exercise, handed: HandIn, file: str, wall: Wall) -> list[
     out = io.BytesIO()
     sheet.save(out, "PNG", optimize=True)
     label = f"Step {at} of lesson {exercise.lesson}: {caption_of(scene).text}"
-    return [{"label": label, "url": "data:image/png;base64," + base64.b64encode(out.getvalue()).decode()}]
+    return [
+        {
+            "label": label,
+            "url": "data:image/png;base64," + base64.b64encode(out.getvalue()).decode(),
+        }
+    ]

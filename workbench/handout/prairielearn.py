@@ -1,6 +1,8 @@
-"""Questions of a PrairieLearn course: a folder each, the grader that they share, and an assessment of them.
+"""Questions of a PrairieLearn course: a folder each, the grader that they share, and an assessment
+of them.
 
-Source: PrairieLearn documentation, "External grading", "Question configuration", "pl-file-editor", "Access control".
+Source: PrairieLearn documentation, "External grading", "Question configuration", "pl-file-editor",
+"Access control".
 """
 
 import json
@@ -28,7 +30,10 @@ def files(assignment: Assignment) -> dict[str, bytes]:
     held = {f"serverFilesCourse/{GRADER}/{name}": data for name, data in grader.items()}
     for exercise, weight in zip(assignment.exercises, assignment.weights, strict=True):
         alone = Assignment(
-            service=assignment.service, exercises=(exercise,), weights=(weight,), sandbox=assignment.sandbox
+            service=assignment.service,
+            exercises=(exercise,),
+            weights=(weight,),
+            sandbox=assignment.sandbox,
         )
         folder = f"questions/{question(exercise)}"
         held[f"{folder}/info.json"] = _json(info(assignment, exercise))
@@ -65,7 +70,9 @@ def info(assignment: Assignment, exercise: Exercise) -> dict[str, Any]:
 
 
 def page(exercise: Exercise) -> str:
-    """Return the question's question.html: the task, an editor that begins with the starter, and the results."""
+    """Return the question's question.html: the task, an editor that begins with the starter, and
+    the results.
+    """
     name = f"my_{exercise.name}.py"
     task = escape(exercise.task).replace("{", "&#123;")
     return f"""<pl-question-panel>
@@ -76,7 +83,7 @@ def page(exercise: Exercise) -> str:
   <pl-external-grader-results></pl-external-grader-results>
   <pl-file-preview></pl-file-preview>
 </pl-submission-panel>
-"""
+"""  # noqa: E501
 
 
 def assessment(assignment: Assignment) -> dict[str, Any]:
@@ -94,18 +101,29 @@ def assessment(assignment: Assignment) -> dict[str, Any]:
         "set": "Homework",
         "number": "1",
         "allowAccess": [rule],
-        "zones": [{"questions": [{"id": question(exercise), "autoPoints": weight} for exercise, weight in pairs]}],
+        "zones": [
+            {
+                "questions": [
+                    {"id": question(exercise), "autoPoints": weight} for exercise, weight in pairs
+                ]
+            }
+        ],
     }
 
 
 def steps(assignment: Assignment) -> list[str]:
     """Return what a teacher does with it, in lines of Markdown."""
     return [
-        "1. Copy `questions` and `serverFilesCourse` into the folder of your course, and the folder in `assessments` into "
-        "`courseInstances/YOURS/assessments`: it has the points and the dates. Synchronise.",
+        (
+            "1. Copy `questions` and `serverFilesCourse` into the folder of your course, and the"
+            " folder in `assessments` into `courseInstances/YOURS/assessments`: it has the points"
+            " and the dates. Synchronise."
+        ),
         f"2. The questions run in the image `{IMAGE}`, without a network, for at most {SECONDS} s.",
-        "3. Submit a file of `teacher/full` to its question: 100 %; one of `teacher/none`: 0 %. A file that is not Python "
-        "is *invalid, not gradable* and costs no attempt.",
+        (
+            "3. Submit a file of `teacher/full` to its question: 100 %; one of `teacher/none`: 0 %."
+            " A file that is not Python is *invalid, not gradable* and costs no attempt."
+        ),
     ]
 
 

@@ -16,9 +16,11 @@ def prairielearn(
     images: Sequence[dict[str, str]] = (),
     notes: Sequence[str] = (),
 ) -> dict[str, Any]:
-    """Return the `results.json` of a question: its score is a share; what cannot be graded costs no attempt.
+    """Return the `results.json` of a question: its score is a share; what cannot be graded costs no
+    attempt.
 
-    Everything in it is shown at once, so hidden checks are one line with their points and no feedback.
+    Everything in it is shown at once, so hidden checks are one line with their points and no
+    feedback.
 
     Args:
         reports: What was graded, of one exercise.
@@ -40,7 +42,11 @@ def prairielearn(
     said = [report.said_once for report in reports if report.said_once]
     said += [report.mistake.sentence for report in reports if report.mistake and _is_seen(report)]
     said += notes
-    said += [UNSAFE] if any(report.wall is not None and not report.wall.holds for report in reports) else []
+    said += (
+        [UNSAFE]
+        if any(report.wall is not None and not report.wall.holds for report in reports)
+        else []
+    )
     if said:
         results["message"] = "\n".join(said)
     printed = [line for report in reports for line in shown(report.printed)]
@@ -81,4 +87,7 @@ def _passes(outcome: Outcome) -> bool:
 
 def _is_seen(report: Report) -> bool:
     """Whether a mistake concerns a public check: of hidden ones nothing is told."""
-    return any(outcome.check.public and outcome.check.name in report.concerned for outcome in report.outcomes)
+    return any(
+        outcome.check.public and outcome.check.name in report.concerned
+        for outcome in report.outcomes
+    )

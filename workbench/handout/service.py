@@ -1,4 +1,5 @@
-"""What runs at a course system when a student hands in: `python -m workbench.handout.service ROOT ASSIGNMENT`.
+"""What runs at a course system when a student hands in: `python -m workbench.handout.service ROOT
+ASSIGNMENT`.
 
 Results are written before anything runs and again after every exercise, so
 that they are there however this ends.
@@ -11,7 +12,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from workbench.atomic import write_atomic
 from workbench.errors import InputError, one_line
 from workbench.exercise.grading import Report
 from workbench.exercise.marking import Asked, chosen, marked, not_handed_in
@@ -21,9 +21,15 @@ from workbench.exercise.submissions import handed_by
 from workbench.handout.assignment import Assignment, read
 from workbench.handout.picture import pictured
 from workbench.handout.results import prairielearn
+from workbench.machinery.atomic import write_atomic
 
-NOT_YET = "was not graded: the grader ended before, or ran out of time. This is not about your code; tell your teacher."
-Written = Callable[[Sequence[Report], Sequence[dict[str, Any]], Sequence[dict[str, str]]], dict[str, Any]]
+NOT_YET = (
+    "was not graded: the grader ended before, or ran out of time. This is not about your code; tell"
+    " your teacher."
+)
+Written = Callable[
+    [Sequence[Report], Sequence[dict[str, Any]], Sequence[dict[str, str]]], dict[str, Any]
+]
 
 
 @dataclass(frozen=True)
@@ -38,7 +44,9 @@ PLACES = {"gradescope": Places("submission"), "prairielearn": Places("student")}
 
 
 def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
-    """Grade what lies in a service's folder, write its results there, and return them; whatever breaks is part of them."""
+    """Grade what lies in a service's folder, write its results there, and return them; whatever
+    breaks is part of them.
+    """
     places = PLACES[assignment.service]
     reports: list[Report] = []
     failed: list[dict[str, Any]] = []
@@ -48,17 +56,22 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
 
     def write(why: str = NOT_YET) -> dict[str, Any]:
         left = [ungraded("", exercise, f"{exercise.name} {why}") for exercise in waiting]
-        results = _results(assignment, reports, [*failed, *left], images, notes)
+        results = _results(assignment, reports, [*failed, *left], images=images, notes=notes)
         path = root / places.results
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_atomic(path, json.dumps(results, ensure_ascii=False, indent=1).encode("utf-8", "backslashreplace"))
+        write_atomic(
+            path,
+            json.dumps(results, ensure_ascii=False, indent=1).encode("utf-8", "backslashreplace"),
+        )
         return results
 
     write()
     try:
         wall = _wall(assignment)
         handed = handed_by("submission", root / places.submission)
-        found = chosen(handed, Asked(only=tuple(exercise.name for exercise in assignment.exercises)))
+        found = chosen(
+            handed, Asked(only=tuple(exercise.name for exercise in assignment.exercises))
+        )
         failed += found.troubles
         notes += found.notes if handed.files else ["no .py file and no notebook was handed in"]
         notes += [handed.note] if handed.note else []
@@ -77,14 +90,18 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
             write()
     except Exception as error:  # a fault of ours must not leave a student without a word
         said = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
-        return write(f"was not graded. This is not about your code; tell your teacher: {one_line(said)}")
+        return write(
+            f"was not graded. This is not about your code; tell your teacher: {one_line(said)}"
+        )
     return write()
 
 
 def _wall(assignment: Assignment) -> Wall:
     wall = best(alone=True) if assignment.sandbox == "auto" else named(assignment.sandbox)
     if not wall.holds and assignment.sandbox != "none":
-        raise InputError(f"nothing shuts submissions in here, so marks would not be safe ({wall.why})")
+        raise InputError(
+            f"nothing shuts submissions in here, so marks would not be safe ({wall.why})"
+        )
     return wall
 
 
@@ -92,6 +109,7 @@ def _results(
     assignment: Assignment,
     reports: Sequence[Report],
     failed: Sequence[dict[str, Any]],
+    *,
     images: Sequence[dict[str, str]],
     notes: Sequence[str],
 ) -> dict[str, Any]:
@@ -103,10 +121,16 @@ def _results(
 
 
 def main(words: Sequence[str]) -> int:
-    """Grade what lies in the folder of a service; `--wall` says what would shut it in, for the log of an installation."""
+    """Grade what lies in the folder of a service; `--wall` says what would shut it in, for the log
+    of an installation.
+    """
     if list(words) == ["--wall"]:
         wall = best(alone=True)
-        sys.stdout.write(f"Submissions are shut in by: {wall.name}" + (f" ({wall.why})" if wall.why else "") + "\n")
+        sys.stdout.write(
+            f"Submissions are shut in by: {wall.name}"
+            + (f" ({wall.why})" if wall.why else "")
+            + "\n"
+        )
         return 0
     root, file = map(Path, words)
     assignment = read(file.read_text(encoding="utf-8"))

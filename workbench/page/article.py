@@ -1,8 +1,9 @@
 """A lesson's article as HTML: its text with links that run things, and the place of its questions.
 
-In page.md, `[the last step](run:far@-1)` opens the preset `far` at its last step, `[the last step](run:this@-1)` goes to a
-step of the run that is open, and `[[source]]` or `[[source|the scan]]` names a thing of the scene.
-`{{live: Drag the slider.}}` and `{{site: Choose a recorded run.}}` stand in that home only.
+In page.md, `[the last step](run:far@-1)` opens the preset `far` at its last step, `[the last
+step](run:this@-1)` goes to a step of the run that is open, and `[[source]]` or `[[source|the
+scan]]` names a thing of the scene. `{{live: Drag the slider.}}` and `{{site: Choose a recorded
+run.}}` stand in that home only.
 """
 
 import re
@@ -11,13 +12,12 @@ from html import escape
 
 from workbench.errors import AuthorError
 from workbench.lesson import Lesson
-from workbench.typeset import page_of, wording
+from workbench.story import bench_text, has_story
+from workbench.words.typeset import TERM, page_of, with_terms, wording
 
 _LINK = re.compile(r'<a href="run:([^"@]*)(?:@(-?\d+))?">')
 LINK = re.compile(r"\]\(run:([^)@\s]*)(?:@(-?\d+))?\)")
 """A link of a page's text that runs something: the run's name, and the step or nothing."""
-TERM = re.compile(r"\[\[([a-z][\w/. ~-]*?)(?:\|([^\]|<]+))?\]\]")
-"""Words of a page that name a thing of the scene: its path, and what stands there or nothing."""
 PLACE = "<!-- questions -->"
 """Where the questions of a lesson stand in its article."""
 
@@ -26,37 +26,49 @@ Address = Callable[[str, int | None], str]
 
 
 def article_html(lesson: Lesson, address: Address, home: str) -> str:
-    """Return a lesson's article as a home, `live` or `site`, has it, with PLACE where the questions belong.
+    """Return a lesson's article as a home, `live` or `site`, has it, with PLACE where the questions
+    belong.
+
+    Beside a story, which asks its questions itself, it is what the workbench says; experiments and
+    exercises belong at PLACE then.
 
     Raises:
-        AuthorError: If the page names a run that the lesson does not have, or a picture that is not there.
+        AuthorError: If the page names a run that the lesson does not have, or a picture that is not
+            there.
     """
+    told = has_story(lesson)
     written = TERM.sub(
-        lambda found: found[0].replace("|", r"\|"), wording(lesson.text(), home)
+        lambda found: found[0].replace("|", r"\|"),
+        wording(bench_text(lesson) if told else lesson.text(), home),
     )  # a table would cut there
-    text = page_of(written, lesson.page).replace('<div class="math block">', '<div class="math block" tabindex="0">')
+    text = page_of(written, lesson.page).replace(
+        '<div class="math block">', '<div class="math block" tabindex="0">'
+    )
     names = {"this", "default", *(preset.name for preset in lesson.presets)}
 
     def link(found: re.Match[str]) -> str:
         name, step = found[1], None if found[2] is None else int(found[2])
         if name not in names:
             known = ", ".join(preset.name for preset in lesson.presets) or "none"
-            raise AuthorError(f"{lesson.page}: a link runs {name!r}, which is no preset; there are: {known}")
+            raise AuthorError(
+                f"{lesson.page}: a link runs {name!r}, which is no preset; there are: {known}"
+            )
         name = "" if name == "this" else name
         at = "" if step is None else f' data-step="{step}"'
         return f'<a class="run" href="{escape(address(name, step))}" data-run="{escape(name)}"{at}>'
 
-    text = TERM.sub(lambda found: _term(found[1], found[2] or found[1]), _LINK.sub(link, text))
+    text = with_terms(_LINK.sub(link, text))
+    if told:
+        at = text.find("<section", text.find("</h1>"))
+        return text + PLACE if at < 0 else text[:at] + PLACE + text[at:]
     before, after = _around_predict(text)
     return before + PLACE + after
 
 
-def _term(path: str, words: str) -> str:
-    return f'<span class="term" tabindex="0" data-thing="{escape(path)}">{words}</span>'
-
-
 def _around_predict(html: str) -> tuple[str, str]:
-    """Split an article where its questions belong: behind the section that asks to predict, else at the end."""
+    """Split an article where its questions belong: behind the section that asks to predict, else at
+    the end.
+    """
     start = html.find('<section class="s-predict')
     end = html.find("</section>", start) + len("</section>") if start >= 0 else len(html)
     return html[:end], html[end:]

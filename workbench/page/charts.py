@@ -1,18 +1,26 @@
-"""Charts as plain data: axes with their ticks and words, curves of a step, and scalars over the steps of a run."""
+"""Charts as plain data: axes with their ticks and words, curves of a step, and scalars over the
+steps of a run.
+"""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
-from workbench.axis import Axis, axis, labelled, value_axis
 from workbench.page.legend import css_color, escape
+from workbench.run.timeline import Series, plotted_values
 from workbench.scene import PALETTE, Curve, Table
-from workbench.timeline import Series, plotted_values
+from workbench.words.axis import Axis, axis, labelled, value_axis
 
 NARROW_BAR = 0.96
 """How much of the room between two bars a bar takes."""
+
+
+def slug(title: str) -> str:
+    """Return the name of a chart, as page.md writes it: `Rotation error` is `rotation-error`."""
+    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
 
 
 def axes_of(xs: Sequence[np.ndarray], ys: Sequence[np.ndarray]) -> tuple[Axis, Axis]:
@@ -45,9 +53,14 @@ def outline(curve: Curve) -> tuple[np.ndarray, np.ndarray]:
 def table_html(table: Table) -> str:
     """Return a table as HTML, its text escaped."""
     head = "".join(f"<th>{escape(cell)}</th>" for cell in table.header)
-    rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows)
+    rows = "".join(
+        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in table.rows
+    )
     title = f"<strong>{escape(table.title)}</strong>" if table.title else ""
-    return f'<div class="wb wb-pad">{title}<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
+    return (
+        '<div class="wb'
+        f' wb-pad">{title}<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
+    )
 
 
 def chart_of(curves: Sequence[Curve]) -> dict[str, Any]:
@@ -55,8 +68,18 @@ def chart_of(curves: Sequence[Curve]) -> dict[str, Any]:
     outlines = [outline(curve) for curve in curves]
     across, up = axes_of([x for x, _ in outlines], [y for _, y in outlines])
     title, label = titled(curves)
-    drawn = {"kind": "curves", "title": title, "xLabel": curves[0].x_label, "yLabel": label}
-    return drawn | {"x": asdict(across), "y": asdict(up), "curves": [_curve(curve) for curve in curves]}
+    drawn = {
+        "kind": "curves",
+        "name": slug(curves[0].chart),
+        "title": title,
+        "xLabel": curves[0].x_label,
+        "yLabel": label,
+    }
+    return drawn | {
+        "x": asdict(across),
+        "y": asdict(up),
+        "curves": [_curve(curve) for curve in curves],
+    }
 
 
 def series_of(series: Mapping[str, Series], start: int = 0) -> list[dict[str, Any]]:
@@ -69,7 +92,9 @@ def series_of(series: Mapping[str, Series], start: int = 0) -> list[dict[str, An
             "unit": one.scalar.unit,
             "color": css_color(PALETTE[one.scalar.color]),
             "log": one.scalar.log,
-            "values": [float(value) if np.isfinite(value) else None for value in one.values[start:]],
+            "values": [
+                float(value) if np.isfinite(value) else None for value in one.values[start:]
+            ],
         }
         for path, one in series.items()
     ]
@@ -86,7 +111,13 @@ def series_charts(series: Mapping[str, Series], known: int) -> dict[str, Any]:
         scalar = lines[0].scalar
         head, label = labelled(chart, scalar.unit, scalar.log)
         across, up = axes_of([steps], [plotted_values(one.scalar, one.values) for one in lines])
-        found[chart] = {"head": head, "yLabel": label, "x": asdict(across), "y": asdict(up)}
+        found[chart] = {
+            "name": slug(chart),
+            "head": head,
+            "yLabel": label,
+            "x": asdict(across),
+            "y": asdict(up),
+        }
     return found
 
 

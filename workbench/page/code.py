@@ -1,4 +1,6 @@
-"""The source of the algorithm that runs, with the line it stands at and its local variables, for a page."""
+"""The source of the algorithm that runs, with the line it stands at and its local variables, for a
+page.
+"""
 
 import ast
 import functools
@@ -10,7 +12,9 @@ from workbench.tracing import Moment, source_of
 
 
 def moment_data(moment: Moment) -> dict[str, Any]:
-    """Return where an algorithm stood: the line's number in its source, from 0, and name, shape and value of each local."""
+    """Return where an algorithm stood: the line's number in its source, from 0, and name, shape and
+    value of each local.
+    """
     lines, first = moment.source
     at = min(max(moment.line - first, 0), len(lines) - 1)
     return {"line": at, "locals": [[one.name, one.shape, one.value] for one in moment.variables]}
@@ -18,16 +22,24 @@ def moment_data(moment: Moment) -> dict[str, Any]:
 
 @functools.lru_cache(maxsize=64)
 def source_html(function: Callable[..., Any]) -> str:
-    """Return a function's source as HTML, every line with its number in the file and `data-line`, from 0."""
+    """Return a function's source as HTML, every line with its number in the file and `data-line`,
+    from 0.
+    """
     lines, first = source_of(function)
     rows = _rows("\n".join(lines), first)
     start, end = _long_docstring("\n".join(lines))
-    folded = f"<details><summary>{rows[start]}</summary>{''.join(rows[start + 1 : end])}</details>" if end else ""
+    folded = (
+        f"<details><summary>{rows[start]}</summary>{''.join(rows[start + 1 : end])}</details>"
+        if end
+        else ""
+    )
     return f"{''.join(rows[:start])}{folded}{''.join(rows[end:])}"
 
 
 def text_html(source: str) -> str:
-    """Return any Python as HTML, such as a student's file, every line with its number and `data-line`, from 1."""
+    """Return any Python as HTML, such as a student's file, every line with its number and
+    `data-line`, from 1.
+    """
     return "".join(_rows(source.rstrip(), 1, 1))
 
 
@@ -39,11 +51,15 @@ def _rows(source: str, first: int, start: int = 0) -> list[str]:
 
 
 def _long_docstring(source: str) -> tuple[int, int]:
-    """Return where a function's docstring starts and ends if it is longer than a line, else (0, 0): it is folded away."""
+    """Return where a function's docstring starts and ends if it is longer than a line, else (0, 0):
+    it is folded away.
+    """
     body = ast.parse(source).body[0].body  # type: ignore[attr-defined]
     first = body[0]
     is_text = (
-        isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str)
+        isinstance(first, ast.Expr)
+        and isinstance(first.value, ast.Constant)
+        and isinstance(first.value.value, str)
     )
     if not is_text or first.end_lineno == first.lineno:
         return 0, 0

@@ -1,21 +1,28 @@
-"""The course page: every lesson as a card with a picture, in course order, with ticks for what was done in this browser."""
+"""The course page: a first toy, where to begin, lessons as cards in their chapters, and the map."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape
+from itertools import groupby
 
+from workbench.chapters import MINUTES, Chapter, chapter_of
 from workbench.page.document import THIRD_PARTIES, document_head
 from workbench.page.map import course_map
+from workbench.page.toy import toy_html
 
 WELCOME = (
-    "Every lesson is one algorithm that you can watch, step back through, break and write yourself. "
-    "Predict first, then look."
+    "Geometry and 3D vision, one algorithm at a time: see it work, move it with your hands, and"
+    " write it yourself."
 )
+FRONT_FILES = ("front.css", "front.js")
+"""The page's own styles and script, beside those of every page."""
+SHORT = 2
+"""Lessons of a chapter that leaves room for another beside it."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Card:
-    """A lesson on the course page: name, title, summary, what it builds on, and where its page and picture are."""
+    """A lesson on the course page: what it says of itself, and where its page and picture are."""
 
     name: str
     title: str
@@ -23,41 +30,106 @@ class Card:
     needs: tuple[str, ...]
     address: str
     picture: str
+    chapter: str = ""
+    minutes: int = MINUTES
 
 
-def course_document(cards: Iterable[Card], *, root: str, trouble: str | None = None, head: str = "") -> str:
+def course_document(
+    cards: Iterable[Card], *, root: str, trouble: str | None = None, head: str = ""
+) -> str:
     """Return the document of the course.
 
     Args:
-        cards: In course order.
+        cards: In course order: those of a chapter stand together.
         root: The relative address of the folder with the page's own files.
         trouble: Why the page that was asked for is not shown, in one line.
         head: More HTML for the head.
     """
     cards = list(cards)
-    shown = "".join(_card(number, card) for number, card in enumerate(cards, 1))
+    titles = {card.name: card.title for card in cards}
+    chapters = [
+        (chapter, list(own))
+        for chapter, own in groupby(cards, key=lambda card: chapter_of(card.chapter))
+    ]
     said = f'<p class="trouble" role="alert">{escape(trouble)}</p>' if trouble else ""
+    styles, script = FRONT_FILES
+    head = f'<link rel="stylesheet" href="{root}{styles}">{head}'
+    skip = (
+        f'<a class="skip" href="#{chapters[0][0].address}">To the lessons</a>' if chapters else ""
+    )
     return (
-        f"{document_head('Geometry workbench', WELCOME, root, head)}"
-        '<body class="course"><a class="skip" href="#course">To the lessons</a><main id="course">'
-        f'<h1>Geometry workbench</h1><p>{WELCOME}</p>{said}<ol class="cards">{shown}</ol>{_map(cards)}'
-        f'<p><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its licences</a></p></main>'
-        f'<script src="{root}tools.js"></script><script src="{root}progress.js"></script></body></html>\n'
+        f"{document_head('Geometry workbench', WELCOME, root, more=head, math=False)}"
+        f'<body class="front">{skip}{_hero(cards, said)}{_line(chapters)}<main id="course">'
+        + "".join(_chapter(chapter, own, titles) for chapter, own in chapters)
+        + f"{_map(chapters)}</main>"
+        f'<footer><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its'
+        " licences</a></footer>"
+        + "".join(
+            f'<script src="{root}{name}"></script>' for name in ("tools.js", "progress.js", script)
+        )
+        + "</body></html>\n"
     )
 
 
-def _map(cards: list[Card]) -> str:
+def _hero(cards: list[Card], said: str) -> str:
+    begin = ""
+    if cards:
+        address, title = escape(cards[0].address), escape(cards[0].title)
+        begin = (
+            f'<p class="begin"><a class="button" id="begin" href="{address}">Start here:'
+            f' {title}</a><a id="again" hidden></a></p>'
+        )
+    return (
+        '<header class="hero"><div class="top"><p class="brand">Geometry workbench</p><button'
+        ' type="button" id="theme" title="Light or dark (T)" aria-label="Light or'
+        f' dark">◐</button></div><div class="words">{said}<h1>Geometry you can take in your'
+        ' hands</h1><p class="lead">Lay <b class="source">orange</b> on <b'
+        ' class="target">blue</b>: drag it to move it, drag its ring to turn it. Six numbers are'
+        f" all that a computer knows of what you do.</p>{begin}</div>{toy_html()}</header>"
+    )
+
+
+def _line(chapters: list[tuple[Chapter, list[Card]]]) -> str:
+    links = "".join(
+        f'<a href="#{chapter.address}">{chapter.name} <span>{len(own)}</span></a>'
+        for chapter, own in chapters
+    )
+    return f'<nav class="line" aria-label="Chapters"><div>{links}</div></nav>' if links else ""
+
+
+def _chapter(chapter: Chapter, cards: list[Card], titles: dict[str, str]) -> str:
+    shown = "".join(_card(card, titles) for card in cards)
+    short = " short" if len(cards) <= SHORT else ""
+    return (
+        f'<section class="chapter{short}" id="{chapter.address}"'
+        f' tabindex="-1"><header><h2>{chapter.name}</h2><p>{escape(chapter.line)}</p></header><ul'
+        f' class="cards">{shown}</ul></section>'
+    )
+
+
+def _card(card: Card, titles: dict[str, str]) -> str:
+    before = [_in_sentence(titles[name]) for name in card.needs if name in titles]
+    facts = f"{card.minutes} min" + (f" · after {escape(', '.join(before))}" if before else "")
+    return (
+        f'<li data-card="{escape(card.name)}"><img src="{escape(card.picture)}" alt="" width="480"'
+        ' height="300" loading="lazy">'
+        f'<h3><a href="{escape(card.address)}">{escape(card.title)}</a></h3>'
+        f"<p>{escape(card.summary)}</p>"
+        f'<p class="facts">{facts}<span class="done"></span></p>'
+        '<div class="bar" hidden><span></span></div></li>'
+    )
+
+
+def _in_sentence(title: str) -> str:
+    """Return a title as it stands within a sentence: RANSAC stays as it is."""
+    return title if title[1:2].isupper() else title[:1].lower() + title[1:]
+
+
+def _map(chapters: list[tuple[Chapter, list[Card]]]) -> str:
+    cards = [card for _, own in chapters for card in own]
     return course_map(
         {card.name: card.title for card in cards},
         {card.name: card.needs for card in cards},
         {card.name: card.address for card in cards},
-    )
-
-
-def _card(number: int, card: Card) -> str:
-    return (
-        f'<li data-card="{escape(card.name)}"><a href="{escape(card.address)}">'
-        f'<img src="{escape(card.picture)}" alt="" width="320" height="200" loading="lazy">'
-        f"<h2>{number}. {escape(card.title)}</h2><p>{escape(card.summary)}</p></a>"
-        '<small class="done"></small></li>'
+        {chapter.name: [card.name for card in own] for chapter, own in chapters},
     )

@@ -6,10 +6,12 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from workbench.knobs import fields_of
 from workbench.lesson import Lesson
 from workbench.page.article import PLACE
 from workbench.page.lessons import lesson_data
-from workbench.typeset import math_font_css
+from workbench.story import Story, story_data
+from workbench.words.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
 MATH = "math.css"
@@ -17,15 +19,39 @@ THIRD_PARTIES = "third-parties.txt"
 """Whose work is in our pages, and its licences."""
 STYLES = ("page.css", "ending.css", "course.css")
 SCRIPTS = (
-    "tools.js", "curves.js", "stage.js", "transport.js", "panels.js", "article.js", "knobs.js", "exercise.js",
-    "run.js", "progress.js", "text.js", "page.js",
-)  # fmt: skip
+    "tools.js",
+    "curves.js",
+    "stage.js",
+    "transport.js",
+    "panels.js",
+    "article.js",
+    "knobs.js",
+    "exercise.js",
+    "run.js",
+    "progress.js",
+    "text.js",
+    "page.js",
+)
 SCENE = ("wire.js", "looks.js", "feed.js", "labels.js", "handles.js", "sceneview.js")
 """The scripts that show scenes in viser's client."""
 LIVE = (*SCENE, "files.js", "edited.js", "returning.js", "live.js")
 """The scripts that feed the page from a server."""
 RECORDED = (*SCENE, "shelf.js", "sweeps.js", "recorded.js")
 """The scripts that feed the page from recorded runs, on a site and in a notebook."""
+STORY_SCRIPTS = (
+    "storyplot.js",
+    "storyparts.js",
+    "storychart.js",
+    "storystage.js",
+    "storywords.js",
+    "storyask.js",
+    "story.js",
+)
+"""The scripts of the story, before `page.js`."""
+STORY_STYLES = ("story.css", "storystage.css")
+FONTS = ("source-serif-4-latin-wght-normal.woff2", "source-serif-4-latin-wght-italic.woff2")
+"""The letters of the story, beside its styles."""
+STORY_FILES = (*STORY_STYLES, *FONTS, *STORY_SCRIPTS)
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 """Steps a second of Play, as a page offers them."""
 VERBS = (
@@ -50,40 +76,87 @@ def lesson_document(
     more: Mapping[str, Any] | None = None,
     alone: tuple[str, str] | None = None,
     still: str = "",
+    story: Story | None = None,
 ) -> str:
-    """Return the document of a lesson.
+    """Return the document of a lesson: its story, where one is told, and its workbench.
 
     Args:
         lesson: What it is about.
         article: Its text as HTML, with PLACE where the questions belong.
         home: `live`, `site` or `notebook`.
-        root: The relative address of the folder with the page's own files; None puts them all into the document.
+        root: The relative address of the folder with the page's own files; None puts them all into
+            the document.
         head: More HTML for the head.
         opening: What stands before the text, as HTML.
         ending: What stands behind the text and its experiments, as HTML.
         more: What else the scripts need: name of a constant -> plain data.
-        alone: Of a page that shows one run and no article, its title and the address of the lesson's page, if it has one.
+        alone: Of a page that shows one run and no article, its title and the address of the
+            lesson's page, if it has one.
         still: The address of a picture that stands for the scene where no script runs.
+        story: The lesson's story; only for a document with a root.
     """
     data = lesson_data(lesson) | ({} if home == "live" else {"knobs": []})
-    scripts = (*(LIVE if home == "live" else RECORDED), *SCRIPTS)
-    constants = {"LESSON": data} | dict(more or {})
+    scripts = _scripts(home, told=story is not None)
+    constants = (
+        {"LESSON": data}
+        | ({} if story is None else {"STORY": story_data(lesson, story)})
+        | dict(more or {})
+    )
     heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
-    text = _alone(heading, alone[1]) if alone else _article(article, home, data, opening, ending)
+    told = story is not None
+    text = (
+        _alone(heading, alone[1])
+        if alone
+        else _article(article, home, data, opening=opening, ending=ending, told=told)
+    )
+    face = "story" if told else "bench"
+    math = root is not None or not alone
     return (
-        f"{document_head(heading, lesson.summary, root, head, math=root is not None or not alone)}"
-        f'<body{" class=alone" if alone else ""} data-home="{home}" data-lesson="{escape(lesson.name)}">'
-        f'<a class="skip" href="#stage">To the stage</a><main>{text}'
+        f"{document_head(heading, lesson.summary, root, more=head, math=math, told=told)}"
+        f'<body{" class=alone" if alone else ""} data-home="{home}"'
+        f' data-lesson="{escape(lesson.name)}" data-face="{face}">'
+        f"{_face(lesson, story)}"
+        f'<a class="skip" href="#stage">To the stage</a><main>{_told(story)}{text}'
         f'<div id="side">{_stage(still)}</div></main>'
         + _third_parties(root)
-        + f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"
+        + f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"  # noqa: E501
         + "".join(_script(root, name) for name in scripts)
         + "</body></html>\n"
     )
 
 
+def _scripts(home: str, *, told: bool) -> tuple[str, ...]:
+    *others, page = SCRIPTS
+    return (
+        *(LIVE if home == "live" else RECORDED),
+        *others,
+        *(STORY_SCRIPTS if told else ()),
+        page,
+    )
+
+
+def _told(story: Story | None) -> str:
+    return "" if story is None else f'<div id="story">{story.html}</div>'
+
+
+def _face(lesson: Lesson, story: Story | None) -> str:
+    """Return the script that opens the workbench where the address names a run, a step or a
+    param; before any picture.
+    """
+    if story is None:
+        return ""
+    keys = in_script(["preset", "step", *(field.name for field in fields_of(lesson.params))])
+    return (
+        "<script>if (new URLSearchParams(location.hash.slice(1)).has('run') || "
+        f"{keys}.some((key) => new URLSearchParams(location.search).has(key))) "
+        "document.body.dataset.face = 'bench';</script>"
+    )
+
+
 def _third_parties(root: str | None) -> str:
-    """Return the licences of what is in a document that stands alone; another has them in a file beside it."""
+    """Return the licences of what is in a document that stands alone; another has them in a file
+    beside it.
+    """
     if root is not None:
         return ""
     text = (STATIC / THIRD_PARTIES).read_text(encoding="utf-8")
@@ -104,25 +177,40 @@ def _style(root: str | None, name: str) -> str:
 
 
 def bare(file: Path) -> str:
-    """Return a script or style without the lines that only tell a reader something, and without indents."""
+    """Return a script or style without the lines that only tell a reader something, and without
+    indents.
+    """
     lines = (line.strip() for line in file.read_text(encoding="utf-8").splitlines())
     return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 
 
-def _article(article: str, home: str, data: dict[str, Any], opening: str, ending: str) -> str:
+def _article(
+    article: str, home: str, data: dict[str, Any], *, opening: str, ending: str, told: bool
+) -> str:
+    """Return the text of the workbench; beside a story its experiments and exercises come first."""
     questions = "".join(_question(question) for question in data["questions"])
     presets = "".join(
-        f'<li><button type="button" data-run="{escape(preset["name"])}" aria-pressed="false">{escape(preset["title"])}'
+        f'<li><button type="button" data-run="{escape(preset["name"])}"'
+        f' aria-pressed="false">{escape(preset["title"])}'
         f"<small>{escape(preset['line'])}</small></button></li>"
         for preset in data["presets"]
     )
-    chosen = f'<section class="s-runs"><h2>Experiments</h2><ul class="runs">{presets}</ul></section>' if presets else ""
+    chosen = (
+        f'<section class="s-runs"><h2>Experiments</h2><ul class="runs">{presets}</ul></section>'
+        if presets
+        else ""
+    )
+    before, _, after = article.partition(PLACE)
+    if told:
+        words = f'<div class="wb">{before}</div>{chosen}{ending}<div class="wb">{after}</div>'
+    else:
+        words = f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}'
     return (
-        f'<article id="article">{_top("Geometry workbench", _course(home))}'
-        f'{opening}<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}'
-        f'{ending}<section class="s-run" id="this-run" hidden><h2>This run</h2></section>'
-        '<details id="text"><summary>Text of this run</summary><p></p><ol start="0"></ol></details>'
-        f'<nav id="around" aria-label="Lessons before and after" data-address="{_lesson(home)}"></nav></article>'
+        f'<article id="article">{_top("Geometry workbench", _course(home))}{opening}{words}<section'
+        ' class="s-run" id="this-run" hidden><h2>This run</h2></section><details'
+        ' id="text"><summary>Text of this run</summary><p></p><ol start="0"></ol></details><nav'
+        ' id="around" aria-label="Lessons before and after"'
+        f' data-address="{_lesson(home)}"></nav></article>'
     )
 
 
@@ -145,14 +233,19 @@ def in_script(value: Any) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def document_head(title: str, summary: str, root: str | None, more: str, *, math: bool = True) -> str:
+def document_head(
+    title: str, summary: str, root: str | None, *, more: str, math: bool = True, told: bool = False
+) -> str:
     """Return the head of a document of ours."""
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<title>{escape(title)}</title><meta name="description" content="{escape(summary)}">'
         '<link rel="icon" href="data:,">'
-        + "".join(_style(root, name) for name in (*STYLES, *([MATH] if math else [])))
+        + "".join(
+            _style(root, name)
+            for name in (*STYLES, *(STORY_STYLES if told else ()), *([MATH] if math else []))
+        )
         + f"{more}</head>"
     )
 
@@ -166,32 +259,37 @@ def _lesson(home: str) -> str:
 
 
 def _stage(still: str) -> str:
-    """Return the stage. What a home may lack has `data-needs`, the verbs of its source that it is shown with."""
+    """Return the stage. What a home may lack has `data-needs`, the verbs of its source that it is
+    shown with.
+    """
     buttons = "".join(
-        f'<button type="button" data-act="{verb}" title="{title}" aria-label="{title}">{_sign(sign)}</button>'
+        f'<button type="button" data-act="{verb}" title="{title}"'
+        f' aria-label="{title}">{_sign(sign)}</button>'
         for verb, title, sign in VERBS
     )
     speeds = "".join(f'<option value="{speed:g}">{speed:g}×</option>' for speed in SPEEDS)
-    picture = f'<noscript><img src="{escape(still)}" alt="A step of this lesson"></noscript>' if still else ""
+    picture = (
+        f'<noscript><img src="{escape(still)}" alt="A step of this lesson"></noscript>'
+        if still
+        else ""
+    )
     return (
-        '<section id="stage" aria-label="Stage"><div id="view"><div id="scene" aria-busy="true"></div>'
-        f"{picture}"
-        '<div id="legend" role="group" aria-label="Legend" tabindex="0"></div>'
-        '<div id="tools" role="group" aria-label="Tools">'
-        '<button type="button" id="move" data-needs="handles" aria-pressed="false" title="Handles in the scene (H)" hidden>'
-        "Move<span> it yourself</span></button>"
-        '<button type="button" id="pin" data-needs="pin" aria-pressed="false" title="Keep this run behind the next (I)" '
-        "hidden>Pin</button>"
-        '<button type="button" id="set" data-needs="change sweep" aria-expanded="false" aria-controls="drawer" '
-        'title="What this run is made with (S)" hidden>Knobs</button></div>'
-        '<aside id="drawer" aria-label="Knobs" hidden></aside></div>'
-        f'<div id="bar" role="group" aria-label="Steps">{buttons}'
-        '<input id="step" type="range" min="0" max="0" value="0" aria-label="Step"><output id="count"></output>'
-        '<select id="speed" aria-label="Speed" title="Steps per second"><option value="">Speed</option>'
-        f"{speeds}</select></div>"
-        '<p id="caption" role="status" aria-live="polite" tabindex="0"></p></section>'
-        '<div id="tiles" role="group" aria-label="Curves, pictures and code of this step"></div>'
-        '<div id="large" role="dialog" aria-label="Enlarged" hidden></div>'
+        '<section id="stage" aria-label="Stage"><div id="view"><div id="scene"'
+        f' aria-busy="true"></div>{picture}<div id="legend" role="group" aria-label="Legend"'
+        ' tabindex="0"></div><div id="tools" role="group" aria-label="Tools"><button type="button"'
+        ' id="move" data-needs="handles" aria-pressed="false" title="Handles in the scene (H)"'
+        ' hidden>Move<span> it yourself</span></button><button type="button" id="pin"'
+        ' data-needs="pin" aria-pressed="false" title="Keep this run behind the next (I)"'
+        ' hidden>Pin</button><button type="button" id="set" data-needs="change sweep"'
+        ' aria-expanded="false" aria-controls="drawer" title="What this run is made with (S)"'
+        ' hidden>Knobs</button></div><aside id="drawer" aria-label="Knobs"'
+        f' hidden></aside></div><div id="bar" role="group" aria-label="Steps">{buttons}<input'
+        ' id="step" type="range" min="0" max="0" value="0" aria-label="Step"><output'
+        ' id="count"></output><select id="speed" aria-label="Speed" title="Steps per'
+        f' second"><option value="">Speed</option>{speeds}</select></div><p id="caption"'
+        ' role="status" aria-live="polite" tabindex="0"></p></section><div id="tiles" role="group"'
+        ' aria-label="Curves, pictures and code of this step"></div><div id="large" role="dialog"'
+        ' aria-label="Enlarged" hidden></div>'
     )
 
 
@@ -203,14 +301,19 @@ def _question(question: dict[str, Any]) -> str:
     name = escape(question["name"])
     if question["choices"]:
         inputs = "".join(
-            f'<label><input type="radio" name="given" value="{escape(choice)}"> {escape(choice)}</label>'
+            f'<label><input type="radio" name="given" value="{escape(choice)}">'
+            f" {escape(choice)}</label>"
             for choice in question["choices"]
         )
     else:
         unit = escape(f" ({question['unit']})") if question["unit"] else ""
-        inputs = f'<label>Your prediction{unit} <input inputmode="decimal" autocomplete="off" name="given"></label>'
+        inputs = (
+            f'<label>Your prediction{unit} <input inputmode="decimal" autocomplete="off"'
+            ' name="given"></label>'
+        )
     return (
-        f'<form class="question" data-question="{name}"><fieldset><legend>{question["html"]}</legend>{inputs}</fieldset>'
-        '<button type="submit" value="answer">Answer</button> '
-        '<button type="submit" value="skip">Skip and show me</button><output aria-live="polite"></output></form>'
+        '<form class="question"'
+        f' data-question="{name}"><fieldset><legend>{question["html"]}</legend>{inputs}</fieldset><button'  # noqa: E501
+        ' type="submit" value="answer">Answer</button> <button type="submit" value="skip">Skip and'
+        ' show me</button><output aria-live="polite"></output></form>'
     )

@@ -1,4 +1,6 @@
-"""The legend of a scene and the bar of a colour map, as HTML. Whatever a lesson or its params say is escaped."""
+"""The legend of a scene and the bar of a colour map, as HTML. Whatever a lesson or its params say
+is escaped.
+"""
 
 import html
 from typing import Any, cast
@@ -18,7 +20,8 @@ def css_color(rgb: tuple[int, int, int]) -> str:
 
 
 def legend_html(scene: Scene, grid: float | None) -> str:
-    """Return the legend of a scene: every named thing with its colour, every colour map with its bar and unit.
+    """Return the legend of a scene: every named thing with its colour, every colour map with its
+    bar and unit.
 
     Each row names the paths of what it is about, so that a page can tell which thing is meant.
     """
@@ -26,7 +29,9 @@ def legend_html(scene: Scene, grid: float | None) -> str:
     for path, primitive in scene.items():
         for row in _legend_rows(primitive) if in_space(primitive) else ():
             rows.setdefault(row, []).append(path)
-    found = [f'<span data-things="{escape("|".join(paths))}">{row}</span>' for row, paths in rows.items()]
+    found = [
+        f'<span data-things="{escape("|".join(paths))}">{row}</span>' for row, paths in rows.items()
+    ]
     if grid is not None:
         found.append(f"<span>grid {grid:g} m</span>")
     return f'<div class="wb-legend">{"".join(found)}</div>' if found else ""

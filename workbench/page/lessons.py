@@ -1,10 +1,13 @@
-"""What a page knows of a lesson before anything runs: knobs, presets and questions, without their answers."""
+"""What a page knows of a lesson before anything runs: knobs, presets and questions, without their
+answers.
+"""
 
 from typing import Any
 
 from workbench.knobs import Field, Gizmo, Pick, changed, fields_of
 from workbench.lesson import Lesson, Preset, Question
-from workbench.typeset import inline_html
+from workbench.moved import asked_before
+from workbench.words.typeset import inline_html
 
 
 def lesson_data(lesson: Lesson) -> dict[str, Any]:
@@ -21,11 +24,14 @@ def lesson_data(lesson: Lesson) -> dict[str, Any]:
         ],
         "presets": [preset_data(lesson, preset) for preset in lesson.presets],
         "questions": [question_data(question) for question in lesson.questions],
+        "was": {name: list(before) for name, before in asked_before(lesson.name).items()},
     }
 
 
 def knob_data(field: Field) -> dict[str, Any]:
-    """Return how a field of Params is set: its name as formulas write it, hint, unit, range and kind."""
+    """Return how a field of Params is set: its name as formulas write it, hint, unit, range and
+    kind.
+    """
     knob = field.knob
     data: dict[str, Any] = {
         "name": field.name,
@@ -34,7 +40,11 @@ def knob_data(field: Field) -> dict[str, Any]:
         "unit": knob.unit,
         "kind": field.kind,
         **({"size": knob.by.size} if isinstance(knob.by, Gizmo) else {}),
-        "by": "gizmo" if isinstance(knob.by, Gizmo) else "pick" if isinstance(knob.by, Pick) else "slider",
+        "by": "gizmo"
+        if isinstance(knob.by, Gizmo)
+        else "pick"
+        if isinstance(knob.by, Pick)
+        else "slider",
         "needs": {name: list(wanted) for name, wanted in knob.needs.items()},
         "default": list(field.default) if isinstance(field.default, tuple) else field.default,
     }
@@ -42,18 +52,33 @@ def knob_data(field: Field) -> dict[str, Any]:
         return data | {"choices": field.choices}
     if field.kind == "bool":
         return data
-    return data | {"low": knob.low, "high": knob.high, "step": field.step, "parts": part_names(field)}
+    return data | {
+        "low": knob.low,
+        "high": knob.high,
+        "step": field.step,
+        "parts": part_names(field),
+    }
 
 
 def values_of(params: Any) -> dict[str, Any]:
     """Return params as a page gets them: without files."""
-    named = {field.name: getattr(params, field.name) for field in fields_of(type(params)) if not field.sensitive}
-    return {name: list(value) if isinstance(value, tuple) else value for name, value in named.items()}
+    named = {
+        field.name: getattr(params, field.name)
+        for field in fields_of(type(params))
+        if not field.sensitive
+    }
+    return {
+        name: list(value) if isinstance(value, tuple) else value for name, value in named.items()
+    }
 
 
 def files_of(params: Any) -> dict[str, str]:
     """Return what the files that are open are called, by field; not where they are."""
-    paths = {field.name: getattr(params, field.name) for field in fields_of(type(params)) if field.sensitive}
+    paths = {
+        field.name: getattr(params, field.name)
+        for field in fields_of(type(params))
+        if field.sensitive
+    }
     return {name: path.name for name, path in paths.items() if path is not None}
 
 
@@ -62,7 +87,11 @@ def part_names(field: Field) -> tuple[str, ...]:
     if not field.length:
         return ("",)
     known = {2: ("x", "y"), 3: ("x", "y", "z"), 6: ("x", "y", "z", "turn x", "turn y", "turn z")}
-    return tuple(field.knob.parts) or known.get(field.length) or tuple(str(i + 1) for i in range(field.length))
+    return (
+        tuple(field.knob.parts)
+        or known.get(field.length)
+        or tuple(str(i + 1) for i in range(field.length))
+    )
 
 
 def preset_data(lesson: Lesson, preset: Preset) -> dict[str, Any]:

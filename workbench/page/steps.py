@@ -1,25 +1,29 @@
-"""The steps of a run as plain data: captions, what stands beside the scene, and where the code stood."""
+"""The steps of a run as plain data: captions, what stands beside the scene, and where the code
+stood.
+"""
 
 import base64
 import hashlib
 import threading
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from workbench.images import webp
+from workbench.machinery.images import webp
 from workbench.page.charts import chart_of, series_charts, series_of, table_html
 from workbench.page.code import moment_data, source_html
 from workbench.page.legend import bar_html, legend_html
+from workbench.page.plots import plot_of
+from workbench.run.timeline import Step, Timeline
 from workbench.scene import Curve, Field, Picture, Scene, Table, in_space
-from workbench.timeline import Step, Timeline
 
 
 class Steps:
-    """Makes the data of a run's steps. What repeats from step to step is kept once, in `things`, and named by its number.
+    """Makes the data of a run's steps. What repeats from step to step is kept once, in `things`,
+    and named by its number.
 
     Each step is made once and shared by all who ask; any thread may ask.
 
@@ -39,7 +43,9 @@ class Steps:
 
     @classmethod
     def weakly(cls, timeline: Timeline) -> "Steps":
-        """Return the data of a run that somebody else holds: kept beside it, they do not keep it."""
+        """Return the data of a run that somebody else holds: kept beside it, they do not keep
+        it.
+        """
         made = cls(timeline)
         made._run = weakref.ref(timeline)
         return made
@@ -49,11 +55,15 @@ class Steps:
         """The run."""
         timeline = self._run()
         if timeline is None:
-            raise ReferenceError("the run is gone: hold it as long as the steps beside it are asked for")
+            raise ReferenceError(
+                "the run is gone: hold it as long as the steps beside it are asked for"
+            )
         return timeline
 
     def step(self, k: int) -> dict[str, Any]:
-        """Return a known step: caption and tone, and the numbers of what is `shown` and of the legend."""
+        """Return a known step: caption and tone, and the numbers of what is `shown` and of the
+        legend.
+        """
         with self._lock:
             if k not in self._steps:
                 self._steps[k] = made = self._made(self.timeline[k])
@@ -61,34 +71,54 @@ class Steps:
             return self._steps[k]
 
     def code(self, k: int) -> dict[str, Any] | None:
-        """Return where the code stood at a known step, with the number of its source; None where nobody was asked."""
+        """Return where the code stood at a known step, with the number of its source; None where
+        nobody was asked.
+        """
         moment = self.timeline[k].moment
         if moment is None:
             return None
         name = f"{moment.function.__module__}.{moment.function.__qualname__}"
         with self._lock:
-            source = self._number({"kind": "source", "name": name, "html": source_html(moment.function)}, name)
+            source = self._number(
+                {"kind": "source", "name": name, "html": source_html(moment.function)}, name
+            )
         return {"source": source, **moment_data(moment)}
 
     def series(self, start: int = 0, end: int | None = None) -> dict[str, Any]:
-        """Return every scalar from step `start` to before `end` (None: all that are known), and the axes of all to there."""
+        """Return every scalar from step `start` to before `end` (None: all that are known), and the
+        axes of all to there.
+        """
         timeline = self.timeline
         known = len(timeline) if end is None else end
         series, key = timeline.series(known), (start, known)
         with self._lock:
             if key not in self._series:
-                self._series = dict(tuple(self._series.items())[-7:])  # of those who follow a run as it grows
-                self._series[key] = {"from": start, "series": series_of(series, start),
-                                     "charts": series_charts(series, known)}  # fmt: skip
+                self._series = dict(
+                    tuple(self._series.items())[-7:]
+                )  # of those who follow a run as it grows
+                self._series[key] = {
+                    "from": start,
+                    "series": series_of(series, start),
+                    "charts": series_charts(series, known),
+                }
             return self._series[key]
 
     def whole(self) -> dict[str, Any]:
         """Return all of a finished run."""
         steps = [self.step(k) for k in range(len(self.timeline))]
-        return {"steps": steps, **self.series(), "things": self.things, "end": self.end()}
+        return {
+            "steps": steps,
+            **self.series(),
+            "things": self.things,
+            "end": self.end(),
+            "places": self.places(),
+            "idle": self.timeline.idle(),
+        }
 
     def end(self) -> int | None:
-        """Return the last step of the run itself where tries of other starts follow it; None where none are known."""
+        """Return the last step of the run itself where tries of other starts follow it; None where
+        none are known.
+        """
         tries = self.timeline.lesson.tries
         if tries is None:
             return None
@@ -109,9 +139,11 @@ class Steps:
         """Return the numbers of what stands beside a scene: pictures and tables, then charts."""
         found: list[int] = []
         charts: dict[str, list[Curve]] = {}
+        plots: dict[str, list[Curve]] = {}
         for primitive in scene.values():
             if isinstance(primitive, Curve):
-                charts.setdefault(primitive.chart, []).append(primitive)
+                where = plots if primitive.part else charts
+                where.setdefault(primitive.chart, []).append(primitive)
             elif isinstance(primitive, Table):
                 text = table_html(primitive)
                 found.append(self._number({"kind": "html", "html": text}, text))
@@ -120,12 +152,53 @@ class Steps:
         for curves in charts.values():
             drawn = chart_of(curves)
             found.append(self._number(drawn, repr(drawn)))
+        for parts in plots.values():
+            drawn = plot_of(parts, lambda line: self._number(line, repr(line)))
+            found.append(self._number(drawn, repr(drawn)))
         return found
 
+    def wanted(self, step: Mapping[str, Any]) -> list[int]:
+        """Return the numbers of all things that a step needs, those that its things name before
+        these.
+        """
+        found: list[int] = []
+        for n in step["shown"]:
+            thing = self.things[n]
+            if isinstance(thing, dict) and thing["kind"] == "plot":
+                found += [*thing["whole"], *thing["seconds"]]
+            found.append(n)
+        return [*found, step["legend"]]
+
+    def places(self) -> list[tuple[int, str]]:
+        """Return the steps known so far that have a name for the slider: `start`, those that
+        captions name, `stop`.
+
+        `stop` is the end of the run itself, known once something follows it or the run is finished.
+        """
+        timeline = self.timeline
+        named = [
+            (k, step.caption.place) for k, step in enumerate(timeline.known()) if step.caption.place
+        ]
+        end = self.end()
+        if end is None and timeline.finished:
+            end = len(timeline) - 1
+        found = (
+            dict([(0, "start"), *named])
+            if named and named[0][0] == 0
+            else {0: "start", **dict(named)}
+        )
+        return sorted((found | ({} if end is None else {end: "stop"})).items())
+
     def _picture(self, picture: Picture) -> int:
-        """Return the number of a picture: one with the arrays of an earlier step is not looked at again."""
+        """Return the number of a picture: one with the arrays of an earlier step is not looked at
+        again.
+        """
         image = picture.image
-        field = (id(image.values), image.low, image.high, image.map) if isinstance(image, Field) else id(image)
+        field = (
+            (id(image.values), image.low, image.high, image.map)
+            if isinstance(image, Field)
+            else id(image)
+        )
         same = picture.title, field  # the run keeps its arrays: no other has these numbers
         if same not in self._numbers:
             rgb = picture.rgb() if isinstance(image, np.ndarray) else _coarse(image).rgb()

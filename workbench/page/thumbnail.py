@@ -1,12 +1,17 @@
-"""A small picture of a step, drawn without a browser or a graphics card: points, lines, faces and images, seen by a View."""
+"""A small picture of a step, drawn without a browser or a graphics card: points, lines, faces and
+images, seen by a View.
+"""
 
 import io
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from PIL import Image, ImageDraw
 
+from workbench.errors import AuthorError
 from workbench.lesson import Lesson, View
+from workbench.run.timeline import Timeline, Timelines
 from workbench.scene import (
     PALETTE,
     Axes,
@@ -19,41 +24,73 @@ from workbench.scene import (
     color_rows,
     in_space,
 )
-from workbench.timeline import Timeline
+from workbench.story import story_of
+from workbench.story.names import views_of
 
-SIZE = 320, 200
-FINER = 3  # drawn so many times as large, then made smaller: its edges are smooth
+SIZE = 480, 300
+FINER = 2  # drawn so many times as large, then made smaller: its edges are smooth
+
+THICK = 1.8  # pixels of the sheet to a width of 1
 
 
-def thumbnail(lesson: Lesson, timeline: Timeline | None = None) -> bytes:
-    """Return a picture of a lesson's default run, WebP, transparent where nothing is.
+def thumbnail(lesson: Lesson, timelines: Timelines | None = None) -> bytes:
+    """Return a picture of a lesson, WebP, transparent where nothing is: where its story begins,
+    else of its default run.
 
     Args:
         lesson: Of what.
-        timeline: Its default run, where it is known already; computed to where the picture is taken.
+        timelines: Where runs are kept; computed anew without.
     """
-    timeline = timeline or Timeline(lesson, lesson.params())
-    step = telling_step(lesson, timeline.complete())
-    return picture_of(timeline[step].scene, lesson.view)
+    timelines = timelines or Timelines()
+    begun = _story_begins(lesson)
+    params, step, view = (lesson.params(), None, lesson.view) if begun is None else begun
+    timeline = timelines.get(lesson, params).complete()
+    k = telling_step(lesson, timeline) if step is None else step
+    return picture_of(timeline[min(k, len(timeline) - 1)].scene, view)
+
+
+def _story_begins(lesson: Lesson) -> tuple[Any, int | None, View] | None:
+    """Return params, step and camera of what a story's first words stand beside; None without
+    one.
+    """
+    try:
+        story = story_of(lesson, "live")
+    except AuthorError:  # told on its page
+        return None
+    if story is None or not story.scenes:
+        return None
+    place = story.scenes[0].beats[0]
+    named = [*lesson.presets, *lesson.questions]
+    params = next((one.params for one in named if one.name == place.run), lesson.params())
+    step = -1 if place.step == "stop" else int(place.step)
+    return params, step, views_of(lesson).get(place.view) or lesson.view_of(params)
 
 
 def telling_step(lesson: Lesson, timeline: Timeline) -> int:
-    """Return the step of a run that stands for it: where it opens; of one that opens at its start, where most is drawn."""
+    """Return the step of a run that stands for it: where it opens; of one that opens at its start,
+    where most is drawn.
+    """
     first = timeline.opening(f"lesson {lesson.name}", lesson.first_step)
     if first:
         return first
-    return max(range(len(timeline)), key=lambda k: (len([p for p in timeline[k].scene.values() if in_space(p)]), -k))
+    return max(
+        range(len(timeline)),
+        key=lambda k: (len([p for p in timeline[k].scene.values() if in_space(p)]), -k),
+    )
 
 
 def picture_of(scene: Scene, view: View, size: tuple[int, int] = SIZE) -> bytes:
     """Return a scene as a WebP image with a transparent ground."""
     file = io.BytesIO()
-    drawn(scene, view, size).save(file, "WEBP", quality=82)  # what method 6 saves, 3 %, takes a hundred times as long
+    # what method 6 saves, 3 %, takes a hundred times as long
+    drawn(scene, view, size).save(file, "WEBP", quality=80, alpha_quality=60)
     return file.getvalue()
 
 
 def still_of(scene: Scene, view: View, size: tuple[int, int]) -> bytes:
-    """Return a scene as a PNG image on white, for places that know nothing of WebP and transparent grounds."""
+    """Return a scene as a PNG image on white, for places that know nothing of WebP and transparent
+    grounds.
+    """
     image = drawn(scene, view, size)
     ground = Image.new("RGBA", image.size, "white")
     ground.alpha_composite(image)
@@ -75,12 +112,16 @@ def drawn(scene: Scene, view: View, size: tuple[int, int]) -> Image.Image:
 
 
 def _around(sheet: Image.Image) -> tuple[float, float, float, float]:
-    """Return the part of a sheet, of its own proportions, that has all that is drawn, with a margin."""
+    """Return the part of a sheet, of its own proportions, that has all that is drawn, with a
+    margin.
+    """
     found = sheet.getbbox()
     if found is None:
         return 0, 0, *sheet.size
     left, top, right, bottom = found
-    share = min(1.0, max(0.42, 1.12 * (right - left) / sheet.width, 1.12 * (bottom - top) / sheet.height))
+    share = min(
+        1.0, max(0.42, 1.12 * (right - left) / sheet.width, 1.12 * (bottom - top) / sheet.height)
+    )
     width, height = share * sheet.width, share * sheet.height
     x = min(max(0.5 * (left + right - width), 0), sheet.width - width)
     y = min(max(0.5 * (top + bottom - height), 0), sheet.height - height)
@@ -114,7 +155,11 @@ def _things(primitive: object, pen: _Pen) -> Iterator[tuple]:
         yield from _points(primitive, pen)
     elif isinstance(primitive, Segments):
         yield from _lines(
-            primitive.ends, primitive.T_world_object, _rgba(primitive, len(primitive.ends)), primitive.width, pen
+            primitive.ends,
+            primitive.T_world_object,
+            _rgba(primitive, len(primitive.ends)),
+            primitive.width,
+            pen,
         )
     elif isinstance(primitive, Mesh):
         yield from _faces(primitive, pen)
@@ -129,11 +174,15 @@ def _things(primitive: object, pen: _Pen) -> Iterator[tuple]:
         height, width = primitive.rgb().shape[:2]
         x, y = 0.5 * (primitive.width or 1.0) * np.array([1.0, height / width])
         corners = np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]])
-        yield from _sheet(primitive.rgb(), corners, primitive.T_world_object, primitive.opacity, pen)
+        yield from _sheet(
+            primitive.rgb(), corners, primitive.T_world_object, opacity=primitive.opacity, pen=pen
+        )
 
 
 def _rgba(primitive: Points | Segments | Mesh, n: int) -> np.ndarray:
-    return np.column_stack([color_rows(primitive.color, n), np.full(n, 255 * primitive.opacity)]).astype(int)
+    return np.column_stack(
+        [color_rows(primitive.color, n), np.full(n, 255 * primitive.opacity)]
+    ).astype(int)
 
 
 def _points(points: Points, pen: _Pen) -> Iterator[tuple]:
@@ -141,22 +190,34 @@ def _points(points: Points, pen: _Pen) -> Iterator[tuple]:
     radius = np.maximum(pen.focal * points.radius / depth, 1.4)
     for (u, v), z, r, color in zip(uv, depth, radius, _rgba(points, len(points.p)), strict=True):
         if np.isfinite(z):
-            yield z, lambda box=(u - r, v - r, u + r, v + r), c=tuple(color): pen.draw.ellipse(box, fill=c)
+            yield (
+                z,
+                lambda box=(u - r, v - r, u + r, v + r), c=tuple(color): pen.draw.ellipse(
+                    box, fill=c
+                ),
+            )
 
 
-def _lines(ends: np.ndarray, T: np.ndarray | None, rgba: np.ndarray, width: float, pen: _Pen) -> Iterator[tuple]:
+def _lines(
+    ends: np.ndarray, T: np.ndarray | None, rgba: np.ndarray, width: float, pen: _Pen
+) -> Iterator[tuple]:
     uv, depth = pen.seen(ends, T)
     for pair, z, color in zip(uv, depth.mean(-1), rgba, strict=True):
         if np.isfinite(z) and np.abs(pair).max() < 20_000:
             place, c = tuple(map(tuple, pair)), tuple(int(value) for value in color)
-            yield z, lambda place=place, c=c: pen.draw.line(place, fill=c, width=round(0.6 * FINER * width))
+            yield (
+                z,
+                lambda place=place, c=c: pen.draw.line(place, fill=c, width=round(THICK * width)),
+            )
 
 
 def _faces(mesh: Mesh, pen: _Pen) -> Iterator[tuple]:
     uv, depth = pen.seen(mesh.p, mesh.T_world_object)
     rgba = _rgba(mesh, len(mesh.p))
     if mesh.wireframe:
-        edges = np.unique(np.sort(mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), 1), axis=0)
+        edges = np.unique(
+            np.sort(mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), 1), axis=0
+        )
         yield from _lines(mesh.p[edges], mesh.T_world_object, rgba[edges[:, 0]], 1.0, pen)
         return
     corners = mesh.p[mesh.faces]
@@ -164,7 +225,9 @@ def _faces(mesh: Mesh, pen: _Pen) -> Iterator[tuple]:
     if mesh.T_world_object is not None:
         normals = normals @ mesh.T_world_object[:3, :3].T
     length = np.linalg.norm(normals, axis=1)
-    light = 0.62 + 0.38 * np.abs(normals @ pen._R.T @ np.array([0.35, -0.6, -0.72])) / np.where(length > 0, length, 1.0)
+    light = 0.62 + 0.38 * np.abs(normals @ pen._R.T @ np.array([0.35, -0.6, -0.72])) / np.where(
+        length > 0, length, 1.0
+    )
     for face, shade in zip(mesh.faces, light, strict=True):
         z = depth[face].mean()
         if np.isfinite(z):
@@ -179,15 +242,19 @@ def _camera(camera: Camera, pen: _Pen) -> Iterator[tuple]:
     corners_uv = np.array([[-0.5, -0.5, 1], [w, -0.5, 1], [w, h, 1], [-0.5, h, 1]])
     corners = camera.depth * corners_uv @ np.linalg.inv(camera.K).T
     if camera.image is not None:
-        image = camera.image if camera.image.ndim == 3 else np.repeat(camera.image[:, :, None], 3, 2)
-        yield from _sheet(image, corners, camera.T_world_object, camera.opacity, pen)
+        image = (
+            camera.image if camera.image.ndim == 3 else np.repeat(camera.image[:, :, None], 3, 2)
+        )
+        yield from _sheet(image, corners, camera.T_world_object, opacity=camera.opacity, pen=pen)
     spokes = np.stack([np.zeros((4, 3)), corners], 1)
     ends = np.concatenate([np.stack([corners, np.roll(corners, -1, 0)], 1), spokes])
     color = np.tile([*PALETTE[camera.color], 255 * camera.opacity], (len(ends), 1))
     yield from _lines(ends, camera.T_world_object, color, 2.0, pen)
 
 
-def _sheet(image: np.ndarray, corners: np.ndarray, T: np.ndarray | None, opacity: float, pen: _Pen) -> Iterator[tuple]:
+def _sheet(
+    image: np.ndarray, corners: np.ndarray, T: np.ndarray | None, *, opacity: float, pen: _Pen
+) -> Iterator[tuple]:
     """Yield an image on a plane in space."""
     uv, depth = pen.seen(corners, T)
     if not np.isfinite(depth).all():
@@ -208,7 +275,10 @@ def _sheet(image: np.ndarray, corners: np.ndarray, T: np.ndarray | None, opacity
 
     def draw() -> None:
         seen = sheet.transform(
-            pen.sheet.size, Image.Transform.PERSPECTIVE, tuple(homography), Image.Resampling.BILINEAR
+            pen.sheet.size,
+            Image.Transform.PERSPECTIVE,
+            tuple(homography),
+            Image.Resampling.BILINEAR,
         )
         pen.sheet.alpha_composite(seen)
 

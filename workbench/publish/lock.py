@@ -13,7 +13,8 @@ LOCK = ".publishing.lock"
 
 @contextmanager
 def only_writer(out: Path) -> Iterator[None]:
-    """Hold a folder for the length of the block. The system lets go of it when the process ends, however it ends.
+    """Hold a folder for the length of the block. The system lets go of it when the process ends,
+    however it ends.
 
     Raises:
         InputError: If another process holds it, or let go of it at this moment.
@@ -21,7 +22,11 @@ def only_writer(out: Path) -> Iterator[None]:
     path = out / LOCK
     file = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
     try:
-        if not _held(file) or not path.exists() or not os.path.samestat(os.fstat(file), path.stat()):
+        if (
+            not _held(file)
+            or not path.exists()
+            or not os.path.samestat(os.fstat(file), path.stat())
+        ):
             raise InputError(f"{out}: another publish is writing here; wait until it is done")
         try:
             yield

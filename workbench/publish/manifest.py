@@ -1,7 +1,9 @@
-"""What of a site is ours: the files that were written, each with the digest of its content, in a file of the site.
+"""What of a site is ours: the files that were written, each with the digest of its content, in a
+file of the site.
 
-That file is input like any other, and one that says anything we could not have written says nothing. It gives the right to
-replace or remove a file only where that lies inside the site and its content is still what was written.
+That file is input like any other, and one that says anything we could not have written says
+nothing. It gives the right to replace or remove a file only where that lies inside the site and its
+content is still what was written.
 """
 
 import hashlib
@@ -14,16 +16,21 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from workbench.atomic import remove_leftovers, write_atomic
+from workbench.chapters import MINUTES, NAMES
 from workbench.errors import InputError
+from workbench.machinery.atomic import remove_leftovers, write_atomic
 
 KEPT = ".published.json"
 FORMATS = (2, 3)  # that are read; the last is written
 LARGEST = 4_000_000
 """Bytes beyond which no file is read as a manifest."""
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,99}")
-"""A name of a lesson or of a run: the name of a folder or a file, and part of an address, on any system."""
-_FILE = re.compile(r"\.nojekyll|[A-Za-z0-9_][A-Za-z0-9._-]{0,199}(/[A-Za-z0-9_][A-Za-z0-9._-]{0,199}){0,3}")
+"""A name of a lesson or of a run: the name of a folder or a file, and part of an address, on any
+system.
+"""
+_FILE = re.compile(
+    r"\.nojekyll|[A-Za-z0-9_][A-Za-z0-9._-]{0,199}(/[A-Za-z0-9_][A-Za-z0-9._-]{0,199}){0,3}"
+)
 
 
 @dataclass(frozen=True)
@@ -34,6 +41,8 @@ class Listed:
     summary: str
     order: float
     needs: tuple[str, ...] = ()
+    chapter: str = ""
+    minutes: int = MINUTES
 
 
 class Manifest:
@@ -41,9 +50,11 @@ class Manifest:
 
     Attributes:
         lessons: By name.
-        runs: `lesson/run` to the digest of all that the published run depends on, `lesson/` to that of its page.
+        runs: `lesson/run` to the digest of all that the published run depends on, `lesson/` to that
+            of its page.
         made_by: What wrote the site.
-        files: Name within the site to the digests of its content, as it was written: two while it is replaced.
+        files: Name within the site to the digests of its content, as it was written: two while it
+            is replaced.
     """
 
     def __init__(self, out: Path):
@@ -62,7 +73,9 @@ class Manifest:
         return (self._out / name).read_bytes()
 
     def check(self, names: Iterable[str], *, force: bool) -> None:
-        """Raise InputError where a file cannot be written, or is somebody else's and may not be replaced."""
+        """Raise InputError where a file cannot be written, or is somebody else's and may not be
+        replaced.
+        """
         for name in names:
             path = self._out / name
             for folder in map(self._out.joinpath, list(Path(name).parents)[:-1]):
@@ -73,10 +86,15 @@ class Manifest:
             if path.is_dir() and not path.is_symlink():
                 raise InputError(f"{path}: is a folder, where a file is needed")
             if not force and os.path.lexists(path) and not self.is_ours(name):
-                raise InputError(f"{path}: was not written by publish, or has been changed since; --force replaces it")
+                raise InputError(
+                    f"{path}: was not written by publish, or has been changed since; --force"
+                    " replaces it"
+                )
 
     def write(self, contents: Mapping[str, bytes]) -> None:
-        """Write files that `check` allowed. Who is stopped in between knows them as ours at the next start."""
+        """Write files that `check` allowed. Who is stopped in between knows them as ours at the
+        next start.
+        """
         new = {name: hashlib.sha256(data).hexdigest() for name, data in contents.items()}
         stale = [name for name, digest in new.items() if self._digest(name) != digest]
         self.files |= {name: [*self.files.get(name, ()), new[name]] for name in stale}
@@ -88,7 +106,9 @@ class Manifest:
         self.files |= {name: [digest] for name, digest in new.items()}
 
     def remove(self, names: Iterable[str]) -> None:
-        """Remove files that are as we wrote them, and folders that this empties; others are somebody else's from now on."""
+        """Remove files that are as we wrote them, and folders that this empties; others are
+        somebody else's from now on.
+        """
         for name in sorted(names):
             if self.is_ours(name):
                 (self._out / name).unlink()
@@ -116,7 +136,9 @@ class Manifest:
                 remove_leftovers(folder)
 
     def _digest(self, name: str) -> str | None:
-        """Return the digest of a file of the site, None where there is none, or where a link leads."""
+        """Return the digest of a file of the site, None where there is none, or where a link
+        leads.
+        """
         path = self._out / name
         plain = path.is_file() and not path.is_symlink() and self._is_inside(path.parent)
         return hashlib.sha256(path.read_bytes()).hexdigest() if plain else None
@@ -126,17 +148,23 @@ class Manifest:
 
 
 def _read(path: Path) -> tuple[str | None, dict[str, Listed], dict[str, str], dict[str, list[str]]]:
-    """Return what a manifest says: who made the site, its lessons, runs and files; any error where it is none."""
+    """Return what a manifest says: who made the site, its lessons, runs and files; any error where
+    it is none.
+    """
     if path.is_symlink() or path.stat().st_size > LARGEST:
         raise ValueError("no manifest")
     said = json.loads(path.read_text(encoding="utf-8"))
     files = {name: _texts(value) for name, value in said["files"].items()}
-    for name, digest in said.get("writing", {}).items():  # format 2 told apart what was being written
+    for name, digest in said.get(
+        "writing", {}
+    ).items():  # format 2 told apart what was being written
         files[name] = _texts([*files.get(name, ()), digest])
     lessons = {name: _listed(**value) for name, value in said["lessons"].items()}
     runs = dict(said["runs"].items())
     _texts(runs.values())
-    if said["format"] not in FORMATS or not all((*map(NAME.fullmatch, lessons), *map(_FILE.fullmatch, files))):
+    if said["format"] not in FORMATS or not all(
+        (*map(NAME.fullmatch, lessons), *map(_FILE.fullmatch, files))
+    ):
         raise ValueError("no manifest")
     return said.get("made_by"), lessons, runs, files
 
@@ -149,8 +177,18 @@ def _texts(value: Any) -> list[str]:
     return texts
 
 
-def _listed(*, title: str, summary: str, order: float, needs: Iterable[str] = ()) -> Listed:
+def _listed(
+    *,
+    title: str,
+    summary: str,
+    order: float,
+    needs: Iterable[str] = (),
+    chapter: str = "",
+    minutes: int = MINUTES,
+) -> Listed:
     _texts([title, summary])
     if not all(map(NAME.fullmatch, needs)) or not abs(order) < 1e9:
         raise ValueError("no lesson")
-    return Listed(title, summary, order, tuple(needs))
+    if chapter not in ("", *NAMES) or not isinstance(minutes, int) or not 0 < minutes < 1e4:
+        raise ValueError("no lesson")
+    return Listed(title, summary, order, tuple(needs), chapter, minutes)

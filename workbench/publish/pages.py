@@ -1,8 +1,11 @@
-"""The HTML of a published site. Whatever comes from a lesson or its params is escaped or typeset here."""
+"""The HTML of a published site. Whatever comes from a lesson or its params is escaped or typeset
+here.
+"""
 
 import base64
 import json
 from collections.abc import Mapping
+from html import escape
 from typing import Any
 
 from workbench.exercise.finding import exercises_of
@@ -13,8 +16,9 @@ from workbench.page.document import in_script, lesson_document
 from workbench.page.exercise import exercises_html
 from workbench.publish.manifest import Listed
 from workbench.publish.runs import PAGE, question_run
-from workbench.questions import answer
-from workbench.timeline import Timelines
+from workbench.run.questions import answer
+from workbench.run.timeline import Timelines
+from workbench.story import story_of
 
 LESSONS = "lessons.js"
 """The file of a site that names all its lessons."""
@@ -29,6 +33,8 @@ def course_page(lessons: Mapping[str, Listed], head: str = "") -> str:
                 title=one.title,
                 summary=one.summary,
                 needs=one.needs,
+                chapter=one.chapter,
+                minutes=one.minutes,
                 address=f"{name}/index.html",
                 picture=f"{name}/picture.webp",
             )
@@ -41,12 +47,16 @@ def course_page(lessons: Mapping[str, Listed], head: str = "") -> str:
 
 def lessons_script(lessons: Mapping[str, Listed]) -> str:
     """Return the script that tells a lesson's page which lessons there are."""
-    course = [{"name": name, "title": one.title, "needs": one.needs} for name, one in lessons.items()]
+    course = [
+        {"name": name, "title": one.title, "needs": one.needs} for name, one in lessons.items()
+    ]
     return f"const COURSE = {in_script(course)};\n"
 
 
 def moment(run: str, step: int | None) -> str:
-    """Return the address, on a lesson's page, of a step of a run; without a name, of the default run."""
+    """Return the address, on a lesson's page, of a step of a run; without a name, of the default
+    run.
+    """
     return f"#run={run or 'default'}" + ("" if step is None else f"&step={step}")
 
 
@@ -67,18 +77,23 @@ def lesson_page(lesson: Lesson, known: Mapping[str, Any], head: str = "") -> str
         head=f'{head}<script src="../{LESSONS}"></script>',
         more={"RECORDED": known},
         still="picture.webp",
+        story=story_of(lesson, "site"),
     )
 
 
 def replies(question: Question) -> list[tuple[float, float, str]] | dict[str, str]:
-    """Return what is said to known wrong answers: by the text of a choice, else as (lowest, highest, words)."""
+    """Return what is said to known wrong answers: by the text of a choice, else as (lowest,
+    highest, words).
+    """
     if question.choices:
         return {text: question.reply(i) for i, text in enumerate(question.choices)}
     return list(question.wrong)
 
 
 def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
-    """Return what is told when a question is answered, by its name: base64, so that nobody reads it by the way."""
+    """Return what is told when a question is answered, by its name: base64, so that nobody reads it
+    by the way.
+    """
     found = {}
     for question in lesson.questions:
         told = answer(lesson, question, None, timelines)
@@ -92,3 +107,16 @@ def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
         }
         found[question.name] = base64.b64encode(json.dumps(kept).encode()).decode()
     return found
+
+
+def leading_on(title: str, address: str) -> str:
+    """Return the page of a run that is in another lesson now: it leads there by itself, or by
+    its link.
+    """
+    place = escape(address)
+    return (
+        '<!doctype html><html lang="en"><head><meta'
+        f' charset="utf-8"><title>{escape(title)}</title><meta http-equiv="refresh" content="0;'
+        f' url={place}"><link rel="icon" href="data:,"></head><body><p>This run is part of <a'
+        f' href="{place}">{escape(title)}</a> now.</p></body></html>\n'
+    )

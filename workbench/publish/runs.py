@@ -4,23 +4,29 @@ import hashlib
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, Question, Sweep, catalog
-from workbench.links import show_command
+from workbench.machinery.workers import WorkerLostError, parallel_map
+from workbench.moved import runs_led_on
+from workbench.page.article import LINK
 from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
 from workbench.publish.sources import sources_digest
 from workbench.recording import file_name, record_bytes
-from workbench.timeline import Timeline
+from workbench.run.links import show_command
+from workbench.run.timeline import Timeline
+from workbench.story import story_of
+from workbench.story.names import run_name
 from workbench.wire.client import client_html
 from workbench.wire.packing import run_text
-from workbench.workers import WorkerLostError, parallel_map
 
+Recordings: TypeAlias = Literal["all", "linked", "none"]
+"""Which runs of a site have a recording."""
 CLIENT = "viser.js"
 """The file of a site with viser's client, which draws the scenes of all runs."""
 PAGE = "page"
@@ -54,11 +60,32 @@ class Run:
         return ".".join(re.sub(r"[^A-Za-z0-9_-]", "_", part) for part in self.name.split(":"))
 
 
-def runs_of(lesson: Lesson) -> tuple[Run, ...]:
-    """Return the runs of a lesson's page: the default, every preset, what its questions need, and its sweeps.
+def runs_of(lesson: Lesson, recordings: Recordings = "linked") -> tuple[Run, ...]:
+    """Return the runs of a lesson's page: the default, every preset, what its questions need, and
+    its sweeps.
 
-    What has equal params is one run.
+    What has equal params is one run. Those of `recordings` have one: all but the sweeps', the
+    default and those that the page's text names, or none.
     """
+    named = _named_in_text(lesson) if recordings == "linked" else set()
+    return tuple(
+        replace(run, recorded=run.recorded and (recordings == "all" or run.name in named))
+        for run in _all_runs(lesson)
+    )
+
+
+def _named_in_text(lesson: Lesson) -> set[str]:
+    """Return the names of the runs that a page's text leads to."""
+    story = story_of(lesson, "site")
+    told = (
+        set()
+        if story is None
+        else {place.run for scene in story.scenes for place, _ in scene.told.places}
+    )
+    return {"default", *(match[1] for match in LINK.finditer(lesson.text())), *told}
+
+
+def _all_runs(lesson: Lesson) -> tuple[Run, ...]:
     runs = [Run("default", "The default run", lesson.summary, lesson.params(), lesson.first_step)]
     for preset in lesson.presets:
         runs.append(
@@ -80,7 +107,9 @@ def runs_of(lesson: Lesson) -> tuple[Run, ...]:
 
 
 def question_run(lesson: Lesson, question: Question) -> str:
-    """Return the name of the run that answers a question: of the default, a preset or an earlier question if the same."""
+    """Return the name of the run that answers a question: of the default, a preset or an earlier
+    question if the same.
+    """
     if question.params == lesson.params():
         return "default"
     preset = lesson.preset_of(question.params)
@@ -91,35 +120,58 @@ def question_run(lesson: Lesson, question: Question) -> str:
 
 def swept(lesson: Lesson, sweep: Sweep) -> list[tuple[str, str, Any]]:
     """Return name, title and params of the run at each value of a sweep."""
-    field = next(field for field in knobs.fields_of(lesson.params) if field.name == sweep.knob)
-    found = []
-    for params in lesson.swept(sweep):
-        said = knobs.text_of(getattr(params, sweep.knob))
-        found.append((f"{sweep.knob}:{said}", f"{field.label} {said} {field.knob.unit}".rstrip(), params))
-    return found
+    field = _field(lesson, sweep)
+    values = [
+        (knobs.text_of(getattr(params, sweep.knob)), params) for params in lesson.swept(sweep)
+    ]
+    return [
+        (_name_at(sweep, value), f"{field.label} {value} {field.knob.unit}".rstrip(), params)
+        for value, params in values
+    ]
+
+
+def _field(lesson: Lesson, sweep: Sweep) -> knobs.Field:
+    return next(field for field in knobs.fields_of(lesson.params) if field.name == sweep.knob)
+
+
+def _name_at(sweep: Sweep, value: str) -> str:
+    """Return the name of a sweep's run at a value: `start_angle:30`, or `flat/start_angle:30` of
+    another run.
+    """
+    return (
+        f"{sweep.knob}:{value}" if sweep.run == "default" else f"{sweep.run}/{sweep.knob}:{value}"
+    )
 
 
 def sweep_data(lesson: Lesson) -> list[dict[str, Any]]:
-    """Return the sweeps of a lesson as knobs of a page that cannot compute: what is shown, and the run at each value.
+    """Return the sweeps of a lesson as knobs of a page that cannot compute: what is shown, and the
+    run at each value.
 
-    The default run is always on the dial, at its own value. `places` tells for every run of the page where the dial stands
-    and what it says: at the nearest value, where the run's own is not on it.
+    The sweep's own run is always on the dial, at its own value. `places` tells for every run of the
+    page where the dial stands and what it says: at the nearest value, where the run's own is not on
+    it.
     """
-    return [_dial(lesson, sweep, runs_of(lesson)) for sweep in lesson.sweeps]
+    runs = runs_of(lesson, "none")
+    return [_dial(lesson, sweep, runs) for sweep in lesson.sweeps]
 
 
 def _dial(lesson: Lesson, sweep: Sweep, runs: Sequence[Run]) -> dict[str, Any]:
-    field = next(field for field in knobs.fields_of(lesson.params) if field.name == sweep.knob)
-    stops = {getattr(params, sweep.knob): params for params in (*lesson.swept(sweep), lesson.params())}
+    field = _field(lesson, sweep)
+    own = lesson.run_params(sweep.run)
+    stops = {getattr(params, sweep.knob): params for params in (*lesson.swept(sweep), own)}
     values = list(stops)
-    if all(isinstance(value, int | float) for value in values) and values[:-1] == sorted(values[:-1]):
+    if all(isinstance(value, int | float) for value in values) and values[:-1] == sorted(
+        values[:-1]
+    ):
         values.sort()
     said = [knobs.text_of(value) for value in values]
     return {
+        "knob": sweep.knob,
+        "run": run_name(lesson, own),
         "label": field.label,
         "unit": field.knob.unit,
         "hint": field.knob.hint,
-        "names": [f"{sweep.knob}:{text}" for text in said],
+        "names": [_name_at(sweep, text) for text in said],
         "values": said,
         "runs": [next(run.name for run in runs if run.params == stops[value]) for value in values],
         "places": {run.name: _place(getattr(run.params, sweep.knob), values) for run in runs},
@@ -127,7 +179,9 @@ def _dial(lesson: Lesson, sweep: Sweep, runs: Sequence[Run]) -> dict[str, Any]:
 
 
 def _place(value: Any, values: Sequence[Any]) -> tuple[int, str]:
-    """Return where a value stands among others, or the nearest to it where they are numbers, and what it is in words."""
+    """Return where a value stands among others, or the nearest to it where they are numbers, and
+    what it is in words.
+    """
     if value in values or not isinstance(value, int | float):
         return values.index(value) if value in values else 0, knobs.text_of(value)
     return min(range(len(values)), key=lambda i: abs(values[i] - value)), knobs.text_of(value)
@@ -136,44 +190,65 @@ def _place(value: Any, values: Sequence[Any]) -> tuple[int, str]:
 def files_of(lesson: Lesson, run: Run) -> tuple[str, ...]:
     """Return where in a site a run's replay, page of its own and recording are."""
     beside, recording = f"{lesson.name}/runs/{run.file}", recording_of(lesson, run)
-    return f"{beside}.js", f"{beside}.html", *([f"{lesson.name}/runs/{recording}"] if recording else [])
+    return (
+        f"{beside}.js",
+        f"{beside}.html",
+        *([f"{lesson.name}/runs/{recording}"] if recording else []),
+    )
 
 
 def swept_files(lessons: Iterable[Lesson]) -> set[str]:
     """Return the run files that a site has for sweeps alone."""
-    return {files_of(lesson, run)[0] for lesson in lessons for run in runs_of(lesson) if not run.recorded}
+    return {
+        files_of(lesson, run)[0]
+        for lesson in lessons
+        for run in runs_of(lesson, "all")
+        if not run.recorded
+    }
 
 
 def recording_of(lesson: Lesson, run: Run) -> str | None:
-    """Return the name of a run's recording, which tells what it is where it is downloaded to; None where there is none."""
+    """Return the name of a run's recording, which tells what it is where it is downloaded to; None
+    where there is none.
+    """
     return file_name(lesson, None if run.name == "default" else run.name) if run.recorded else None
 
 
-def render_all(runs: Sequence[tuple[Lesson, Run]]) -> Iterator[tuple[Lesson, Run, dict[str, bytes]]]:
+def render_all(
+    runs: Sequence[tuple[Lesson, Run]],
+) -> Iterator[tuple[Lesson, Run, dict[str, bytes]]]:
     """Return each run with its files when they are done, in any order.
 
-    Lessons of the catalogue are rendered by one process per core, others, whose code only this process has, here.
+    Lessons of the catalogue are rendered by one process per core, others, whose code only this
+    process has, here.
 
     Raises:
         InputError: If a run fails.
     """
     cores = os.cpu_count() or 1
-    if len(runs) <= ALONE or cores == 1 or any(catalog().get(lesson.name) is not lesson for lesson, _ in runs):
+    if (
+        len(runs) <= ALONE
+        or cores == 1
+        or any(catalog().get(lesson.name) is not lesson for lesson, _ in runs)
+    ):
         for lesson, run in runs:
             yield lesson, run, render(lesson, run)
         return
-    waiting = {(lesson.name, run.name): (lesson, run) for lesson, run in runs}
+    waiting = {(lesson.name, run.name, run.recorded): (lesson, run) for lesson, run in runs}
     try:
         for names, files in parallel_map(_render_named, list(waiting), cores):
             yield *waiting[names], files
     except WorkerLostError:
-        raise InputError("a process that renders runs was ended from outside; publishing again goes on") from None
+        raise InputError(
+            "a process that renders runs was ended from outside; publishing again goes on"
+        ) from None
 
 
-def _render_named(names: tuple[str, str]) -> dict[str, bytes]:
-    lesson_name, run_name = names
+def _render_named(named: tuple[str, str, bool]) -> dict[str, bytes]:
+    lesson_name, name, is_recorded = named
     lesson = catalog()[lesson_name]
-    return render(lesson, next(run for run in runs_of(lesson) if run.name == run_name))
+    found = next(run for run in _all_runs(lesson) if run.name == name)
+    return render(lesson, replace(found, recorded=is_recorded))
 
 
 def render(lesson: Lesson, run: Run) -> dict[str, bytes]:
@@ -215,7 +290,9 @@ def run_data(lesson: Lesson, run: Run, timeline: Timeline) -> dict[str, Any]:
     }
 
 
-def recorded(lesson: Lesson, opened: Run, *, root: str, runs: str, answers: Mapping[str, str]) -> dict[str, Any]:
+def recorded(
+    lesson: Lesson, opened: Run, *, root: str, runs: str, answers: Mapping[str, str]
+) -> dict[str, Any]:
     """Return what a page must know of the runs that it can open.
 
     Args:
@@ -232,9 +309,19 @@ def recorded(lesson: Lesson, opened: Run, *, root: str, runs: str, answers: Mapp
         "open": opened.name,
         "files": {run.name: run.file for run in runs_of(lesson)},
         "titles": {run.name: run.title for run in runs_of(lesson)},
-        "aliases": {name: run for sweep in sweeps for name, run in zip(sweep["names"], sweep["runs"], strict=True)},
+        "aliases": {
+            name: run
+            for sweep in sweeps
+            for name, run in zip(sweep["names"], sweep["runs"], strict=True)
+        },
         "sweeps": sweeps,
-        "note": f"These runs are recorded. All knobs, live: {show_command(lesson, lesson.params())}",
+        "moved": {
+            old: f"{root}{to}/index.html#run={run}"
+            for old, (to, run) in runs_led_on(lesson.name).items()
+        },
+        "note": (
+            f"These runs are recorded. All knobs, live: {show_command(lesson, lesson.params())}"
+        ),
         "answers": dict(answers),
     }
 
@@ -254,20 +341,33 @@ def run_page(lesson: Lesson, run: Run) -> str:
 
 
 def digest_of(lesson: Lesson, run: Run) -> str:
-    """Return what a published run must agree with: itself, its params, and all source and data that it depends on."""
+    """Return what a published run must agree with: itself, its params, and all source and data that
+    it depends on.
+    """
     view = lesson.view_of(run.params)
-    said = f"{lesson.name}\0{lesson.title}\0{view}\0{run}\0{knobs.to_json(run.params)}\0{sources_digest(lesson)}"
+    said = f"{lesson.name}\0{lesson.title}\0{view}\0{run}\0{knobs.to_json(run.params)}\0{sources_digest(lesson)}"  # noqa: E501
     return hashlib.sha256(said.encode()).hexdigest()
 
 
 def page_digest(lesson: Lesson, address: str) -> str:
     """Return what a lesson's page and picture must agree with."""
     questions = [
-        (one.name, one.text, one.choices, one.unit, one.tolerance, one.step, one.wrong, knobs.to_json(one.params))
+        (
+            one.name,
+            one.text,
+            one.choices,
+            one.unit,
+            one.tolerance,
+            one.step,
+            one.wrong,
+            knobs.to_json(one.params),
+        )
         for one in lesson.questions
     ]
-    said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"
+    said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"  # noqa: E501
     found = hashlib.sha256(f"{said}{sources_digest(lesson)}".encode())
-    for file in sorted((*STATIC.iterdir(), *STATIC.parent.glob("*.py"), *Path(__file__).parent.glob("*.py"))):
+    for file in sorted(
+        (*STATIC.iterdir(), *STATIC.parent.glob("*.py"), *Path(__file__).parent.glob("*.py"))
+    ):
         found.update(f"\0{file.name}\0".encode() + file.read_bytes())
     return found.hexdigest()

@@ -1,7 +1,8 @@
-"""What a published run depends on: the source that runs, draws, records and renders it, its lesson's page, and libraries.
+"""What a published run depends on: the source that runs, draws, records and renders it, its
+lesson's page, and libraries.
 
-Found by reading imports, not by importing: a change in one lesson, or in a module that its runs never reach, renders no
-other lesson again.
+Found by reading imports, not by importing: a change in one lesson, or in a module that its runs
+never reach, renders no other lesson again.
 """
 
 import ast
@@ -30,15 +31,28 @@ def sources_digest(lesson: Lesson) -> str:
 
 
 def sources_of(lesson: Lesson) -> list[Path]:
-    """Return the files that a lesson's runs depend on: of its folder, and of all that they and we import."""
-    begin = {part.__module__ for part in (lesson.run, lesson.draw, lesson.params)} & sys.modules.keys()
+    """Return the files that a lesson's runs depend on: of its folder, and of all that they and we
+    import.
+    """
+    begin = {
+        part.__module__ for part in (lesson.run, lesson.draw, lesson.params)
+    } & sys.modules.keys()
     files, waiting = {Path(lesson.page)} if lesson.page else set(), [*begin, OURS]
     for name in begin:
         folder = Path(getattr(sys.modules[name], "__file__", None) or "").parent
         if (folder / "lesson.py").is_file():  # the folder is the lesson, with its page and its data
-            own = [file for file in folder.rglob("*") if file.suffix != ".pyc" and file.name[0] != "."]
-            parts = [file.relative_to(folder).with_suffix("").parts for file in own if file.suffix == ".py"]
-            files, waiting = files.union(own), waiting + [".".join((name.rpartition(".")[0], *one)) for one in parts]
+            own = [
+                file for file in folder.rglob("*") if file.suffix != ".pyc" and file.name[0] != "."
+            ]
+            parts = [
+                file.relative_to(folder).with_suffix("").parts
+                for file in own
+                if file.suffix == ".py"
+            ]
+            files, waiting = (
+                files.union(own),
+                waiting + [".".join((name.rpartition(".")[0], *one)) for one in parts],
+            )
     tops, seen = {"workbench", *(name.partition(".")[0] for name in begin)}, set[str]()
     while waiting:
         name = waiting.pop()
@@ -60,7 +74,9 @@ def _file_of(name: str) -> Path | None:
     if not folders:
         return None
     place = Path(folders[0], *parts)
-    return next((file for file in (place.with_suffix(".py"), place / "__init__.py") if file.is_file()), None)
+    return next(
+        (file for file in (place.with_suffix(".py"), place / "__init__.py") if file.is_file()), None
+    )
 
 
 @functools.lru_cache(1000)

@@ -1,11 +1,12 @@
-"""Recordings (`.rrd`) of runs: written, read back, replayed, compared. The only importer of rerun, and lazily."""
+"""Recordings (`.rrd`) of runs, written, read and compared; rerun's only, lazy importer."""
 
 import os
 from typing import Any
 
 from workbench.lesson import Lesson
 
-os.environ.setdefault("RUST_LOG", "off")  # else rerun writes into the terminal what it thinks of a damaged file
+# else rerun writes into the terminal what it thinks of a damaged file
+os.environ.setdefault("RUST_LOG", "off")
 
 _WHERE = {
     "record": "workbench.recording.write",
@@ -26,5 +27,5 @@ def __getattr__(name: str) -> Any:
 
 
 def file_name(lesson: Lesson, run: str | None) -> str:
-    """Return under which name a recording is downloaded: of a lesson's run by that name, or of another one."""
+    """Return under which name a recording is downloaded: of a lesson's run, or another one."""
     return f"{lesson.name}.rrd" if run is None else f"{lesson.name}-{run}.rrd"

@@ -1,8 +1,8 @@
-"""The same chunks, under the same id, for the same content: rerun gives ids of the moment, and cuts where time does.
+"""The same chunks and id for the same content; rerun gives ids of the moment, and cuts by time.
 
-Rows are put together, one chunk per entity, ordered and numbered by step and then as they were logged. The recording's id is
-made from the content. What is left to chance is the index that rerun writes at a file's end, and the id of its layout:
-two files of one run have the same id, and differ in some bytes.
+Rows are put together, one chunk per entity, ordered and numbered by step and then as they were
+logged. The recording's id is made from the content. What is left to chance is the index that rerun
+writes at a file's end, and the id of its layout.
 """
 
 import tempfile
@@ -20,7 +20,7 @@ _KINDS = {b"control": 0, b"index": 1, b"data": 2}
 
 
 def tidied(data: bytes) -> list[pa.Table]:
-    """Return the content of a file with one recording or one layout: a table per entity, static ones apart."""
+    """Return a file's one recording or layout: a table per entity, static ones apart."""
     with _as_file(data) as file:
         reader = RrdReader(file)
         stores = [*reader.recordings(), *reader.blueprints()]
@@ -38,22 +38,30 @@ def _tidied(chunks: Iterable[Any]) -> Iterator[pa.Table]:
         field = table.schema.field(ROW_ID)
         ids = pa.array([number[row_id, i] for _, row_id in _order(table)], field.type)
         about = {**(table.schema.metadata or {}), b"rerun:id": f"chunk_{i + 1:032X}".encode()}
-        table = table.set_column(table.column_names.index(ROW_ID), field, ids).replace_schema_metadata(about)
+        table = table.set_column(
+            table.column_names.index(ROW_ID), field, ids
+        ).replace_schema_metadata(about)
         yield table.sort_by(ROW_ID).combine_chunks()
 
 
 def _joined(batches: Sequence[pa.RecordBatch]) -> pa.Table:
     """Return the rows of chunks as one table, its columns in the order that rerun wants."""
-    table = pa.concat_tables([pa.Table.from_batches([batch]) for batch in batches], promote_options="default")
+    table = pa.concat_tables(
+        [pa.Table.from_batches([batch]) for batch in batches], promote_options="default"
+    )
     table = table.replace_schema_metadata(batches[0].schema.metadata)
-    return table.select(sorted(table.column_names, key=lambda name: (_KINDS[_kind(table, name)], name)))
+    return table.select(
+        sorted(table.column_names, key=lambda name: (_KINDS[_kind(table, name)], name))
+    )
 
 
 def _order(table: pa.Table) -> list[tuple[int, bytes]]:
-    """Return what orders the rows: the step, then the moment of logging. Rerun takes both columns for sorted."""
+    """Return what orders the rows: step, then moment of logging; Rerun takes both for sorted."""
     ids = table.column(ROW_ID).to_pylist()
     times = [name for name in table.column_names if _kind(table, name) == b"index"]
-    return list(zip(table.column(times[0]).to_pylist() if times else [-1] * len(ids), ids, strict=True))
+    return list(
+        zip(table.column(times[0]).to_pylist() if times else [-1] * len(ids), ids, strict=True)
+    )
 
 
 def _kind(table: pa.Table, name: str) -> bytes:
@@ -71,7 +79,9 @@ def id_of(tables: Sequence[pa.Table]) -> str:
     for table in tables:
         told.update(repr(sorted((table.schema.metadata or {}).items())).encode())
         bare = pa.schema([pa.field(field.name, field.type) for field in table.schema])
-        told.update(repr([sorted((field.metadata or {}).items()) for field in table.schema]).encode())
+        told.update(
+            repr([sorted((field.metadata or {}).items()) for field in table.schema]).encode()
+        )
         told.update(pa.table(table.columns, schema=bare).to_batches()[0].serialize())
         told.update(str(bare).encode())
     return told.hexdigest()[:32]

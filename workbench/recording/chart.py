@@ -1,8 +1,8 @@
 """Charts, colour bars and the legend, drawn with Rerun's lines and words in two dimensions.
 
-Rerun plots numbers over time only, so a `Curve` is drawn here: frame, ticks, curves and marks, on a canvas of
-`WIDTH` x `HEIGHT` with y down. The colours are the palette's; everything else is a grey that can be read on white and
-on black.
+Rerun plots numbers over time only, so a `Curve` is drawn here: frame, ticks, curves and marks, on a
+canvas of `WIDTH` x `HEIGHT` with y down. The colours are the palette's; everything else is a grey
+that can be read on white and on black.
 """
 
 from collections.abc import Mapping, Sequence
@@ -12,9 +12,9 @@ from typing import Any, TypeAlias
 import numpy as np
 import rerun as rr
 
-from workbench.axis import Axis, axis, number, value_axis
 from workbench.recording.glyphs import safe
 from workbench.scene import PALETTE, Curve, Field, color_map
+from workbench.words.axis import Axis, axis, number, value_axis
 
 WIDTH, HEIGHT = 300.0, 186.0
 LEFT, RIGHT, TOP, BOTTOM = 40.0, 290.0, 24.0, 138.0  # the frame of a chart on its canvas
@@ -29,7 +29,7 @@ Legend: TypeAlias = tuple[tuple[str, Rgb], ...]
 
 @dataclass(frozen=True)
 class Canvas:
-    """A view in two dimensions: its title, its size, and the step at which something appears on it."""
+    """A view in two dimensions: title, size, and the step at which something appears on it."""
 
     title: str
     width: float
@@ -53,7 +53,9 @@ class Scale:
 
 def scales(curves: Sequence[Curve]) -> tuple[Scale, Scale]:
     """Return the axes of a chart of all curves that share it."""
-    xs = np.concatenate([*(curve.x for curve in curves), *(np.array(curve.marks) for curve in curves)]).astype(float)
+    xs = np.concatenate(
+        [*(curve.x for curve in curves), *(np.array(curve.marks) for curve in curves)]
+    ).astype(float)
     widths = [_bar_width(curve) / 2 for curve in curves if curve.kind == "bars"]
     half = max(widths, default=0.0)
     up = value_axis([curve.y.astype(float) for curve in curves], from_zero=bool(widths), most=4)
@@ -66,14 +68,23 @@ def chart_frame(x: Scale, y: Scale, x_label: str, names: Sequence[tuple[str, Rgb
     strips += [np.array([[x(tick), BOTTOM], [x(tick), BOTTOM + 4]]) for tick in x.axis.ticks]
     strips += [np.array([[LEFT - 4, y(tick)], [LEFT, y(tick)]]) for tick in y.axis.ticks]
     lines = rr.LineStrips2D(strips, colors=GREY, radii=rr.Radius.ui_points(0.5), draw_order=10.0)
-    places = [(x(tick), BOTTOM + 3) for tick in x.axis.ticks] + [(LEFT - 20, y(tick) - 8) for tick in y.axis.ticks]
+    places = [(x(tick), BOTTOM + 3) for tick in x.axis.ticks] + [
+        (LEFT - 20, y(tick) - 8) for tick in y.axis.ticks
+    ]
     places.append(((LEFT + RIGHT) / 2, BOTTOM + 24))
     words, colors = [*x.axis.words, *y.axis.words, x_label], [GREY] * len(places)
     rooms = np.array([18.0 + 6.6 * len(name) for name, _ in names])
     rooms *= min(1.0, WIDTH / rooms.sum())  # closer together where they would leave the canvas
     ends = min(LEFT, WIDTH - rooms.sum()) + np.cumsum(rooms)
     places += [(end - room / 2, 0.0) for end, room in zip(ends, rooms, strict=True)]
-    return [lines, _text(places, [*words, *(name for name, _ in names)], [*colors, *(color for _, color in names)])]
+    return [
+        lines,
+        _text(
+            places,
+            [*words, *(name for name, _ in names)],
+            [*colors, *(color for _, color in names)],
+        ),
+    ]
 
 
 def chart_curves(x: Scale, y: Scale, curves: Mapping[int, Curve]) -> list[Any]:
@@ -85,7 +96,8 @@ def chart_curves(x: Scale, y: Scale, curves: Mapping[int, Curve]) -> list[Any]:
     for curve in curves.values():
         known = np.isfinite(curve.y)
         at = np.column_stack([x(curve.x), y(np.where(known, curve.y, 0.0))])
-        lonely = known & ~np.r_[False, known[:-1]] & ~np.r_[known[1:], False]  # a line of one point is a dot
+        # a line of one point is a dot
+        lonely = known & ~np.r_[False, known[:-1]] & ~np.r_[known[1:], False]
         if curve.kind == "dots" or (curve.kind == "line" and lonely.any()):
             shown = known if curve.kind == "dots" else lonely
             dots.append(at[shown])
@@ -99,7 +111,9 @@ def chart_curves(x: Scale, y: Scale, curves: Mapping[int, Curve]) -> list[Any]:
             colors.append(PALETTE["highlight"])
     return [
         rr.LineStrips2D(strips, colors=colors, radii=rr.Radius.ui_points(0.9), draw_order=20.0),
-        rr.Points2D(np.concatenate(dots), colors=dot_colors, radii=rr.Radius.ui_points(2.5), draw_order=21.0),
+        rr.Points2D(
+            np.concatenate(dots), colors=dot_colors, radii=rr.Radius.ui_points(2.5), draw_order=21.0
+        ),
     ]
 
 
@@ -115,14 +129,25 @@ def bar_of(field: Field) -> dict[str, Any]:
 
 
 def color_bar(
-    *, low: float, high: float, title: str, colors: Any, at: tuple[float, float], width: float, height: float = 10.0
+    *,
+    low: float,
+    high: float,
+    title: str,
+    colors: Any,
+    at: tuple[float, float],
+    width: float,
+    height: float = 10.0,
 ) -> list[Any]:
-    """Return a colour bar from `at` to the right and down, with its ends, title and unit below it."""
+    """Return a colour bar from `at` to the right and down, with its ends, title and unit."""
     n = 64
     x, y = at
     left, middle = x + np.arange(n) * width / n, np.full(n, y + height / 2)
-    strips = np.stack([np.column_stack([left, middle]), np.column_stack([left + width / n, middle])], 1)
-    bar = rr.LineStrips2D(strips, colors=color_map(colors, np.linspace(0, 1, n)), radii=height / 2, draw_order=20.0)
+    strips = np.stack(
+        [np.column_stack([left, middle]), np.column_stack([left + width / n, middle])], 1
+    )
+    bar = rr.LineStrips2D(
+        strips, colors=color_map(colors, np.linspace(0, 1, n)), radii=height / 2, draw_order=20.0
+    )
     places = [(x + share * width, y + 1.4 * height) for share in (0.0, 0.5, 1.0)]
     return [bar, _text(places, [number(low), title, number(high)], [GREY] * 3)]
 
@@ -140,7 +165,9 @@ def legend_names(entries: Legend) -> list[Any]:
 def legend_bar(i: int, bars: int, entries: Legend, bar: Mapping[str, Any]) -> list[Any]:
     """Return the i-th of so many colour bars, below the names."""
     room = LEGEND_WIDTH / max(bars, 2)
-    return color_bar(**bar, at=(30.0 + i * room, _legend_places(entries)[1] * LEGEND_ROW), width=room - 60.0)
+    return color_bar(
+        **bar, at=(30.0 + i * room, _legend_places(entries)[1] * LEGEND_ROW), width=room - 60.0
+    )
 
 
 def legend_height(entries: Legend, bars: int) -> float:
@@ -167,12 +194,19 @@ def _bar_width(curve: Curve) -> float:
 
 
 def _bars(curve: Curve, x: Scale, y: Scale) -> list[np.ndarray]:
-    """Return outlines of bars, hatched by one line down their middle, so that they read as solid."""
+    """Return outlines of bars, hatched by one line down their middle to read as solid."""
     half, pieces = 0.45 * _bar_width(curve), []
     for at, value in zip(curve.x, curve.y, strict=True):
         if np.isfinite(value):
-            left, right, top, foot = x(at - half), x(at + half), y(value), y(max(min(0.0, y.axis.high), y.axis.low))
-            pieces.append(np.array([[left, foot], [left, top], [right, top], [right, foot], [left, foot]]))
+            left, right, top, foot = (
+                x(at - half),
+                x(at + half),
+                y(value),
+                y(max(min(0.0, y.axis.high), y.axis.low)),
+            )
+            pieces.append(
+                np.array([[left, foot], [left, top], [right, top], [right, foot], [left, foot]])
+            )
     return pieces
 
 
@@ -185,6 +219,10 @@ def _pieces(at: np.ndarray, known: np.ndarray) -> list[np.ndarray]:
 
 def _text(places: Any, words: Sequence[str], colors: Sequence[Rgb]) -> Any:
     """Return words, each centred below its place."""
-    shown = [(place, safe(word), color) for place, word, color in zip(places, words, colors, strict=True) if word]
+    shown = [
+        (place, safe(word), color)
+        for place, word, color in zip(places, words, colors, strict=True)
+        if word
+    ]
     at, labels, paints = zip(*shown, strict=True)
     return rr.Points2D(at, labels=labels, colors=paints, radii=0.01, show_labels=True)

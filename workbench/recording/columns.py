@@ -1,6 +1,6 @@
-"""What has one value per step, scalars and captions, sent as whole columns: one message instead of one per step.
+"""Scalars and captions, one value per step, sent as whole columns: one message for all.
 
-They go first into a file. A viewer then knows all steps at once, and opens at the first of them.
+They go first into a file. A viewer then knows all steps at once, and opens at the first.
 """
 
 from collections.abc import Sequence
@@ -12,8 +12,8 @@ import rerun as rr
 from workbench.recording.glyphs import safe
 from workbench.recording.layout import plotted
 from workbench.recording.sink import entity_of, markdown
+from workbench.run.timeline import Series, plotted_values
 from workbench.scene import PALETTE, Caption, Scalar
-from workbench.timeline import Series, plotted_values
 
 TONES = {"info": "", "good": "✓ ", "wrong": "✗ "}
 
@@ -23,21 +23,24 @@ def send_captions(stream: Any, captions: Sequence[Caption]) -> None:
     shown = [f"### {TONES[caption.tone]}{markdown(caption.text)}" for caption in captions]
     kinds = [rr.MediaType.MARKDOWN] * len(captions)
     texts, tones = [caption.text for caption in captions], [caption.tone for caption in captions]
-    stream.send_columns("/caption", [_steps(len(captions))], rr.TextDocument.columns(text=shown, media_type=kinds))
-    stream.send_columns("/caption", [_steps(len(captions))], rr.AnyValues.columns(caption=texts, tone=tones))
+    stream.send_columns(
+        "/caption", [_steps(len(captions))], rr.TextDocument.columns(text=shown, media_type=kinds)
+    )
+    stream.send_columns(
+        "/caption", [_steps(len(captions))], rr.AnyValues.columns(caption=texts, tone=tones)
+    )
 
 
 def facts(**values: Any) -> rr.AnyValues:
     """Return named values for a recording; empty text is left out.
 
-    Rerun would leave it out too, but only until it has met the name with text: two recordings would differ by what was
-    recorded before them.
+    Rerun leaves it out only until it has met the name with text: recordings would differ by it.
     """
     return rr.AnyValues(**{name: value for name, value in values.items() if value != ""})
 
 
-def send_series(stream: Any, path: str, series: Series, order: int) -> None:
-    """Send one scalar over all steps, how it is drawn, and its logarithm where that is what is drawn."""
+def send_series(stream: Any, path: str, series: Series, *, order: int) -> None:
+    """Send one scalar over all steps, how it is drawn, and its logarithm if that is drawn."""
     scalar, values = series.scalar, series.values.astype(float)
     entity, shown = entity_of("scalars", path), plotted(path, scalar)
     stream.send_columns(entity, [_steps(len(values))], rr.Scalars.columns(scalars=values))
@@ -51,14 +54,18 @@ def send_series(stream: Any, path: str, series: Series, order: int) -> None:
     )
     stream.log(entity, about, static=True)
     if scalar.log:
-        stream.send_columns(shown, [_steps(len(values))], rr.Scalars.columns(scalars=plotted_values(scalar, values)))
+        stream.send_columns(
+            shown, [_steps(len(values))], rr.Scalars.columns(scalars=plotted_values(scalar, values))
+        )
     stream.log(shown, curve_style(scalar, scalar.name), static=True)
 
 
 def curve_style(scalar: Scalar, name: str, *, second: bool = False) -> Any:
     """Return how a curve is drawn; that of a second run is thinner and darker."""
     color = np.array(PALETTE[scalar.color]) * (0.6 if second else 1.0)
-    return rr.SeriesLines(colors=[color.astype(np.uint8)], names=safe(name), widths=1.2 if second else 2.2)
+    return rr.SeriesLines(
+        colors=[color.astype(np.uint8)], names=safe(name), widths=1.2 if second else 2.2
+    )
 
 
 def _steps(n: int) -> Any:

@@ -1,4 +1,4 @@
-"""Two recordings of one lesson as one: scenes side by side, curves in the same plots, on one step timeline."""
+"""Two recordings of one lesson as one: scenes beside each other, curves in the same plots."""
 
 import tempfile
 from collections import Counter
@@ -31,15 +31,25 @@ def compare_files(a: Path, b: Path, *, native: bool, host: str, port: int, brows
     with tempfile.TemporaryDirectory(prefix="workbench-compare-") as folder:
         file = Path(folder) / "compare.rrd"
         file.write_bytes(compare_bytes(a, b))
-        play({file.name: file}, f"{a.name} · {b.name}", native=native, host=host, port=port, browser=browser)
+        play(
+            {file.name: file},
+            f"{a.name} · {b.name}",
+            native=native,
+            host=host,
+            port=port,
+            browser=browser,
+        )
 
 
 def compare_bytes(a: Path, b: Path) -> bytes:
-    """Return a recording that holds two recordings of one lesson, below the entities `/a` and `/b`."""
+    """Return a recording that holds two of one lesson, below `/a` and `/b`."""
     runs = dict(zip(ROOTS, (open_recording(a), open_recording(b)), strict=True))
     one, two = runs.values()
     if one.lesson != two.lesson:
-        raise InputError(f"{a} is a run of {one.lesson}, {b} of {two.lesson}: two runs of one lesson can be compared")
+        raise InputError(
+            f"{a} is a run of {one.lesson}, {b} of {two.lesson}: two runs of one lesson can be"
+            " compared"
+        )
     application = application_id(f"compare {one.lesson}")
     (contents_a, view), (contents_b, _) = (_beside(run) for run in runs.values())
     differences = differences_of(one, two)
@@ -48,20 +58,27 @@ def compare_bytes(a: Path, b: Path) -> bytes:
         stream.send_recording_name(safe(f"{a.name} and {b.name}"))
         stream.log("/differences", document(_table(differences)), static=True)
         for root, run in runs.items():
-            stream.send_chunks([moved for chunk in read_chunks(run.path) if (moved := _below(root, chunk)) is not None])
+            stream.send_chunks(
+                [
+                    moved
+                    for chunk in read_chunks(run.path)
+                    if (moved := _below(root, chunk)) is not None
+                ]
+            )
         charts = Counter(scalar.chart for scalar in {**one.curves, **two.curves}.values())
         for root, run in runs.items():
             for path, scalar in run.curves.items():
-                letter = root[
-                    1:
-                ].upper()  # alone in its plot a curve needs no other name: a long one hides what it names
+                # alone in its plot a curve needs no other name: a long one hides what it names
+                letter = root[1:].upper()
                 name = letter if charts[scalar.chart] == 1 else f"{scalar.name} · {letter}"
                 style = curve_style(scalar, name, second=root == ROOTS[1])
                 stream.log(root + plotted(path, scalar), style, static=True)
 
     values = {root: run.scalars for root, run in runs.items()}
     names = {root: " · ".join((root[1:].upper(), run.path.name)) for root, run in runs.items()}
-    return stream_bytes(application, fill, two_runs(view, both(contents_a, contents_b), values, names))
+    return stream_bytes(
+        application, fill, two_runs(view, both(contents_a, contents_b), values, names=names)
+    )
 
 
 def _beside(run: Recording) -> tuple[Contents, View]:
@@ -72,7 +89,7 @@ def _beside(run: Recording) -> tuple[Contents, View]:
 
 
 def differences_of(a: Recording, b: Recording) -> list[tuple[str, str, str]]:
-    """Return what differs between two runs: parameters, length and how they ended, as name, of a, of b."""
+    """Return what differs between two runs, as name, of a, of b."""
     rows = [
         (name, _text(a.params.get(name)), _text(b.params.get(name)))
         for name in {**a.params, **b.params}

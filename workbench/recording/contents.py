@@ -1,4 +1,4 @@
-"""What a run shows beside its scene: enough to lay out the views before anything is drawn, and kept in the recording."""
+"""What a run shows beside its scene: enough to lay out the views before anything is drawn."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -51,9 +51,11 @@ def contents_of(scenes: Sequence[Scene]) -> Contents:
 
 
 def to_json(contents: Contents, view: View) -> str:
-    """Return everything but the scalars, which stand in a recording themselves, and how the scene is first seen."""
+    """Return everything but the scalars, and how the scene is first seen."""
     canvases = {entity: asdict(canvas) for entity, canvas in contents.canvases.items()}
-    return json.dumps({"canvases": canvases, "legend_height": contents.legend_height, "view": asdict(view)})
+    return json.dumps(
+        {"canvases": canvases, "legend_height": contents.legend_height, "view": asdict(view)}
+    )
 
 
 def from_json(text: str, curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
@@ -68,7 +70,8 @@ def from_json(text: str, curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
         found = Contents(legend_height=float(plain["legend_height"]))
         found.canvases = {entity: _canvas(**canvas) for entity, canvas in canvases.items()}
         looks: dict[str, Any] = {
-            name: tuple(map(float, one)) if isinstance(one, list) else one for name, one in plain["view"].items()
+            name: tuple(map(float, one)) if isinstance(one, list) else one
+            for name, one in plain["view"].items()
         }
         view = View(**looks)
     except Exception:  # text out of a file may be anything
@@ -87,30 +90,40 @@ def _canvases_of_format_1(plain: Mapping[str, Any]) -> dict[str, Any]:
     )
 
 
-def _canvas(title: str, width: float, height: float, first: int) -> Canvas:
+def _canvas(title: str, width: float, height: float, *, first: int) -> Canvas:
     return Canvas(str(title), float(width), float(height), int(first))
 
 
 def both(a: Contents, b: Contents) -> Contents:
     """Return what either of two runs shows."""
-    scalars = {chart: a.scalars.get(chart, {}) | b.scalars.get(chart, {}) for chart in {**a.scalars, **b.scalars}}
+    scalars = {
+        chart: a.scalars.get(chart, {}) | b.scalars.get(chart, {})
+        for chart in {**a.scalars, **b.scalars}
+    }
     return Contents(scalars, b.canvases | a.canvases, max(a.legend_height, b.legend_height))
 
 
 def _chart_title(curve: Curve) -> str:
-    return curve.chart if not curve.y_label or curve.y_label in curve.chart else f"{curve.chart} · {curve.y_label}"
+    return (
+        curve.chart
+        if not curve.y_label or curve.y_label in curve.chart
+        else f"{curve.chart} · {curve.y_label}"
+    )
 
 
 def _common(title: str, other: str, path: str) -> str:
-    """Return one title for both: their common beginning where they differ, or the path where they have none."""
+    """Return one title for both: their common beginning, or the path where they have none."""
     if title == other:
         return title
-    pairs = takewhile(lambda pair: pair[0] == pair[1], zip(title.removesuffix(" …"), other, strict=False))
+    pairs = takewhile(
+        lambda pair: pair[0] == pair[1], zip(title.removesuffix(" …"), other, strict=False)
+    )
     start = "".join(letter for letter, _ in pairs).rstrip()
     return f"{start} …" if len(start) > 3 else path
 
 
 def _picture_canvas(path: str, picture: Picture, first: int) -> Canvas:
     h, w = (picture.image.values if isinstance(picture.image, Field) else picture.image).shape[:2]
-    height = h + 0.17 * w if isinstance(picture.image, Field) else float(h)  # a colour bar takes its room below
+    # a colour bar takes its room below
+    height = h + 0.17 * w if isinstance(picture.image, Field) else float(h)
     return Canvas(picture.title or path, float(w), height, first)

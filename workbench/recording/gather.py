@@ -1,8 +1,8 @@
-"""Clouds whose points come and go: all points of a run are said once, and per step which of them are there.
+"""Clouds whose points come and go: all points of a run are said once, per step which are there.
 
-A cloud that gains and loses points from step to step would be said again and again, 16 bytes a point. The union of all
-steps, in the order in which its points come and go, takes no more than a few times one step; which are there is a size
-per point, zero or not, that compresses to almost nothing.
+A cloud that gains and loses points would be said again and again, 16 bytes a point. The union of
+all steps, in the order in which its points come and go, takes no more than a few times one step;
+which are there is a size per point, zero or not, that compresses to almost nothing.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -17,8 +17,9 @@ from workbench.scene import Points, Scene
 WORTH = 0.5
 """A union is taken where it has at most this share of all points that would be said."""
 MOST, MOST_SAID = 24_000, 1_200_000
-"""A union of more points, or of which more would be said in all steps together, is thinned at random, and each point drawn
-larger: a recording has to stay small."""
+"""A union of more points, or of which more would be said in all steps together, is thinned at
+random, and each point drawn larger: a recording has to stay small.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +60,8 @@ def _union(clouds: Sequence[Points]) -> Union | None:
         mixed = (mixed ^ column) * np.uint64(0x9E3779B97F4A7C15)
         mixed ^= mixed >> np.uint64(29)
     keys, first, number = np.unique(mixed, return_index=True, return_inverse=True)
-    if len(first) > WORTH * len(rows) or not np.array_equal(rows[first][number], rows):  # two points, one key
+    # two points, one key
+    if len(first) > WORTH * len(rows) or not np.array_equal(rows[first][number], rows):
         return None
     last = np.zeros(len(first), int)
     last[number] = cloud_of  # the last one counts
@@ -74,6 +76,9 @@ def _union(clouds: Sequence[Points]) -> Union | None:
 def gathered(cloud: Points, union: Union) -> Iterator[Aspect]:
     """Return the aspects of a cloud that is part of a union."""
     radii = np.where(union.shown[id(cloud)], cloud.radius * union.swell, 0.0).astype(np.float32)
-    yield Aspect(rr.Points3D.from_fields, {"positions": union.p, "colors": union.colors, "show_labels": False})
+    yield Aspect(
+        rr.Points3D.from_fields,
+        {"positions": union.p, "colors": union.colors, "show_labels": False},
+    )
     yield Aspect(rr.Points3D.from_fields, {"radii": radii})
     yield pose(affine(cloud).T_world_object)

@@ -1,4 +1,4 @@
-"""Words that Rerun's fonts can draw: its viewer stops, or shows boxes, at glyphs it does not have."""
+"""Words that Rerun's fonts can draw: its viewer stops, or shows boxes, at other glyphs."""
 
 import unicodedata
 
@@ -7,13 +7,54 @@ _SAFE = frozenset(
     "\n–—‘’“”„•…′″‰€™←↑→↓↔⇒⇔−≤≥≠≈≡≪≫∞√∂∆∑∏∫‖■□▲△▶▷▼▽◀◆◇○●✓✗⁰ⁱ⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ⁿ₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₒₓₕₖₗₘₙₚₛₜᵢⱼᵣᵤᵥ"
 ) | {chr(code) for low, high in _RANGES for code in range(low, high + 1)}
 _INSTEAD = {
-    "∈": " in ", "∉": " not in ", "∇": "grad ", "⟨": "<", "⟩": ">", "⊤": "^T", "ᵀ": "^T", "∥": "‖", "∘": "·", "⋅": "·",
-    "∗": "*", "⟶": "→", "⟵": "←", "↦": "→", "⟂": " perpendicular to ", "⊥": " perpendicular to ", "∝": " proportional to ",
-    "⋯": "…", "⌊": "floor(", "⌋": ")", "⌈": "ceil(", "⌉": ")", "ℓ": "l", "∣": "|", "∧": " and ", "∨": " or ", "∪": " or ",
-    "∩": " and ", "∖": " without ", "⊂": " in ", "⊆": " in ", "∅": "{}", "∀": "for all ", "∃": "there is ", "≅": "≈",
-    "∼": "~", "≃": "≈", "⊗": "×", "⊙": "·", "∓": "-/+", "∠": "angle ", "∬": "∫∫", "\t": "    ", "\u2009": " ", "\u202f": " ",
-    "\u00a0": " ", "\u200b": "",
-}  # fmt: skip
+    "∈": " in ",
+    "∉": " not in ",
+    "∇": "grad ",
+    "⟨": "<",
+    "⟩": ">",
+    "⊤": "^T",
+    "ᵀ": "^T",
+    "∥": "‖",
+    "∘": "·",
+    "⋅": "·",
+    "∗": "*",
+    "⟶": "→",
+    "⟵": "←",
+    "↦": "→",
+    "⟂": " perpendicular to ",
+    "⊥": " perpendicular to ",
+    "∝": " proportional to ",
+    "⋯": "…",
+    "⌊": "floor(",
+    "⌋": ")",
+    "⌈": "ceil(",
+    "⌉": ")",
+    "ℓ": "l",
+    "∣": "|",
+    "∧": " and ",
+    "∨": " or ",
+    "∪": " or ",
+    "∩": " and ",
+    "∖": " without ",
+    "⊂": " in ",
+    "⊆": " in ",
+    "∅": "{}",
+    "∀": "for all ",
+    "∃": "there is ",
+    "≅": "≈",
+    "∼": "~",
+    "≃": "≈",
+    "⊗": "×",
+    "⊙": "·",
+    "∓": "-/+",
+    "∠": "angle ",
+    "∬": "∫∫",
+    "\t": "    ",
+    "\u2009": " ",
+    "\u202f": " ",
+    "\u00a0": " ",
+    "\u200b": "",
+}
 
 
 def safe(text: str) -> str:
@@ -26,7 +67,9 @@ def _glyph(char: str) -> str:
         return char
     if char in _INSTEAD:
         return _INSTEAD[char]
-    plain = "".join(part for part in unicodedata.normalize("NFKD", char) if not unicodedata.combining(part))
+    plain = "".join(
+        part for part in unicodedata.normalize("NFKD", char) if not unicodedata.combining(part)
+    )
     if plain != char and plain and all(part in _SAFE for part in plain):
         return plain
     return "" if unicodedata.combining(char) or unicodedata.category(char).startswith("C") else "?"

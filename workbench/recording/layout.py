@@ -1,4 +1,4 @@
-"""The layout a recording opens with: the scene with its legend and caption left, curves, charts and pictures right."""
+"""The layout a recording opens with: scene, legend and caption left, the rest right."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -8,19 +8,21 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from workbench.axis import value_axis
 from workbench.lesson import View
 from workbench.recording.chart import LEGEND_WIDTH, Canvas
 from workbench.recording.contents import Contents
 from workbench.recording.glyphs import safe
 from workbench.recording.sink import TABLES, entity_of
+from workbench.run.timeline import plotted_values
 from workbench.scene import Scalar
-from workbench.timeline import plotted_values
+from workbench.words.axis import value_axis
 
 RERUN_FOV = 55.0  # degrees, of the viewer's eye, from top to bottom
 LEAST_TILT = np.radians(1.0)
-"""Angle to the up direction below which the viewer takes no eye: it decides by itself from 0.81 degrees on (cos 0.9999), and
-puts -y up in the picture of a scene seen from above; the first drag takes an eye to 0.9 degrees."""
+"""Angle to the up direction below which the viewer takes no eye: it decides by itself from 0.81
+degrees on (cos 0.9999), and puts -y up in the picture of a scene seen from above; the first drag
+takes an eye to 0.9 degrees.
+"""
 LATE = 0.5
 """Share of a run after which what appears for the first time stands behind a tab."""
 MOST_ROWS = 5.2
@@ -43,22 +45,33 @@ def one_run(view: View, contents: Contents, values: Values) -> Any:
         shares.append(legend_share(contents))
     left.append(caption_view(""))
     shares.append(CAPTION)
-    right = _column(_beside(contents, {"": values}), late=_beside(contents, {"": values}, late=True))
+    right = _column(
+        _beside(contents, {"": values}), late=_beside(contents, {"": values}, late=True)
+    )
     whole = rrb.Vertical(*left, row_shares=shares)
-    return finished(rrb.Horizontal(whole, right, column_shares=[3, 2]) if right is not None else whole)
+    return finished(
+        rrb.Horizontal(whole, right, column_shares=[3, 2]) if right is not None else whole
+    )
 
 
-def two_runs(view: View, contents: Contents, runs: Mapping[str, Values], names: Mapping[str, str]) -> Any:
-    """Return the layout of two runs, given by their root entities: scenes side by side, curves in the same plots."""
+def two_runs(
+    view: View, contents: Contents, runs: Mapping[str, Values], *, names: Mapping[str, str]
+) -> Any:
+    """Return the layout of two runs by root entities: scenes side by side, curves in one plot."""
     scenes = [
-        rrb.Vertical(scene_view(root, view, names[root]), caption_view(root), row_shares=[4, 1.9]) for root in runs
+        rrb.Vertical(scene_view(root, view, names[root]), caption_view(root), row_shares=[4, 1.9])
+        for root in runs
     ]
     below: list[Any] = [rrb.TextDocumentView(origin="/differences", name="What differs")]
     if contents.legend_height:
         below.append(legend_view(next(iter(runs)), contents))
-    left = rrb.Vertical(rrb.Horizontal(*scenes), rrb.Tabs(*below, active_tab=0), row_shares=[4.7, 2.6])
+    left = rrb.Vertical(
+        rrb.Horizontal(*scenes), rrb.Tabs(*below, active_tab=0), row_shares=[4.7, 2.6]
+    )
     right = _column(_beside(contents, runs), late=_beside(contents, runs, late=True))
-    return finished(rrb.Horizontal(left, right, column_shares=[3, 2]) if right is not None else left)
+    return finished(
+        rrb.Horizontal(left, right, column_shares=[3, 2]) if right is not None else left
+    )
 
 
 def scene_view(root: str, view: View, name: str) -> Any:
@@ -68,11 +81,19 @@ def scene_view(root: str, view: View, name: str) -> Any:
     if view.grid is not None:
         plane = rr.components.Plane3D(normal=(x, y, z), distance=view.grid_height)
         color = [150, 155, 160, 110]
-        grid = rrb.LineGrid3D(visible=True, spacing=view.grid, plane=plane, stroke_width=1.0, color=color)
-    eye = rrb.EyeControls3D(kind=rrb.Eye3DKind.Orbital, position=_eye(view), look_target=view.target, eye_up=view.up)
+        grid = rrb.LineGrid3D(
+            visible=True, spacing=view.grid, plane=plane, stroke_width=1.0, color=color
+        )
+    eye = rrb.EyeControls3D(
+        kind=rrb.Eye3DKind.Orbital, position=_eye(view), look_target=view.target, eye_up=view.up
+    )
     axes = rrb.SpatialInformation(target_frame="tf#/", show_axes=view.axes)
     return rrb.Spatial3DView(
-        origin=f"{root}/world", name=safe(name), line_grid=grid, eye_controls=eye, spatial_information=axes
+        origin=f"{root}/world",
+        name=safe(name),
+        line_grid=grid,
+        eye_controls=eye,
+        spatial_information=axes,
     )
 
 
@@ -110,7 +131,9 @@ def finished(content: Any) -> Any:
         rrb.TopPanel(state="hidden"),
         rrb.BlueprintPanel(state="hidden"),
         rrb.SelectionPanel(state="hidden"),
-        rrb.TimePanel(state="collapsed", timeline="step", play_state="paused", loop_mode="all", fps=2.0),
+        rrb.TimePanel(
+            state="collapsed", timeline="step", play_state="paused", loop_mode="all", fps=2.0
+        ),
         auto_layout=False,
         auto_views=False,
     )
@@ -124,18 +147,29 @@ def _parts(part: Any) -> Iterator[Any]:
             yield from _parts(inside)
 
 
-def _beside(contents: Contents, runs: Mapping[str, Values], *, late: bool = False) -> list[tuple[Any, float]]:
+def _beside(
+    contents: Contents, runs: Mapping[str, Values], *, late: bool = False
+) -> list[tuple[Any, float]]:
     """Return rows of pictures, curves, charts and tables, each with its share of the height.
 
-    What appears only in a run's second half is late, and left out or all there is: until then it would be empty room.
+    What appears only in a run's second half is late, and left out or all there is: until then it
+    would be empty room.
     """
     steps = max((len(values) for run in runs.values() for values in run.values()), default=0)
-    plots = [] if late else [_curve_view(chart, scalars, runs) for chart, scalars in contents.scalars.items()]
+    plots = (
+        []
+        if late
+        else [_curve_view(chart, scalars, runs) for chart, scalars in contents.scalars.items()]
+    )
     views: dict[str, list[Any]] = {"pictures": [], "charts": [], "tables": []}
     for entity, canvas in contents.canvases.items():
         if (canvas.first > LATE * steps) == late:
-            views[entity.split("/")[1]] += [_canvas_view(root + entity, canvas, root) for root in runs]
-    beside_each_other = len(runs) > 1 or all(len(str(view.name)) <= HALF_TITLE for view in views["charts"])
+            views[entity.split("/")[1]] += [
+                _canvas_view(root + entity, canvas, root) for root in runs
+            ]
+    beside_each_other = len(runs) > 1 or all(
+        len(str(view.name)) <= HALF_TITLE for view in views["charts"]
+    )
     return [
         *_rows(views["pictures"], 1.4, 2),
         *_rows(plots, 1.0, 1 if len(plots) < 3 else 2),
@@ -150,7 +184,7 @@ def _rows(views: Sequence[Any], share: float, at_once: int) -> list[tuple[Any, f
 
 
 def _column(rows: Sequence[tuple[Any, float]], late: Sequence[tuple[Any, float]]) -> Any:
-    """Return rows below each other, those that do not fit or are late behind further tabs; None where there is no row."""
+    """Return rows below each other, those too many or late behind tabs; None without a row."""
     stacks: list[list[tuple[Any, float]]] = []
     for row in rows:
         if not stacks or sum(share for _, share in stacks[-1]) + row[1] > MOST_ROWS:
@@ -183,24 +217,41 @@ def _curve_view(chart: str, scalars: Mapping[str, Scalar], runs: Mapping[str, Va
     steps = max(map(len, curves))
     x = np.concatenate([np.arange(len(curve)) for curve in curves])
     y = np.concatenate(curves)
-    x, y = (x[np.isfinite(y)], y[np.isfinite(y)]) if np.isfinite(y).any() else (np.zeros(1), np.zeros(1))
+    x, y = (
+        (x[np.isfinite(y)], y[np.isfinite(y)])
+        if np.isfinite(y).any()
+        else (np.zeros(1), np.zeros(1))
+    )
     up = value_axis([y])
-    low, high = up.low - 0.1 * (up.high - up.low), up.high  # else the lowest number and the first step overprint
+    # else the lowest number and the first step overprint
+    low, high = (
+        up.low - 0.1 * (up.high - up.low),
+        up.high,
+    )
     beyond = 1 + steps // 40  # so that the cursor can be seen at the last step too
-    end, infinite = rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond), rrb.TimeRangeBoundary.infinite()
+    end, infinite = (
+        rrb.TimeRangeBoundary.absolute(seq=steps - 1 + beyond),
+        rrb.TimeRangeBoundary.infinite(),
+    )
     return rrb.TimeSeriesView(
         origin="/",
-        contents=[root + plotted(path, scalar) for root in runs for path, scalar in scalars.items()],
+        contents=[
+            root + plotted(path, scalar) for root in runs for path, scalar in scalars.items()
+        ],
         name=safe(f"{chart} ({unit})" if unit else chart),
-        axis_x=rrb.TimeAxis(view_range=rr.TimeRange(start=rrb.TimeRangeBoundary.absolute(seq=0), end=end)),
+        axis_x=rrb.TimeAxis(
+            view_range=rr.TimeRange(start=rrb.TimeRangeBoundary.absolute(seq=0), end=end)
+        ),
         axis_y=rrb.ScalarAxis(range=(low, high)),
         time_ranges=[rrb.VisibleTimeRange("step", start=infinite, end=infinite)],
-        plot_legend=rrb.PlotLegend(visible=True, corner=_emptiest(x / max(steps - 1, 1), (y - low) / (high - low))),
+        plot_legend=rrb.PlotLegend(
+            visible=True, corner=_emptiest(x / max(steps - 1, 1), (y - low) / (high - low))
+        ),
     )
 
 
 def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
-    """Return the corner of a plot, 0 to 1 both ways, in which the fewest values lie: the legend shall cover none."""
+    """Return the corner of a plot, 0 to 1 both ways, in which the fewest values lie."""
     corners = {
         rrb.Corner2D.RightTop: (x > 0.5) & (y > 0.6),
         rrb.Corner2D.LeftTop: (x < 0.5) & (y > 0.6),
@@ -211,10 +262,7 @@ def _emptiest(x: np.ndarray, y: np.ndarray) -> Any:
 
 
 def _eye(view: View) -> np.ndarray:
-    """Return the eye as near as Rerun's own field of view needs it to show as much as the lesson's does.
-
-    Where it looks along up it is moved further aside, the same way as the lesson's.
-    """
+    """Return the eye as near as Rerun's own field of view needs it; never right along up."""
     target, up = np.array(view.target), np.array(view.up) / np.linalg.norm(view.up)
     share = np.tan(np.radians(view.fov_degrees) / 2) / np.tan(np.radians(RERUN_FOV) / 2)
     away = (view.seen_from() - target) * share
@@ -229,6 +277,7 @@ def _canvas_view(entity: str, canvas: Canvas, root: str = "") -> Any:
     if entity == root + TABLES:
         return rrb.TextDocumentView(origin=entity, name=name)
     bounds = rrb.VisualBounds2D(
-        x_range=[-0.01 * canvas.width, 1.01 * canvas.width], y_range=[-0.01 * canvas.height, canvas.height]
+        x_range=[-0.01 * canvas.width, 1.01 * canvas.width],
+        y_range=[-0.01 * canvas.height, canvas.height],
     )
     return rrb.Spatial2DView(origin=entity, name=name, visual_bounds=bounds)

@@ -1,4 +1,4 @@
-"""A lesson's page for a reader without maths: Rerun shows Markdown, so the MathML of formulas becomes plain signs."""
+"""A lesson's page for a reader without maths: formulas in plain signs, for Rerun."""
 
 import re
 from collections.abc import Iterable
@@ -6,20 +6,24 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from workbench.recording.glyphs import safe
-from workbench.typeset import math_html
+from workbench.words.typeset import math_html
 
 THIN = "\u2009"
 """A space that an author set; others stand about operators, but not in scripts."""
 _SPACED = frozenset("=+−-<>≤≥≈≠≡≪≫×·∣→←↔⇒")
 _ABOVE = {"¯": "mean ", "^": "^", "~": "~", "→": "", "˙": "d/dt "}
 _RAISED = dict(zip("0123456789+-−in", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁻ⁱⁿ", strict=True))
-_LOWERED = dict(zip("0123456789+-−aeoxhklmnpstijruv", "₀₁₂₃₄₅₆₇₈₉₊₋₋ₐₑₒₓₕₖₗₘₙₚₛₜᵢⱼᵣᵤᵥ", strict=True))
+_LOWERED = dict(
+    zip("0123456789+-−aeoxhklmnpstijruv", "₀₁₂₃₄₅₆₇₈₉₊₋₋ₐₑₒₓₕₖₗₘₙₚₛₜᵢⱼᵣᵤᵥ", strict=True)
+)
 
 
 def plain_page(markdown: str) -> str:
-    """Return a page as Markdown with its formulas in plain signs and pictures as their words; code is left as it is."""
+    """Return a page with its formulas in plain signs and pictures as words; code stays."""
     code_or_picture = r"(```.*?```|`[^`\n]*`)|!\[([^\]]*)\]\([^)]*\)"
-    markdown = re.sub(code_or_picture, lambda found: found[1] or found[2], markdown, flags=re.DOTALL)
+    markdown = re.sub(
+        code_or_picture, lambda found: found[1] or found[2], markdown, flags=re.DOTALL
+    )
     parts = re.split(r"(```.*?```|`[^`\n]*`|\$\$.*?\$\$|\$[^$\n]+\$)", markdown, flags=re.DOTALL)
     return safe("".join(_part(part) for part in parts))
 
@@ -33,12 +37,20 @@ def _part(part: str) -> str:
 
 
 def plain_formula(tex: str) -> str:
-    """Return a TeX formula in plain signs, in one line; one that cannot be read as it was written."""
+    """Return a TeX formula in plain signs, in one line; as written if it cannot be read."""
     try:
-        typeset = ElementTree.fromstring(math_html(tex).replace(' xmlns="http://www.w3.org/1998/Math/MathML"', ""))
+        typeset = ElementTree.fromstring(
+            math_html(tex).replace(' xmlns="http://www.w3.org/1998/Math/MathML"', "")
+        )
     except ElementTree.ParseError:  # a sign such as & that belongs nowhere
         return tex
-    return " ".join(_said(typeset).split()).replace("( ", "(").replace(" )", ")").replace(" ]", "]").replace(" ,", ",")
+    return (
+        " ".join(_said(typeset).split())
+        .replace("( ", "(")
+        .replace(" )", ")")
+        .replace(" ]", "]")
+        .replace(" ,", ",")
+    )
 
 
 def _said(part: Element) -> str:
@@ -71,22 +83,32 @@ def _said(part: Element) -> str:
 
 
 def _row(parts: Iterable[Element]) -> str:
-    """Return what stands side by side; names that are multiplied have a space between them, a sign has none behind it."""
+    """Return what stands side by side, a space between names that are multiplied."""
     said, named, operand = "", False, False
     for part in parts:
         text = (part.text or "").strip()
-        is_name = part.tag in ("mi", "msub", "msup", "msubsup", "mover") and part.get("mathvariant") != "normal"
+        is_name = (
+            part.tag in ("mi", "msub", "msup", "msubsup", "mover")
+            and part.get("mathvariant") != "normal"
+        )
         if text in ("+", "−", "-") and not operand:
             said += text
         else:
             word = next(part.itertext(), "").strip()
-            said += (" " if is_name and (named or (operand and len(word) > 1)) else "") + _said(part)
-        named, operand = is_name, part.tag not in ("mo", "mspace") or text in (")", "]", "}", "|", "‖")
+            said += (" " if is_name and (named or (operand and len(word) > 1)) else "") + _said(
+                part
+            )
+        named, operand = (
+            is_name,
+            part.tag not in ("mo", "mspace") or text in (")", "]", "}", "|", "‖"),
+        )
     return said
 
 
 def _script(part: Element, mark: str, signs: dict[str, str]) -> str:
-    word = _said(part).replace(" ", "").strip().replace(THIN, " ").replace("⊤", "T").replace("∘", "°")
+    word = (
+        _said(part).replace(" ", "").strip().replace(THIN, " ").replace("⊤", "T").replace("∘", "°")
+    )
     if mark == "^" and word in ("°", "′", "*", "∗"):
         return word
     if all(sign in signs for sign in word):

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import rerun as rr
 
-from workbench.images import png, png_of_levels, resized
+from workbench.machinery.images import png, png_of_levels, resized
 from workbench.scene import UNKNOWN, Field, color_map
 
 IMAGE = "/image"
@@ -25,7 +25,7 @@ def encoded(image: np.ndarray | Field) -> Any:
 
 
 def texture(image: np.ndarray) -> np.ndarray:
-    """Return an image (h, w, 3) as it is drawn in space: with pixels that fit where rerun looks for repetitions, 64 kB.
+    """Return an image (h, w, 3) as drawn in space, of pixels that fit rerun's 64 kB of repetitions.
 
     A picture that changes in a corner from step to step then costs what has changed.
     """
@@ -38,10 +38,12 @@ def _field_png(field: Field) -> bytes:
     known = np.isfinite(field.values)
     share = np.where(known, (field.values - field.low) / (field.high - field.low), 0.0)
     levels = np.where(known, np.rint(np.clip(share, 0.0, 1.0) * (_LEVELS - 1)), _LEVELS)
-    colors = np.vstack([color_map(field.map, np.linspace(0.0, 1.0, _LEVELS)), UNKNOWN]).astype(np.uint8)
+    colors = np.vstack([color_map(field.map, np.linspace(0.0, 1.0, _LEVELS)), UNKNOWN]).astype(
+        np.uint8
+    )
     return png_of_levels(levels.astype(np.uint8), colors)
 
 
 def gone(suffix: str) -> Any:
-    """Return what takes away what stands at this suffix: Rerun's viewer overlooks a `Clear` of an encoded image."""
+    """Return what takes away what stands here: Rerun's viewer overlooks a `Clear` of an image."""
     return rr.EncodedImage.cleared() if suffix == IMAGE else rr.Clear(recursive=False)

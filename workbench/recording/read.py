@@ -1,4 +1,4 @@
-"""Reads a recording back: lesson, params, scalars per step, captions; without a viewer, and wary of damaged files."""
+"""Reads a recording back, without a viewer, and wary of damaged files."""
 
 import json
 import re
@@ -14,15 +14,19 @@ from typing import Any
 import numpy as np
 from rerun.chunk import RrdReader
 
-from workbench import __version__, knobs
+from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, catalog
+from workbench.machinery.version import __version__
+from workbench.moved import moved
 from workbench.recording.viewer_files import binary, quiet_environment
 from workbench.scene import Scalar
 
 FOREIGN = "is no Rerun recording, or is damaged"
 FORMAT = 2
-"""What this version writes and reads; it grows when an older version could not read a new recording."""
+"""What this version writes and reads; it grows when an older version could not read a new
+recording.
+"""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -30,18 +34,15 @@ class Recording:
     """What a recording says of its run.
 
     Attributes:
-        path: The file.
-        lesson: The lesson's name.
-        title: The lesson's title.
         params: Field name to value, as JSON has them; `Params` themselves come from `typed_params`.
         preset: Where the params come from, or None.
-        seed: The seed, or None where the lesson has none.
+        seed: None where the lesson has none.
         status: `complete`, or why the run ended before its end.
         format: The format's number.
         version: The version of the workbench that wrote it.
         captions: What happened, step by step.
         tones: `info`, `good` or `wrong`, step by step.
-        scalars: One column per curve, by path, NaN where a step has none; with `step` first, a table. Read-only.
+        scalars: Read-only columns by path, `step` first, NaN where a step has none.
         curves: How each scalar is drawn, by path: name, unit, colour; with its last value.
         layout: What stands beside the scene and how that is first seen, for a viewer.
     """
@@ -66,8 +67,12 @@ class Recording:
         return len(self.captions)
 
     def __repr__(self) -> str:
-        """Return one short line: the file, the lesson, where it comes from, how many steps, and how it ended."""
-        words = [self.path.name, self.lesson, *([] if self.preset is None else [f"preset {self.preset}"])]
+        """Return one short line: file, lesson, preset, how many steps, how it ended."""
+        words = [
+            self.path.name,
+            self.lesson,
+            *([] if self.preset is None else [f"preset {self.preset}"]),
+        ]
         said = [reprlib.repr(word) for word in (*words, self.status)]
         return f"<Recording {said[0]}: {', '.join(said[1:-1])}, {len(self):,} steps, {said[-1]}>"
 
@@ -88,7 +93,7 @@ def open_recording(path: str | Path) -> Recording:
     """Read a recording.
 
     Raises:
-        InputError: One line, if the file is missing, empty, damaged, cut short, or no recording of a run.
+        InputError: If the file is missing, empty, damaged, cut short, or no recording of a run.
     """
     path = Path(path)
     _check_file(path)
@@ -101,29 +106,40 @@ def open_recording(path: str | Path) -> Recording:
         raise InputError(f"{path}: is damaged ({type(error).__name__})") from error
 
 
-def reopening(path: Path, given: Lesson | None = None, *, files: bool = False) -> tuple[Lesson, Any, list[str]]:
-    """Return the lesson and the params of a recording, and a line for everything that is not as it was.
+def reopening(
+    path: Path, given: Lesson | None = None, *, files: bool = False
+) -> tuple[Lesson, Any, list[str]]:
+    """Return the lesson and the params of a recording, and a line for what is not as it was.
 
-    The lesson's name is looked up in the catalogue and nowhere else: a recording may come from anybody.
-
-    Args:
-        path: The recording.
-        given: The lesson, where the person named its file; it has to have the recording's name.
-        files: Whether the person lets the run read the files that the recording names.
+    The lesson's name is looked up in the catalogue and nowhere else: a recording may come from
+    anybody. A `given` lesson has to have that name; `files` lets the run read the files named.
 
     Raises:
-        InputError: If the file cannot be read, its lesson is not here, or it names files and may not.
+        InputError: If the file cannot be read, its lesson is not here, or it names files and may
+            not.
     """
     recording = open_recording(path)
-    lesson = _lesson_of(recording, given)
+    led = moved(recording.lesson, None, recording.params)
+    lesson = _lesson_of(recording, led.lesson, given)
+    told = recording.params if given is not None else led.values
     lines = []
+    if lesson.name != recording.lesson:
+        lines.append(
+            f"{path}: this run of {recording.lesson} is one of the lesson {lesson.name} now"
+        )
     if recording.version != __version__:
-        lines.append(f"{path}: recorded by version {recording.version}, this is {__version__}; the run may differ")
+        lines.append(
+            f"{path}: recorded by version {recording.version}, this is {__version__}; the run may"
+            " differ"
+        )
     if recording.format > FORMAT:
-        lines.append(f"{path}: format {recording.format} is newer than this version's {FORMAT}; trying all the same")
+        lines.append(
+            f"{path}: format {recording.format} is newer than this version's {FORMAT}; trying all"
+            " the same"
+        )
     fields = {field.name: field for field in knobs.fields_of(lesson.params)}
     values = {}
-    for name, value in recording.params.items():
+    for name, value in told.items():
         if name not in fields:
             lines.append(f"{path}: the lesson has no parameter {name} any more; left out")
             continue
@@ -131,25 +147,33 @@ def reopening(path: Path, given: Lesson | None = None, *, files: bool = False) -
             values[name] = fields[name].clean(value)
         except InputError as error:
             lines.append(f"{path}: {error}; left at its default")
-    named = [f"{name} {values[name]}" for name in values if fields[name].sensitive and values[name] is not None]
+    named = [
+        f"{name} {values[name]}"
+        for name in values
+        if fields[name].sensitive and values[name] is not None
+    ]
     if named and not files:
         raise InputError(
-            f"{path}: was made from files ({', '.join(named)}); a recording may come from anybody, so they are read"
-            " only with --files"
+            f"{path}: was made from files ({', '.join(named)}); a recording may come from anybody,"
+            " so they are read only with --files"
         )
     return lesson, knobs.make(lesson.params, values), lines
 
 
-def _lesson_of(recording: Recording, given: Lesson | None) -> Lesson:
-    """Return the lesson of a recording: the one given if it has the name, or the one that the catalogue has."""
-    name, path = recording.lesson, recording.path
+def _lesson_of(recording: Recording, name: str, given: Lesson | None) -> Lesson:
+    """Return the lesson of a recording: the one given if it has the name, or the catalogue's."""
+    path = recording.path
+    if given is not None and given.name == recording.lesson:
+        return given
     if given is not None and given.name != name:
-        raise InputError(f"{path}: is a run of the lesson {name[:80]!r}, and the lesson given is {given.name!r}")
+        raise InputError(
+            f"{path}: is a run of the lesson {name[:80]!r}, and the lesson given is {given.name!r}"
+        )
     found = catalog().get(name) if given is None else given
     if found is None:
         raise InputError(
-            f"{path}: is a run of the lesson {name[:80]!r}, which is not installed; if you have its file, name it:"
-            " --lesson FILE.py"
+            f"{path}: is a run of the lesson {name[:80]!r}, which is not installed; if you have its"
+            " file, name it: --lesson FILE.py"
         )
     return found
 
@@ -157,14 +181,16 @@ def _lesson_of(recording: Recording, given: Lesson | None) -> Lesson:
 def read_chunks(path: Path) -> list[Any]:
     """Return the chunks of the one recording in a file, layouts left out.
 
-    A damaged file can end this process from inside rerun: `open_recording` has it checked in another one first.
+    A damaged file can end this process from inside rerun: `open_recording` has it checked in
+    another one first.
 
     Raises:
         InputError: If the file cannot be read.
     """
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of bytes behind the end: what is read is held to its digest
+            # of bytes behind the end: what is read is held to its digest
+            warnings.simplefilter("ignore")
             reader = RrdReader(path)
         stores = reader.recordings()
         chunks = [chunk for store in stores for chunk in reader.stream(store=store)]
@@ -178,7 +204,7 @@ def read_chunks(path: Path) -> list[Any]:
 
 
 def _check_file(path: Path) -> None:
-    """Raise InputError if the file is missing, empty, foreign, or so damaged that rerun cannot decode it."""
+    """Raise InputError if the file is missing, empty, foreign, or not to be decoded."""
     try:
         if not path.is_file():
             raise InputError(f"{path}: no such file")
@@ -213,16 +239,30 @@ def _recording(path: Path, chunks: Sequence[Any]) -> Recording:
     if not result:
         raise InputError(f"{path}: is cut short: its end is missing")
     n = int(result["steps"])
-    told = sum(chunk.num_rows for chunk in chunks if chunk.entity_path == "/caption" and not chunk.is_static)
+    told = sum(
+        chunk.num_rows
+        for chunk in chunks
+        if chunk.entity_path == "/caption" and not chunk.is_static
+    )
     if not 0 < n <= told:
         raise InputError(f"{path}: is damaged: it has fewer captions than steps")
     captions = _column(chunks, "/caption", "caption", n)
-    paths = [chunk.entity_path for chunk in chunks if chunk.entity_path.startswith("/scalars/") and not chunk.is_static]
-    found = {_scene_path(entity): np.array(_column(chunks, entity, "Scalars:scalars", n), float) for entity in paths}
+    paths = [
+        chunk.entity_path
+        for chunk in chunks
+        if chunk.entity_path.startswith("/scalars/") and not chunk.is_static
+    ]
+    found = {
+        _scene_path(entity): np.array(_column(chunks, entity, "Scalars:scalars", n), float)
+        for entity in paths
+    }
     abouts = {path: _static(chunks, entity) for path, entity in zip(found, paths, strict=True)}
     order = sorted(found, key=lambda path: int(abouts[path]["order"]))
     scalars = {path: found[path] for path in order}
-    if any(caption is None for caption in captions) or digest(facts["params"], captions, scalars) != result["digest"]:
+    if (
+        any(caption is None for caption in captions)
+        or digest(facts["params"], captions, scalars) != result["digest"]
+    ):
         raise InputError(f"{path}: is damaged: its content does not fit its fingerprint")
     params = json.loads(facts["params"])
     if not isinstance(params, dict):
@@ -288,7 +328,9 @@ def _column(chunks: Sequence[Any], entity: str, component: str, n: int) -> list[
 
 
 def _scene_path(entity: str) -> str:
-    """Return a scene's path from an entity's, where special signs stand behind a backslash or as `\\u{code}`."""
+    """Return a scene's path from an entity's, where special signs stand behind a backslash or as
+    `\\u{code}`.
+    """
     return re.sub(
         r"\\u\{([0-9A-Fa-f]+)\}|\\(.)",
         lambda match: chr(int(match[1], 16)) if match[1] else match[2],

@@ -1,4 +1,4 @@
-"""Plays recordings in Rerun's viewer: in the browser, under the names of this machine only, or in Rerun's own window."""
+"""Plays recordings in Rerun's viewer: in the browser of this machine, or in its own window."""
 
 import html
 import json
@@ -16,12 +16,13 @@ from starlette.responses import FileResponse, Response
 from starlette.routing import Route
 
 from workbench.errors import InputError
-from workbench.hosts import Hosts, listening
+from workbench.machinery.hosts import Hosts, listening
 from workbench.recording.viewer_files import binary, quiet_environment, rerun_version, web_viewer
 
 POLICY = (
-    "default-src 'self'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self'; worker-src 'self' blob:"
+    "default-src 'self'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'self'"
+    " 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self';"
+    " worker-src 'self' blob:"
 )
 """Keeps the viewer from talking to anybody but us: no statistics, no fonts from elsewhere."""
 
@@ -41,7 +42,15 @@ def replay_file(path: Path, *, native: bool, host: str, port: int, browser: bool
     play({path.name: path}, title, native=native, host=host, port=port, browser=browser)
 
 
-def play(files: Mapping[str, Path | bytes], title: str, *, native: bool, host: str, port: int, browser: bool) -> None:
+def play(
+    files: Mapping[str, Path | bytes],
+    title: str,
+    *,
+    native: bool,
+    host: str,
+    port: int,
+    browser: bool,
+) -> None:
     """Play recordings, given by file name, until interrupted."""
     if native:
         _play_native([file for file in files.values() if isinstance(file, Path)])
@@ -72,22 +81,30 @@ def _play_native(paths: Sequence[Path]) -> None:
         return
     if process.returncode:
         last = (complaints.strip().splitlines() or ["no reason was given"])[-1]
-        raise InputError(f"Rerun's window could not be opened ({last}); without --native it plays in the browser")
+        raise InputError(
+            f"Rerun's window could not be opened ({last}); without --native it plays in the browser"
+        )
 
 
 class Replay:
-    """A web server that hands out a page with Rerun's viewer, and recordings. Serves from a thread of its own.
+    """A web server, in its own thread, for a page with Rerun's viewer, and recordings.
 
     Args:
         files: Recordings by file name: a path, or the bytes.
-        title: The page's title.
-        host, port: Where it listens; port 0 picks a free one.
+        port: 0 picks a free one.
 
     Raises:
         InputError: If the port is taken or may not be used.
     """
 
-    def __init__(self, files: Mapping[str, Path | bytes], title: str, *, host: str = "127.0.0.1", port: int = 8080):
+    def __init__(
+        self,
+        files: Mapping[str, Path | bytes],
+        title: str,
+        *,
+        host: str = "127.0.0.1",
+        port: int = 8080,
+    ):
         viewer = {f"/viewer-{rerun_version()}/{name}": file for name, file in web_viewer().items()}
         recordings = {f"/{i}.rrd": content for i, content in enumerate(files.values())}
         self._contents = {"/": _page(title, list(viewer), list(recordings)), **viewer, **recordings}
@@ -99,7 +116,9 @@ class Replay:
         self._server = uvicorn.Server(
             uvicorn.Config(app, http="h11", log_level="critical", timeout_graceful_shutdown=2)
         )
-        self._thread = threading.Thread(target=self._server.run, args=([self._listener],), daemon=True)
+        self._thread = threading.Thread(
+            target=self._server.run, args=([self._listener],), daemon=True
+        )
         self._thread.start()
         while self._thread.is_alive() and not self._server.started:
             self._thread.join(0.01)
@@ -114,7 +133,7 @@ class Replay:
         self._thread.join()
 
     def _answer(self, request: Request) -> Response:
-        """Return one of a fixed set of files, and nothing else, where it is asked for by this machine's name."""
+        """Return one of fixed files, asked for by this machine's name, and nothing else."""
         if not self._hosts.know(request.headers.get("host", "")):
             return Response("This server is not known under that name.", 403)
         name = request.url.path
@@ -124,7 +143,9 @@ class Replay:
         headers = {
             "Content-Security-Policy": POLICY,
             "X-Content-Type-Options": "nosniff",
-            "Cache-Control": "public, max-age=31536000, immutable" if name.startswith("/viewer-") else "no-store",
+            "Cache-Control": (
+                "public, max-age=31536000, immutable" if name.startswith("/viewer-") else "no-store"
+            ),
         }
         kind = KINDS.get(Path(name).suffix or ".html", "application/octet-stream")
         make = FileResponse if isinstance(content, Path) else Response
@@ -133,7 +154,14 @@ class Replay:
 
 def _page(title: str, viewer: Sequence[str], recordings: Sequence[str]) -> bytes:
     script, program = viewer
-    options = {"hide_welcome_screen": True, "theme": "light", "enable_history": False, "manifest_url": None}
+    options = {
+        "hide_welcome_screen": True,
+        "theme": "light",
+        "enable_history": False,
+        "manifest_url": None,
+    }
     page = Template(Path(__file__).with_name("replay.html").read_text(encoding="utf-8"))
     names = {"title": html.escape(title), "script": script, "program": program}
-    return page.substitute(names, recordings=json.dumps(list(recordings)), options=json.dumps(options)).encode()
+    return page.substitute(
+        names, recordings=json.dumps(list(recordings)), options=json.dumps(options)
+    ).encode()

@@ -1,4 +1,4 @@
-"""Makes a Rerun stream equal to scenes, one step after another, and says only what has changed since the step before."""
+"""Makes a Rerun stream equal to scenes, step by step; says only what has changed."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
@@ -45,12 +45,12 @@ TABLES = "/tables"
 class RerunSink:
     """Writes scenes into a recording stream.
 
-    Entities: `world/PATH` in space, `pictures/PATH`, `charts/TITLE`, `tables`, `legend`. Scalars and captions are not said
-    here: they go as whole columns.
+    Entities: `world/PATH` in space, `pictures/PATH`, `charts/TITLE`, `tables`, `legend`. Scalars
+    and captions go as whole columns, not here.
 
     Args:
-        stream: Rerun's recording stream.
-        canvases: Where charts, pictures and tables are shown, by entity. While there are none, it says so there.
+        canvases: Where charts, pictures and tables are shown, by entity; it says so if there are
+            none.
         unions: Clouds that are said once for all steps, by path.
     """
 
@@ -69,10 +69,14 @@ class RerunSink:
     def show(self, k: int, scene: Scene) -> None:
         """Make the stream show `scene` from step k on."""
         self._stream.set_time("step", sequence=k)
-        wanted = {entity: {aspect.name: aspect for aspect in said} for entity, said in self._entities(k, scene)}
+        wanted = {
+            entity: {aspect.name: aspect for aspect in said}
+            for entity, said in self._entities(k, scene)
+        }
         for entity, said in self._said.items():
             if not said.keys() <= wanted.get(entity, {}).keys():  # it, or a part of it, is gone
-                for suffix in dict.fromkeys(aspect.suffix for aspect in said.values()):  # in the same order every time
+                # in the same order every time
+                for suffix in dict.fromkeys(aspect.suffix for aspect in said.values()):
                     self._stream.log(entity + suffix, gone(suffix))
         for entity, now in wanted.items():
             before = self._said.get(entity, {})
@@ -91,7 +95,11 @@ class RerunSink:
         for path, primitive in scene.items():
             if in_space(primitive):
                 union = self._unions.get(path)
-                if isinstance(primitive, Points) and union is not None and id(primitive) in union.shown:
+                if (
+                    isinstance(primitive, Points)
+                    and union is not None
+                    and id(primitive) in union.shown
+                ):
                     yield entity_of("world", path), gathered(primitive, union)
                 else:
                     yield entity_of("world", path), aspects(primitive, self._numbers)
@@ -100,7 +108,9 @@ class RerunSink:
         for entity, canvas in self._canvases.items():
             if entity not in beside:
                 word = f"from step {canvas.first} on" if k < canvas.first else "not in this step"
-                values = {"markdown": word} if entity == TABLES else {"word": word, "canvas": canvas}
+                values = (
+                    {"markdown": word} if entity == TABLES else {"word": word, "canvas": canvas}
+                )
                 yield entity, (Aspect(document if entity == TABLES else absence, values),)
 
 
@@ -155,7 +165,9 @@ def table_text(table: Table) -> str:
     """Return a table as Markdown."""
     cells = [[markdown(text) for text in row] for row in (table.header, *table.rows)]
     rows = [f"| {' | '.join(row)} |" for row in cells]
-    return "\n".join([f"**{markdown(table.title)}**", "", rows[0], "|" + "---|" * len(table.header), *rows[1:]])
+    return "\n".join(
+        [f"**{markdown(table.title)}**", "", rows[0], "|" + "---|" * len(table.header), *rows[1:]]
+    )
 
 
 def markdown(text: str) -> str:
@@ -174,7 +186,9 @@ def document(markdown: str) -> Any:
 def _chart(curves: Sequence[Curve]) -> Iterator[Aspect]:
     x, y = scales(curves)
     names = [(curve.name, PALETTE[curve.color]) for curve in curves]
-    yield Aspect(chart_frame, {"x": x, "y": y, "x_label": curves[0].x_label, "names": names}, "/frame")
+    yield Aspect(
+        chart_frame, {"x": x, "y": y, "x_label": curves[0].x_label, "names": names}, "/frame"
+    )
     yield Aspect(chart_curves, {"x": x, "y": y, "curves": dict(enumerate(curves))}, "/curves")
 
 
@@ -190,4 +204,8 @@ def _legend(entries: Legend, fields: Sequence[Field]) -> Iterator[Aspect]:
     if entries:
         yield Aspect(legend_names, {"entries": entries}, "/names")
     for i, field in enumerate(fields):
-        yield Aspect(legend_bar, {"i": i, "bars": len(fields), "entries": entries, "bar": bar_of(field)}, f"/bar{i}")
+        yield Aspect(
+            legend_bar,
+            {"i": i, "bars": len(fields), "entries": entries, "bar": bar_of(field)},
+            f"/bar{i}",
+        )

@@ -1,7 +1,7 @@
 """How each primitive in space is said to Rerun, in aspects that change independently of each other.
 
-A moving cloud changes only its pose, classes that change send only ids, and so on: a sink keeps every aspect that it has
-sent, and sends one again when a value of it is not the same any more.
+A moving cloud changes only its pose, classes that change send only ids, and so on: a sink keeps
+every aspect that it has sent, and sends one again when a value of it is not the same any more.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -31,7 +31,9 @@ from workbench.scene import (
 )
 
 FADED = (168, 172, 178)
-"""What faint points and lines are mixed with, on a white and on a black ground: Rerun draws them without transparency."""
+"""What faint points and lines are mixed with, on a white and on a black ground: Rerun draws them
+without transparency.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +43,7 @@ class Aspect:
     Args:
         make: Makes Rerun's archetype, or a list of them, of the values.
         values: By the names that `make` has for them; compared by `workbench.scene.same`.
-        suffix: Behind the path of the primitive's entity: nothing for itself, `/image` for an entity below it.
+        suffix: Behind the path of the entity, `/image` for one below it.
     """
 
     make: Callable[..., Any]
@@ -128,9 +130,12 @@ def _mesh(primitive: Mesh, numbers: ClassNumbers) -> Iterator[Aspect]:
         yield Aspect(_wires, {"p": mesh.p, "faces": mesh.faces})
         yield _width(1.0)
         role = mesh.color if isinstance(mesh.color, str) else "neutral"
-        yield Aspect(_painted, {"archetype": rr.LineStrips3D, "color": role, "opacity": mesh.opacity})
+        yield Aspect(
+            _painted, {"archetype": rr.LineStrips3D, "color": role, "opacity": mesh.opacity}
+        )
     else:
-        make = _surface if isinstance(mesh.color, str) else _coloured_surface  # Rerun would multiply both's colours
+        # Rerun would multiply both's colours
+        make = _surface if isinstance(mesh.color, str) else _coloured_surface
         yield Aspect(make, {"mesh": replace(mesh, T_world_object=None)})
     yield pose(mesh.T_world_object)
 
@@ -170,11 +175,12 @@ def pose(T_world_object: np.ndarray | None) -> Aspect:
 
 
 def _width(pixels: float) -> Aspect:
-    return Aspect(rr.LineStrips3D.from_fields, {"radii": -pixels / 2, "show_labels": False})  # negative: of the screen
+    # negative: of the screen
+    return Aspect(rr.LineStrips3D.from_fields, {"radii": -pixels / 2, "show_labels": False})
 
 
 def _colors(primitive: Points | Segments, archetype: Any, numbers: ClassNumbers) -> Aspect:
-    """Return how points or segments are coloured: by class ids where they have classes, else by colours."""
+    """Return how points or segments are coloured: by class ids if they have classes."""
     color, opacity = primitive.color, primitive.opacity
     if isinstance(color, Classes):
         return Aspect(archetype.from_fields, {"class_ids": numbers.ids(color, opacity)})
@@ -183,7 +189,9 @@ def _colors(primitive: Points | Segments, archetype: Any, numbers: ClassNumbers)
 
 def _painted(archetype: Any, color: Color, opacity: float) -> Any:
     """Return one colour for all where all have the same, else one each."""
-    return archetype.from_fields(colors=_faded(color_rows(color, 1 if isinstance(color, str) else 0), opacity))
+    return archetype.from_fields(
+        colors=_faded(color_rows(color, 1 if isinstance(color, str) else 0), opacity)
+    )
 
 
 def _faded(colors: np.ndarray, opacity: float) -> np.ndarray:
@@ -226,7 +234,7 @@ def _plane(picture: Picture) -> Any:
 
 
 def _surface(mesh: Mesh, **colors: Any) -> Any:
-    """Return a shaded surface: corners apart for a flat one, vertices with normals for a smooth one."""
+    """Return a shaded surface: corners apart for a flat one, vertices with normals for smooth."""
     corners = mesh.p[mesh.faces]
     v_face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     if mesh.flat:
@@ -256,7 +264,7 @@ def _wires(p: np.ndarray, faces: np.ndarray) -> Any:
 
 
 def affine(primitive: Any) -> Any:
-    """Return the primitive with a motion that Rerun can take as a pose; a projective 4x4 is applied to the points."""
+    """Return the primitive with a pose for Rerun; a projective 4x4 is applied to the points."""
     T = primitive.T_world_object
     if T is None or np.array_equal(T[3], (0, 0, 0, 1)):
         return primitive

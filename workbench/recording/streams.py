@@ -1,4 +1,4 @@
-"""Streams of rerun that end as bytes and leave nothing behind: no thread, no memory, no statistics."""
+"""Streams of rerun that end as bytes and leave no thread, memory or statistics behind."""
 
 import re
 import threading
@@ -15,33 +15,42 @@ _one_at_a_time = threading.Lock()
 
 
 def application_id(lesson_name: str) -> str:
-    """Return the name by which viewers tell a lesson's recordings from others; `stream_bytes` adds to it."""
+    """Return the name by which viewers tell a lesson's recordings from others."""
     return f"workbench-{re.sub('[^a-z0-9]+', '-', lesson_name.lower()).strip('-')}"
 
 
 def stream_bytes(application: str, fill: Callable[[Any], None], layout: Any = None) -> bytes:
-    """Return the bytes of a recording that `fill` logs into a stream, with its layout. Wrong shapes raise.
+    """Return the bytes of a recording that `fill` logs into a stream, with its layout. Wrong shapes
+    raise.
 
-    The recording's id is made from the content. The application's ends in a digest of the layout: viewers keep one layout
-    for each application, and would show runs of other presets in that of the first.
+    The recording's id is made from the content. The application's ends in a digest of the layout:
+    viewers keep one layout for each application, and would show runs of other presets in that of
+    the first.
     """
     with _one_at_a_time:
         strict = rr.strict_mode()
         rr.set_strict_mode(True)
         try:
             content = tidied(_logged(_recording(application, "content"), fill))
-            beside = [] if layout is None else tidied(_logged(_layout(application), layout._log_to_stream))
+            beside = (
+                []
+                if layout is None
+                else tidied(_logged(_layout(application), layout._log_to_stream))
+            )
             if beside:
                 application = f"{application}-{id_of(beside)[:8]}"
             stream = _recording(application, id_of([*content, *beside]))
-            return _logged(stream, lambda stream: _send(stream, application, chunks_of(content), chunks_of(beside)))
+            return _logged(
+                stream,
+                lambda stream: _send(stream, application, chunks_of(content), chunks_of(beside)),
+            )
         finally:
             rr.set_strict_mode(strict)
             bindings.flush_and_cleanup_orphaned_recordings()
 
 
 def _send(stream: Any, application: str, chunks: Sequence[Any], layout: Sequence[Any]) -> None:
-    """Send all chunks. `stream.send_blueprint` would leave two threads and a megabyte behind each time."""
+    """Send all chunks; `stream.send_blueprint` would leave two threads and a megabyte behind."""
     if layout:
         own = _layout(application)
         memory = own.memory_recording()
@@ -71,7 +80,10 @@ def _recording(application: str, name: str) -> Any:
 def _layout(application: str) -> Any:
     stream = RecordingStream._from_native(
         bindings.new_blueprint(
-            application_id=application, make_default=False, make_thread_default=False, default_enabled=True
+            application_id=application,
+            make_default=False,
+            make_thread_default=False,
+            default_enabled=True,
         )
     )
     stream.set_log_time_enabled(False)

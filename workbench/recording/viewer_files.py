@@ -1,4 +1,4 @@
-"""Rerun's own programs: the viewer's binary, and the two files of its web viewer that the binary carries inside."""
+"""Rerun's own programs: the viewer's binary, and the web viewer's files inside it."""
 
 import importlib.metadata
 import os
@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from workbench.atomic import remove_leftovers, write_atomic
 from workbench.errors import InputError
-from workbench.typeset import cache_folder
+from workbench.machinery.atomic import remove_leftovers, write_atomic
+from workbench.words.typeset import cache_folder
 
 NAMES = ("re_viewer.js", "re_viewer_bg.wasm")
 PATIENCE = 60.0
@@ -26,7 +26,7 @@ def rerun_version() -> str:
 
 
 def binary() -> Path:
-    """Return Rerun's binary itself: ending the Python wrapper around it would leave the binary behind."""
+    """Return Rerun's binary itself: ending its Python wrapper would leave it behind."""
     import rerun_cli
 
     folder = Path(str(rerun_cli.__file__)).parent
@@ -38,7 +38,7 @@ def binary() -> Path:
 
 
 def quiet_environment() -> dict[str, str]:
-    """Return the environment for the binary: it says its address, and sends statistics only if RERUN_ANALYTICS is set."""
+    """Return the environment for the binary: statistics only if RERUN_ANALYTICS is set."""
     environment = {**os.environ, "RUST_LOG": "info"}
     if "RERUN_ANALYTICS" not in environment:
         environment["CI"] = "1"
@@ -46,7 +46,8 @@ def quiet_environment() -> dict[str, str]:
 
 
 def web_viewer() -> dict[str, Path]:
-    """Return where the web viewer's files are, by name; at first use they are taken out of the binary (43 MB).
+    """Return where the web viewer's files are, by name; at first use they are taken out of the
+    binary (43 MB).
 
     Raises:
         InputError: If the binary does not hand them out.
@@ -62,7 +63,9 @@ def web_viewer() -> dict[str, Path]:
                 for name in missing:
                     _fetch(f"{address}/{name}", files[name])
         except OSError as error:
-            raise InputError(f"Rerun's web viewer could not be unpacked into {folder}: {error}") from error
+            raise InputError(
+                f"Rerun's web viewer could not be unpacked into {folder}: {error}"
+            ) from error
     return files
 
 
@@ -73,10 +76,23 @@ def _fetch(address: str, file: Path) -> None:
 
 @contextmanager
 def _serving() -> Iterator[str]:
-    """Run the binary as a web server without a recording, which costs nothing, and yield its address."""
-    command = [str(binary()), "--serve-web", "--bind", "127.0.0.1", "--port", "0", "--web-viewer-port", "0"]
+    """Run the binary as a web server without a recording, and yield its address."""
+    command = [
+        str(binary()),
+        "--serve-web",
+        "--bind",
+        "127.0.0.1",
+        "--port",
+        "0",
+        "--web-viewer-port",
+        "0",
+    ]
     process = subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=quiet_environment()
+        command,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=quiet_environment(),
     )
     assert process.stderr is not None
     watchdog = threading.Timer(PATIENCE, process.kill)

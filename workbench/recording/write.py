@@ -1,4 +1,4 @@
-"""Writes runs to recordings: into a file that is there whole or not at all, into a pipe, or into bytes."""
+"""Writes runs to recordings: into a whole file or none, into a pipe, or into bytes."""
 
 import json
 import os
@@ -10,12 +10,13 @@ from typing import Any, TextIO
 import numpy as np
 import rerun as rr
 
-from workbench import __version__, knobs
-from workbench.atomic import remove_leftovers, write_atomic
+from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, find
-from workbench.loading import load
-from workbench.progress import Progress, bar
+from workbench.machinery.atomic import remove_leftovers, write_atomic
+from workbench.machinery.progress import Progress, bar
+from workbench.machinery.version import __version__
+from workbench.moved import moved
 from workbench.recording.columns import facts, send_captions, send_series
 from workbench.recording.contents import contents_of, to_json
 from workbench.recording.gather import unions
@@ -25,8 +26,10 @@ from workbench.recording.plain_page import plain_page
 from workbench.recording.read import FORMAT, digest
 from workbench.recording.sink import RerunSink, document
 from workbench.recording.streams import application_id, stream_bytes
-from workbench.timeline import Timeline
-from workbench.typeset import wording
+from workbench.run.loading import load
+from workbench.run.timeline import Timeline
+from workbench.story import plain_text
+from workbench.words.typeset import wording
 
 
 @dataclass(frozen=True)
@@ -48,29 +51,38 @@ def record(
     force: bool = False,
     **values: Any,
 ) -> Path:
-    """Run a lesson and write the run to a recording.
+    """Run a lesson and write the run to a recording, `.rrd`.
 
-    `record("icp", "icp.rrd", start_angle=120)` runs the defaults with one field changed; `preset="far"` starts from a
-    preset instead.
+    `record("icp", "icp.rrd", start_angle=120)` runs the defaults with one field changed;
+    `preset="far"` starts from a preset instead, whose name is kept where no value differs.
 
     Args:
-        lesson: The lesson, its name, or the `Path` of its file or folder, which is run (text is only looked up).
-        path: Where to write, `.rrd`.
+        lesson: The lesson, its name, or the `Path` of its file or folder, which is run.
         params: The whole inputs, as the lesson's Params; instead of a preset and values.
-        preset: The preset to start from. Its name is kept in the recording where no value differs from it.
         force: Replace a file that is there.
         values: Fields of the lesson's Params, by name.
 
     Raises:
-        InputError: If the inputs cannot be used, the run fails, or the file is there or cannot be written; then nothing
-            has changed.
+        InputError: If the inputs cannot be used, the run fails, or the file is there or cannot be
+            written; then nothing has changed.
     """
-    found = find(lesson) if isinstance(lesson, str) else load(lesson) if isinstance(lesson, Path) else lesson
+    if isinstance(lesson, str) and params is None:
+        led = moved(lesson, preset, values)
+        lesson, preset, values = led.lesson, led.preset, led.values
+    found = (
+        find(lesson)
+        if isinstance(lesson, str)
+        else load(lesson)
+        if isinstance(lesson, Path)
+        else lesson
+    )
     if params is not None and (preset is not None or values):
         other = f"preset {preset!r}" if preset is not None else f"{next(iter(values))}=…"
         raise InputError(f"params and {other}: give whole params, or a preset and single values")
     if params is None:
-        params = knobs.make(found.params, values, base=None if preset is None else found.preset(preset).params)
+        params = knobs.make(
+            found.params, values, base=None if preset is None else found.preset(preset).params
+        )
     _check_place(Path(path), force, how="force=True")
     record_file(found, params, Path(path), preset=preset, force=force)
     return Path(path)
@@ -85,10 +97,11 @@ def record_file(
     force: bool = False,
     progress: TextIO | None = None,
 ) -> Written:
-    """Run a lesson and write the run to `path`; a bar is drawn on `progress` where that is a terminal.
+    """Run a lesson and write the run to `path`, with a bar on `progress` if a terminal.
 
     Raises:
-        InputError: If the run fails, or the file is there or cannot be written; then nothing has changed.
+        InputError: If the run fails, or the file is there or cannot be written; then nothing has
+            changed.
     """
     _check_place(path, force)
     with bar(progress, "Recording") as tell:
@@ -99,7 +112,7 @@ def record_file(
 
 
 def record_to_stdout(lesson: Lesson, params: Any, *, preset: str | None = None) -> None:
-    """Run a lesson and write the recording to standard output; a bar is drawn where errors go, if that is a terminal.
+    """Run a lesson and write the recording to standard output, with a bar on a terminal.
 
     Raises:
         InputError: If the run fails, or standard output is a terminal, closed, or full.
@@ -119,16 +132,17 @@ def record_to_stdout(lesson: Lesson, params: Any, *, preset: str | None = None) 
         raise
     except OSError as error:
         sys.stdout = None  # what is left in its buffer cannot be written at exit either
-        raise InputError(f"standard output: cannot be written: {error.strerror or error}") from error
+        raise InputError(
+            f"standard output: cannot be written: {error.strerror or error}"
+        ) from error
 
 
-def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Progress | None = None) -> bytes:
+def record_bytes(
+    timeline: Timeline, *, preset: str | None = None, progress: Progress | None = None
+) -> bytes:
     """Return a recording of the steps of a run that are known so far.
 
-    Args:
-        timeline: The run.
-        preset: The preset that the params started from; it is kept where they still are the preset's.
-        progress: Told of each step.
+    The preset's name is kept where the params still are the preset's.
 
     Raises:
         InputError: If no step is known.
@@ -148,19 +162,25 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
 
     def fill(stream: Any) -> None:
         stream.send_recording_name(safe(_title(timeline, preset)))
-        stream.send_property("run", facts(layout=to_json(contents, view), **_facts(timeline, preset)))
+        stream.send_property(
+            "run", facts(layout=to_json(contents, view), **_facts(timeline, preset))
+        )
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        stream.log("page", document(plain_page(wording(lesson.text(), "site"))), static=True)
+        stream.log("page", document(plain_page(wording(plain_text(lesson), "site"))), static=True)
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
-            send_series(stream, path, one, order)
+            send_series(stream, path, one, order=order)
         sink = RerunSink(stream, contents.canvases, clouds)
         for k, step in enumerate(steps):
             sink.show(k, step.scene)
             if progress is not None:
                 progress("recorded", k + 1, len(steps))
         captions = [step.caption.text for step in steps]
-        status = "complete" if timeline.finished and timeline.stopped is None else timeline.stopped or "unfinished"
+        status = (
+            "complete"
+            if timeline.finished and timeline.stopped is None
+            else timeline.stopped or "unfinished"
+        )
         check = digest(knobs.to_json(timeline.params), captions, values)
         stream.send_property("result", facts(status=status, steps=len(steps), digest=check))
 
@@ -168,7 +188,7 @@ def record_bytes(timeline: Timeline, *, preset: str | None = None, progress: Pro
 
 
 def _run(lesson: Lesson, params: Any, tell: Progress) -> Timeline:
-    """Return a run to its end, or to the bound at which it was cut; raise InputError where it failed."""
+    """Return a run to its end, or to the bound where it was cut; raise InputError if it failed."""
     timeline = Timeline(lesson, params)
     while timeline.extend():
         tell("computed", len(timeline), None)
@@ -185,7 +205,9 @@ def _title(timeline: Timeline, preset: str | None) -> str:
     if preset is not None:
         words.append(timeline.lesson.preset(preset).title)
     else:
-        words += [f"{name} {value}" for name, value in list(knobs.changed(timeline.params).items())[:3]]
+        words += [
+            f"{name} {value}" for name, value in list(knobs.changed(timeline.params).items())[:3]
+        ]
     return ", ".join(words)
 
 
@@ -199,7 +221,9 @@ def _facts(timeline: Timeline, preset: str | None) -> dict[str, Any]:
         "seed": int(getattr(params, "seed", -1)),
         "format": FORMAT,
         "version": __version__,
-        "versions": json.dumps({"workbench": __version__, "rerun": rr.__version__, "numpy": np.__version__}),
+        "versions": json.dumps(
+            {"workbench": __version__, "rerun": rr.__version__, "numpy": np.__version__}
+        ),
     }
 
 
@@ -217,7 +241,7 @@ def _check_place(path: Path, force: bool, how: str = "--force") -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Put the whole file in place, or nothing; a link is followed. What a killed process left half written goes."""
+    """Put the whole file in place, or nothing; a link is followed, killed writers' leftovers go."""
     final = path.resolve()
     try:
         remove_leftovers(final.parent)

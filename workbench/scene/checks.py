@@ -1,4 +1,6 @@
-"""What is asked of the values that make up a scene, each refusal in words that say what would do."""
+"""What is asked of the values that make up a scene, each refusal in words that say what would
+do.
+"""
 
 import numpy as np
 
@@ -16,7 +18,10 @@ def what(value: object) -> str:
 
 def check_array(name: str, value: object) -> None:
     """Refuse what is no array."""
-    need(isinstance(value, np.ndarray), f"{name} is an array, not {what(value)}: np.asarray(...) makes one")
+    need(
+        isinstance(value, np.ndarray),
+        f"{name} is an array, not {what(value)}: np.asarray(...) makes one",
+    )
 
 
 def check_text(name: str, value: object) -> None:
@@ -26,7 +31,10 @@ def check_text(name: str, value: object) -> None:
 
 def check_finite(name: str, values: np.ndarray) -> None:
     """Refuse numbers that are not finite."""
-    need(bool(np.isfinite(values).all()), f"{name} holds NaN or infinity: leave such rows out before drawing")
+    need(
+        bool(np.isfinite(values).all()),
+        f"{name} holds NaN or infinity: leave such rows out before drawing",
+    )
 
 
 def check_rows(name: str, rows: np.ndarray, columns: int) -> None:
@@ -39,5 +47,9 @@ def check_rows(name: str, rows: np.ndarray, columns: int) -> None:
 def check_image(name: str, image: np.ndarray) -> None:
     """Refuse what is no image of grey or RGB bytes."""
     check_array(name, image)
-    good = image.dtype == np.uint8 and (image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)) and image.size > 0
+    good = (
+        image.dtype == np.uint8
+        and (image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3))
+        and image.size > 0
+    )
     need(good, f"{name} is (h, w) or (h, w, 3) uint8, not {image.dtype} {image.shape}")

@@ -5,7 +5,15 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from workbench.scene.checks import check_array, check_finite, check_image, check_rows, check_text, need, what
+from workbench.scene.checks import (
+    check_array,
+    check_finite,
+    check_image,
+    check_rows,
+    check_text,
+    need,
+    what,
+)
 from workbench.scene.colors import Classes, Color, Field, Role, check_role
 
 
@@ -31,7 +39,9 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Segments:
-    """Line segments: `ends` (n, 2, 3); `width` in pixels. `color` as for Points, one per segment."""
+    """Line segments: `ends` (n, 2, 3); `width` in pixels. `color` as for Points, one per
+    segment.
+    """
 
     ends: np.ndarray
     color: Color = "correspondence"
@@ -43,7 +53,8 @@ class Segments:
     def __post_init__(self) -> None:
         check_array("Segments.ends", self.ends)
         need(
-            self.ends.ndim == 3 and self.ends.shape[1:] == (2, 3), f"Segments.ends is (n, 2, 3), not {self.ends.shape}"
+            self.ends.ndim == 3 and self.ends.shape[1:] == (2, 3),
+            f"Segments.ends is (n, 2, 3), not {self.ends.shape}",
         )
         check_finite("Segments.ends", self.ends)
         _check_common(self, len(self.ends))
@@ -51,7 +62,9 @@ class Segments:
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A triangle mesh: `p` (v, 3), `faces` (f, 3) indices; `color` as for Points, one per vertex."""
+    """A triangle mesh: `p` (v, 3), `faces` (f, 3) indices; `color` as for Points, one per
+    vertex.
+    """
 
     p: np.ndarray
     faces: np.ndarray
@@ -65,10 +78,16 @@ class Mesh:
     def __post_init__(self) -> None:
         check_rows("Mesh.p", self.p, 3)
         check_array("Mesh.faces", self.faces)
-        need(self.faces.ndim == 2 and self.faces.shape[1] == 3, f"Mesh.faces is (f, 3), not {self.faces.shape}")
+        need(
+            self.faces.ndim == 2 and self.faces.shape[1] == 3,
+            f"Mesh.faces is (f, 3), not {self.faces.shape}",
+        )
         need(self.faces.dtype.kind in "iu", "Mesh.faces are whole numbers")
         need(len(self.faces) > 0 and len(self.p) > 0, "a Mesh has at least one face")
-        need(int(self.faces.min()) >= 0 and int(self.faces.max()) < len(self.p), "a face index is out of range")
+        need(
+            int(self.faces.min()) >= 0 and int(self.faces.max()) < len(self.p),
+            "a face index is out of range",
+        )
         _check_common(self, len(self.p))
 
 
@@ -136,8 +155,9 @@ class Label:
 class Picture:
     """An image: on a plane in space where `width` (metres) is given, else beside the scene.
 
-    On a plane it is centred at the object's origin, columns along +x, rows along +y of the object's frame (an OpenCV image
-    plane seen from behind the camera). `image` is (h, w) or (h, w, 3) uint8, or a Field of values (h, w).
+    On a plane it is centred at the object's origin, columns along +x, rows along +y of the object's
+    frame (an OpenCV image plane seen from behind the camera). `image` is (h, w) or (h, w, 3) uint8,
+    or a Field of values (h, w).
     """
 
     image: np.ndarray | Field
@@ -148,7 +168,10 @@ class Picture:
 
     def __post_init__(self) -> None:
         if isinstance(self.image, Field):
-            need(self.image.values.ndim == 2 and self.image.values.size > 0, "a Picture's Field holds (h, w) values")
+            need(
+                self.image.values.ndim == 2 and self.image.values.size > 0,
+                "a Picture's Field holds (h, w) values",
+            )
         else:
             check_image("Picture.image", self.image)
         need(self.width is None or self.width > 0, "Picture.width is positive")
@@ -167,9 +190,11 @@ class Picture:
         return w, h
 
     def places(self, uv: np.ndarray, nearer: float = 0.0) -> np.ndarray:
-        """Return where pixels (..., 2), column first, lie in the world, (..., 3); for a picture that stands in space.
+        """Return where pixels (..., 2), column first, lie in the world, (..., 3); for a picture
+        that stands in space.
 
-        `nearer` is how far in front of the picture, metres: what is drawn on it is not to be hidden by it.
+        `nearer` is how far in front of the picture, metres: what is drawn on it is not to be hidden
+        by it.
         """
         w, h = self.size
         xy = (uv - np.array([w - 1, h - 1]) / 2) * (self.width or 1.0) / w
@@ -178,7 +203,9 @@ class Picture:
         return p - nearer * T[:3, 2] if nearer else p
 
     def box(self, low: np.ndarray, high: np.ndarray, nearer: float = 0.0) -> np.ndarray:
-        """Return the outline (4, 2, 3) of the pixels between two corners, in the world, as `places` does."""
+        """Return the outline (4, 2, 3) of the pixels between two corners, in the world, as `places`
+        does.
+        """
         (u0, v0), (u1, v1) = low, high
         corners = self.places(np.array([[u0, v0], [u1, v0], [u1, v1], [u0, v1]]), nearer)
         return np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
@@ -192,14 +219,20 @@ Spatial: TypeAlias = Points | Segments | Mesh | Axes | Camera | Label | Picture
 
 
 def is_rigid(T: np.ndarray) -> bool:
-    """Tell whether a 4x4 is a rotation and a translation, so that a viewer can take it as a pose."""
+    """Tell whether a 4x4 is a rotation and a translation, so that a viewer can take it as a
+    pose.
+    """
     rows, last = T[:3, :3].tolist(), T[3].tolist()
     if last != [0.0, 0.0, 0.0, 1.0]:
         return False
-    (a, b, c), (d, e, f), (g, h, i) = rows  # in plain numbers: numpy takes 70 times as long for so few
+    (a, b, c), (d, e, f), (g, h, i) = (
+        rows  # in plain numbers: numpy takes 70 times as long for so few
+    )
     lengths = a * a + b * b + c * c, d * d + e * e + f * f, g * g + h * h + i * i
     products = a * d + b * e + c * f, a * g + b * h + c * i, d * g + e * h + f * i
-    orthonormal = all(abs(one - 1.0) <= 1e-5 for one in lengths) and all(abs(one) <= 1e-6 for one in products)
+    orthonormal = all(abs(one - 1.0) <= 1e-5 for one in lengths) and all(
+        abs(one) <= 1e-6 for one in products
+    )
     return orthonormal and a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) > 0
 
 
@@ -219,8 +252,13 @@ def _check_common(primitive: Any, n: int | None) -> None:
             f"colours are ({n}, 3) uint8, not {color.dtype} {color.shape}",
         )
     elif isinstance(color, Field):
-        need(color.values.shape == (n,), f"the Field holds {color.values.shape} values for {n} items")
+        need(
+            color.values.shape == (n,), f"the Field holds {color.values.shape} values for {n} items"
+        )
     elif isinstance(color, Classes):
         need(color.ids.shape == (n,), f"Classes holds {color.ids.shape} ids for {n} items")
     else:
-        need(False, f"a colour is a role, a Field, Classes or an array ({n}, 3) uint8, not {what(color)}")
+        need(
+            False,
+            f"a colour is a role, a Field, Classes or an array ({n}, 3) uint8, not {what(color)}",
+        )

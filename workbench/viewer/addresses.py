@@ -2,7 +2,7 @@
 
 import socket
 
-from workbench.hosts import is_loopback
+from workbench.machinery.hosts import is_loopback
 
 KEY = "key"
 """The name of the token in a link."""
@@ -23,15 +23,20 @@ class Doors:
     def __init__(self, host: str, port: int, token: str | None):
         self._token = token
         key = "" if token is None else f"/?{KEY}={token}"
-        self.address = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::', '') else addresses(host)[0]}:{port}{key}"
-        self.links = [] if is_loopback(host) else [f"http://{name}:{port}{key}" for name in addresses(host)]
+        self.address = f"http://{'127.0.0.1' if host in ('0.0.0.0', '::', '') else addresses(host)[0]}:{port}{key}"  # noqa: E501
+        self.links = (
+            [] if is_loopback(host) else [f"http://{name}:{port}{key}" for name in addresses(host)]
+        )
 
     def welcome(self) -> str:
-        """Return what whoever started the server is told: where browsers find it, and who is let in."""
+        """Return what whoever started the server is told: where browsers find it, and who is let
+        in.
+        """
         if not self.links:
             return self.address
         who = (
-            "Everybody who reaches this machine is let in, and sees what is served, own files' contents included."
+            "Everybody who reaches this machine is let in, and sees what is served, own files'"
+            " contents included."
             if self._token is None
             else "Whoever has this link is let in; give it to nobody else:"
         )
@@ -39,11 +44,17 @@ class Doors:
 
 
 def addresses(host: str) -> list[str]:
-    """Return the hosts under which other machines may reach what listens on a host, as links write them."""
+    """Return the hosts under which other machines may reach what listens on a host, as links write
+    them.
+    """
     if host not in ("0.0.0.0", "::", ""):
         return [f"[{host}]" if ":" in host else host]
     found = dict.fromkeys([_outward(), *(str(info[4][0]) for info in _own_infos())])
-    shown = [f"[{one}]" if ":" in one else one for one in found if one and not is_loopback(one) and "%" not in one]
+    shown = [
+        f"[{one}]" if ":" in one else one
+        for one in found
+        if one and not is_loopback(one) and "%" not in one
+    ]
     return [one for one in shown if host != "0.0.0.0" or ":" not in one] or [socket.gethostname()]
 
 

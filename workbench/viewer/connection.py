@@ -1,8 +1,9 @@
-"""One person's page on the live server: hears its requests, computes what they need, and tells what came of them.
+"""One person's page on the live server: hears its requests, computes what they need, and tells what
+came of them.
 
-Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To the page: {"tell": "run" | "step" |
-"answer" | "trouble", ...}, and scenes as bytes. A request is only noted; one task per page computes off the event loop, and
-the latest request wins.
+Messages are JSON. From the page: {"verb": ..., ...} with the verbs of VERBS. To the page: {"tell":
+"run" | "step" | "answer" | "trouble", ...}, and scenes as bytes. A request is only noted; one task
+per page computes off the event loop, and the latest request wins.
 """
 
 import asyncio
@@ -14,16 +15,16 @@ from typing import Any
 
 import numpy as np
 
-from workbench import links
 from workbench.authoring.reloading import carried
-from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.knobs import paths_of, with_own_files
 from workbench.lesson import Lesson
-from workbench.picking import picked_params
-from workbench.questions import answer
-from workbench.session import Session
-from workbench.timeline import Timeline
+from workbench.machinery.authors import Blaming
+from workbench.run import links
+from workbench.run.picking import picked_params
+from workbench.run.questions import answer
+from workbench.run.session import Session
+from workbench.run.timeline import Timeline
 from workbench.viewer.following import Following
 from workbench.viewer.own_files import OwnFiles
 from workbench.viewer.requests import Requests, read_request
@@ -43,16 +44,24 @@ class PageConnection:
     Args:
         lessons: All lessons that are served, by name.
         runs: What is shared between all pages.
-        send: Sends a text to the page, and returns when it may be sent more; says nothing where the page has left.
+        send: Sends a text to the page, and returns when it may be sent more; says nothing where the
+            page has left.
     """
 
-    def __init__(self, lessons: Mapping[str, Lesson], runs: Runs, send: Callable[[str | bytes], Awaitable[None]]):
+    def __init__(
+        self,
+        lessons: Mapping[str, Lesson],
+        runs: Runs,
+        send: Callable[[str | bytes], Awaitable[None]],
+    ):
         self.lessons, self.runs, self._send = lessons, runs, send
         self._loop = asyncio.get_running_loop()
         self.start: links.Place | None = None  # where browsers begin; its own files are kept
         self.following: Following | None = None
         self.files = OwnFiles()
-        self._news: list[Mapping[str, Any]] = []  # what the page is told next, of the files behind its lesson
+        self._news: list[
+            Mapping[str, Any]
+        ] = []  # what the page is told next, of the files behind its lesson
         self.session: Session | None = None
         self.acted = self._loop.time()  # when something was last wished for
         self.asleep = False  # whether its run was let go to make room
@@ -79,7 +88,9 @@ class PageConnection:
         self.runs.scheduler.leave(self)
 
     def sleep(self) -> bool:
-        """Let go of the run, to make room, until something is wished for; tell whether there was one. From any thread."""
+        """Let go of the run, to make room, until something is wished for; tell whether there was
+        one. From any thread.
+        """
         is_awaited = self._waits and self._loop.time() - self.acted < AWAITED
         if self.asleep or self.session is None or self._requests or is_awaited:
             return False
@@ -105,8 +116,15 @@ class PageConnection:
             try:
                 await self._do_what_is_wished()
             except Exception as error:  # a defect of ours: it is told, and the page goes on
-                tell_terminal(AuthorError(f"a request could not be fulfilled: {error!r}", traceback.format_exc()))
-                await self._tell(tell="trouble", text="Something went wrong; the terminal of the server says what.")
+                tell_terminal(
+                    AuthorError(
+                        f"a request could not be fulfilled: {error!r}", traceback.format_exc()
+                    )
+                )
+                await self._tell(
+                    tell="trouble",
+                    text="Something went wrong; the terminal of the server says what.",
+                )
 
     async def _do_what_is_wished(self) -> None:
         requests = self._requests.take()
@@ -126,14 +144,20 @@ class PageConnection:
         if session is None or self.asleep:
             return
         self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
-        crew = self.runs.stepping if session.timeline is self._updates.timeline else self.runs.showing
+        crew = (
+            self.runs.stepping if session.timeline is self._updates.timeline else self.runs.showing
+        )
         for part in await crew.do(self._show, session, bool(requests)):
             await self._send(part)
         timeline = session.timeline
-        self._waits = bool(self._requests) or not (timeline.finished or 0 <= session.wanted < len(timeline))
+        self._waits = bool(self._requests) or not (
+            timeline.finished or 0 <= session.wanted < len(timeline)
+        )
 
     def _show(self, session: Session, tell: bool) -> list[str | bytes]:
-        """Return what the page is to be sent so that it shows what is to be seen now. Not on the event loop."""
+        """Return what the page is to be sent so that it shows what is to be seen now. Not on the
+        event loop.
+        """
         look = session.look()
         if look is None or session is not self.session:
             return []
@@ -144,7 +168,7 @@ class PageConnection:
         """Look again: steps have come. Called in a thread that computes."""
         self._loop.call_soon_threadsafe(self._wake.set)
 
-    # the verbs ------------------------------------------------------------------------------------------------------
+    # the verbs ------------------------------------------------------------------------------------
 
     async def open(self, message: Mapping[str, Any]) -> None:
         """Open what an address names."""
@@ -180,21 +204,38 @@ class PageConnection:
         session, name, step = self.session, str(message.get("run", "")), message.get("step")
         if session is None:
             return
+        question = next((one for one in session.lesson.questions if one.name == name), None)
         if name == "default":
             session.reset()
+        elif question is not None:
+            session.open(session.lesson, question.params, 0)
         elif name:
             session.use_preset(name)
         if name:
             self._updates.aim.open(session.lesson, session.params)
+        if step == "stop":
+            step = await self._stop(session)
         if isinstance(step, int):
             session.open(session.lesson, session.params, step)
+
+    async def _stop(self, session: Session) -> int:
+        """Return the last step of the run itself; what tries other starts behind it is known
+        only once it is computed.
+        """
+        if session.lesson.tries is None:
+            return -1
+        await self._computed(session.timeline)
+        end = self.runs.steps(session.timeline).end()
+        return -1 if end is None else end
 
     async def change(self, message: Mapping[str, Any]) -> None:
         """Set params; files are not set from a browser."""
         values = message.get("values")
         if self.session is not None and isinstance(values, dict):
             private = paths_of(self.session.lesson.params)
-            self.session.change(**{name: value for name, value in values.items() if name not in private})
+            self.session.change(
+                **{name: value for name, value in values.items() if name not in private}
+            )
 
     async def reset(self, message: Mapping[str, Any]) -> None:
         """Go back to the default run."""
@@ -209,29 +250,41 @@ class PageConnection:
             session.change(**{str(name): None})
 
     async def predict(self, message: Mapping[str, Any]) -> None:
-        """Compare a prediction with the run that answers, tell the page, and show that run; own files are put aside."""
+        """Compare a prediction with the run that answers, tell the page, and show that run; own
+        files are put aside.
+
+        With `stay` the page shows it in its own time, such as a story, which plays it first.
+        """
         session = self.session
         if session is None:
             return
         lesson = session.lesson
-        question = next((one for one in lesson.questions if one.name == message.get("question")), None)
+        question = next(
+            (one for one in lesson.questions if one.name == message.get("question")), None
+        )
         if question is None:
             return
         await self._computed(self.runs.timelines.get(lesson, question.params))
         try:
             with Blaming(f"lesson {lesson.name}, question {question.name!r}", question.answer):
-                found = await self.runs.asking.do(answer, lesson, question, message.get("given"), self.runs.timelines)
+                found = await self.runs.asking.do(
+                    answer, lesson, question, message.get("given"), self.runs.timelines
+                )
         except InputError as error:
             tell_terminal(error)
             await self._tell(tell="answer", question=question.name, trouble=str(error))
             return
         told = {"right": found.right, "truth": found.truth, "why": found.why, "reply": found.reply}
         await self._tell(tell="answer", question=question.name, **told)
+        if message.get("stay"):
+            return
         session.open(lesson, question.params, found.step)
         self._updates.aim.open(lesson, question.params)
 
     async def click(self, message: Mapping[str, Any]) -> None:
-        """Set the params that a click in the scene picks: the ray of `p_origin` (3,) and `v_ray` (3,), in the world."""
+        """Set the params that a click in the scene picks: the ray of `p_origin` (3,) and `v_ray`
+        (3,), in the world.
+        """
         session, ray = self.session, _ray(message)
         look = None if session is None else session.look()
         if look is not None and session is not None and ray is not None:
@@ -249,7 +302,7 @@ class PageConnection:
             await came.wait()
             came.clear()
 
-    # what comes from elsewhere ---------------------------------------------------------------------------------------
+    # what comes from elsewhere --------------------------------------------------------------------
 
     async def take_file(self, field: str, name: str, parts: AsyncIterator[bytes]) -> None:
         """Set a field of Params to a person's own file; the folder it is in goes with this page.
@@ -268,7 +321,9 @@ class PageConnection:
         self._wake.set()
 
     def go_on(self, before: Lesson, after: Lesson, news: Mapping[str, Any] | None) -> None:
-        """Go on in another version of a lesson, at the same params and step, where it is open; called in another thread."""
+        """Go on in another version of a lesson, at the same params and step, where it is open;
+        called in another thread.
+        """
         self._soon(self._go_on, before, after, news)
 
     def tell_where(self, lesson: Lesson, news: Mapping[str, Any]) -> None:
@@ -299,11 +354,17 @@ class PageConnection:
 
 
 def _ray(message: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return origin and direction of a click, both (3,); None where a browser sends something else."""
+    """Return origin and direction of a click, both (3,); None where a browser sends something
+    else.
+    """
     found = []
     for name in ("p_origin", "v_ray"):
         values = message.get(name)
-        is_vector = isinstance(values, list) and len(values) == 3 and all(type(x) in (int, float) for x in values)
+        is_vector = (
+            isinstance(values, list)
+            and len(values) == 3
+            and all(type(x) in (int, float) for x in values)
+        )
         if not is_vector or not all(math.isfinite(x) and abs(x) < LARGEST for x in values):  # type: ignore[union-attr]
             return None
         found.append(np.array(values, float))

@@ -1,18 +1,21 @@
-"""The documents of the live home: the course, and the page of each lesson. What an author did wrong is told in its place."""
+"""The documents of the live home: the course, and the page of each lesson. What an author did wrong
+is told in its place.
+"""
 
 from collections.abc import Callable, Mapping
 from html import escape
 
-from workbench import links
-from workbench.authors import Blaming
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
 from workbench.exercise.watching import Watched
-from workbench.lesson import Lesson
+from workbench.lesson import Lesson, place_of
+from workbench.machinery.authors import Blaming
 from workbench.page.article import PLACE, article_html
 from workbench.page.course import Card, course_document
 from workbench.page.document import lesson_document
 from workbench.page.exercise import exercises_html, watched_html
+from workbench.run import links
+from workbench.story import Story, story_of
 from workbench.viewer.terminal import tell_terminal
 
 ROOT = "page/"
@@ -26,6 +29,8 @@ def course_page(lessons: Mapping[str, Lesson], trouble: str | None = None) -> st
             title=lesson.title,
             summary=lesson.summary,
             needs=lesson.needs,
+            chapter=lesson.chapter,
+            minutes=lesson.minutes,
             address=address(lesson, "", None),
             picture=f"picture/{lesson.name}",
         )
@@ -35,40 +40,79 @@ def course_page(lessons: Mapping[str, Lesson], trouble: str | None = None) -> st
 
 
 class LessonPages:
-    """The documents of lessons, each made once for all who open it, and anew when its page.md is another."""
+    """The documents of lessons, each made once for all who open it, and anew when its page.md is
+    another.
+    """
 
     def __init__(self) -> None:
         self._made: dict[str, tuple[Lesson, str, tuple[str, ...], str]] = {}
 
-    def page(self, lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None) -> str:
+    def page(
+        self, lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None
+    ) -> str:
         """Return the document of a lesson, as `lesson_page` does."""
         try:
             text = lesson.text()
         except InputError:  # told in its place
             text = "!["
-        if watched is not None or "![" in text:  # what else may have changed: a student's file, a picture's
+        if (
+            watched is not None or "![" in text
+        ):  # what else may have changed: a student's file, a picture's
             return lesson_page(lesson, lessons, watched)
         made = self._made.get(lesson.name)
         if made is None or made[0] is not lesson or made[1:3] != (text, tuple(lessons)):
-            made = self._made[lesson.name] = lesson, text, tuple(lessons), lesson_page(lesson, lessons)
+            made = self._made[lesson.name] = (
+                lesson,
+                text,
+                tuple(lessons),
+                lesson_page(lesson, lessons),
+            )
         return made[3]
 
 
-def lesson_page(lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None) -> str:
+def lesson_page(
+    lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None
+) -> str:
     """Return the document of a lesson, with what drives it where a student's file does."""
-    article = _told(lesson, "page", lambda: article_html(lesson, lambda run, step: address(lesson, run, step), "live"))
+    article = _told(
+        lesson,
+        "page",
+        lambda: article_html(lesson, lambda run, step: address(lesson, run, step), "live"),
+    )
     exercises = _told(lesson, "exercises", lambda: _exercises(lesson, watched))
     own = watched is not None and watched.lesson is lesson
-    course = [{"name": one.name, "title": one.title, "needs": one.needs} for one in in_order(lessons)]
+    course = [
+        {"name": one.name, "title": one.title, "needs": one.needs} for one in in_order(lessons)
+    ]
     opening, ending = (exercises, "") if own else ("", exercises)
+    story, trouble = (None, "") if own else _story(lesson)
     return lesson_document(
-        lesson, article, home="live", root=ROOT, opening=opening, ending=ending, more={"COURSE": course}
+        lesson,
+        trouble + article,
+        home="live",
+        root=ROOT,
+        opening=opening,
+        ending=ending,
+        more={"COURSE": course},
+        story=story,
     )
+
+
+def _story(lesson: Lesson) -> tuple[Story | None, str]:
+    """Return a lesson's story if one is told, and what is wrong with it in its place."""
+    found: list[Story | None] = [None]
+
+    def read() -> str:
+        found[0] = story_of(lesson, "live")
+        return ""
+
+    trouble = _told(lesson, "story", read)
+    return found[0], trouble
 
 
 def in_order(lessons: Mapping[str, Lesson]) -> list[Lesson]:
     """Return lessons in course order."""
-    return sorted(lessons.values(), key=lambda lesson: (lesson.order, lesson.name))
+    return sorted(lessons.values(), key=place_of)
 
 
 def address(lesson: Lesson, run: str, step: int | None) -> str:
@@ -78,13 +122,20 @@ def address(lesson: Lesson, run: str, step: int | None) -> str:
 
 
 def start_address(start: links.Place, query: str) -> str:
-    """Return the relative address where browsers begin, with the keys of theirs that are not ours."""
+    """Return the relative address where browsers begin, with the keys of theirs that are not
+    ours.
+    """
     return links.write(start) + (f"&{query}" if query else "")
 
 
 def _exercises(lesson: Lesson, watched: Watched | None) -> str:
     if watched is not None and watched.lesson is lesson:
-        return watched_html(watched.exercise, watched.path.name, lesson, lambda run: address(lesson, run, None))
+        return watched_html(
+            watched.exercise,
+            watched.path.name,
+            lesson,
+            address=lambda run: address(lesson, run, None),
+        )
     return exercises_html(exercises_of(lesson))
 
 
@@ -95,4 +146,6 @@ def _told(lesson: Lesson, what: str, make: Callable[[], str]) -> str:
             return make()
     except InputError as error:
         tell_terminal(error)
-        return f'<p class="trouble" role="alert">{escape(str(error))}</p>' + (PLACE if what == "page" else "")
+        return f'<p class="trouble" role="alert">{escape(str(error))}</p>' + (
+            PLACE if what == "page" else ""
+        )

@@ -1,6 +1,8 @@
-"""Follows the files behind a served lesson while they are edited: a student's function, and a lesson given by its path.
+"""Follows the files behind a served lesson while they are edited: a student's function, and a
+lesson given by its path.
 
-Two threads of their own look at the files and run the checks, so that no file, however long its code takes, holds up a page.
+Two threads of their own look at the files and run the checks, so that no file, however long its
+code takes, holds up a page.
 """
 
 import threading
@@ -72,7 +74,9 @@ class Following:
         if lesson is not self._lesson:
             return []
         told = [] if self.watched is None else [exercise_news(self.watched)]
-        return told + ([] if self._trouble is None else [{"tell": "notice", "text": str(self._trouble)}])
+        return told + (
+            [] if self._trouble is None else [{"tell": "notice", "text": str(self._trouble)}]
+        )
 
     def _look(self) -> None:
         while not self._ended.wait(POLL):
@@ -131,11 +135,20 @@ class Following:
 
 
 def exercise_news(watched: Watched) -> dict[str, Any]:
-    """Return what a page is told of a student's file: its name, its source, and what the checks found."""
+    """Return what a page is told of a student's file: its name, its source, and what the checks
+    found.
+    """
     source = {"name": watched.path.name, "html": text_html(watched.source)}
-    return {"tell": "exercise", "name": watched.exercise.name, "source": source, "report": report_of(watched)}
+    return {
+        "tell": "exercise",
+        "name": watched.exercise.name,
+        "source": source,
+        "report": report_of(watched),
+    }
 
 
 def report_of(watched: Watched) -> dict[str, Any]:
-    """Return what the checks found of a student's file as it is now, and what it printed in the run that it drives."""
+    """Return what the checks found of a student's file as it is now, and what it printed in the run
+    that it drives.
+    """
     return report_data(watched.said, watched.printed())

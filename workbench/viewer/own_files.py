@@ -1,4 +1,6 @@
-"""Files that a person gives to one page: kept in a folder of that page, under names of ours, as long as it is open."""
+"""Files that a person gives to one page: kept in a folder of that page, under names of ours, as
+long as it is open.
+"""
 
 import re
 import shutil
@@ -28,7 +30,8 @@ class OwnFiles:
 
         Args:
             field: The name of the field of Params that it is for; the file is called after it.
-            name: What the person's file is called; only its ending is taken over, since readers go by that.
+            name: What the person's file is called; only its ending is taken over, since readers go
+                by that.
             parts: The file; given up as soon as it is larger than MOST_BYTES.
 
         Raises:
@@ -39,7 +42,9 @@ class OwnFiles:
             handed_to_a_page(self._folder)
         self._number += 1
         ending = _ENDING.search(name)
-        place = self._folder / str(self._number)  # a path of its own: equal params mean an equal run
+        place = self._folder / str(
+            self._number
+        )  # a path of its own: equal params mean an equal run
         place.mkdir()
         path = place / f"{field}{ending[0].lower() if ending else ''}"
         size = 0
@@ -48,7 +53,9 @@ class OwnFiles:
                 async for part in parts:
                     size += len(part)
                     if size > MOST_BYTES:
-                        raise InputError(f"this file is larger than the {MOST_BYTES >> 20} MB that a page takes")
+                        raise InputError(
+                            f"this file is larger than the {MOST_BYTES >> 20} MB that a page takes"
+                        )
                     await run_in_threadpool(file.write, part)
             if not size:
                 raise InputError("this file is empty")

@@ -1,4 +1,6 @@
-"""How long the server waits for a browser: connections that say nothing or take nothing are closed after a while."""
+"""How long the server waits for a browser: connections that say nothing or take nothing are closed
+after a while.
+"""
 
 import asyncio
 import contextlib
@@ -9,13 +11,15 @@ import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 PATIENCE = 20.0
-"""Seconds that a connection may say nothing before its request, or take nothing of what it is sent."""
+"""Seconds that a connection may say nothing before its request, or take nothing of what it is sent.
+"""
 LOOK = 2.0
 FILES = 8192
 
 
 class Patience:
-    """Closes connections that wait too long, and says in one line what an event loop would say in a hundred.
+    """Closes connections that wait too long, and says in one line what an event loop would say in a
+    hundred.
 
     Args:
         server: Whose connections these are.
@@ -54,7 +58,9 @@ class Patience:
 
 
 def _waits_for(connection: Any) -> Any:
-    """Return what a connection waits for, equal as long as nothing comes of it; None where it waits for nothing."""
+    """Return what a connection waits for, equal as long as nothing comes of it; None where it waits
+    for nothing.
+    """
     unsent = connection.transport.get_write_buffer_size()
     if unsent:
         return "reader", unsent
@@ -65,7 +71,9 @@ def _waits_for(connection: Any) -> Any:
 
 
 def more_files() -> None:
-    """Let this process open as many files as it may, up to what a large class needs: each page has a socket or two."""
+    """Let this process open as many files as it may, up to what a large class needs: each page has
+    a socket or two.
+    """
     with contextlib.suppress(ImportError, ValueError, OSError):  # not on every machine
         import resource
 

@@ -1,4 +1,6 @@
-"""What a page requests for and has not got yet: of each kind the latest, so that a flood of requests is one of each kind."""
+"""What a page requests for and has not got yet: of each kind the latest, so that a flood of
+requests is one of each kind.
+"""
 
 import json
 from collections.abc import Mapping
@@ -34,14 +36,21 @@ class Requests:
         """Note a request; it takes the place of an earlier one of its kind."""
         verb = request["verb"]
         if verb in ANEW and (verb != "run" or request.get("run")):
-            self._waiting = {kind: one for kind, one in self._waiting.items() if kind[0] not in ANEW | MOVES}
+            stale = (
+                ANEW if verb == "open" else ANEW - {"open"}
+            ) | MOVES  # a run is one of the lesson that was opened
+            self._waiting = {
+                kind: one for kind, one in self._waiting.items() if kind[0] not in stale
+            }
         kind = verb, str(request.get("question", ""))[:100] if verb == "predict" else ""
         before = self._waiting.pop(kind, None)
         if verb == "change" and before is not None:
             values = before.get("values"), request.get("values")
             request = {
                 **request,
-                "values": {k: v for part in values if isinstance(part, dict) for k, v in part.items()},
+                "values": {
+                    k: v for part in values if isinstance(part, dict) for k, v in part.items()
+                },
             }
         if verb != "predict" or sum(one == verb for one, _ in self._waiting) < MOST_ANSWERS:
             self._waiting[kind] = dict(request)

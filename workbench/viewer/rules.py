@@ -1,8 +1,9 @@
-"""Who may talk to the live server: by the Host that a browser names, the Origin of the page it shows, and a token.
+"""Who may talk to the live server: by the Host that a browser names, the Origin of the page it
+shows, and a token.
 
-A browser must name this machine (`workbench.hosts`). Where others are let in, they bring a token: in the link at the
-first visit, in a cookie from then on. A page of another origin opens no websocket and reads nothing, and no other site
-shows a page in a frame.
+A browser must name this machine (`workbench.machinery.hosts`). Where others are let in, they bring
+a token: in the link at the first visit, in a cookie from then on. A page of another origin opens no
+websocket and reads nothing, and no other site shows a page in a frame.
 """
 
 import re
@@ -16,18 +17,18 @@ from starlette.responses import HTMLResponse, PlainTextResponse, RedirectRespons
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from workbench.errors import InputError
-from workbench.hosts import Hosts, name_in
+from workbench.machinery.hosts import Hosts, name_in
 from workbench.viewer.addresses import KEY
 
 _PAGE = (
-    "default-src 'none'; script-src 'self' 'nonce-{nonce}'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
-    "font-src 'self' data:; connect-src 'self'; frame-src 'self'; form-action 'self'; base-uri 'none'; "
-    "frame-ancestors 'self'"
+    "default-src 'none'; script-src 'self' 'nonce-{nonce}'; style-src 'self' 'unsafe-inline';"
+    " img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self'; frame-src 'self';"
+    " form-action 'self'; base-uri 'none'; frame-ancestors 'self'"
 )
 _SCENE = (  # viser's client is one file with its scripts, workers and compiled decoders in it
-    "default-src 'none'; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob: data:; worker-src blob: data:; "
-    "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
-    "connect-src data: blob:; form-action 'none'; base-uri 'none'; frame-ancestors 'self'"
+    "default-src 'none'; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob: data:; worker-src"
+    " blob: data:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self'"
+    " data:; connect-src data: blob:; form-action 'none'; base-uri 'none'; frame-ancestors 'self'"
 )
 _SLASH = '<script>if (!location.pathname.endsWith("/")) location.pathname += "/";</script>'
 _HEADERS = {
@@ -44,7 +45,8 @@ class Rules:
     Args:
         host: Where the server listens.
         open_to_all: Let everybody in who reaches it, without a token.
-        behind: The public name of the server where it stands behind a proxy, with its port or without.
+        behind: The public name of the server where it stands behind a proxy, with its port or
+            without.
 
     Attributes:
         token: What must be brought, None where nothing must.
@@ -56,7 +58,8 @@ class Rules:
     def __init__(self, host: str, *, open_to_all: bool = False, behind: str | None = None):
         if behind is not None and name_in(behind) is None:
             raise InputError(
-                f"--behind {behind}: the name under which browsers find the server, such as class.example.org"
+                f"--behind {behind}: the name under which browsers find the server, such as"
+                " class.example.org"
             )
         self._hosts = Hosts(host)
         self.behind = None if behind is None else behind.lower()
@@ -64,10 +67,14 @@ class Rules:
 
     def knows(self, host: str) -> bool:
         """Tell whether a browser that names this host has come to the right place."""
-        return self._hosts.know(host) or (name_in(host) is not None and self._is_behind(host.lower()))
+        return self._hosts.know(host) or (
+            name_in(host) is not None and self._is_behind(host.lower())
+        )
 
     def same_origin(self, origin: str, host: str) -> bool:
-        """Tell whether a page of an origin is one that this server gave a browser that names this host."""
+        """Tell whether a page of an origin is one that this server gave a browser that names this
+        host.
+        """
         scheme, _, name = origin.lower().partition("://")
         return scheme in ("http", "https") and (name == host.lower() or self._is_behind(name))
 
@@ -78,12 +85,18 @@ class Rules:
         """Say why a request is refused, None where it is let in as far as Host and Origin say."""
         host, origin = asked.headers.get("host", ""), asked.headers.get("origin")
         if not self.knows(host):
-            return "This server is not known under that name. Behind a proxy, start it with --behind NAME."
+            return (
+                "This server is not known under that name. Behind a proxy, start it with --behind"
+                " NAME."
+            )
         if origin is None and asked.scope["type"] == "websocket":
             return "A page says where it comes from."
         if origin is not None and not self.same_origin(origin, host):
             return "A page of another origin is not let in."
-        if asked.headers.get("sec-fetch-site") == "cross-site" and asked.headers.get("sec-fetch-mode") != "navigate":
+        if (
+            asked.headers.get("sec-fetch-site") == "cross-site"
+            and asked.headers.get("sec-fetch-mode") != "navigate"
+        ):
             return "A page of another origin is not let in."
         return None
 
@@ -99,24 +112,32 @@ class Rules:
         return cookie in cookies and self._is_token(cookies[cookie].value)
 
     def _is_token(self, given: str) -> bool:
-        return self.token is not None and secrets.compare_digest(given.encode(), self.token.encode())
+        return self.token is not None and secrets.compare_digest(
+            given.encode(), self.token.encode()
+        )
 
     def with_key(self, request: Request) -> str | None:
-        """Return the address without the key of a request that brings the right one, None of any other."""
+        """Return the address without the key of a request that brings the right one, None of any
+        other.
+        """
         given = parse_qsl(request.url.query[:4000], keep_blank_values=True)
-        if request.method != "GET" or not any(name == KEY and self._is_token(value) for name, value in given):
+        if request.method != "GET" or not any(
+            name == KEY and self._is_token(value) for name, value in given
+        ):
             return None
         rest = urlencode([(name, value) for name, value in given if name != KEY], safe=",")
         return f"?{rest}"
 
 
 class Gate:
-    """Stands before an application and lets in what the rules let in; answers carry what keeps browsers safe.
+    """Stands before an application and lets in what the rules let in; answers carry what keeps
+    browsers safe.
 
     Args:
         app: What is behind it.
         rules: Who may.
-        cookie: The name of the cookie that holds the token; servers on one machine have cookies in common.
+        cookie: The name of the cookie that holds the token; servers on one machine have cookies in
+            common.
     """
 
     def __init__(self, app: ASGIApp, rules: Rules, cookie: str):
@@ -140,7 +161,9 @@ class Gate:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
                 headers.update(_HEADERS)
-                headers["content-security-policy"] = _SCENE if is_scene else _PAGE.format(nonce=nonce)
+                headers["content-security-policy"] = (
+                    _SCENE if is_scene else _PAGE.format(nonce=nonce)
+                )
             await send(message)
 
         return await self._admitted(Request(scope, receive), refused)(scope, receive, answer)
@@ -156,7 +179,8 @@ class Gate:
             answer.set_cookie(
                 self._cookie,
                 self._rules.token,
-                path=None,  # what stands before the last slash as the browser sees it: right behind any prefix
+                # what stands before the last slash as the browser sees it: right behind any prefix
+                path=None,
                 httponly=True,
                 samesite="lax",
                 secure=Headers(scope=request.scope).get("x-forwarded-proto") == "https",
@@ -172,11 +196,12 @@ class Gate:
 def page_response(request: Request, html: str) -> HTMLResponse:
     """Return a page whose own scripts, those that stand in it, may run.
 
-    All addresses in it are relative to the folder that it is: one that was asked for without its last slash, behind a
-    proxy's prefix, is asked for again with it.
+    All addresses in it are relative to the folder that it is: one that was asked for without its
+    last slash, behind a proxy's prefix, is asked for again with it.
     """
     nonce = request.scope["nonce"]
     html = html.replace("<head>", f"<head>{_SLASH}", 1)
     return HTMLResponse(
-        re.sub(r"<script(?=[ >])", f'<script nonce="{nonce}"', html), headers={"cache-control": "no-store"}
+        re.sub(r"<script(?=[ >])", f'<script nonce="{nonce}"', html),
+        headers={"cache-control": "no-store"},
     )

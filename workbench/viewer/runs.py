@@ -1,4 +1,6 @@
-"""The runs of all pages: computed in turn, their data made once for everybody, all within one bound of memory."""
+"""The runs of all pages: computed in turn, their data made once for everybody, all within one bound
+of memory.
+"""
 
 import asyncio
 import contextlib
@@ -13,8 +15,8 @@ from typing import Any, TypeVar
 
 from workbench.lesson import Lesson
 from workbench.page.steps import Steps
+from workbench.run.timeline import Timeline, Timelines
 from workbench.scene import arrays
-from workbench.timeline import Timeline, Timelines
 from workbench.viewer.scheduling import Scheduler
 from workbench.wire.nodes import Maker
 
@@ -81,12 +83,14 @@ def _settle(answer: asyncio.Future, found: Any, error: Exception | None) -> None
 class Runs:
     """What the pages of a server share.
 
-    `stepping` shows a step of the run that a page shows already, `showing` the first of another, which costs several times
-    as much: who only steps does not wait for who moves knobs. `asking` answers, `keeping` makes recordings and pictures.
+    `stepping` shows a step of the run that a page shows already, `showing` the first of another,
+    which costs several times as much: who only steps does not wait for who moves knobs. `asking`
+    answers, `keeping` makes recordings and pictures.
 
     Args:
-        most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that nobody looks at go
-            first, then lessons' caches, then the runs of pages where nothing was done for longest.
+        most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that
+            nobody looks at go first, then lessons' caches, then the runs of pages where nothing was
+            done for longest.
         threads: How many compute.
     """
 
@@ -94,7 +98,9 @@ class Runs:
         self.timelines, self.maker = Timelines(most_bytes=most_bytes), Maker()
         self.stepping, self.showing = Crew("stepping", 2), Crew("showing", 2)
         self.asking, self.keeping = Crew("asking", 1), Crew("keeping", 1)
-        self.scheduler = Scheduler(threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind())
+        self.scheduler = Scheduler(
+            threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind()
+        )
         self._most_bytes = most_bytes
         self._steps: weakref.WeakKeyDictionary[Timeline, Steps] = weakref.WeakKeyDictionary()
         self._lock = threading.Lock()
@@ -116,7 +122,9 @@ class Runs:
         self.keeping.close()
 
     def held(self, lessons: Iterable[Lesson]) -> int:
-        """Return the bytes of all runs, of what is sent of them, and of these lessons' caches; each array counts once."""
+        """Return the bytes of all runs, of what is sent of them, and of these lessons' caches; each
+        array counts once.
+        """
         owned: dict[int, int] = {}
         for timeline in self.timelines.alive():
             owned |= timeline.owned()
@@ -143,7 +151,9 @@ class Runs:
             sleepers: Let go of the run of one page each, in this order, and tell whether they did.
         """
         lessons, freed = tuple(lessons), False
-        at_most = self.timelines.bytes + self.maker.held()  # arrays that two runs share are counted twice
+        at_most = (
+            self.timelines.bytes + self.maker.held()
+        )  # arrays that two runs share are counted twice
         if at_most < self._most_bytes // 2:
             return at_most
         while (held := self.held(lessons)) > self._most_bytes and self.timelines.drop():
@@ -164,12 +174,17 @@ class Runs:
 
 def caches(lessons: Iterable[Lesson]) -> list[Any]:
     """Return the caches (`functools.lru_cache`) of the modules that lessons are made of."""
-    homes = {lesson.params.__module__.rpartition(".")[0] or lesson.params.__module__ for lesson in lessons}
+    homes = {
+        lesson.params.__module__.rpartition(".")[0] or lesson.params.__module__
+        for lesson in lessons
+    }
     found: dict[int, Any] = {}
     for name, module in tuple(sys.modules.items()):
         if name in homes or name.rpartition(".")[0] in homes:
             for value in tuple(vars(module).values()):
-                if callable(getattr(value, "cache_clear", None)) and callable(getattr(value, "cache_info", None)):
+                if callable(getattr(value, "cache_clear", None)) and callable(
+                    getattr(value, "cache_info", None)
+                ):
                     found[id(value)] = value
     return list(found.values())
 
@@ -185,10 +200,11 @@ def _cached_arrays(cached: Any) -> Iterable[Any]:
 
 
 def settle() -> None:
-    """Keep what is there now out of every collection of garbage: of a whole server, one takes a tenth of a second.
+    """Keep what is there now out of every collection of garbage: of a whole server, one takes a
+    tenth of a second.
 
-    All threads stand still meanwhile; whoever sends deeply nested rubbish can bring one about at every message.
-    For a process that is a server and nothing else.
+    All threads stand still meanwhile; whoever sends deeply nested rubbish can bring one about at
+    every message. For a process that is a server and nothing else.
     """
     gc.collect()
     gc.freeze()

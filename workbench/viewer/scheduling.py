@@ -1,7 +1,9 @@
-"""Who is computed for next: the step that somebody waits for, then the few behind it, then everybody's rest at rest.
+"""Who is computed for next: the step that somebody waits for, then the few behind it, then
+everybody's rest at rest.
 
-Threads of their own compute runs in short slices. Of those who wait, the one who was served longest ago comes first, so a
-person who asks a lot delays only themselves. A run that nobody looks at is given up where it stands.
+Threads of their own compute runs in short slices. Of those who wait, the one who was served longest
+ago comes first, so a person who asks a lot delays only themselves. A run that nobody looks at is
+given up where it stands.
 """
 
 import contextlib
@@ -12,12 +14,13 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
 from workbench.apart import tell_when_waiting
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 
 SLICE = 0.02
 """Seconds of computing until somebody else has a turn; a single step may take longer."""
 AHEAD = 8
-"""How many steps behind the one that is shown are computed at once, so that playing does not wait."""
+"""How many steps behind the one that is shown are computed at once, so that playing does not wait.
+"""
 REST = 0.5
 """Seconds without a wish after which the rest of a run is computed."""
 BUSY = 0.02
@@ -31,7 +34,9 @@ MOST_STUCK = 4
 
 @dataclass(eq=False)
 class _Job:
-    """A run that is computed, and who looks at it: what they want, and how they are told of steps that have come."""
+    """A run that is computed, and who looks at it: what they want, and how they are told of steps
+    that have come.
+    """
 
     timeline: Timeline
     wanted: dict[Hashable, int] = field(default_factory=dict)
@@ -51,7 +56,8 @@ class Scheduler:
 
     Args:
         threads: How many compute; all but one may compute what nobody waits for.
-        busy: Tells whether people wait for something else that this process does; then nothing is computed at rest.
+        busy: Tells whether people wait for something else that this process does; then nothing is
+            computed at rest.
     """
 
     def __init__(self, threads: int = 2, busy: Callable[[], bool] = lambda: False):
@@ -68,7 +74,8 @@ class Scheduler:
             self._start_thread()
 
     def want(self, who: Hashable, timeline: Timeline, k: int, tell: Callable[[], None]) -> bool:
-        """Compute a run up to step k (negative: to its end) for somebody, in place of what they wanted before.
+        """Compute a run up to step k (negative: to its end) for somebody, in place of what they
+        wanted before.
 
         Returns whether there is anything to compute; else nobody is told.
 
@@ -80,7 +87,11 @@ class Scheduler:
         """
         with self._changed:
             before = self._of.get(who)
-            if before is not None and before[0].timeline is timeline and before[0].wanted.get(who) == k:
+            if (
+                before is not None
+                and before[0].timeline is timeline
+                and before[0].wanted.get(who) == k
+            ):
                 self._of[who] = before[0], tell
                 return True
             self._forget(who)
@@ -128,7 +139,9 @@ class Scheduler:
             pass
 
     def _one_slice(self) -> bool:
-        """Compute for a slice when there is something to compute; False when this thread is to end."""
+        """Compute for a slice when there is something to compute; False when this thread is to
+        end.
+        """
         here = threading.current_thread()
         with self._changed:
             while (found := self._next()) is None and self._open:
@@ -152,8 +165,11 @@ class Scheduler:
     def _next(self) -> tuple[_Job, bool] | None:
         """Return the run whose turn it is, and whether nobody waits for it."""
         free = [job for job in self._jobs.values() if not job.running]
-        waiting = [(min(self._turns.get(who, 0.0) for who in asking), i) for i, job in enumerate(free)
-                   if (asking := job.waiting())]  # fmt: skip
+        waiting = [
+            (min(self._turns.get(who, 0.0) for who in asking), i)
+            for i, job in enumerate(free)
+            if (asking := job.waiting())
+        ]
         if waiting:
             return free[min(waiting)[1]], False
         if self._resting >= max(1, self._threads - 1) or self._busy():
@@ -207,16 +223,22 @@ class Scheduler:
             return False
 
     def stands_still(self) -> None:
-        """Let another thread compute in the place of this one, which is about to wait for something else."""
+        """Let another thread compute in the place of this one, which is about to wait for something
+        else.
+        """
         here = threading.current_thread()
         with self._changed:
             if self._began.get(here, -STUCK) > 0 and self._stuck < MOST_STUCK:
-                self._began[here] = -STUCK  # counts as one that is held up, and ends when it is done
+                self._began[
+                    here
+                ] = -STUCK  # counts as one that is held up, and ends when it is done
                 self._stuck += 1
                 self._start_thread()
 
     def relieve(self) -> None:
-        """Start a thread for each that a single step holds up, a few at most; to be called now and then."""
+        """Start a thread for each that a single step holds up, a few at most; to be called now and
+        then.
+        """
         with self._changed:
             now = time.monotonic()
             held = sum(now - began > STUCK for began in self._began.values())

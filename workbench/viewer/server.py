@@ -1,7 +1,8 @@
 """The live home of the page: the only thing that listens.
 
-One port, one origin: `/` is the page, `/live` its websocket, `/scene/` viser's client, one file, which the page puts into a
-frame and feeds. A page has a token; it is made here, and says nothing of anybody.
+One port, one origin: `/` is the page, `/live` its websocket, `/scene/` viser's client, one file,
+which the page puts into a frame and feeds. A page has a token; it is made here, and says nothing of
+anybody.
 """
 
 import asyncio
@@ -20,16 +21,16 @@ from starlette.responses import FileResponse, PlainTextResponse, RedirectRespons
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from workbench import links
 from workbench.authoring.reloading import Edited, carried
 from workbench.errors import InputError
 from workbench.exercise.watching import Watched
-from workbench.hosts import listening
 from workbench.lesson import Lesson, catalog
+from workbench.machinery.hosts import listening
 from workbench.page.code import source_html
-from workbench.page.document import LIVE, SCRIPTS, STATIC, STYLES, THIRD_PARTIES
+from workbench.page.course import FRONT_FILES
+from workbench.page.document import LIVE, SCRIPTS, STATIC, STORY_FILES, STYLES, THIRD_PARTIES
 from workbench.page.thumbnail import thumbnail
-from workbench.typeset import math_font_css
+from workbench.run import links
 from workbench.viewer.addresses import Doors
 from workbench.viewer.connection import PageConnection
 from workbench.viewer.documents import LessonPages, course_page, lesson_page, start_address
@@ -40,8 +41,9 @@ from workbench.viewer.rules import Gate, Rules, page_response
 from workbench.viewer.runs import MOST_BYTES, Runs
 from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
+from workbench.words.typeset import math_font_css
 
-FILES = (*STYLES, *LIVE, *SCRIPTS, THIRD_PARTIES)
+FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, *FRONT_FILES, THIRD_PARTIES)
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200
@@ -51,7 +53,9 @@ ROOM = 3.0
 EMPTY = 30.0
 """Seconds without a page after which nothing is held any more."""
 SWITCH = 0.001
-"""Seconds that a thread which computes holds up another, such as the one that hears and tells; Python's own is 0.005."""
+"""Seconds that a thread which computes holds up another, such as the one that hears and tells;
+Python's own is 0.005.
+"""
 _TOKEN = re.compile(r"[0-9a-f]{24}")
 
 
@@ -61,9 +65,12 @@ class Server:
     Args:
         start: Where browsers begin whose address names no lesson; None is the course page.
         host, port: Where it listens; port 0 picks a free one.
-        watched: A student's file that drives the lesson of `start`; loaded again whenever it is saved.
-        edited: The lesson of `start` where it was given by its path; loaded again whenever one of its files is saved.
-        open_to_all: Let everybody in who reaches it; else whoever is not on this machine brings the token of `links`.
+        watched: A student's file that drives the lesson of `start`; loaded again whenever it is
+            saved.
+        edited: The lesson of `start` where it was given by its path; loaded again whenever one of
+            its files is saved.
+        open_to_all: Let everybody in who reaches it; else whoever is not on this machine brings the
+            token of `links`.
         behind: The name under which browsers find it, where it stands behind a proxy.
         most_bytes: What runs and all that belongs to them may hold.
         most_pages: How many pages may be open.
@@ -88,7 +95,9 @@ class Server:
         most_bytes: int = MOST_BYTES,
         most_pages: int = MOST_PAGES,
     ):
-        self.lessons: dict[str, Lesson] = dict(catalog()) | ({start.lesson.name: start.lesson} if start else {})
+        self.lessons: dict[str, Lesson] = dict(catalog()) | (
+            {start.lesson.name: start.lesson} if start else {}
+        )
         self.rules = Rules(host, open_to_all=open_to_all, behind=behind)
         listener = listening(host, port)
         more_files()
@@ -99,7 +108,9 @@ class Server:
         self._lesson_pages = LessonPages()
         self.students: dict[str, PageConnection] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
-        self.following = start and Following(start.lesson, watched, edited, self._replace, self._pages)
+        self.following = start and Following(
+            start.lesson, watched, edited, self._replace, self._pages
+        )
         config = uvicorn.Config(
             Gate(self._app(), self.rules, f"workbench-{self.port}"),
             http="h11",
@@ -132,7 +143,7 @@ class Server:
         self._thread.join(10)
         self.runs.close()
 
-    # the page -------------------------------------------------------------------------------------------------------
+    # the page -------------------------------------------------------------------------------------
 
     def _app(self) -> Starlette:
         return Starlette(
@@ -153,7 +164,8 @@ class Server:
     async def _lifespan(self, app: Starlette) -> AsyncIterator[None]:
         self._loop = asyncio.get_running_loop()
         keeping = [
-            asyncio.create_task(one) for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
+            asyncio.create_task(one)
+            for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
         ]
         yield
         for task in keeping:
@@ -177,12 +189,16 @@ class Server:
                 await self.runs.asking.do(self.runs.let_go, list(self.lessons.values()))
             longest_ago = sorted(self.students.values(), key=lambda student: student.acted)
             await self.runs.asking.do(
-                self.runs.make_room, list(self.lessons.values()), [student.sleep for student in longest_ago]
+                self.runs.make_room,
+                list(self.lessons.values()),
+                [student.sleep for student in longest_ago],
             )
 
     async def _page(self, request: Request) -> Response:
         if len(self.students) >= self._most_pages:
-            return PlainTextResponse("As many pages are open as this server can bear. Try again in a while.", 503)
+            return PlainTextResponse(
+                "As many pages are open as this server can bear. Try again in a while.", 503
+            )
         named, trouble = request.query_params.get("lesson"), None
         if named is None and self._start is not None and "course" not in request.query_params:
             return RedirectResponse(
@@ -195,10 +211,14 @@ class Server:
         except InputError as error:
             trouble = str(error)  # of a lesson that is here, the page's websocket tells it
         if lesson is None:
-            return page_response(request, await self.runs.stepping.do(course_page, self.lessons, trouble))
+            return page_response(
+                request, await self.runs.stepping.do(course_page, self.lessons, trouble)
+            )
         watched = self.following.watched if self.following else None
         page = await self.runs.stepping.do(self._lesson_pages.page, lesson, self.lessons, watched)
-        return page_response(request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1))
+        return page_response(
+            request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1)
+        )
 
     def _new_token(self) -> str:
         return secrets.token_hex(12)
@@ -229,8 +249,9 @@ class Server:
             return PlainTextResponse("no such picture", 404)
         kept, making = self._pictures.get(lesson.name, (None, None))
         if making is None or kept is not lesson:  # made once for all who ask
-            timeline = self.runs.timelines.get(lesson, lesson.params())
-            making = asyncio.create_task(self.runs.keeping.do(thumbnail, lesson, timeline))
+            making = asyncio.create_task(
+                self.runs.keeping.do(thumbnail, lesson, self.runs.timelines)
+            )
             self._pictures[lesson.name] = lesson, making
         try:
             picture = await asyncio.shield(making)
@@ -240,15 +261,23 @@ class Server:
 
     async def _file(self, request: Request) -> Response:
         name = request.path_params["file"]
-        return FileResponse(STATIC / name) if name in FILES else PlainTextResponse("no such file", 404)
+        return (
+            FileResponse(STATIC / name) if name in FILES else PlainTextResponse("no such file", 404)
+        )
 
     async def _live(self, socket: WebSocket) -> None:
         await socket.accept()
         token = socket.query_params.get("token", "")
-        if not _TOKEN.fullmatch(token) or token in self.students or len(self.students) >= self._most_pages:
+        if (
+            not _TOKEN.fullmatch(token)
+            or token in self.students
+            or len(self.students) >= self._most_pages
+        ):
             await socket.close(4409)
             return
-        student = self.students[token] = PageConnection(self.lessons, self.runs, functools.partial(_send, socket))
+        student = self.students[token] = PageConnection(
+            self.lessons, self.runs, functools.partial(_send, socket)
+        )
         student.start, student.following = self._start, self.following
         working = asyncio.create_task(student.work())
         try:

@@ -1,4 +1,6 @@
-"""The commands' side of the live page: listens on the one port that is printed, until interrupted."""
+"""The commands' side of the live page: listens on the one port that is printed, until
+interrupted.
+"""
 
 import contextlib
 import signal
@@ -7,11 +9,11 @@ import webbrowser
 from collections.abc import Iterator
 from typing import Any
 
-from workbench import links
 from workbench.authoring.reloading import Edited
 from workbench.errors import InputError
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson
+from workbench.run import links
 from workbench.viewer.addresses import Doors
 from workbench.viewer.runs import settle
 from workbench.viewer.server import Server
@@ -36,12 +38,25 @@ def serve(
     Raises:
         InputError: If the port is taken or may not be used, or several processes are wanted.
     """
-    start = None if lesson is None else links.Place(lesson, params if params is not None else lesson.params(), step)
+    start = (
+        None
+        if lesson is None
+        else links.Place(lesson, params if params is not None else lesson.params(), step)
+    )
     if workers != 1:
-        raise InputError(f"--workers {workers}: one process serves a hundred students; more servers: docs/classroom.md")
+        raise InputError(
+            f"--workers {workers}: one process serves a hundred students; more servers:"
+            " docs/classroom.md"
+        )
     with _ended_as_by_ctrl_c():
         server = Server(
-            start, host=host, port=port, open_to_all=open_to_all, behind=behind, watched=watched, edited=edited
+            start,
+            host=host,
+            port=port,
+            open_to_all=open_to_all,
+            behind=behind,
+            watched=watched,
+            edited=edited,
         )
         settle()
         try:

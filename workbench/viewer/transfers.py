@@ -1,4 +1,6 @@
-"""What goes over HTTP beside a page: viser's client, and, asked for by its token, the recording of its run and own files."""
+"""What goes over HTTP beside a page: viser's client, and, asked for by its token, the recording of
+its run and own files.
+"""
 
 from urllib.parse import quote
 
@@ -6,18 +8,25 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import PlainTextResponse, Response
 
 from workbench.errors import InputError
-from workbench.timeline import Timeline
+from workbench.run.timeline import Timeline
 from workbench.viewer.connection import PageConnection
 from workbench.viewer.terminal import tell_terminal
 
 
 def scene_response(request: Request, plain: bytes, compressed: bytes, etag: str) -> Response:
-    """Return viser's client: nothing where the browser has it already, else compressed where it can read that."""
+    """Return viser's client: nothing where the browser has it already, else compressed where it can
+    read that.
+    """
     headers = {"etag": etag, "cache-control": "no-cache", "vary": "accept-encoding"}
-    if etag in (one.strip().removeprefix("W/") for one in request.headers.get("if-none-match", "").split(",")):
+    if etag in (
+        one.strip().removeprefix("W/")
+        for one in request.headers.get("if-none-match", "").split(",")
+    ):
         return Response(status_code=304, headers=headers)
     if "gzip" in request.headers.get("accept-encoding", ""):
-        return Response(compressed, headers=headers | {"content-encoding": "gzip"}, media_type="text/html")
+        return Response(
+            compressed, headers=headers | {"content-encoding": "gzip"}, media_type="text/html"
+        )
     return Response(plain, headers=headers, media_type="text/html")
 
 
@@ -31,7 +40,10 @@ async def recording(student: PageConnection | None) -> Response:
     except InputError as error:
         tell_terminal(error)
         return PlainTextResponse(str(error), 422)
-    headers = {"content-disposition": f"attachment; filename*=utf-8''{quote(name)}", "cache-control": "no-store"}
+    headers = {
+        "content-disposition": f"attachment; filename*=utf-8''{quote(name)}",
+        "cache-control": "no-store",
+    }
     return Response(content, media_type="application/octet-stream", headers=headers)
 
 

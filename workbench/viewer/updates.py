@@ -1,20 +1,23 @@
-"""What one page is told of the run it looks at, and sent of its scenes: only what it has not got."""
+"""What one page is told of the run it looks at, and sent of its scenes: only what it has not
+got.
+"""
 
 import json
 from collections.abc import Mapping
 from typing import Any
 
-from workbench import links
-from workbench.authors import Blaming
 from workbench.errors import AuthorError, InputError
 from workbench.exercise.driven import Pair, calls_it, first_difference
 from workbench.exercise.watching import Watched
 from workbench.lesson import Lesson, View
-from workbench.links import show_command
+from workbench.machinery.authors import Blaming
 from workbench.page.lessons import files_of, values_of
 from workbench.page.steps import Steps
-from workbench.session import Look, Session
-from workbench.timeline import Timeline
+from workbench.run import links
+from workbench.run.links import show_command
+from workbench.run.session import Look, Session
+from workbench.run.timeline import Timeline
+from workbench.story.names import run_name
 from workbench.viewer.runs import Runs
 from workbench.viewer.terminal import tell_terminal
 from workbench.wire.packing import PageWire
@@ -48,8 +51,11 @@ class PageUpdates:
         """Hold no run any more."""
         self.timeline = self._steps = self._seen = self._drawn = None
 
-    def show(self, session: Session, look: Look, *, tell: bool, watched: Watched | None) -> list[str | bytes]:
-        """Return what the page is to be sent so that it shows a look: its scene as bytes, and texts.
+    def show(
+        self, session: Session, look: Look, *, tell: bool, watched: Watched | None
+    ) -> list[str | bytes]:
+        """Return what the page is to be sent so that it shows a look: its scene as bytes, and
+        texts.
 
         Args:
             session: Where the person is.
@@ -65,7 +71,9 @@ class PageUpdates:
             self._sent, self._told, self._told_steps, self._run = set(), None, 0, self._run + 1
         now = self._run, look.k, look.known > 0, look.caption, timeline is session.timeline
         new = now != self._seen
-        drawn, trouble = self._scene(look, current=timeline is session.timeline) if new else (None, None)
+        drawn, trouble = (
+            self._scene(look, current=timeline is session.timeline) if new else (None, None)
+        )
         told = [self._run_told(self._steps, look, watched)]
         again = new or tell or trouble is not None
         if look.known and again:
@@ -73,12 +81,17 @@ class PageUpdates:
         elif not look.known and trouble is None and look.caption.text and again:
             told.append({"tell": "trouble", "text": look.caption.text})
         self._seen = now if trouble is None else None
-        return [*([] if drawn is None else [drawn]), *(packed(message) for message in told if message is not None)]
+        return [
+            *([] if drawn is None else [drawn]),
+            *(packed(message) for message in told if message is not None),
+        ]
 
     def _scene(self, look: Look, *, current: bool) -> tuple[bytes | None, str | None]:
-        """Return the bytes that the page lacks of a scene, or what went wrong; its view is of the run that is wanted.
+        """Return the bytes that the page lacks of a scene, or what went wrong; its view is of the
+        run that is wanted.
 
-        Nothing where the page shows it: a caption that is another, or a run that is no longer wanted, draws nothing anew.
+        Nothing where the page shows it: a caption that is another, or a run that is no longer
+        wanted, draws nothing anew.
         """
         lesson, head = look.lesson, {"run": self._run, "k": look.k}
         try:
@@ -101,11 +114,13 @@ class PageUpdates:
         params, lesson = look.params, look.lesson
         is_watched = watched is not None and watched.lesson is lesson
         said = {
-            "name": "default" if params == lesson.params() else getattr(lesson.preset_of(params), "name", ""),
+            "name": run_name(lesson, params),
             "params": values_of(params),
             "known": look.known,
             "finished": look.finished,
             "end": steps.end(),
+            "places": steps.places(),
+            "idle": look.timeline.idle(),
             "files": files_of(look.own),
             "aside": look.own is not params,
             "mark": first_difference(look.timeline.known()) if is_watched else None,
@@ -124,12 +139,17 @@ class PageUpdates:
     def _step_told(self, steps: Steps, look: Look, trouble: str | None) -> dict[str, Any]:
         step = dict(steps.step(look.k))
         if look.caption.text != step["caption"] or trouble:
-            step |= {"caption": trouble or look.caption.text, "tone": "wrong" if trouble else look.caption.tone}
-        wanted = [*step["shown"], step["legend"]]
+            step |= {
+                "caption": trouble or look.caption.text,
+                "tone": "wrong" if trouble else look.caption.tone,
+            }
+        wanted = steps.wanted(step)
         code = steps.code(look.k)
         if code is not None:
             state = look.timeline[look.k].state
-            step["code"] = code | ({"wrong": state.line} if isinstance(state, Pair) and state.line else {})
+            step["code"] = code | (
+                {"wrong": state.line} if isinstance(state, Pair) and state.line else {}
+            )
             wanted.append(code["source"])
         new = {n: steps.things[n] for n in wanted if n not in self._sent}
         self._sent |= set(new)

@@ -1,4 +1,6 @@
-"""viser's client: one file that draws scenes, and takes the page for the worker through which it would reach a server."""
+"""viser's client: one file that draws scenes, and takes the page for the worker through which it
+would reach a server.
+"""
 
 import functools
 import gzip
@@ -28,12 +30,20 @@ def client_html() -> str:
     except OSError:
         html = ""
     if "<head>" not in html:
-        raise InputError(f"viser {viser.__version__} has no client that a page can feed: install viser 1.1.1")
+        raise InputError(
+            f"viser {viser.__version__} has no client that a page can feed: install viser 1.1.1"
+        )
     return html.replace("<head>", f"<head>{_WORKER}", 1)
 
 
 @functools.cache
 def client_bytes() -> tuple[bytes, bytes, str]:
-    """Return the client's file as it is, compressed by gzip, and what stands for its content in an ETag."""
+    """Return the client's file as it is, compressed by gzip, and what stands for its content in an
+    ETag.
+    """
     plain = client_html().encode()
-    return plain, gzip.compress(plain, 9, mtime=0), f'"{hashlib.blake2b(plain, digest_size=12).hexdigest()}"'
+    return (
+        plain,
+        gzip.compress(plain, 9, mtime=0),
+        f'"{hashlib.blake2b(plain, digest_size=12).hexdigest()}"',
+    )

@@ -15,7 +15,9 @@ Said = dict[str, Any]
 
 
 class _Wire(WebsockMessageHandler):
-    """What a SceneApi takes for its client, for the connection of that client, and for the server behind it."""
+    """What a SceneApi takes for its client, for the connection of that client, and for the server
+    behind it.
+    """
 
     client_id = ""
 
@@ -49,10 +51,14 @@ class Listener:
             self._scene = viser.SceneApi(self._wire, None, None)  # type: ignore[arg-type]
             self.at_first = self._taken()
         except (AttributeError, TypeError) as error:
-            raise InputError(f"viser {viser.__version__} makes scenes in another way: install viser 1.1.1") from error
+            raise InputError(
+                f"viser {viser.__version__} makes scenes in another way: install viser 1.1.1"
+            ) from error
 
     def heard(self, add: Callable[[viser.SceneApi], Any]) -> list[tuple[Said, list[memoryview]]]:
-        """Return what viser says when something is added to its scene: each message, and its arrays."""
+        """Return what viser says when something is added to its scene: each message, and its
+        arrays.
+        """
         add(self._scene)
         return self._taken()
 

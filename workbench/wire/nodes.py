@@ -1,7 +1,7 @@
 """A scene as plain nodes that any page can draw: of which kind, with which properties, where.
 
-A node is made once, the same for all who ask, and lives as long as the primitive that it shows. Equal content has an equal
-key, so that a page is sent it once.
+A node is made once, the same for all who ask, and lives as long as the primitive that it shows.
+Equal content has an equal key, so that a page is sent it once.
 """
 
 import functools
@@ -42,7 +42,8 @@ class Kind:
 
     Attributes:
         key: Of equal content, equal keys.
-        text: As JSON: viser's type of node, its properties, and how opaque it is; an array is `{"$": key, "as": dtype}`.
+        text: As JSON: viser's type of node, its properties, and how opaque it is; an array is
+            `{"$": key, "as": dtype}`.
         arrays: Those that belong to it.
     """
 
@@ -70,7 +71,9 @@ class Maker:
             threading.local()
         )  # viser's scene API is one for each thread: nobody waits for a heavy scene of others
         self._lock = threading.Lock()
-        self._made: weakref.WeakKeyDictionary[Spatial, dict[str, Node]] = weakref.WeakKeyDictionary()
+        self._made: weakref.WeakKeyDictionary[Spatial, dict[str, Node]] = (
+            weakref.WeakKeyDictionary()
+        )
         self._contents: weakref.WeakValueDictionary[str, Content] = weakref.WeakValueDictionary()
         self.stage = functools.lru_cache(MOST_STAGES)(self._stage)
 
@@ -80,7 +83,9 @@ class Maker:
             return sum(len(content.data) for content in self._contents.values())
 
     def nodes(self, scene: Scene, view: View) -> dict[str, Node]:
-        """Return all nodes of a scene and of its stage, by name, in the order in which they are drawn."""
+        """Return all nodes of a scene and of its stage, by name, in the order in which they are
+        drawn.
+        """
         found = dict(self.stage(view).nodes)
         for path, primitive in scene.items():
             if in_space(primitive):
@@ -91,7 +96,9 @@ class Maker:
     def _stage(self, view: View) -> Stage:
         """Return the stage of a view; `stage` does, and keeps those that were wanted last."""
         listener = self._listener()
-        nodes, light = self._nodes([*listener.at_first, *listener.heard(lambda scene: add_stage(scene, view))])
+        nodes, light = self._nodes(
+            [*listener.at_first, *listener.heard(lambda scene: add_stage(scene, view))]
+        )
         for name, place in axis_names(view):
             nodes[f"/axis/{name}"] = self._word(name, small=True), place_of(place, None)
         return Stage(nodes, tuple(light))
@@ -115,12 +122,19 @@ class Maker:
         if isinstance(primitive, Label):
             word = self._word(primitive.text, fade=primitive.opacity)
             return {"": (word, place_of(primitive.p, primitive.T_world_object))}
-        nodes, _ = self._nodes(self._listener().heard(lambda scene: add(scene, primitive)), fade=primitive.opacity)
+        nodes, _ = self._nodes(
+            self._listener().heard(lambda scene: add(scene, primitive)), fade=primitive.opacity
+        )
         pose = pose_of(primitive)
-        return {name[len(NAME) :]: (kind, pose if name == NAME else at) for name, (kind, at) in nodes.items()}
+        return {
+            name[len(NAME) :]: (kind, pose if name == NAME else at)
+            for name, (kind, at) in nodes.items()
+        }
 
     def _word(self, text: str, *, small: bool = False, fade: float = 1.0) -> Kind:
-        return self._kind("Label", {"text": text, **({"small": True} if small else {})}, [], fade=fade)
+        return self._kind(
+            "Label", {"text": text, **({"small": True} if small else {})}, [], fade=fade
+        )
 
     def _nodes(
         self, heard: list[tuple[Said, list[memoryview]]], fade: float = 1.0
@@ -142,13 +156,24 @@ class Maker:
             elif said["type"] == "SetSceneNodeVisibilityMessage" and not said["visible"]:
                 hidden.add(name)
         nodes = {
-            name: (self._kind(said["type"], said["props"], arrays, fade=fade, visible=name not in hidden), poses[name])
+            name: (
+                self._kind(
+                    said["type"], said["props"], arrays, fade=fade, visible=name not in hidden
+                ),
+                poses[name],
+            )
             for name, (said, arrays) in made.items()
         }
         return nodes, others
 
     def _kind(
-        self, type_: str, props: Mapping[str, Any], arrays: list[memoryview], *, fade: float = 1.0, visible: bool = True
+        self,
+        type_: str,
+        props: Mapping[str, Any],
+        arrays: list[memoryview],
+        *,
+        fade: float = 1.0,
+        visible: bool = True,
     ) -> Kind:
         contents: list[Content] = []
 
@@ -165,7 +190,10 @@ class Maker:
             contents.append(self._content(content))
             return {"$": contents[-1].key, "as": dtype}
 
-        said: dict[str, Any] = {"type": type_, "props": {name: plain(value) for name, value in props.items()}}
+        said: dict[str, Any] = {
+            "type": type_,
+            "props": {name: plain(value) for name, value in props.items()},
+        }
         said |= {"fade": round(fade, 4)} if fade < 1 else {}
         said |= {} if visible else {"visible": False}
         text = json.dumps(said, separators=(",", ":"), allow_nan=False)

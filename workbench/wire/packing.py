@@ -1,7 +1,8 @@
-"""Steps and runs as bytes: 4 bytes of length (little endian), a head as JSON, then arrays at multiples of 8 bytes.
+"""Steps and runs as bytes: 4 bytes of length (little endian), a head as JSON, then arrays at
+multiples of 8 bytes.
 
-The head names what follows in `arrays`, as [key, bytes], and what it says anew in `kinds`. A node is [name, key of its kind,
-pose]. A page keeps kinds and arrays, and is sent each of them once.
+The head names what follows in `arrays`, as [key, bytes], and what it says anew in `kinds`. A node
+is [name, key of its kind, pose]. A page keeps kinds and arrays, and is sent each of them once.
 """
 
 import base64
@@ -12,8 +13,8 @@ from typing import Any
 import zstandard
 
 from workbench.lesson import View
+from workbench.run.timeline import Timeline
 from workbench.scene import Scene
-from workbench.timeline import Timeline
 from workbench.wire.nodes import MAKER, Content, Kind, Maker, Node
 from workbench.wire.stage import camera_of
 
@@ -27,7 +28,9 @@ def packed(head: Mapping[str, Any], kinds: Iterable[Kind], arrays: Iterable[Cont
     """Return one message."""
     arrays = list(arrays)
     text = json.dumps(
-        {**head, "arrays": [[one.key, len(one.data)] for one in arrays]}, separators=(",", ":"), allow_nan=False
+        {**head, "arrays": [[one.key, len(one.data)] for one in arrays]},
+        separators=(",", ":"),
+        allow_nan=False,
     )
     listed = ",".join(f'"{kind.key}":{kind.text}' for kind in kinds)
     start = f'{text[:-1]},"kinds":{{{listed}}}}}'.encode()
@@ -39,7 +42,9 @@ def packed(head: Mapping[str, Any], kinds: Iterable[Kind], arrays: Iterable[Cont
 
 
 def staged(view: View, maker: Maker = MAKER) -> dict[str, Any]:
-    """Return what a page is told of a stage besides its nodes: how it is lit, and where it is seen from."""
+    """Return what a page is told of a stage besides its nodes: how it is lit, and where it is seen
+    from.
+    """
     return {"light": list(maker.stage(view).light), "camera": camera_of(view)}
 
 
@@ -64,7 +69,8 @@ class PageWire:
             head: What is said with it, as plain data.
             scene: What is shown.
             view: The stage that it is on.
-            stage: What the camera belongs to besides, such as the lesson: it is put to the view again where that changes.
+            stage: What the camera belongs to besides, such as the lesson: it is put to the view
+                again where that changes.
         """
         said = dict(head)
         if not self._kinds or self._held > MOST_ON_A_PAGE:
@@ -72,7 +78,12 @@ class PageWire:
             said["fresh"] = True
         nodes = self._maker.nodes(scene, view)
         kinds = {kind.key: kind for kind, _ in nodes.values() if kind.key not in self._kinds}
-        arrays = {one.key: one for kind in kinds.values() for one in kind.arrays if one.key not in self._arrays}
+        arrays = {
+            one.key: one
+            for kind in kinds.values()
+            for one in kind.arrays
+            if one.key not in self._arrays
+        }
         self._kinds |= kinds.keys()
         self._arrays |= arrays.keys()
         self._held += sum(len(one.data) for one in arrays.values())
@@ -83,7 +94,9 @@ class PageWire:
 
 
 def run_bytes(timeline: Timeline, maker: Maker = MAKER) -> bytes:
-    """Return the scenes of all known steps of a run as one message; a step names alone what is as in the one before."""
+    """Return the scenes of all known steps of a run as one message; a step names alone what is as
+    in the one before.
+    """
     view = timeline.lesson.view_of(timeline.params)
     kinds: dict[str, Kind] = {}
     arrays: dict[str, Content] = {}
@@ -106,7 +119,9 @@ def _listed(name: str, node: Node, before: Node | None) -> Any:
 
 
 def run_text(timeline: Timeline) -> str:
-    """Return the scenes of a run as a page's script holds them: 8 bytes of length, then zstd, in base64."""
+    """Return the scenes of a run as a page's script holds them: 8 bytes of length, then zstd, in
+    base64.
+    """
     content = run_bytes(timeline)
     small = zstandard.ZstdCompressor(level=LEVEL).compress(content)
     return base64.b64encode(len(content).to_bytes(8, "little") + small).decode()

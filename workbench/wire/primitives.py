@@ -1,7 +1,7 @@
 """How each primitive is drawn by viser: what it is made of, and where it stands.
 
-Everything is drawn in its full colours, in the frame of the primitive: how opaque it is, and before which backdrop, is the
-page's affair.
+Everything is drawn in its full colours, in the frame of the primitive: how opaque it is, and before
+which backdrop, is the page's affair.
 """
 
 import math
@@ -36,26 +36,33 @@ NAME = "/n"
 
 
 def add(scene: viser.SceneApi, primitive: Spatial) -> None:
-    """Add a primitive to a scene of viser, at the origin; a Label and lines without a segment add nothing."""
+    """Add a primitive to a scene of viser, at the origin; a Label and lines without a segment add
+    nothing.
+    """
     make = _MAKERS.get(type(primitive))
     if make is not None:
         make(scene, primitive)
 
 
 def pose_of(primitive: Spatial) -> Pose:
-    """Return where a primitive stands in the world; one that is not moved rigidly has its motion in its points."""
+    """Return where a primitive stands in the world; one that is not moved rigidly has its motion in
+    its points.
+    """
     T = primitive.T_world_object
     return AT_ORIGIN if T is None or not is_rigid(T) else (*wxyz_of(T[:3, :3]), *T[:3, 3].tolist())
 
 
 def place_of(p: np.ndarray, T_world_object: np.ndarray | None) -> Pose:
-    """Return where a point (3,) of a frame is in the world, as the pose of what is turned nowhere."""
+    """Return where a point (3,) of a frame is in the world, as the pose of what is turned
+    nowhere.
+    """
     x, y, z = p if T_world_object is None else T_world_object[:3, :3] @ p + T_world_object[:3, 3]
     return (1.0, 0.0, 0.0, 0.0, float(x), float(y), float(z))
 
 
 def wxyz_of(R: np.ndarray) -> tuple[float, float, float, float]:
-    """Return the unit quaternion of a 3x3 rotation, its largest part positive; in plain numbers, for speed.
+    """Return the unit quaternion of a 3x3 rotation, its largest part positive; in plain numbers,
+    for speed.
 
     Reference: S. W. Shepperd, Quaternion from rotation matrix, J. Guidance and Control 1(3), 1978.
     """
@@ -163,9 +170,13 @@ def _camera(scene: viser.SceneApi, camera: Camera) -> None:
 
 
 def _corners(camera: Camera) -> np.ndarray:
-    """Return the corners of a camera's picture at its depth, (4, 3), from the upper left clockwise, in its frame."""
+    """Return the corners of a camera's picture at its depth, (4, 3), from the upper left clockwise,
+    in its frame.
+    """
     right, bottom = camera.width - 0.5, camera.height - 0.5
-    uv1 = np.array([[-0.5, -0.5, 1.0], [right, -0.5, 1.0], [right, bottom, 1.0], [-0.5, bottom, 1.0]])
+    uv1 = np.array(
+        [[-0.5, -0.5, 1.0], [right, -0.5, 1.0], [right, bottom, 1.0], [-0.5, bottom, 1.0]]
+    )
     return camera.depth * uv1 @ np.linalg.inv(camera.K).T
 
 
@@ -192,7 +203,9 @@ def _colors(color: Color, n: int) -> np.ndarray:
 
 
 def _placed(primitive: Spatial, p: np.ndarray) -> np.ndarray:
-    """Return points in the frame of the node: the object's, or the world's where a pose cannot express the motion."""
+    """Return points in the frame of the node: the object's, or the world's where a pose cannot
+    express the motion.
+    """
     T = primitive.T_world_object
     return p if T is None or is_rigid(T) else p @ T[:3, :3].T + T[:3, 3]
 

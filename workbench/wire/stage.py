@@ -1,4 +1,6 @@
-"""The empty stage of a lesson: light, camera, world up, grid with a stated spacing, axes with their names."""
+"""The empty stage of a lesson: light, camera, world up, grid with a stated spacing, axes with their
+names.
+"""
 
 from typing import Any
 
@@ -11,7 +13,9 @@ _PLANES = ("yz", "xz", "xy")
 
 
 class Aim:
-    """Which view a page's camera is put to: that of a run that was opened; what a knob leads to keeps it where it fits."""
+    """Which view a page's camera is put to: that of a run that was opened; what a knob leads to
+    keeps it where it fits.
+    """
 
     def __init__(self) -> None:
         self._wanted: View | None = None
@@ -37,14 +41,18 @@ def length_of_axes(view: View) -> float:
 
 
 def axis_names(view: View) -> list[tuple[str, np.ndarray]]:
-    """Return the names of the world's axes, each with its place (3,); none where the axes are hidden."""
+    """Return the names of the world's axes, each with its place (3,); none where the axes are
+    hidden.
+    """
     if not view.axes:
         return []
     return list(zip("xyz", 1.08 * length_of_axes(view) * np.eye(3), strict=True))
 
 
 def camera_of(view: View) -> dict[str, Any]:
-    """Return where a view is seen from, as a page takes it: metres, and the height of the picture as an angle, radians."""
+    """Return where a view is seen from, as a page takes it: metres, and the height of the picture
+    as an angle, radians.
+    """
     return {
         "eye": [float(x) for x in view.seen_from()],
         "target": [float(x) for x in view.target],
@@ -56,15 +64,17 @@ def camera_of(view: View) -> dict[str, Any]:
 def add_stage(scene: viser.SceneApi, view: View) -> None:
     """Add light, grid and axes of a view to a scene of viser.
 
-    What is up is the camera's affair. The scene itself is not turned: the browser would take the camera's place for one in
-    the frame before the turn.
+    What is up is the camera's affair. The scene itself is not turned: the browser would take the
+    camera's place for one in the frame before the turn.
     """
     _add_light(scene, view)
     if view.grid is not None:
         _add_grid(scene, view, view.grid)
     if view.axes:
         length = length_of_axes(view)
-        scene.add_frame("/axes", axes_length=length, axes_radius=0.012 * length, origin_radius=0.02 * length)
+        scene.add_frame(
+            "/axes", axes_length=length, axes_radius=0.012 * length, origin_radius=0.02 * length
+        )
 
 
 def _add_grid(scene: viser.SceneApi, view: View, spacing: float) -> None:
@@ -86,9 +96,15 @@ def _add_grid(scene: viser.SceneApi, view: View, spacing: float) -> None:
 
 
 def _add_light(scene: viser.SceneApi, view: View) -> None:
-    """Light a lesson by two lamps and a plain sky: shadows and mirrored surroundings are slow without a graphics card."""
+    """Light a lesson by two lamps and a plain sky: shadows and mirrored surroundings are slow
+    without a graphics card.
+    """
     scene.configure_default_lights(cast_shadow=False)
     scene.configure_environment_map(hdri=None)
     scene.add_light_hemisphere(
-        "/sky", sky_color=(255, 255, 255), ground_color=(165, 165, 165), intensity=2.2, position=view.up
+        "/sky",
+        sky_color=(255, 255, 255),
+        ground_color=(165, 165, 165),
+        intensity=2.2,
+        position=view.up,
     )

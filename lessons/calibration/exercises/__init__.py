@@ -6,12 +6,17 @@ from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.geometry.cameras import intrinsics
 from workbench.geometry.motions import exp_so3, motion
 
-STUDENTS, GRADERS = 41, HiddenSeed(8527)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    41,
+    HiddenSeed(8527),
+)  # seeds of what a student sees run, and of what only a grader does
 CAMERA = intrinsics(536.0, 342.0, 236.0, fy=541.0)
 
 
 def views(seed: int, count: int = 3, noise: float = 0.0) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return poses T_camera_board of a board some decimetres away, and its homographies, of any scale and sign."""
+    """Return poses T_camera_board of a board some decimetres away, and its homographies, of any
+    scale and sign.
+    """
     rng = np.random.default_rng(seed)
     found = []
     for k in range(count):

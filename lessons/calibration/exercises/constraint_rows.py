@@ -1,13 +1,22 @@
-"""Write the two equations that a picture of a flat board gives about the camera. The closed form stacks what you return: see
-K in the captions of the steps 'view by view'.
+"""Write the two equations that a picture of a flat board gives about the camera. The closed form
+stacks what you return: see K in the captions of the steps 'view by view'.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.calibration.exercises import GRADERS, STUDENTS, rows_verdict, views
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import calibration
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.cameras import calibration
 
 
 @contract(
@@ -21,15 +30,18 @@ from workbench.geometry import calibration
     ),
 )
 def constraint_rows(H: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "2 6"]:
-    """Return two rows whose products with b = (B11, B12, B22, B13, B23, B33) are 0 for the true camera.
+    """Return two rows whose products with b = (B11, B12, B22, B13, B23, B33) are 0 for the true
+    camera.
 
-    B = K^-T K^-1 is symmetric. With the columns h1 and h2 of the homography, h1^T B h2 = 0 and h1^T B h1 = h2^T B h2.
+    B = K^-T K^-1 is symmetric. With the columns h1 and h2 of the homography, h1^T B h2 = 0 and h1^T
+    B h1 = h2^T B h2.
 
     Args:
         H: Takes (X, Y, 1) on the board, metres, to pixels, up to scale.
 
     Returns:
-        Row 0: coefficients of h1^T B h2. Row 1: those of h1^T B h1 - h2^T B h2. Not scaled; H stays as it is.
+        Row 0: coefficients of h1^T B h2. Row 1: those of h1^T B h1 - h2^T B h2. Not scaled; H stays
+        as it is.
     """
     return calibration.constraint_rows(H)
 
@@ -97,7 +109,9 @@ def _v(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     )
 
 
-@mistake("You took rows of H for columns. r1 and r2 go with its columns: h1 = H[:, 0] and h2 = H[:, 1].")
+@mistake(
+    "You took rows of H for columns. r1 and r2 go with its columns: h1 = H[:, 0] and h2 = H[:, 1]."
+)
 def rows_for_columns(H: np.ndarray) -> np.ndarray:
     """H[0] and H[1]."""
     return calibration.constraint_rows(H.T)
@@ -109,13 +123,18 @@ def no_difference(H: np.ndarray) -> np.ndarray:
     return np.stack([_v(H[:, 0], H[:, 1]), _v(H[:, 0], H[:, 0])])
 
 
-@mistake("Your second row adds v(h1, h1) and v(h2, h2). Equal lengths mean that their difference is 0.")
+@mistake(
+    "Your second row adds v(h1, h1) and v(h2, h2). Equal lengths mean that their difference is 0."
+)
 def added(H: np.ndarray) -> np.ndarray:
     """v11 + v22."""
     return np.stack([_v(H[:, 0], H[:, 1]), _v(H[:, 0], H[:, 0]) + _v(H[:, 1], H[:, 1])])
 
 
-@mistake("Your two rows are in the other order: the contract has h1ᵀ B h2 first, and the difference of lengths second.")
+@mistake(
+    "Your two rows are in the other order: the contract has h1ᵀ B h2 first, and the difference of"
+    " lengths second."
+)
 def swapped(H: np.ndarray) -> np.ndarray:
     """The second row first."""
     return calibration.constraint_rows(H)[::-1].copy()
@@ -127,24 +146,34 @@ def other_sign(H: np.ndarray) -> np.ndarray:
     return calibration.constraint_rows(H) * np.array([[1.0], [-1.0]])
 
 
-@mistake("Your mixed products count once. B is symmetric: B12 gets a1 b2 + a2 b1, and so do B13 and B23.")
+@mistake(
+    "Your mixed products count once. B is symmetric: B12 gets a1 b2 + a2 b1, and so do B13 and B23."
+)
 def mixed_once(H: np.ndarray) -> np.ndarray:
     """a1 b2 without a2 b1."""
 
     def v(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        return np.array([a[0] * b[0], a[0] * b[1], a[1] * b[1], a[0] * b[2], a[1] * b[2], a[2] * b[2]])
+        return np.array(
+            [a[0] * b[0], a[0] * b[1], a[1] * b[1], a[0] * b[2], a[1] * b[2], a[2] * b[2]]
+        )
 
     h1, h2 = H[:, 0], H[:, 1]
     return np.stack([v(h1, h2), v(h1, h1) - v(h2, h2)])
 
 
-@mistake("Your entries are ordered along the rows of B: B11, B12, B13, B22, ... The contract has B22 before B13.")
+@mistake(
+    "Your entries are ordered along the rows of B: B11, B12, B13, B22, ... The contract has B22"
+    " before B13."
+)
 def row_by_row(H: np.ndarray) -> np.ndarray:
     """B13 before B22."""
     return calibration.constraint_rows(H)[:, [0, 1, 3, 2, 4, 5]]
 
 
-@mistake("You took columns 2 and 3 of H. The third one is t, of which nothing is known: r1 and r2 are columns 1 and 2.")
+@mistake(
+    "You took columns 2 and 3 of H. The third one is t, of which nothing is known: r1 and r2 are"
+    " columns 1 and 2."
+)
 def columns_one_too_far(H: np.ndarray) -> np.ndarray:
     """h2 and h3."""
     return calibration.constraint_rows(H[:, [1, 2, 0]])

@@ -1,5 +1,6 @@
-"""Write where a board stands, from its homography and the camera. Your poses are drawn at the step that places the boards:
-see whether they stand before the camera, and where the refinement goes from there.
+"""Write where a board stands, from its homography and the camera. Your poses are drawn at the step
+that places the boards: see whether they stand before the camera, and where the refinement goes from
+there.
 """
 
 import numpy as np
@@ -20,8 +21,7 @@ from workbench.exercise import (
     motion_verdict,
     worst,
 )
-from workbench.geometry import calibration
-from workbench.geometry.cameras import intrinsics
+from workbench.geometry.cameras import calibration, intrinsics
 from workbench.geometry.motions import inverse, motion
 
 
@@ -33,23 +33,30 @@ from workbench.geometry.motions import inverse, motion
             "[[1, 0, 0, 0.2], [0, 1, 0, 0.1], [0, 0, 1, 0.5], [0, 0, 0, 1]]",
         ),
         (
-            "pose_from_homography(np.diag([2.0, 2, 1]), np.array([[0.0, 4, -2], [-4, 0, 0], [0, 0, -2]]))",
+            (
+                "pose_from_homography(np.diag([2.0, 2, 1]), np.array([[0.0, 4, -2], [-4, 0, 0], [0,"
+                " 0, -2]]))"
+            ),
             "[[0, -1, 0, 0.5], [1, 0, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]]",
         ),
     ),
 )
-def pose_from_homography(K: Float[np.ndarray, "3 3"], H: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4"]:
+def pose_from_homography(
+    K: Float[np.ndarray, "3 3"], H: Float[np.ndarray, "3 3"]
+) -> Float[np.ndarray, "4 4"]:
     """Return T_camera_board, metres: the board's pose before the camera.
 
-    H ~ K [r1 r2 t] up to a scale of either sign. r1 and r2 are unit vectors. The board's origin is before the camera:
-    t_z > 0. It may show its front or its back.
+    H ~ K [r1 r2 t] up to a scale of either sign. r1 and r2 are unit vectors. The board's origin is
+    before the camera: t_z > 0. It may show its front or its back.
 
     Args:
         K: Intrinsics, pixels.
-        H: Takes (X, Y, 1) on the board, metres, to pixels. Noise leaves its r1 and r2 not quite orthonormal.
+        H: Takes (X, Y, 1) on the board, metres, to pixels. Noise leaves its r1 and r2 not quite
+            orthonormal.
 
     Returns:
-        A rigid motion, also with noise: its R has R^T R = I and determinant +1. The inputs stay as they are.
+        A rigid motion, also with noise: its R has R^T R = I and determinant +1. The inputs stay as
+        they are.
     """
     return calibration.pose_from_homography(K, H)
 
@@ -60,7 +67,9 @@ BOARD = np.array([[0.0, 0, 0], [0.2, 0, 0], [0.2, 0.125, 0], [0, 0.125, 0]])
 
 def posed(candidate: Function, seed: int, count: int = 3) -> Verdict:
     """Judge poses of exact homographies."""
-    return worst(motion_verdict(candidate(CAMERA, H), T, HINT, p=BOARD) for T, H in views(seed, count))
+    return worst(
+        motion_verdict(candidate(CAMERA, H), T, HINT, p=BOARD) for T, H in views(seed, count)
+    )
 
 
 @check(2)
@@ -83,9 +92,18 @@ def rotations(candidate: Function, seed: int) -> Verdict:
         Q = T[:3, :3].T @ T[:3, :3]
         told = beside(Q, np.eye(3), HINT, "RᵀR")
         verdicts.append(
-            band("RᵀR differs from I by", float(np.abs(Q - np.eye(3)).max()), "", good=1e-6, fair=1e-5, hint=told)
+            band(
+                "RᵀR differs from I by",
+                float(np.abs(Q - np.eye(3)).max()),
+                "",
+                good=1e-6,
+                fair=1e-5,
+                hint=told,
+            )
         )
-        verdicts.append(motion_verdict(T, T_right, HINT, p=BOARD, degrees=(4.0, 8.0), metres=(0.03, 0.06)))
+        verdicts.append(
+            motion_verdict(T, T_right, HINT, p=BOARD, degrees=(4.0, 8.0), metres=(0.03, 0.06))
+        )
     return worst(verdicts)
 
 
@@ -97,12 +115,18 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_views(candidate: Function) -> Verdict:
-    """Other exact homographies, of either sign, give their poses: near, far, at any scale, by another camera with skew."""
+    """Other exact homographies, of either sign, give their poses: near, far, at any scale, by
+    another camera with skew.
+    """
     K = intrinsics(1100.0, 350.0, 700.0, fy=900.0, skew=12.0)
     verdicts = [posed(candidate, GRADERS(), 4)]
-    for (T, _), depth, scale in zip(views(GRADERS() + 5, 4), (8.0, 0.06, 0.5, 0.5), (1.0, 1.0, 1e-7, 1e7), strict=True):
+    for (T, _), depth, scale in zip(
+        views(GRADERS() + 5, 4), (8.0, 0.06, 0.5, 0.5), (1.0, 1.0, 1e-7, 1e7), strict=True
+    ):
         T = motion(T[:3, :3], T[:3, 3] * depth / T[2, 3])
-        verdicts.append(motion_verdict(candidate(K, scale * K @ T[:3, [0, 1, 3]]), T, HINT, p=BOARD))
+        verdicts.append(
+            motion_verdict(candidate(K, scale * K @ T[:3, [0, 1, 3]]), T, HINT, p=BOARD)
+        )
     return worst(verdicts)
 
 
@@ -114,13 +138,21 @@ def other_noise(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def before_the_camera(candidate: Function) -> Verdict:
-    """H and -H give the same pose, with the board's origin before the camera, seen from the front or from the back."""
+    """H and -H give the same pose, with the board's origin before the camera, seen from the front
+    or from the back.
+    """
     T, _ = views(GRADERS() + 20, 1)[0]
     verdicts = []
-    for turn in (np.eye(3), np.diag([1.0, -1.0, -1.0])):  # about the board's own x axis: its back is seen
+    for turn in (
+        np.eye(3),
+        np.diag([1.0, -1.0, -1.0]),
+    ):  # about the board's own x axis: its back is seen
         T_board = motion(T[:3, :3] @ turn, T[:3, 3])
         H = CAMERA @ T_board[:3, [0, 1, 3]]
-        verdicts += [motion_verdict(candidate(CAMERA, sign * H), T_board, HINT, p=BOARD) for sign in (1.0, -1.0)]
+        verdicts += [
+            motion_verdict(candidate(CAMERA, sign * H), T_board, HINT, p=BOARD)
+            for sign in (1.0, -1.0)
+        ]
     return worst(verdicts)
 
 
@@ -136,15 +168,21 @@ def _rotation(Q: np.ndarray) -> np.ndarray:
     return U @ Vt
 
 
-@mistake("You left the sign of λ as it came. Of the two signs only one has the board before the camera: t_z > 0.")
+@mistake(
+    "You left the sign of λ as it came. Of the two signs only one has the board before the camera:"
+    " t_z > 0."
+)
 def sign_as_it_came(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """λ always positive."""
-    r1, r2, t = _parts(K, H) if np.linalg.solve(K, H)[2, 2] > 0 else tuple(-part for part in _parts(K, H))
+    r1, r2, t = (
+        _parts(K, H) if np.linalg.solve(K, H)[2, 2] > 0 else tuple(-part for part in _parts(K, H))
+    )
     return motion(_rotation(np.column_stack([r1, r2, np.cross(r1, r2)])), t)
 
 
 @mistake(
-    "Your R is not orthonormal where H has noise. Take the nearest rotation: U Vᵀ of its singular value decomposition."
+    "Your R is not orthonormal where H has noise. Take the nearest rotation: U Vᵀ of its singular"
+    " value decomposition."
 )
 def not_orthonormal(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """[r1 r2 r1 × r2] as they are."""
@@ -152,22 +190,32 @@ def not_orthonormal(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     return motion(np.column_stack([r1, r2, np.cross(r1, r2)]), t)
 
 
-@mistake("Your r3 is r2 × r1: R has determinant −1, a mirror image. A right-handed frame has r3 = r1 × r2.")
+@mistake(
+    "Your r3 is r2 × r1: R has determinant −1, a mirror image. A right-handed frame has r3 = r1"
+    " × r2."
+)
 def mirrored(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """r3 = r2 × r1."""
     r1, r2, t = _parts(K, H)
     return motion(_rotation(np.column_stack([r1, r2, np.cross(r2, r1)])), t)
 
 
-@mistake("Your t is not scaled by λ. The scale that makes r1 and r2 unit vectors belongs to the whole of K⁻¹ H.")
+@mistake(
+    "Your t is not scaled by λ. The scale that makes r1 and r2 unit vectors belongs to the whole of"
+    " K⁻¹ H."
+)
 def t_unscaled(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """Takes t as it comes out of K^-1 H."""
     r1, r2, _ = _parts(K, H)
     t = np.linalg.solve(K, H)[:, 2]
-    return motion(_rotation(np.column_stack([r1, r2, np.cross(r1, r2)])), np.copysign(1.0, t[2]) * t)
+    return motion(
+        _rotation(np.column_stack([r1, r2, np.cross(r1, r2)])), np.copysign(1.0, t[2]) * t
+    )
 
 
-@mistake("You scaled so that t is one long. It is r1 and r2 that are unit vectors; t keeps its metres.")
+@mistake(
+    "You scaled so that t is one long. It is r1 and r2 that are unit vectors; t keeps its metres."
+)
 def t_of_length_one(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """Divides t by its length."""
     r1, r2, t = _parts(K, H)
@@ -175,7 +223,8 @@ def t_of_length_one(K: np.ndarray, H: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You returned T_board_camera. The contract asks for T_camera_board, which takes points of the board to the camera."
+    "You returned T_board_camera. The contract asks for T_camera_board, which takes points of the"
+    " board to the camera."
 )
 def inverted(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     """The inverse."""
@@ -204,7 +253,12 @@ def by_gram_schmidt(K: np.ndarray, H: np.ndarray) -> np.ndarray:
     r1 = A[:, 0] / np.linalg.norm(A[:, 0])
     r2 = A[:, 1] - (A[:, 1] @ r1) * r1
     r2 /= np.linalg.norm(r2)
-    return np.block([[np.column_stack([r1, r2, np.cross(r1, r2)]), A[:, 2:]], [np.zeros((1, 3)), np.ones((1, 1))]])
+    return np.block(
+        [
+            [np.column_stack([r1, r2, np.cross(r1, r2)]), A[:, 2:]],
+            [np.zeros((1, 3)), np.ones((1, 1))],
+        ]
+    )
 
 
 @alternative

@@ -1,5 +1,6 @@
-"""Write the number that calibrations are judged by. It is the curve 'reprojection, rms' and the number in the captions; the
-table 'What is called the error', two steps before the end, has its namesakes.
+"""Write the number that calibrations are judged by. It is the curve 'reprojection, rms' and the
+number in the captions; the table 'What is called the error', two steps before the end, has its
+namesakes.
 """
 
 import numpy as np
@@ -18,7 +19,7 @@ from workbench.exercise import (
     mistake,
     worst,
 )
-from workbench.geometry import calibration
+from workbench.geometry.cameras import calibration
 
 
 @contract(
@@ -29,7 +30,8 @@ from workbench.geometry import calibration
     ),
 )
 def reprojection_rms(residuals: Float[np.ndarray, "n 2"]) -> float:
-    """Return the root mean square length of the residuals, in pixels: per point, not per coordinate.
+    """Return the root mean square length of the residuals, in pixels: per point, not per
+    coordinate.
 
     Args:
         residuals: Projected minus measured, pixels, one row (du, dv) per corner; at least one.
@@ -80,7 +82,9 @@ def residuals_are_left_alone(candidate: Function) -> Verdict:
 def shifted(candidate: Function) -> Verdict:
     """Residuals that all point one way count in full, be they large or very small."""
     cases = [some(GRADERS(), n, shift=2.0) for n in (3, 60)]
-    return worst(said(candidate, residuals) for residuals in (*cases, 1e-6 * cases[0], 300 * cases[1]))
+    return worst(
+        said(candidate, residuals) for residuals in (*cases, 1e-6 * cases[0], 300 * cases[1])
+    )
 
 
 @check(2, public=False)
@@ -97,19 +101,28 @@ def one_corner_and_none_off(candidate: Function) -> Verdict:
     return worst(said(candidate, case) for case in (np.array([[-6.0, 8.0]]), np.zeros((5, 2))))
 
 
-@mistake("You averaged over the 2n coordinates. The rms is per point: divide the sum of squares by n, not by 2n.")
+@mistake(
+    "You averaged over the 2n coordinates. The rms is per point: divide the sum of squares by n,"
+    " not by 2n."
+)
 def per_coordinate(residuals: np.ndarray) -> float:
     """Over coordinates."""
     return float(np.sqrt(np.mean(residuals**2)))
 
 
-@mistake("You divided the norm of all residuals by n, as an old tutorial does: n has to go under the root.")
+@mistake(
+    "You divided the norm of all residuals by n, as an old tutorial does: n has to go under the"
+    " root."
+)
 def norm_over_n(residuals: np.ndarray) -> float:
     """Divides the norm by n."""
     return float(np.linalg.norm(residuals) / len(residuals))
 
 
-@mistake("You averaged the lengths. Square them first, and take the root of the mean: large residuals count more.")
+@mistake(
+    "You averaged the lengths. Square them first, and take the root of the mean: large residuals"
+    " count more."
+)
 def mean_length(residuals: np.ndarray) -> float:
     """The mean of lengths."""
     return float(np.linalg.norm(residuals, axis=1).mean())
@@ -127,13 +140,19 @@ def norm(residuals: np.ndarray) -> float:
     return float(np.linalg.norm(residuals))
 
 
-@mistake("You took off the mean residual first. A shift that all corners share is an error too, and counts.")
+@mistake(
+    "You took off the mean residual first. A shift that all corners share is an error too, and"
+    " counts."
+)
 def about_the_mean(residuals: np.ndarray) -> float:
     """A standard deviation."""
     return calibration.reprojection_rms(residuals - residuals.mean(axis=0))
 
 
-@mistake("You took the median of the lengths: a corner that is far off plays no part in it, in the rms it does.")
+@mistake(
+    "You took the median of the lengths: a corner that is far off plays no part in it, in the rms"
+    " it does."
+)
 def median_length(residuals: np.ndarray) -> float:
     """The median of lengths."""
     return float(np.median(np.linalg.norm(residuals, axis=1)))

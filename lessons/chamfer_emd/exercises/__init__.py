@@ -1,11 +1,27 @@
-"""The exercises of this lesson: one side of Chamfer, both sides, earth mover's distance. Judged by relative error."""
+"""The exercises of this lesson: one side of Chamfer, both sides, earth mover's distance. Judged by
+relative error.
+"""
 
 import numpy as np
 
-from workbench.exercise import Function, HiddenSeed, Verdict, against, fail, full, number, partial, refused, worst
+from workbench.exercise import (
+    Function,
+    HiddenSeed,
+    Verdict,
+    against,
+    fail,
+    full,
+    number,
+    partial,
+    refused,
+    worst,
+)
 from workbench.geometry.motions import apply, exp_so3, motion
 
-STUDENTS, GRADERS = 53, HiddenSeed(7718)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    53,
+    HiddenSeed(7718),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 Cloud = np.ndarray
@@ -15,7 +31,9 @@ ZERO = 1e-7  # metres, or square metres: what counts as 0
 
 
 def value_verdict(got: float, right: float, unit: str, hint: str, what: str = "") -> Verdict:
-    """Judge a distance by its relative error: all points up to 0.01 %, half up to 1 %; a distance of 0 by itself."""
+    """Judge a distance by its relative error: all points up to 0.01 %, half up to 1 %; a distance
+    of 0 by itself.
+    """
     yours = f"{what}yours" if what else "Yours"
     if right == 0.0:
         if abs(got) <= ZERO:
@@ -33,7 +51,11 @@ def value_verdict(got: float, right: float, unit: str, hint: str, what: str = ""
 def two_clouds(seed: int, n: int, m: int) -> tuple[Cloud, Cloud]:
     """Return n and m points of two lumps, half a metre in size, that overlap."""
     rng = np.random.default_rng(seed)
-    return rng.normal(size=(n, 3)) * [0.5, 0.3, 0.2], rng.normal(size=(m, 3)) * [0.3, 0.5, 0.2] + [0.3, -0.1, 0.2]
+    return rng.normal(size=(n, 3)) * [0.5, 0.3, 0.2], rng.normal(size=(m, 3)) * [0.3, 0.5, 0.2] + [
+        0.3,
+        -0.1,
+        0.2,
+    ]
 
 
 def moved_together(seed: int, p_a: Cloud, p_b: Cloud, metres: float) -> tuple[Cloud, Cloud]:
@@ -51,7 +73,11 @@ def reordered(seed: int, p: Cloud) -> Cloud:
 def no_points_refused(candidate: Function) -> Verdict:
     """Judge calls with an empty cloud on either side, or on both."""
     none, some = np.empty((0, 3)), np.ones((4, 3))
-    calls = ((none, some, "An empty p_a"), (some, none, "An empty p_b"), (none, none, "Two empty clouds"))
+    calls = (
+        (none, some, "An empty p_a"),
+        (some, none, "An empty p_b"),
+        (none, none, "Two empty clouds"),
+    )
     return worst(refused(candidate, p_a, p_b, what=what) for p_a, p_b, what in calls)
 
 
@@ -64,6 +90,8 @@ def all_distances(p_a: np.ndarray, p_b: np.ndarray) -> np.ndarray:
 
 
 def rows_of_both(p_a: np.ndarray, p_b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return both clouds as if row k of one belonged to row k of the other, the shorter one over again."""
+    """Return both clouds as if row k of one belonged to row k of the other, the shorter one over
+    again.
+    """
     k = np.arange(max(len(p_a), len(p_b)))
     return p_a[k % len(p_a)], p_b[k % len(p_b)]

@@ -1,5 +1,5 @@
-"""Write the exact earth mover's distance: the mean distance under the best one-to-one matching. The right flow goes
-down your function; only a true matching spreads the cloud evenly over the target.
+"""Write the exact earth mover's distance: the mean distance under the best one-to-one matching. The
+right flow goes down your function; only a true matching spreads the cloud evenly over the target.
 """
 
 import itertools
@@ -21,8 +21,17 @@ from lessons.chamfer_emd.exercises import (
 )
 from lessons.chamfer_emd.exercises import chamfer as two
 from lessons.chamfer_emd.exercises import one_sided as one
-from workbench.algorithms import transport
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.algorithms.transport import exact as transport
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 
 
 @contract(
@@ -34,20 +43,24 @@ from workbench.exercise import Function, Verdict, alternative, check, contract, 
     ),
 )
 def earth_movers(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
-    """Return the earth mover's distance: the mean distance travelled under the best one-to-one matching.
+    """Return the earth mover's distance: the mean distance travelled under the best one-to-one
+    matching.
 
-    For n = m: min over all permutations of (1 / n) sum_i |a_i - b_perm(i)|, exact, with plain distances (no squares). The
-    best permutation is an assignment problem; scipy.optimize.linear_sum_assignment solves it.
+    For n = m: min over all permutations of (1 / n) sum_i |a_i - b_perm(i)|, exact, with plain
+    distances (no squares). The best permutation is an assignment problem;
+    scipy.optimize.linear_sum_assignment solves it.
 
-    Each cloud weighs 1, each of its points the same share. Where the counts differ, points are split: repeat every point of
-    a and of b so often that both clouds have as many points as the least common multiple of n and m, and match those.
+    Each cloud weighs 1, each of its points the same share. Where the counts differ, points are
+    split: repeat every point of a and of b so often that both clouds have as many points as the
+    least common multiple of n and m, and match those.
 
     Args:
         p_a: n points, metres; the order of rows means nothing.
         p_b: m points in the same frame; the counts may differ.
 
     Returns:
-        Metres. The same with a and b exchanged; 0 only where both clouds have the same points with the same shares.
+        Metres. The same with a and b exchanged; 0 only where both clouds have the same points with
+        the same shares.
 
     Raises:
         ValueError: If a cloud has no points.
@@ -60,7 +73,9 @@ MOVER_HINT = "The one-to-one matching with the least total of plain distances; t
 
 def mover_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> Verdict:
     """Judge by ours, which is exact."""
-    return value_verdict(candidate(p_a, p_b), transport.earth_movers(p_a, p_b), "m", MOVER_HINT, what)
+    return value_verdict(
+        candidate(p_a, p_b), transport.earth_movers(p_a, p_b), "m", MOVER_HINT, what
+    )
 
 
 @check(2)
@@ -74,14 +89,19 @@ def short_pairs_can_cost(candidate: Function) -> Verdict:
 def two_lumps(candidate: Function) -> Verdict:
     """Two clouds of 40 points have the distance of their best matching, whichever comes first."""
     p_a, p_b = two_clouds(STUDENTS + 20, 40, 40)
-    return worst((mover_found(candidate, p_a, p_b, "a, b: "), mover_found(candidate, p_b, p_a, "b, a: ")))
+    return worst(
+        (mover_found(candidate, p_a, p_b, "a, b: "), mover_found(candidate, p_b, p_a, "b, a: "))
+    )
 
 
 @check(1)
 def shares_are_split(candidate: Function) -> Verdict:
     """Two points at 0 and 3 m, three at 0, 1 and 3 m: half a metre, and nobody is left out."""
     p_a, p_b = np.array([[0.0, 0, 0], [3, 0, 0]]), np.array([[3.0, 0, 0], [0, 0, 0], [1, 0, 0]])
-    hint = "A sixth of the mass goes 1 m, a sixth 2 m: take each point of a three times, each of b twice."
+    hint = (
+        "A sixth of the mass goes 1 m, a sixth 2 m: take each point of a three times, each of b"
+        " twice."
+    )
     return value_verdict(candidate(p_a, p_b), 0.5, "m", hint)
 
 
@@ -89,7 +109,9 @@ def shares_are_split(candidate: Function) -> Verdict:
 def twice_as_large(candidate: Function) -> Verdict:
     """Twice the size is twice the distance."""
     p_a, p_b = two_clouds(STUDENTS + 21, 25, 25)
-    return value_verdict(candidate(2 * p_a, 2 * p_b), 2 * transport.earth_movers(p_a, p_b), "m", MOVER_HINT)
+    return value_verdict(
+        candidate(2 * p_a, 2 * p_b), 2 * transport.earth_movers(p_a, p_b), "m", MOVER_HINT
+    )
 
 
 @check(1)
@@ -100,17 +122,23 @@ def movers_clouds_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def shifted_copies(candidate: Function) -> Verdict:
-    """A cloud and its copy, shifted by 0.7 m and with its rows in another order, are 0.7 m apart; unshifted 0."""
+    """A cloud and its copy, shifted by 0.7 m and with its rows in another order, are 0.7 m apart;
+    unshifted 0.
+    """
     p, _ = two_clouds(GRADERS() + 60, 50, 1)
     copy = reordered(GRADERS(), p)
     v = 0.7 * np.array([2.0, -1.0, 2.0]) / 3
     shifted = value_verdict(candidate(p, copy + v), 0.7, "m", MOVER_HINT, "Shifted: ")
-    return worst((shifted, value_verdict(candidate(p, copy), 0.0, "m", MOVER_HINT, "Other order: ")))
+    return worst(
+        (shifted, value_verdict(candidate(p, copy), 0.0, "m", MOVER_HINT, "Other order: "))
+    )
 
 
 @check(2, public=False)
 def bunched_points(candidate: Function) -> Verdict:
-    """Nine of ten points bunched at one place are far from an even ring, though each gap is short."""
+    """Nine of ten points bunched at one place are far from an even ring, though each gap is
+    short.
+    """
     rng = np.random.default_rng(GRADERS() + 70)
     angles = np.linspace(0, 2 * np.pi, 40, endpoint=False)
     even = np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])
@@ -120,14 +148,19 @@ def bunched_points(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def unequal_counts(candidate: Function) -> Verdict:
-    """Where counts differ no point is left out: 10 and 20, 20 and 10, 12 and 8, 5 and 8, 1 and 9, and a point twice."""
+    """Where counts differ no point is left out: 10 and 20, 20 and 10, 12 and 8, 5 and 8, 1 and 9,
+    and a point twice.
+    """
     verdicts = []
     for k, (n, m) in enumerate(((10, 20), (12, 8), (1, 9), (20, 10), (5, 8))):
         p_a, p_b = two_clouds(GRADERS() + 80 + k, n, m)
         verdicts.append(mover_found(candidate, p_a, p_b, f"{n} and {m} points: "))
     p, _ = two_clouds(GRADERS() + 90, 7, 1)
     more = np.vstack([p, p[:1]])
-    twice = [mover_found(candidate, *pair, "A point twice: ") for pair in ((p, more), (more, p), (more, p[::-1] + 0.5))]
+    twice = [
+        mover_found(candidate, *pair, "A point twice: ")
+        for pair in ((p, more), (more, p), (more, p[::-1] + 0.5))
+    ]
     return worst((*verdicts, *twice))
 
 
@@ -136,7 +169,9 @@ def movers_far_away(candidate: Function) -> Verdict:
     """Turned, and a thousand kilometres away, the distance is the same."""
     p_a, p_b = two_clouds(GRADERS() + 100, 30, 30)
     right = transport.earth_movers(p_a, p_b)
-    return value_verdict(candidate(*moved_together(GRADERS(), p_a, p_b, 1e6)), right, "m", MOVER_HINT)
+    return value_verdict(
+        candidate(*moved_together(GRADERS(), p_a, p_b, 1e6)), right, "m", MOVER_HINT
+    )
 
 
 @check(1, public=False)
@@ -161,8 +196,8 @@ def matched(cost: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 @mistake(
-    "You paired points with the same row number. The order of rows means nothing: search for the matching with "
-    "the least total distance."
+    "You paired points with the same row number. The order of rows means nothing: search for the"
+    " matching with the least total distance."
 )
 def paired_by_row(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Row k to row k."""
@@ -171,23 +206,26 @@ def paired_by_row(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You took the distance to the nearest point. Several points of a then share one of b; the earth mover's "
-    "distance matches one to one."
+    "You took the distance to the nearest point. Several points of a then share one of b; the earth"
+    " mover's distance matches one to one."
 )
 def nearest_neighbours(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Mean distance to the nearest, from a."""
     return one.not_squared(p_a, p_b)
 
 
-@mistake("You took nearest neighbours both ways: that is a Chamfer distance, blind to density. Match one to one.")
+@mistake(
+    "You took nearest neighbours both ways: that is a Chamfer distance, blind to density. Match one"
+    " to one."
+)
 def nearest_both_ways(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Chamfer of distances, halved."""
     return two.not_squared(p_a, p_b) / 2
 
 
 @mistake(
-    "You gave each point of a, row by row, the nearest partner that was left. Who comes late has far to go: the "
-    "best matching has the least total."
+    "You gave each point of a, row by row, the nearest partner that was left. Who comes late has"
+    " far to go: the best matching has the least total."
 )
 def greedy_by_row(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """First come, first served."""
@@ -201,8 +239,8 @@ def greedy_by_row(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You matched the closest pair first, then the next closest. A short pair early can force a long one late: "
-    "only the total counts."
+    "You matched the closest pair first, then the next closest. A short pair early can force a long"
+    " one late: only the total counts."
 )
 def closest_pair_first(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The closest pair first."""
@@ -215,22 +253,28 @@ def closest_pair_first(p_a: np.ndarray, p_b: np.ndarray) -> float:
     return total / len(a)
 
 
-@mistake("You sorted both clouds along x and paired them. That is the best matching on a line only; in space, assign.")
+@mistake(
+    "You sorted both clouds along x and paired them. That is the best matching on a line only; in"
+    " space, assign."
+)
 def sorted_along_x(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """What is right on a line."""
     a, b = repeated(p_a, p_b)
     return np.linalg.norm(a[np.argsort(a[:, 0])] - b[np.argsort(b[:, 0])], axis=1).mean()
 
 
-@mistake("You returned the total distance. Each cloud has mass 1, each point of a carries 1 / n of it: divide by n.")
+@mistake(
+    "You returned the total distance. Each cloud has mass 1, each point of a carries 1 / n of it:"
+    " divide by n."
+)
 def sum_for_mean(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The sum over the points of a."""
     return len(p_a) * earth_movers_of_copies(p_a, p_b)
 
 
 @mistake(
-    "You minimised squares and returned their mean, in square metres. The earth mover's distance sums plain "
-    "distances, in metres."
+    "You minimised squares and returned their mean, in square metres. The earth mover's distance"
+    " sums plain distances, in metres."
 )
 def squares(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Square metres."""
@@ -240,15 +284,18 @@ def squares(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You minimised squares and took the root: that is the 2-Wasserstein distance. The earth mover's distance is "
-    "the mean of plain distances."
+    "You minimised squares and took the root: that is the 2-Wasserstein distance. The earth mover's"
+    " distance is the mean of plain distances."
 )
 def root_mean_square(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The other Wasserstein distance."""
     return np.sqrt(squares(p_a, p_b))
 
 
-@mistake("You measure distances, but of the matching that is best for squares. Minimise what you measure: distances.")
+@mistake(
+    "You measure distances, but of the matching that is best for squares. Minimise what you"
+    " measure: distances."
+)
 def matched_by_squares(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The matching of least squares, measured in metres."""
     a, b = repeated(p_a, p_b)
@@ -257,8 +304,8 @@ def matched_by_squares(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "All is right but unequal counts: a rectangular assignment leaves points of the larger cloud out. Repeat "
-    "points until both clouds have the same count."
+    "All is right but unequal counts: a rectangular assignment leaves points of the larger cloud"
+    " out. Repeat points until both clouds have the same count."
 )
 def points_left_out(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Rectangular assignment."""
@@ -267,8 +314,8 @@ def points_left_out(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You used Sinkhorn with a blur of 5 % of the largest distance. Fast is not exact: entropy spreads the plan. "
-    "Solve the assignment."
+    "You used Sinkhorn with a blur of 5 % of the largest distance. Fast is not exact: entropy"
+    " spreads the plan. Solve the assignment."
 )
 def blurred(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Sinkhorn with a blur of 5 % of the largest distance."""
@@ -282,8 +329,8 @@ def blurred(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You measured between the centroids. That is the least any matching can cost, and exact only for clouds "
-    "that are shifted copies."
+    "You measured between the centroids. That is the least any matching can cost, and exact only"
+    " for clouds that are shifted copies."
 )
 def between_centroids(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The least that any matching can cost."""
@@ -292,7 +339,9 @@ def between_centroids(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 @alternative
 def by_shortest_ways(p_a: np.ndarray, p_b: np.ndarray) -> float:
-    """Matches row after row: each takes the shortest way to a free column, over columns that change their rows (Kuhn)."""
+    """Matches row after row: each takes the shortest way to a free column, over columns that change
+    their rows (Kuhn).
+    """
     if min(len(p_a), len(p_b)) == 0:
         raise ValueError("no points")
     n = int(np.lcm(len(p_a), len(p_b)))
@@ -341,5 +390,7 @@ def earth_movers_by_programme(p_a: np.ndarray, p_b: np.ndarray) -> float:
     sums = np.zeros((n + m, n * m))
     for i, j in itertools.product(range(n), range(m)):
         sums[i, i * m + j] = sums[n + j, i * m + j] = 1.0
-    found = linprog(D.ravel(), A_eq=sums, b_eq=np.r_[np.full(n, 1 / n), np.full(m, 1 / m)], method="highs")
+    found = linprog(
+        D.ravel(), A_eq=sums, b_eq=np.r_[np.full(n, 1 / n), np.full(m, 1 / m)], method="highs"
+    )
     return float(found.fun or 0.0)

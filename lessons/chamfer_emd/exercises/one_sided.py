@@ -1,5 +1,6 @@
-"""Write one side of the Chamfer distance, from a to b. It fills two rows of the lesson's table, and the left flow goes
-down your function where it lowers one side: choose the preset missing or idle to watch yours.
+"""Write one side of the Chamfer distance, from a to b. It fills two rows of the lesson's table, and
+the left flow goes down your function where it lowers one side: choose the preset missing or idle to
+watch yours.
 """
 
 import numpy as np
@@ -18,8 +19,17 @@ from lessons.chamfer_emd.exercises import (
     two_clouds,
     value_verdict,
 )
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import shape_distances
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.points import shape_distances
 
 
 @contract(
@@ -32,16 +42,18 @@ from workbench.geometry import shape_distances
 def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
     """Return the one-sided Chamfer distance from a to b, as a mean of squares.
 
-    (1 / n) sum_i min_j |a_i - b_j|^2: each point of a looks for the nearest point of b; the mean of the squared distances.
+    (1 / n) sum_i min_j |a_i - b_j|^2: each point of a looks for the nearest point of b; the mean of
+    the squared distances.
 
     Args:
         p_a: The points that look, metres; the order of rows means nothing.
         p_b: The points they look at, in the same frame; the counts may differ.
 
     Returns:
-        Square metres. It is 0 where every point of a is a point of b, however much of b has no point of a near it: swap
-        the clouds, and you get another number. Several points of a may share a nearest point; where two points of b are
-        equally near, the distance is the same by either.
+        Square metres. It is 0 where every point of a is a point of b, however much of b has no
+        point of a near it: swap the clouds, and you get another number. Several points of a may
+        share a nearest point; where two points of b are equally near, the distance is the same by
+        either.
 
     Raises:
         ValueError: If a cloud has no points.
@@ -54,7 +66,9 @@ SIDE_HINT = "Mean over the points of a of the squared distance to the nearest po
 
 def side_found(candidate: Function, p_a: Cloud, p_b: Cloud, what: str = "") -> Verdict:
     """Judge one side by ours."""
-    return value_verdict(candidate(p_a, p_b), shape_distances.one_sided(p_a, p_b), "m²", SIDE_HINT, what)
+    return value_verdict(
+        candidate(p_a, p_b), shape_distances.one_sided(p_a, p_b), "m²", SIDE_HINT, what
+    )
 
 
 @check(2)
@@ -68,7 +82,12 @@ def side_of_few_points(candidate: Function) -> Verdict:
 def there_and_back(candidate: Function) -> Verdict:
     """From a to b and from b to a are two numbers, and both are right."""
     p_a, p_b = two_clouds(STUDENTS, 40, 90)
-    return worst((side_found(candidate, p_a, p_b, "From a to b: "), side_found(candidate, p_b, p_a, "From b to a: ")))
+    return worst(
+        (
+            side_found(candidate, p_a, p_b, "From a to b: "),
+            side_found(candidate, p_b, p_a, "From b to a: "),
+        )
+    )
 
 
 @check(1)
@@ -76,7 +95,12 @@ def a_part_lies_on_the_whole(candidate: Function) -> Verdict:
     """A part of a cloud is 0 from the whole; the whole is not 0 from its part."""
     whole, _ = two_clouds(STUDENTS + 1, 60, 1)
     part = reordered(STUDENTS, whole[whole[:, 0] < 0])
-    return worst((side_found(candidate, part, whole, "Part: "), side_found(candidate, whole, part, "Whole: ")))
+    return worst(
+        (
+            side_found(candidate, part, whole, "Part: "),
+            side_found(candidate, whole, part, "Whole: "),
+        )
+    )
 
 
 @check(1)
@@ -97,19 +121,35 @@ def side_of_uneven_clouds(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def side_grows_with_the_square(candidate: Function) -> Verdict:
-    """Three times the size is nine times the distance; points of a that are twice count twice, those of b once."""
+    """Three times the size is nine times the distance; points of a that are twice count twice,
+    those of b once.
+    """
     p_a, p_b = two_clouds(GRADERS() + 10, 50, 40)
     right = shape_distances.one_sided(p_a, p_b)
-    three = value_verdict(candidate(3 * p_a, 3 * p_b), 9 * right, "m²", SIDE_HINT, "Three times the size: ")
-    twice = value_verdict(candidate(np.vstack([p_a, p_a]), p_b), right, "m²", SIDE_HINT, "Points of a twice: ")
+    three = value_verdict(
+        candidate(3 * p_a, 3 * p_b), 9 * right, "m²", SIDE_HINT, "Three times the size: "
+    )
+    twice = value_verdict(
+        candidate(np.vstack([p_a, p_a]), p_b), right, "m²", SIDE_HINT, "Points of a twice: "
+    )
     some = side_found(candidate, np.vstack([p_a, p_a[:20]]), p_b, "Some points of a twice: ")
     equal = side_found(candidate, p_a, np.vstack([p_b[:9], p_b]), "Some points of b twice: ")
-    return worst((three, twice, some, equal, side_found(candidate, 0.01 * p_a, 0.01 * p_b, "Of a centimetre: ")))
+    return worst(
+        (
+            three,
+            twice,
+            some,
+            equal,
+            side_found(candidate, 0.01 * p_a, 0.01 * p_b, "Of a centimetre: "),
+        )
+    )
 
 
 @check(2, public=False)
 def side_of_moved_clouds(candidate: Function) -> Verdict:
-    """In another order of rows, turned, and a thousand kilometres away, the distance is the same."""
+    """In another order of rows, turned, and a thousand kilometres away, the distance is the
+    same.
+    """
     p_a, p_b = two_clouds(GRADERS() + 20, 60, 60)
     right = shape_distances.one_sided(p_a, p_b)
     mixed = candidate(reordered(GRADERS(), p_a), reordered(GRADERS() + 1, p_b))
@@ -117,7 +157,9 @@ def side_of_moved_clouds(candidate: Function) -> Verdict:
     return worst(
         (
             value_verdict(mixed, right, "m²", SIDE_HINT, "Other order: "),
-            value_verdict(away, right, "m²", "Subtract before you square. " + SIDE_HINT, "Far away: "),
+            value_verdict(
+                away, right, "m²", "Subtract before you square. " + SIDE_HINT, "Far away: "
+            ),
         )
     )
 
@@ -129,22 +171,26 @@ def side_without_points(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You measured from b to a: how far the points of b are from a. The two sides differ. Asked for is the mean "
-    "over the points of a."
+    "You measured from b to a: how far the points of b are from a. The two sides differ. Asked for"
+    " is the mean over the points of a."
 )
 def other_side(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """From b to a."""
     return np.mean(all_distances(p_a, p_b).min(axis=0) ** 2)
 
 
-@mistake("You added both sides. That is the two-sided Chamfer distance; here only the side from a to b is asked for.")
+@mistake(
+    "You added both sides. That is the two-sided Chamfer distance; here only the side from a to b"
+    " is asked for."
+)
 def both_sides(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The two-sided distance."""
     return side(p_a, p_b) + side(p_b, p_a)
 
 
 @mistake(
-    "You took the mean of the distances, in metres. The definition asked for takes their squares, in square metres."
+    "You took the mean of the distances, in metres. The definition asked for takes their squares,"
+    " in square metres."
 )
 def not_squared(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Metres."""
@@ -152,7 +198,8 @@ def not_squared(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You summed where the mean is asked for: twice as many points on the same shape double your number. Divide by n."
+    "You summed where the mean is asked for: twice as many points on the same shape double your"
+    " number. Divide by n."
 )
 def sum_for_mean(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Grows with the count."""
@@ -166,8 +213,8 @@ def divided_by_the_other_count(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "Your number is a third of the right one: the mean ran over x, y and z too. Sum the three squares of a "
-    "point, then take the mean over the points."
+    "Your number is a third of the right one: the mean ran over x, y and z too. Sum the three"
+    " squares of a point, then take the mean over the points."
 )
 def mean_over_coordinates(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Takes the mean over x, y and z too."""
@@ -175,7 +222,8 @@ def mean_over_coordinates(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You took the mean of the distances and squared it. Square each distance first: the mean of squares is larger."
+    "You took the mean of the distances and squared it. Square each distance first: the mean of"
+    " squares is larger."
 )
 def squared_after_the_mean(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Squares after the mean."""
@@ -183,8 +231,8 @@ def squared_after_the_mean(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You returned the largest nearest distance (squared): that is Hausdorff's idea. Chamfer takes the mean over "
-    "the points of a."
+    "You returned the largest nearest distance (squared): that is Hausdorff's idea. Chamfer takes"
+    " the mean over the points of a."
 )
 def largest_for_mean(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """The largest instead of the mean."""
@@ -192,8 +240,8 @@ def largest_for_mean(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You took the mean over all pairs of points. Each point of a looks at its nearest point of b only: the "
-    "minimum over b comes first."
+    "You took the mean over all pairs of points. Each point of a looks at its nearest point of b"
+    " only: the minimum over b comes first."
 )
 def mean_over_all_pairs(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Takes the mean over all pairs."""
@@ -207,8 +255,8 @@ def distance_to_the_centroid(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You paired points with the same row number. The order of rows means nothing: find for each point of a the "
-    "nearest of b."
+    "You paired points with the same row number. The order of rows means nothing: find for each"
+    " point of a the nearest of b."
 )
 def paired_by_row(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Mean square of index pairs."""
@@ -217,7 +265,8 @@ def paired_by_row(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You give every point of b away only once. Nearest neighbours are not one to one: many points of a may share one."
+    "You give every point of b away only once. Nearest neighbours are not one to one: many points"
+    " of a may share one."
 )
 def one_to_one(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Every point of b only once, as long as there are any."""
@@ -230,7 +279,8 @@ def one_to_one(p_a: np.ndarray, p_b: np.ndarray) -> float:
 
 
 @mistake(
-    "You use |a|^2 + |b|^2 - 2 a·b. Far from the origin these cancel and leave no digits: subtract the points first."
+    "You use |a|^2 + |b|^2 - 2 a·b. Far from the origin these cancel and leave no digits: subtract"
+    " the points first."
 )
 def squares_expanded(p_a: np.ndarray, p_b: np.ndarray) -> float:
     """Uses |a|^2 + |b|^2 - 2 a b, where far from the origin all digits cancel."""

@@ -7,11 +7,16 @@ import numpy as np
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.numerals import brief
 
-STUDENTS, GRADERS = 61, HiddenSeed(8410)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    61,
+    HiddenSeed(8410),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 def numbers(values: np.ndarray) -> str:
-    """Write some numbers of an answer in brackets: small ones with their digits, what is none by its name."""
+    """Write some numbers of an answer in brackets: small ones with their digits, what is none by
+    its name.
+    """
     return f"({', '.join(one(float(value)) for value in np.atleast_1d(values))})"
 
 
@@ -23,15 +28,29 @@ def one(value: float) -> str:
 
 
 def told(got: np.ndarray, right: np.ndarray) -> str:
-    """Write an answer and the right one, with more digits where these few would not tell them apart."""
+    """Write an answer and the right one, with more digits where these few would not tell them
+    apart.
+    """
     yours, wanted = numbers(got), numbers(right)
-    return against(np.atleast_1d(got), np.atleast_1d(right), 5) if yours == wanted else f"{yours}, right is {wanted}"
+    return (
+        against(np.atleast_1d(got), np.atleast_1d(right), 5)
+        if yours == wanted
+        else f"{yours}, right is {wanted}"
+    )
 
 
 def row_by_row(
-    asked: Sequence[str], got: np.ndarray, right: np.ndarray, off: np.ndarray, hint: str, *, good: float, fair: float
+    asked: Sequence[str],
+    got: np.ndarray,
+    right: np.ndarray,
+    off: np.ndarray,
+    hint: str,
+    *,
+    good: float,
+    fair: float,
 ) -> Verdict:
-    """Judge the row that is farthest off, or is no number at all, and say what was asked, what came and what is right.
+    """Judge the row that is farthest off, or is no number at all, and say what was asked, what came
+    and what is right.
 
     Args:
         asked: What the call was, row by row, in words.

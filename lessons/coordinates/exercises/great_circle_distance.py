@@ -1,13 +1,22 @@
-"""Write how far apart places on a globe are. Both travellers' ways are measured with it, piece by piece, and so is how far
-a mean of numbers is from the middle.
+"""Write how far apart places on a globe are. Both travellers' ways are measured with it, piece by
+piece, and so is how far a mean of numbers is from the middle.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.coordinates.exercises import GRADERS, STUDENTS, numbers, row_by_row
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import globe
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.shapes import globe
 
 
 @contract(
@@ -16,7 +25,10 @@ from workbench.geometry import globe
     examples=(
         ("great_circle_distance(np.array([[0.0, 0.0]]), np.array([[0.0, 90.0]]), 2.0)", "[3.1416]"),
         (
-            "great_circle_distance(np.array([[51.5074, -0.1278]]), np.array([[34.0522, -118.2437]]), 6371.0088)",
+            (
+                "great_circle_distance(np.array([[51.5074, -0.1278]]), np.array([[34.0522,"
+                " -118.2437]]), 6371.0088)"
+            ),
             "[8755.6]",
         ),
     ),
@@ -24,10 +36,12 @@ from workbench.geometry import globe
 def great_circle_distance(
     a: Float[np.ndarray, "n 2"], b: Float[np.ndarray, "n 2"], radius: float
 ) -> Float[np.ndarray, " n"]:
-    """Return the shortest ways along a sphere between places in the same rows, in the unit of the radius.
+    """Return the shortest ways along a sphere between places in the same rows, in the unit of the
+    radius.
 
-    It is exact to a millionth of itself, also for places a millimetre apart on the Earth; a place and itself are 0 apart,
-    antipodes half the circumference (to a tenth of a metre on the Earth), and rounding makes neither NaN.
+    It is exact to a millionth of itself, also for places a millimetre apart on the Earth; a place
+    and itself are 0 apart, antipodes half the circumference (to a tenth of a metre on the Earth),
+    and rounding makes neither NaN.
 
     Args:
         a: One row (latitude, longitude) per place, degrees, north and east positive.
@@ -42,11 +56,16 @@ HINT = "Haversine, in radians: 2 R asin √(sin²(Δlat / 2) + cos lat₁ cos la
 FINE = "Differences of cosines near 1 have no digits: the haversine and atan2 have."
 
 
-def judged(candidate: Function, a: np.ndarray, b: np.ndarray, radius: float = EARTH, hint: str = HINT) -> Verdict:
+def judged(
+    candidate: Function, a: np.ndarray, b: np.ndarray, radius: float = EARTH, hint: str = HINT
+) -> Verdict:
     """Judge distances as shares of the right ones, where these are short of half round."""
     got, right = candidate(a, b, radius), globe.great_circle_distance(a, b, radius)
     off = np.abs(got - right) / np.maximum(right, 1e-12 * radius)
-    asked = [f"{numbers(p)} to {numbers(q)}, R = {numbers(np.array(radius))}" for p, q in zip(a, b, strict=True)]
+    asked = [
+        f"{numbers(p)} to {numbers(q)}, R = {numbers(np.array(radius))}"
+        for p, q in zip(a, b, strict=True)
+    ]
     return row_by_row(asked, got, right, off, hint, good=3e-6, fair=1e-3)
 
 
@@ -66,9 +85,13 @@ def cities(candidate: Function) -> Verdict:
 def globe_cities() -> dict[str, tuple[float, float]]:
     """Return some cities."""
     return {
-        "London": (51.5074, -0.1278), "Los Angeles": (34.0522, -118.2437), "Tokyo": (35.6762, 139.6503),
-        "Suva": (-18.1248, 178.4501), "Apia": (-13.8333, -171.7667), "Quito": (-0.1807, -78.4678),
-    }  # fmt: skip
+        "London": (51.5074, -0.1278),
+        "Los Angeles": (34.0522, -118.2437),
+        "Tokyo": (35.6762, 139.6503),
+        "Suva": (-18.1248, 178.4501),
+        "Apia": (-13.8333, -171.7667),
+        "Quito": (-0.1807, -78.4678),
+    }
 
 
 @check(2)
@@ -90,7 +113,8 @@ def short_ways(candidate: Function) -> Verdict:
 
 
 def short(candidate: Function, axis: int, metres: float) -> Verdict:
-    """Judge a short way to the north (0) or east (1), in a call of its own: beside a long one it would not count.
+    """Judge a short way to the north (0) or east (1), in a call of its own: beside a long one it
+    would not count.
 
     It begins at (0, 0), where what a cosine loses does not depend on how a machine rounds.
     """
@@ -101,29 +125,47 @@ def short(candidate: Function, axis: int, metres: float) -> Verdict:
 
 @check(2, public=False)
 def other_places(candidate: Function) -> Verdict:
-    """Other places are right, across the date line, near the poles and nearly opposite, on a marble too."""
+    """Other places are right, across the date line, near the poles and nearly opposite, on a marble
+    too.
+    """
     a, b = places(GRADERS(), 12), places(GRADERS() + 1, 12)
-    a[:3], b[:3] = [[10.0, 179.5], [-40.0, 170.0], [89.0, 0.0]], [[12.0, -179.0], [-41.0, -170.0], [88.0, 180.0]]
-    b[3] = -a[3, 0] + 0.05, a[3, 1] + 180.02 - 360.0 * (a[3, 1] > 0)  # some kilometres from the antipode
+    a[:3], b[:3] = (
+        [[10.0, 179.5], [-40.0, 170.0], [89.0, 0.0]],
+        [[12.0, -179.0], [-41.0, -170.0], [88.0, 180.0]],
+    )
+    b[3] = (
+        -a[3, 0] + 0.05,
+        a[3, 1] + 180.02 - 360.0 * (a[3, 1] > 0),
+    )  # some kilometres from the antipode
     return worst((judged(candidate, a, b), judged(candidate, a, b, 0.005)))
 
 
 @check(1, public=False)
 def the_same_place(candidate: Function) -> Verdict:
-    """A place and itself are 0 apart, antipodes half the circumference; a pole is one place at any longitude."""
+    """A place and itself are 0 apart, antipodes half the circumference; a pole is one place at any
+    longitude.
+    """
     a = np.vstack([places(GRADERS() + 2, 40), [[0.0, 0.0], [90.0, 0.0]]])
     b = np.column_stack([-a[:, 0], np.where(a[:, 1] > 0, a[:, 1] - 180, a[:, 1] + 180)])
-    a, b = np.vstack([a, [[90.0, 20.0]], a, [[90.0, 20.0]]]), np.vstack([a, [[90.0, -70.0]], b, [[-90.0, 80.0]]])
+    a, b = (
+        np.vstack([a, [[90.0, 20.0]], a, [[90.0, 20.0]]]),
+        np.vstack([a, [[90.0, -70.0]], b, [[-90.0, 80.0]]]),
+    )
     got, right = candidate(a, b, EARTH), np.repeat([0.0, np.pi * EARTH], len(a) // 2)
     asked = [f"{numbers(p)} to {numbers(q)}" for p, q in zip(a, b, strict=True)]
-    hint = f"Near half way round, and near the start, an arc sine or cosine loses digits: take arctan2. {HINT}"
+    hint = (
+        "Near half way round, and near the start, an arc sine or cosine loses digits: take"
+        f" arctan2. {HINT}"
+    )
     return row_by_row(asked, got, right, np.abs(got - right), hint, good=0.5, fair=5.0)
 
 
 @check(1, public=False)
 def other_short_ways(candidate: Function) -> Verdict:
     """So are other places some millimetres and metres apart."""
-    return worst(short(candidate, axis, metres) for axis, metres in ((1, 2e-3), (0, 5e-3), (0, 30.0)))
+    return worst(
+        short(candidate, axis, metres) for axis, metres in ((1, 2e-3), (0, 5e-3), (0, 30.0))
+    )
 
 
 def radians(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -131,21 +173,28 @@ def radians(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, ...]:
     return *np.radians(a).T, *np.radians(b).T
 
 
-@mistake("You measured the chord, straight through the sphere. The way along it is 2 R asin(chord / 2 R).")
+@mistake(
+    "You measured the chord, straight through the sphere. The way along it is 2 R asin(chord /"
+    " 2 R)."
+)
 def chord(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Goes through the ground."""
     return 2 * radius * np.sin(globe.great_circle_distance(a, b, 1.0) / 2)
 
 
 @mistake(
-    "You took latitude and longitude for lengths in a plane. A degree of longitude shrinks with cos of the latitude."
+    "You took latitude and longitude for lengths in a plane. A degree of longitude shrinks with cos"
+    " of the latitude."
 )
 def flat_degrees(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Pythagoras on degrees."""
     return radius * np.hypot(*np.radians(b - a).T)
 
 
-@mistake("You shrink longitudes with the cosine of one latitude and go on in a plane: that holds for short ways only.")
+@mistake(
+    "You shrink longitudes with the cosine of one latitude and go on in a plane: that holds for"
+    " short ways only."
+)
 def plane_with_cosine(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Takes the mean latitude."""
     lat_a, lon_a, lat_b, lon_b = radians(a, b)
@@ -165,8 +214,8 @@ def swapped(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
 
 
 @mistake(
-    "You used the law of cosines, or arccos of a dot product: for short ways that cosine is 1 but for rounding, and a"
-    " millimetre becomes 0 or decimetres."
+    "You used the law of cosines, or arccos of a dot product: for short ways that cosine is 1 but"
+    " for rounding, and a millimetre becomes 0 or decimetres."
 )
 def law_of_cosines(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Takes the arc cosine, clipped."""
@@ -175,7 +224,10 @@ def law_of_cosines(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     return radius * np.arccos(np.clip(cosine, -1.0, 1.0))
 
 
-@mistake("Your way is half as long as the right one: the haversine gives half the angle. Multiply the arc sine by 2.")
+@mistake(
+    "Your way is half as long as the right one: the haversine gives half the angle. Multiply the"
+    " arc sine by 2."
+)
 def half_the_angle(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Forgets the 2."""
     return globe.great_circle_distance(a, b, radius) / 2
@@ -198,7 +250,10 @@ def haversine(a: np.ndarray, b: np.ndarray, radius: float) -> np.ndarray:
     """Takes the arc sine of a root."""
     lat_a, lon_a = np.radians(a).T
     lat_b, lon_b = np.radians(b).T
-    h = np.sin((lat_b - lat_a) / 2) ** 2 + np.cos(lat_a) * np.cos(lat_b) * np.sin((lon_b - lon_a) / 2) ** 2
+    h = (
+        np.sin((lat_b - lat_a) / 2) ** 2
+        + np.cos(lat_a) * np.cos(lat_b) * np.sin((lon_b - lon_a) / 2) ** 2
+    )
     return 2 * radius * np.arcsin(np.sqrt(np.clip(h, 0.0, 1.0)))
 
 

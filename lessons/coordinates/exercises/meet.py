@@ -1,13 +1,22 @@
-"""Write where lines meet, in homogeneous coordinates. The lesson turns two lines parallel and takes their meeting from you:
-it has to stay a vector without a division by 0.
+"""Write where lines meet, in homogeneous coordinates. The lesson turns two lines parallel and takes
+their meeting from you: it has to stay a vector without a division by 0.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.coordinates.exercises import GRADERS, STUDENTS, numbers, row_by_row
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import projective
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.shapes import projective
 
 
 @contract(
@@ -18,8 +27,11 @@ from workbench.geometry import projective
         ("meet(np.array([[0.0, 1, 0]]), np.array([[0.0, 1, -1]]))", "[[-1, 0, 0]]"),
     ),
 )
-def meet(lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
-    """Return the points (x, y, w) where the lines cross those in the same rows, in homogeneous coordinates.
+def meet(
+    lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, "n 3"]:
+    """Return the points (x, y, w) where the lines cross those in the same rows, in homogeneous
+    coordinates.
 
     Any factor other than 0 will do: (2, 3, 1) and (-4, -6, -2) are the same point.
 
@@ -28,8 +40,8 @@ def meet(lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]) -
         lines_b: Likewise.
 
     Returns:
-        For parallel lines the point at infinity, w = 0. The same line twice, at whatever scale, has no one meeting:
-        (0, 0, 0).
+        For parallel lines the point at infinity, w = 0. The same line twice, at whatever scale, has
+        no one meeting: (0, 0, 0).
     """
     return projective.meet(lines_a, lines_b)
 
@@ -37,7 +49,9 @@ def meet(lines_a: Float[np.ndarray, "n 3"], lines_b: Float[np.ndarray, "n 3"]) -
 HINT = "The meeting is orthogonal to both vectors: l × l′."
 
 
-def judged(candidate: Function, lines_a: np.ndarray, lines_b: np.ndarray, hint: str = HINT) -> Verdict:
+def judged(
+    candidate: Function, lines_a: np.ndarray, lines_b: np.ndarray, hint: str = HINT
+) -> Verdict:
     """Judge points up to their factors, by the angle between the vectors in degrees."""
     got, right = candidate(lines_a, lines_b), projective.meet(lines_a, lines_b)
     off = np.degrees(projective.angle_between_rays(got, right))
@@ -75,7 +89,12 @@ def parallels(candidate: Function) -> Verdict:
     """Parallel lines meet at infinity, where w is 0."""
     a = np.array([[0.0, 1, 0], [1.0, 0, 4], [2.0, -1, 3], [1.0, 1, -1]])
     b = np.array([[0.0, 1, -1], [-2.0, 0, 4], [4.0, -2, 1], [1.0, 1, 1]])
-    return judged(candidate, a, b, f"Parallels have w = 0: leave the vector as it is, divide nothing by w. {HINT}")
+    return judged(
+        candidate,
+        a,
+        b,
+        f"Parallels have w = 0: leave the vector as it is, divide nothing by w. {HINT}",
+    )
 
 
 @check(1)
@@ -95,13 +114,18 @@ def nearly_parallel(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_lines(candidate: Function) -> Verdict:
-    """Other lines meet too, and so do single ones, and lines of very small or very large numbers."""
+    """Other lines meet too, and so do single ones, and lines of very small or very large
+    numbers.
+    """
     one = lines(GRADERS() + 1, 1)
     a, b = lines(GRADERS(), 12)
     found = judged(candidate, *one)
     if found.share < 1.0:
         return found
-    scaled = [judged(candidate, factor * a, factor * b, f"Any scale is right. {HINT}") for factor in (2e-5, 1e7)]
+    scaled = [
+        judged(candidate, factor * a, factor * b, f"Any scale is right. {HINT}")
+        for factor in (2e-5, 1e7)
+    ]
     return worst((judged(candidate, a, b), *scaled))
 
 
@@ -120,14 +144,20 @@ def parts(lines_a: np.ndarray, lines_b: np.ndarray) -> tuple[np.ndarray, ...]:
     return *lines_a.T, *lines_b.T
 
 
-@mistake("You divided by w. That is infinite or no number for parallels; a homogeneous vector needs no division.")
+@mistake(
+    "You divided by w. That is infinite or no number for parallels; a homogeneous vector needs no"
+    " division."
+)
 def divided_by_w(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Makes w one."""
     x_h = projective.meet(lines_a, lines_b)
     return x_h / x_h[:, 2:]
 
 
-@mistake("You solved with slopes y = m x + k: upright lines have none, and parallels divide by 0. Take l × l′.")
+@mistake(
+    "You solved with slopes y = m x + k: upright lines have none, and parallels divide by 0. Take l"
+    " × l′."
+)
 def by_slopes(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Divides by b."""
     a, b, c, d, e, f = parts(lines_a, lines_b)
@@ -142,7 +172,8 @@ def middle_sign(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You read lines as a x + b y = c. Here c is on the other side: a x + b y + c = 0, so your points are mirrored."
+    "You read lines as a x + b y = c. Here c is on the other side: a x + b y + c = 0, so your"
+    " points are mirrored."
 )
 def c_on_the_right(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Turns c round."""
@@ -150,25 +181,35 @@ def c_on_the_right(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     return projective.meet(lines_a * turn, lines_b * turn)
 
 
-@mistake("You multiplied entry by entry. The cross product is asked for, which is orthogonal to both.")
+@mistake(
+    "You multiplied entry by entry. The cross product is asked for, which is orthogonal to both."
+)
 def entry_by_entry(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Takes a * b."""
     return lines_a * lines_b
 
 
 @mistake(
-    "You return (x, y, 1) from a solver and something made up where it fails. l × l′ needs no solver and never fails."
+    "You return (x, y, 1) from a solver and something made up where it fails. l × l′ needs no"
+    " solver and never fails."
 )
 def solved_with_nan(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Solves two equations, NaN where they are singular."""
     rows = []
     for a, b in zip(lines_a, lines_b, strict=True):
         A = np.array([a[:2], b[:2]])
-        rows.append(np.append(np.linalg.solve(A, -np.array([a[2], b[2]])), 1.0) if np.linalg.det(A) else [np.nan] * 3)
+        rows.append(
+            np.append(np.linalg.solve(A, -np.array([a[2], b[2]])), 1.0)
+            if np.linalg.det(A)
+            else [np.nan] * 3
+        )
     return np.array(rows)
 
 
-@mistake("You subtracted the lines: l − l′ is another line through the meeting, not the meeting. Take l × l′.")
+@mistake(
+    "You subtracted the lines: l − l′ is another line through the meeting, not the meeting. Take l"
+    " × l′."
+)
 def difference(lines_a: np.ndarray, lines_b: np.ndarray) -> np.ndarray:
     """Takes l - l'."""
     return lines_a - lines_b

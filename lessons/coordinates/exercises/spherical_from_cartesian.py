@@ -1,5 +1,5 @@
-"""Write the spherical coordinates of points. The walk past the axis and the camera's mount take their angles from you: a
-camera with a wrong azimuth looks past its target.
+"""Write the spherical coordinates of points. The walk past the axis and the camera's mount take
+their angles from you: a camera with a wrong azimuth looks past its target.
 """
 
 import math
@@ -8,44 +8,66 @@ import numpy as np
 from jaxtyping import Float
 
 from lessons.coordinates.exercises import GRADERS, STUDENTS, numbers, row_by_row
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import curvilinear
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.shapes import curvilinear
 
 
 @contract(
     slot="spherical_from_cartesian",
     examples=(
         ("spherical_from_cartesian(np.array([[0.0, 2.0, 0.0]]))", "[[2, 1.5708, 1.5708]]"),
-        ("spherical_from_cartesian(np.array([[-1.0, 0.0, 1.0], [0.0, 0.0, -3.0]]))",
-         "[[1.4142, 0.7854, 3.1416], [3, 3.1416, 0]]"),
+        (
+            "spherical_from_cartesian(np.array([[-1.0, 0.0, 1.0], [0.0, 0.0, -3.0]]))",
+            "[[1.4142, 0.7854, 3.1416], [3, 3.1416, 0]]",
+        ),
     ),
-)  # fmt: skip
+)
 def spherical_from_cartesian(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
     """Return r, polar angle and azimuth of points, one row each; metres and radians.
 
-    The polar angle runs from 0 at +z to pi at -z and is exact near the axis too: a point a billionth of a radian from +z
-    has a polar angle of 1e-9. The azimuth runs from +x towards +y, in (-pi, pi].
+    The polar angle runs from 0 at +z to pi at -z and is exact near the axis too: a point a
+    billionth of a radian from +z has a polar angle of 1e-9. The azimuth runs from +x towards +y, in
+    (-pi, pi].
 
     Args:
-        p: One row (x, y, z) per point, metres. A coordinate may be -0.0, which is 0: (-1, -0.0, 0) has the azimuth pi.
+        p: One row (x, y, z) per point, metres. A coordinate may be -0.0, which is 0: (-1, -0.0, 0)
+            has the azimuth pi.
 
     Returns:
-        Rows (r, polar, azimuth). On the axis, where the azimuth has no meaning, it is 0; the origin is (0, 0, 0).
+        Rows (r, polar, azimuth). On the axis, where the azimuth has no meaning, it is 0; the origin
+        is (0, 0, 0).
     """
     return curvilinear.spherical_from_cartesian(p)
 
 
 ANGLES = "r = |p|, polar = atan2(√(x² + y²), z), azimuth = atan2(y, x)."
-LOST = (1.02e-8, 1.03e-8, 1.04e-8)  # radians: about the largest angles whose cosine is 1 in double precision
+LOST = (
+    1.02e-8,
+    1.03e-8,
+    1.04e-8,
+)  # radians: about the largest angles whose cosine is 1 in double precision
 AXIS = "Near the axis arccos has no digits left: atan2(√(x² + y²), z) has."
 
 
 def judged(candidate: Function, p: np.ndarray, hint: str = ANGLES) -> Verdict:
-    """Judge coordinates by their largest difference, of r as a share of it, of angles in radians."""
+    """Judge coordinates by their largest difference, of r as a share of it, of angles in
+    radians.
+    """
     got, right = candidate(p), curvilinear.spherical_from_cartesian(p)
     size = np.column_stack([np.maximum(right[:, 0], 1e-12), np.ones((len(p), 2))])
     off = (np.abs(got - right) / size).max(axis=1)
-    return row_by_row([f"The point {numbers(row)}" for row in p], got, right, off, hint, good=1e-6, fair=1e-3)
+    return row_by_row(
+        [f"The point {numbers(row)}" for row in p], got, right, off, hint, good=1e-6, fair=1e-3
+    )
 
 
 def all_round(seed: int, n: int = 24, radius: float = 2.0) -> np.ndarray:
@@ -65,7 +87,9 @@ def points_all_round(candidate: Function) -> Verdict:
 def half_planes_and_axes(candidate: Function) -> Verdict:
     """On -x the azimuth is pi, on the z axis 0; the origin is (0, 0, 0)."""
     p = np.array([[-2.0, 0, 0], [0, 0, 3], [0, 0, -0.5], [0, 0, 0], [0, -1, 0], [1, 0, 0]])
-    return judged(candidate, p, f"On the z axis take 0 for the azimuth, at the origin 0 for all. {ANGLES}")
+    return judged(
+        candidate, p, f"On the z axis take 0 for the azimuth, at the origin 0 for all. {ANGLES}"
+    )
 
 
 @check(1)
@@ -95,13 +119,18 @@ def near(candidate: Function, polar: np.ndarray, r: float, azimuth: float = 0.0)
 def other_points_all_round(candidate: Function) -> Verdict:
     """Other points, near and far, have their coordinates too."""
     return judged(
-        candidate, np.concatenate([all_round(GRADERS() + k, radius=r) for k, r in enumerate((1e-2, 1e4, 1e-6))])
+        candidate,
+        np.concatenate(
+            [all_round(GRADERS() + k, radius=r) for k, r in enumerate((1e-2, 1e4, 1e-6))]
+        ),
     )
 
 
 @check(1, public=False)
 def nearer_the_axis(candidate: Function) -> Verdict:
-    """So have points other millionths from the axis, in any direction, and below: there the azimuth has a meaning still."""
+    """So have points other millionths from the axis, in any direction, and below: there the azimuth
+    has a meaning still.
+    """
     polar = np.array([3e-5, 2e-7, *LOST, 2e-10])
     found = [near(candidate, polar, 2e-3), near(candidate, polar, 2e-3, azimuth=2.4)]
     p = np.column_stack([np.zeros(6), -0.5 * np.sin(polar), -0.5 * np.cos(polar)])
@@ -120,7 +149,15 @@ def a_single_point(candidate: Function) -> Verdict:
 @check(1, public=False)
 def zeros_of_either_sign(candidate: Function) -> Verdict:
     """-0.0 is 0: on -x the azimuth is pi and not -pi, and on the axis it is 0."""
-    p = np.array([[-1.0, -0.0, 0.5], [-0.0, -0.0, -2.0], [-0.0, 0.0, 1.0], [2.0, -0.0, 0.0], [-0.0, -0.0, -0.0]])
+    p = np.array(
+        [
+            [-1.0, -0.0, 0.5],
+            [-0.0, -0.0, -2.0],
+            [-0.0, 0.0, 1.0],
+            [2.0, -0.0, 0.0],
+            [-0.0, -0.0, -0.0],
+        ]
+    )
     return judged(candidate, p, "atan2 listens to the sign of a zero, and x + 0.0 takes it away.")
 
 
@@ -130,7 +167,8 @@ def columns(r: np.ndarray, polar: np.ndarray, azimuth: np.ndarray) -> np.ndarray
 
 
 @mistake(
-    "You wrote arctan(y / x): it cannot tell (x, y) from (−x, −y), so half of all azimuths are π off. atan2(y, x) can."
+    "You wrote arctan(y / x): it cannot tell (x, y) from (−x, −y), so half of all azimuths are π"
+    " off. atan2(y, x) can."
 )
 def atan_of_the_quotient(p: np.ndarray) -> np.ndarray:
     """Divides first."""
@@ -141,7 +179,8 @@ def atan_of_the_quotient(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You wrote arctan(y / x) and divide by 0 on the axis; it also puts half of all azimuths π off. Use atan2(y, x)."
+    "You wrote arctan(y / x) and divide by 0 on the axis; it also puts half of all azimuths π off."
+    " Use atan2(y, x)."
 )
 def atan_and_nan(p: np.ndarray) -> np.ndarray:
     """Divides first, also by 0."""
@@ -150,8 +189,8 @@ def atan_and_nan(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your polar angle is arccos(z / r): below a hundred-millionth of a radian it is 0, near that it is wrong, and at the"
-    " origin it is 0 / 0. Use atan2(√(x² + y²), z)."
+    "Your polar angle is arccos(z / r): below a hundred-millionth of a radian it is 0, near that it"
+    " is wrong, and at the origin it is 0 / 0. Use atan2(√(x² + y²), z)."
 )
 def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, also of 0 / 0."""
@@ -160,8 +199,8 @@ def arccos_of_the_quotient(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your polar angle is arccos(z / r), with the origin looked after: below a hundred-millionth of a radian it is 0, near"
-    " that it is wrong. Use atan2(√(x² + y²), z)."
+    "Your polar angle is arccos(z / r), with the origin looked after: below a hundred-millionth of"
+    " a radian it is 0, near that it is wrong. Use atan2(√(x² + y²), z)."
 )
 def arccos_with_care(p: np.ndarray) -> np.ndarray:
     """Takes the arc cosine, but not of 0 / 0."""
@@ -169,7 +208,10 @@ def arccos_with_care(p: np.ndarray) -> np.ndarray:
     return columns(r, np.arccos(np.divide(p[:, 2], r, out=np.ones(len(p)), where=r > 0)), azimuth)
 
 
-@mistake("Your second angle is the elevation above the x-y plane. The polar angle starts at +z: the two add up to π/2.")
+@mistake(
+    "Your second angle is the elevation above the x-y plane. The polar angle starts at +z: the two"
+    " add up to π/2."
+)
 def elevation(p: np.ndarray) -> np.ndarray:
     """Measures from the plane."""
     r, _, azimuth = curvilinear.spherical_from_cartesian(p).T
@@ -188,7 +230,10 @@ def in_degrees(p: np.ndarray) -> np.ndarray:
     return curvilinear.spherical_from_cartesian(p) * [1.0, 180 / np.pi, 180 / np.pi]
 
 
-@mistake("Your azimuth runs from 0 to 2π. Here it is in (−π, π]: what atan2 gives, without anything added.")
+@mistake(
+    "Your azimuth runs from 0 to 2π. Here it is in (−π, π]: what atan2 gives, without anything"
+    " added."
+)
 def from_zero_to_two_pi(p: np.ndarray) -> np.ndarray:
     """Adds a turn to negative ones."""
     r, polar, azimuth = curvilinear.spherical_from_cartesian(p).T
@@ -202,7 +247,9 @@ def atan2_of_x_y(p: np.ndarray) -> np.ndarray:
     return columns(r, polar, np.arctan2(p[:, 0], p[:, 1]))
 
 
-@mistake("Your r is √(x² + y²), the distance from the axis. r is the distance from the origin, with z.")
+@mistake(
+    "Your r is √(x² + y²), the distance from the axis. r is the distance from the origin, with z."
+)
 def distance_from_the_axis(p: np.ndarray) -> np.ndarray:
     """Leaves z out."""
     _, polar, azimuth = curvilinear.spherical_from_cartesian(p).T
@@ -210,8 +257,8 @@ def distance_from_the_axis(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "All is right but where a coordinate is minus zero: atan2 listens to the sign of a zero and says −π, or π on the axis."
-    " Add 0.0 to the coordinates first."
+    "All is right but where a coordinate is minus zero: atan2 listens to the sign of a zero and"
+    " says −π, or π on the axis. Add 0.0 to the coordinates first."
 )
 def sign_of_a_zero(p: np.ndarray) -> np.ndarray:
     """Takes the arctangents of what comes in."""

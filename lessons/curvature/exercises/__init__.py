@@ -1,26 +1,35 @@
-"""The exercises of this lesson: what the angles around a vertex miss, Gaussian curvature, the mean-curvature normal."""
+"""The exercises of this lesson: what the angles around a vertex miss, Gaussian curvature, the
+mean-curvature normal.
+"""
 
 import numpy as np
 
-from workbench.data import surfaces
-from workbench.data.surfaces import Surface
+from workbench.data.shapes import surfaces
+from workbench.data.shapes.surfaces import Surface
 from workbench.exercise import HiddenSeed, Verdict, against, band, fail, partial
 from workbench.geometry.meshes import face_areas, on_boundary
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = 21, HiddenSeed(8123)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    21,
+    HiddenSeed(8123),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 Mesh = tuple[np.ndarray, np.ndarray]
 
 
 def irregular(name: str, seed: int, count: int = 150) -> Surface:
-    """Return a built-in surface whose vertices were moved about on it, so that no two triangles are alike."""
+    """Return a built-in surface whose vertices were moved about on it, so that no two triangles are
+    alike.
+    """
     return surfaces.SURFACES[name](count, jitter=0.2, rng=np.random.default_rng(seed))
 
 
 def with_a_flat_face(p: np.ndarray, faces: np.ndarray) -> Mesh:
-    """Return the mesh with a vertex in the middle of the first face's first edge, and there a face without area."""
+    """Return the mesh with a vertex in the middle of the first face's first edge, and there a face
+    without area.
+    """
     (a, b, c), middle = faces[0], len(p)
     new = np.array([[a, middle, c], [middle, b, c], [a, b, middle]])
     return np.concatenate([p, (p[[a]] + p[[b]]) / 2]), np.concatenate([faces[1:], new])
@@ -40,7 +49,14 @@ def some_rotation(seed: int) -> np.ndarray:
 
 
 def curvature_verdict(
-    got: np.ndarray, right: np.ndarray, hint: str, *, good: float, fair: float, size: float = 0.0, what: str = ""
+    got: np.ndarray,
+    right: np.ndarray,
+    hint: str,
+    *,
+    good: float,
+    fair: float,
+    size: float = 0.0,
+    what: str = "",
 ) -> Verdict:
     """Judge numbers or vectors at the vertices in per cent; where `right` is nan, nan is asked for.
 
@@ -58,7 +74,10 @@ def curvature_verdict(
     lost = np.flatnonzero(inside & ~np.isfinite(got).all(axis=1))
     if lost.size:
         i = lost[0]
-        said = f"{what}{lost.size} of {inside.sum()} vertices inside the border have no finite value. At vertex {i} yours is"
+        said = (
+            f"{what}{lost.size} of {inside.sum()} vertices inside the border have no finite value."
+            f" At vertex {i} yours is"
+        )
         return fail(f"{said} {against(got[i].squeeze(), right[i].squeeze())}. {hint}")
     away = np.zeros(len(got))
     away[inside] = np.linalg.norm(got[inside] - right[inside], axis=1)
@@ -76,9 +95,17 @@ def curvature_verdict(
     stray = int((~np.isnan(got[~inside])).any(axis=1).sum())
     if stray and verdict.share > 0:
         said = (
-            f"{what}{stray} of {(~inside).sum()} border vertices have a value; the contract asks for nan on the border."
+            f"{what}{stray} of {(~inside).sum()} border vertices have a value; the contract asks"
+            " for nan on the border."
         )
-        return partial(0.5, f"{said} The others are right." if verdict.share == 1.0 else f"{said} {verdict.message}")
+        return partial(
+            0.5,
+            (
+                f"{said} The others are right."
+                if verdict.share == 1.0
+                else f"{said} {verdict.message}"
+            ),
+        )
     return verdict
 
 

@@ -1,5 +1,6 @@
-"""Write the angle defects of a triangle mesh: how much the angles around each vertex miss a full turn, or half a one on
-the border. The lesson lays a ring flat with the gap you return, and adds all of them up to 2 pi chi.
+"""Write the angle defects of a triangle mesh: how much the angles around each vertex miss a full
+turn, or half a one on the border. The lesson lays a ring flat with the gap you return, and adds all
+of them up to 2 pi chi.
 """
 
 import numpy as np
@@ -17,7 +18,7 @@ from lessons.curvature.exercises import (
     some_rotation,
     with_a_flat_face,
 )
-from workbench.data import surfaces
+from workbench.data.shapes import surfaces
 from workbench.exercise import (
     Function,
     Verdict,
@@ -32,17 +33,23 @@ from workbench.exercise import (
     number,
     worst,
 )
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import mixed_areas
-from workbench.geometry.meshes import euler_characteristic, face_angles, on_boundary
+from workbench.geometry.meshes import curvature, euler_characteristic, face_angles, on_boundary
+from workbench.geometry.meshes.laplacian import mixed_areas
 
 
 def renumbered(p: np.ndarray, faces: np.ndarray, rng: np.random.Generator) -> Mesh:
-    """Return the same mesh with its vertices, its faces and their first corners in another order."""
+    """Return the same mesh with its vertices, its faces and their first corners in another
+    order.
+    """
     place = rng.permutation(len(p))
     moved = np.empty_like(p)
     moved[place] = p
-    turned = np.array([np.roll(face, k) for face, k in zip(place[faces], rng.integers(0, 3, len(faces)), strict=True)])
+    turned = np.array(
+        [
+            np.roll(face, k)
+            for face, k in zip(place[faces], rng.integers(0, 3, len(faces)), strict=True)
+        ]
+    )
     return moved, turned[rng.permutation(len(faces))]
 
 
@@ -64,20 +71,25 @@ def defects_verdict(candidate: Function, mesh: Mesh, hint: str) -> Verdict:
         (f"angle_defects({TRIANGLE})", "[2.0944, 2.0944, 2.0944]"),
     ),
 )
-def angle_defects(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Float[np.ndarray, " v"]:
+def angle_defects(
+    p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]
+) -> Float[np.ndarray, " v"]:
     """Return how much the angles around each vertex miss a flat turn, in radians.
 
-    At a vertex inside the mesh that is 2 pi less the sum of the angles of its faces there, at a vertex on the border pi
-    less that sum. The border are the vertices of those edges that only one face has; a closed mesh has none.
+    At a vertex inside the mesh that is 2 pi less the sum of the angles of its faces there, at a
+    vertex on the border pi less that sum. The border are the vertices of those edges that only one
+    face has; a closed mesh has none.
 
     Args:
         p: Vertices, metres, one row each.
-        faces: Three vertex numbers per triangle, counterclockwise seen from outside. No edge has more than two faces.
+        faces: Three vertex numbers per triangle, counterclockwise seen from outside. No edge has
+            more than two faces.
 
     Returns:
-        One angle defect per vertex, radians: not divided by an area. Positive at the tip of a cone, negative at a saddle.
-        A face whose three vertices lie on one line has the angles 0, 0 and pi. A vertex that no face names counts as inside
-        the mesh: nothing adds up to 2 pi there. The inputs stay as they are.
+        One angle defect per vertex, radians: not divided by an area. Positive at the tip of a cone,
+        negative at a saddle. A face whose three vertices lie on one line has the angles 0, 0 and
+        pi. A vertex that no face names counts as inside the mesh: nothing adds up to 2 pi there.
+        The inputs stay as they are.
     """
     return curvature.angle_defects(p, faces)
 
@@ -85,20 +97,30 @@ def angle_defects(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) ->
 DEFECT_HINT = "Inside the mesh: 2 pi less the angles at the vertex; on the border: pi less them."
 
 
-FLAT_HINT = "If a face without area gives nan: clip cosines to [-1, 1], or take arctan2(|a x b|, a . b)."
+FLAT_HINT = (
+    "If a face without area gives nan: clip cosines to [-1, 1], or take arctan2(|a x b|, a . b)."
+)
 
 
 @check(2)
 def corners_of_a_box(candidate: Function) -> Verdict:
-    """Each corner of a box misses a quarter turn, however long its edges are and however its sides are cut."""
-    return defects_verdict(candidate, box(STUDENTS), f"Three right angles are there, of four. {DEFECT_HINT}")
+    """Each corner of a box misses a quarter turn, however long its edges are and however its sides
+    are cut.
+    """
+    return defects_verdict(
+        candidate, box(STUDENTS), f"Three right angles are there, of four. {DEFECT_HINT}"
+    )
 
 
 @check(2)
 def flat_sheet(candidate: Function) -> Verdict:
-    """A flat sheet has no defect inside nor along its straight border, and a quarter turn at its corners."""
+    """A flat sheet has no defect inside nor along its straight border, and a quarter turn at its
+    corners.
+    """
     sheet = irregular("plane", STUDENTS, 60)
-    return defects_verdict(candidate, (sheet.p @ some_rotation(STUDENTS).T, sheet.faces), DEFECT_HINT)
+    return defects_verdict(
+        candidate, (sheet.p @ some_rotation(STUDENTS).T, sheet.faces), DEFECT_HINT
+    )
 
 
 @check(1)
@@ -109,34 +131,53 @@ def mesh_is_left_alone(candidate: Function) -> Verdict:
 
 @check(3, public=False)
 def gauss_bonnet(candidate: Function) -> Verdict:
-    """All defects add up to 2 pi (V - E + F): on a sphere, a torus, a tube, a sheet, whatever the mesh."""
+    """All defects add up to 2 pi (V - E + F): on a sphere, a torus, a tube, a sheet, whatever the
+    mesh.
+    """
     verdicts = []
     for k, name in enumerate(("sphere", "torus", "cylinder", "saddle")):
         mesh = irregular(name, GRADERS() + k)
         p = surfaces.with_noise(mesh, 0.02, np.random.default_rng(GRADERS() + k)).p
         chi = euler_characteristic(mesh.faces)
         total = float(np.degrees(candidate(p, mesh.faces).sum()))
-        what = f"On a {name} with noise your sum is {number(total, 6)} degrees, right is {360 * chi}: error"
+        what = (
+            f"On a {name} with noise your sum is {number(total, 6)} degrees, right is {360 * chi}:"
+            " error"
+        )
         said = band(what, abs(total - 360 * chi), "degrees", good=0.01, fair=1.0, hint=DEFECT_HINT)
-        verdicts.append(full("The four sums are 720, 0, 0 and 360 degrees.") if said.share == 1.0 else said)
+        verdicts.append(
+            full("The four sums are 720, 0, 0 and 360 degrees.") if said.share == 1.0 else said
+        )
     return worst(verdicts)
 
 
 @check(2, public=False)
 def defects_go_with_the_mesh(candidate: Function) -> Verdict:
-    """Moved, enlarged, made as small as a grain, turned inside out or numbered anew, every vertex keeps its defect."""
+    """Moved, enlarged, made as small as a grain, turned inside out or numbered anew, every vertex
+    keeps its defect.
+    """
     rng = np.random.default_rng(GRADERS())
     mesh = irregular("catenoid", GRADERS(), 120)
     p = 3.0 * mesh.p @ some_rotation(GRADERS()).T + rng.normal(size=3)
-    cases = [(mesh.p, mesh.faces), (p, mesh.faces), (p, mesh.faces[:, ::-1].copy()), renumbered(p, mesh.faces, rng)]
-    return worst(defects_verdict(candidate, case, DEFECT_HINT) for case in (*cases, (1e-3 * mesh.p, mesh.faces)))
+    cases = [
+        (mesh.p, mesh.faces),
+        (p, mesh.faces),
+        (p, mesh.faces[:, ::-1].copy()),
+        renumbered(p, mesh.faces, rng),
+    ]
+    return worst(
+        defects_verdict(candidate, case, DEFECT_HINT)
+        for case in (*cases, (1e-3 * mesh.p, mesh.faces))
+    )
 
 
 ALONG_THE_DIAGONAL = (
     np.array([[0.0, 0, 0], [4, 4, 4], [4, 0, 0], [0, 4, 0]]),
     np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]),
 )
-"""A tetrahedron with an edge along (1, 1, 1): on every machine that vector's length, squared, is a little less than 3."""
+"""A tetrahedron with an edge along (1, 1, 1): on every machine that vector's length, squared, is a
+little less than 3.
+"""
 
 
 @check(1, public=False)
@@ -146,9 +187,15 @@ def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
     verdicts = []
     for k in range(16):  # which cosines rounding takes beyond 1 depends on how the mesh is turned
         p, faces = with_a_flat_face(ball.p @ some_rotation(GRADERS() + k).T, ball.faces)
-        verdicts.append(defects_verdict(candidate, (np.concatenate([p, [[3.0, 0.0, 0.0]]]), faces), FLAT_HINT))
-    first = np.concatenate([[[3.0, 0, 0]], ball.p[:7], [[0, 3.0, 0]], ball.p[7:], [[0, 0, 3.0], [1, 3.0, 0]]])
-    shifted = ball.faces + np.where(ball.faces < 7, 1, 2)  # four vertices without faces, wherever they stand
+        verdicts.append(
+            defects_verdict(candidate, (np.concatenate([p, [[3.0, 0.0, 0.0]]]), faces), FLAT_HINT)
+        )
+    first = np.concatenate(
+        [[[3.0, 0, 0]], ball.p[:7], [[0, 3.0, 0]], ball.p[7:], [[0, 0, 3.0], [1, 3.0, 0]]]
+    )
+    shifted = ball.faces + np.where(
+        ball.faces < 7, 1, 2
+    )  # four vertices without faces, wherever they stand
     verdicts.append(defects_verdict(candidate, (first, shifted), DEFECT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*box(GRADERS())), FLAT_HINT))
     verdicts.append(defects_verdict(candidate, with_a_flat_face(*ALONG_THE_DIAGONAL), FLAT_HINT))
@@ -156,8 +203,8 @@ def flat_faces_and_lone_vertices(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You take the angles from 2 pi everywhere. On the border of a flat sheet they make half a turn: there the "
-    "defect is pi less their sum."
+    "You take the angles from 2 pi everywhere. On the border of a flat sheet they make half a turn:"
+    " there the defect is pi less their sum."
 )
 def full_turn_on_the_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """2 pi, also on the border."""
@@ -165,8 +212,8 @@ def full_turn_on_the_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You divided by the area. That is Gaussian curvature, 1/m²; the defect itself is an angle, in radians: "
-    "curvature times area."
+    "You divided by the area. That is Gaussian curvature, 1/m²; the defect itself is an angle, in"
+    " radians: curvature times area."
 )
 def curvature_returned(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Divides by the area."""
@@ -174,7 +221,8 @@ def curvature_returned(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You returned the sum of the angles around each vertex. The defect is what that sum misses: 2 pi less the sum."
+    "You returned the sum of the angles around each vertex. The defect is what that sum misses: 2"
+    " pi less the sum."
 )
 def sum_of_the_angles(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The angles, not what they miss."""
@@ -182,8 +230,8 @@ def sum_of_the_angles(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your defects have the wrong sign. At the tip of a cone the angles make less than a full turn, and the "
-    "defect is positive: 2 pi less the sum."
+    "Your defects have the wrong sign. At the tip of a cone the angles make less than a full turn,"
+    " and the defect is positive: 2 pi less the sum."
 )
 def sign(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The angles less a full turn."""
@@ -197,7 +245,8 @@ def degrees(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "`total[faces[:, k]] += angle` counts an index that occurs several times once only. Use np.add.at or np.bincount."
+    "`total[faces[:, k]] += angle` counts an index that occurs several times once only. Use"
+    " np.add.at or np.bincount."
 )
 def repeated_indices(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """`total[faces[:, k]] += ...`: of the faces around a vertex only one counts, the last."""
@@ -208,7 +257,8 @@ def repeated_indices(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Every face gives its angle to its first vertex only. It has three corners, and each belongs to another vertex."
+    "Every face gives its angle to its first vertex only. It has three corners, and each belongs to"
+    " another vertex."
 )
 def first_corner_only(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Every face gives its angle to its first vertex only."""
@@ -217,8 +267,8 @@ def first_corner_only(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "All is right but faces without area: rounding makes their cosines a little larger than 1, and arccos gives "
-    "nan. Clip them to [-1, 1], or take arctan2(|a x b|, a . b)."
+    "All is right but faces without area: rounding makes their cosines a little larger than 1, and"
+    " arccos gives nan. Clip them to [-1, 1], or take arctan2(|a x b|, a . b)."
 )
 def cosine_beyond_1(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Takes arccos of what rounding has made a little larger than 1."""

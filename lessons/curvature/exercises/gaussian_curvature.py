@@ -1,5 +1,6 @@
-"""Write Gaussian curvature at the vertices of a mesh: what the angles miss, divided by the area that belongs to the
-vertex. The lesson colours the surface with it, and measures how wrong it is on ever finer meshes.
+"""Write Gaussian curvature at the vertices of a mesh: what the angles miss, divided by the area
+that belongs to the vertex. The lesson colours the surface with it, and measures how wrong it is on
+ever finer meshes.
 """
 
 import numpy as np
@@ -19,11 +20,19 @@ from lessons.curvature.exercises import (
     without_border,
 )
 from lessons.curvature.exercises.angle_defects import sum_of_the_angles
-from workbench.data import surfaces
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import curvature
-from workbench.geometry.laplacian import mixed_areas
-from workbench.geometry.meshes import on_boundary
+from workbench.data.shapes import surfaces
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.meshes import curvature, on_boundary
+from workbench.geometry.meshes.laplacian import mixed_areas
 
 
 @contract(
@@ -33,23 +42,30 @@ from workbench.geometry.meshes import on_boundary
         (f"gaussian_curvature({TRIANGLE})", "[nan, nan, nan]"),
     ),
 )
-def gaussian_curvature(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> Float[np.ndarray, " v"]:
+def gaussian_curvature(
+    p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]
+) -> Float[np.ndarray, " v"]:
     """Return Gaussian curvature K at each vertex: its angle defect over its mixed area, 1/m^2.
 
-    The defect is 2 pi less the angles at the vertex. The mixed area is made of a part of each face around:
+    The defect is 2 pi less the angles at the vertex. The mixed area is made of a part of each face
+    around:
 
-    - of a face without an obtuse angle, the points nearer to this vertex than to the other two (its Voronoi part):
-      (|ij|^2 cot k + |ik|^2 cot j) / 8 for vertex i, j and k being the angles at the other two;
-    - of an obtuse face, half where the obtuse angle is at this vertex, a quarter where it is at another one.
+    - of a face without an obtuse angle, the points nearer to this vertex than to the other two (its
+      Voronoi part): (|ij|^2 cot k + |ik|^2 cot j) / 8 for vertex i, j and k being the angles at the
+      other two;
+    - of an obtuse face, half where the obtuse angle is at this vertex, a quarter where it is at
+      another one.
 
     Args:
         p: Vertices, metres, one row each. Every vertex belongs to a face.
-        faces: Three vertex numbers per triangle, counterclockwise seen from outside. No edge has more than two faces.
+        faces: Three vertex numbers per triangle, counterclockwise seen from outside. No edge has
+            more than two faces.
 
     Returns:
-        K, 1/m^2: positive on a sphere, 0 on a cylinder, negative on a saddle, whichever side is called outside; nan on the
-        border (the vertices of edges that only one face has), where it is not defined. A face whose three vertices lie on
-        one line gives its angles 0, 0 and pi, and no area. The inputs stay as they are.
+        K, 1/m^2: positive on a sphere, 0 on a cylinder, negative on a saddle, whichever side is
+        called outside; nan on the border (the vertices of edges that only one face has), where it
+        is not defined. A face whose three vertices lie on one line gives its angles 0, 0 and pi,
+        and no area. The inputs stay as they are.
     """
     return curvature.gaussian_curvature(p, faces)
 
@@ -64,7 +80,9 @@ def spheres(candidate: Function) -> Verdict:
     for radius in (0.5, 3.0):
         ball = surfaces.sphere(162, radius)
         got, what = candidate(ball.p, ball.faces), f"Radius {radius:g} m: "
-        verdicts.append(curvature_verdict(got, ball.gaussian, GAUSSIAN_HINT, good=3, fair=12, what=what))
+        verdicts.append(
+            curvature_verdict(got, ball.gaussian, GAUSSIAN_HINT, good=3, fair=12, what=what)
+        )
     return worst(verdicts)
 
 
@@ -73,7 +91,9 @@ def tube(candidate: Function) -> Verdict:
     """A cylinder can be rolled out flat: K = 0 inside, nan on its border."""
     pipe = surfaces.cylinder(150)
     right = without_border(pipe, pipe.gaussian)
-    return curvature_verdict(candidate(pipe.p, pipe.faces), right, GAUSSIAN_HINT, good=0.1, fair=2, size=4.0)
+    return curvature_verdict(
+        candidate(pipe.p, pipe.faces), right, GAUSSIAN_HINT, good=0.1, fair=2, size=4.0
+    )
 
 
 @check(1)
@@ -82,7 +102,8 @@ def mesh_of_K_is_left_alone(candidate: Function) -> Verdict:
     ball = surfaces.sphere(42)
     right = curvature.gaussian_curvature(ball.p, ball.faces)
     return left_alone(
-        candidate, curvature_verdict(candidate(ball.p, ball.faces), right, GAUSSIAN_HINT, good=0.1, fair=5)
+        candidate,
+        curvature_verdict(candidate(ball.p, ball.faces), right, GAUSSIAN_HINT, good=0.1, fair=5),
     )
 
 
@@ -95,13 +116,17 @@ def obtuse_faces(candidate: Function) -> Verdict:
         mesh = irregular(name, GRADERS() + k)
         right = curvature.gaussian_curvature(mesh.p, mesh.faces)
         got = candidate(mesh.p, mesh.faces)
-        verdicts.append(curvature_verdict(got, right, hint, good=0.1, fair=5, what=f"{name.capitalize()}: "))
+        verdicts.append(
+            curvature_verdict(got, right, hint, good=0.1, fair=5, what=f"{name.capitalize()}: ")
+        )
     return worst(verdicts)
 
 
 @check(2, public=False)
 def size_and_side(candidate: Function) -> Verdict:
-    """Twice the size gives a quarter of K, a hundredth 10,000 times K; a motion or another outside change nothing."""
+    """Twice the size gives a quarter of K, a hundredth 10,000 times K; a motion or another outside
+    change nothing.
+    """
     mesh = irregular("saddle", GRADERS())
     right = curvature.gaussian_curvature(mesh.p, mesh.faces)
     p = mesh.p @ some_rotation(GRADERS()).T + np.array([5.0, -2.0, 1.0])
@@ -121,7 +146,10 @@ def size_and_side(candidate: Function) -> Verdict:
 def face_without_area(candidate: Function) -> Verdict:
     """A face without area adds its angles and no area."""
     ball = surfaces.sphere(42)
-    hint = "It is obtuse: its parts are a half and two quarters of nothing. Clip cosines, or take arctan2."
+    hint = (
+        "It is obtuse: its parts are a half and two quarters of nothing. Clip cosines, or take"
+        " arctan2."
+    )
     verdicts = []
     for mesh in (with_a_flat_face(ball.p, ball.faces), with_a_flat_face(*box(GRADERS()))):
         right = curvature.gaussian_curvature(*mesh)
@@ -129,15 +157,18 @@ def face_without_area(candidate: Function) -> Verdict:
     return worst(verdicts)
 
 
-@mistake("You returned the angle defect. It is curvature times area: divide it by the area that belongs to the vertex.")
+@mistake(
+    "You returned the angle defect. It is curvature times area: divide it by the area that belongs"
+    " to the vertex."
+)
 def defect_not_divided(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The angle defect."""
     return np.where(on_boundary(faces, len(p)), np.nan, curvature.angle_defects(p, faces))
 
 
 @mistake(
-    "You divided by a third of the faces around. That is near the mixed area where triangles are alike; the "
-    "contract asks for the Voronoi part, or a half and two quarters of an obtuse face."
+    "You divided by a third of the faces around. That is near the mixed area where triangles are"
+    " alike; the contract asks for the Voronoi part, or a half and two quarters of an obtuse face."
 )
 def a_third_of_each_face(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The defect over a third of the faces around."""
@@ -145,8 +176,8 @@ def a_third_of_each_face(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You divided by the whole area of the faces around. Each face is shared by three vertices; yours counts it "
-    "three times."
+    "You divided by the whole area of the faces around. Each face is shared by three vertices;"
+    " yours counts it three times."
 )
 def whole_faces(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The defect over the whole ring: every face counts three times."""
@@ -154,8 +185,8 @@ def whole_faces(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You took the Voronoi part of every face. In an obtuse face it reaches outside: half of such a face goes to "
-    "its obtuse corner, a quarter to each of the others."
+    "You took the Voronoi part of every face. In an obtuse face it reaches outside: half of such a"
+    " face goes to its obtuse corner, a quarter to each of the others."
 )
 def voronoi_in_obtuse_faces(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """The Voronoi formula also where a face is obtuse."""
@@ -171,8 +202,8 @@ def voronoi_in_obtuse_faces(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You gave K on the border. There pi less the angles is how the border itself turns, no curvature of the "
-    "surface: return nan."
+    "You gave K on the border. There pi less the angles is how the border itself turns, no"
+    " curvature of the surface: return nan."
 )
 def a_value_on_the_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Divides the turning of the border by an area."""
@@ -180,8 +211,8 @@ def a_value_on_the_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You treat the border as if it were inside, so that a flat sheet seems to bend there. K is not defined on "
-    "it: return nan."
+    "You treat the border as if it were inside, so that a flat sheet seems to bend there. K is not"
+    " defined on it: return nan."
 )
 def no_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Does not know of a border."""
@@ -189,8 +220,8 @@ def no_border(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You returned the mean curvature H, 1/m. Gaussian curvature K is the product of the two principal "
-    "curvatures, 1/m²: on a cylinder it is 0."
+    "You returned the mean curvature H, 1/m. Gaussian curvature K is the product of the two"
+    " principal curvatures, 1/m²: on a cylinder it is 0."
 )
 def mean_curvature(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """H."""
@@ -240,7 +271,9 @@ def gaussian_by_circumcentres(p: np.ndarray, faces: np.ndarray) -> np.ndarray:
         angles = [np.arctan2(2 * whole, x @ y) for x, y in ends]
         np.subtract.at(defect, face, angles)
         if max(angles) > np.pi / 2:
-            np.add.at(area, face, [whole / 2 if angle > np.pi / 2 else whole / 4 for angle in angles])
+            np.add.at(
+                area, face, [whole / 2 if angle > np.pi / 2 else whole / 4 for angle in angles]
+            )
             continue
         u, v = b - a, c - a
         centre = a + ((u @ u) * np.cross(v, n) + (v @ v) * np.cross(n, u)) / (2 * n @ n)

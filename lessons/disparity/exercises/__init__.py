@@ -1,10 +1,15 @@
-"""The exercises of this lesson: depth from disparity, the costs of all shifts, and the shift that wins."""
+"""The exercises of this lesson: depth from disparity, the costs of all shifts, and the shift that
+wins.
+"""
 
 import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = 31, HiddenSeed(9241)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    31,
+    HiddenSeed(9241),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 Pair = tuple[np.ndarray, np.ndarray]
@@ -12,14 +17,20 @@ VOLUME_HINT = "cost[d, y, x] sums |left(y, x) - right(y, x - d)| over the window
 
 
 def textures(seed: int, h: int = 12, w: int = 20, shift: int = 4) -> Pair:
-    """Return two noisy pictures; what the left one shows in column x is in column x - shift of the right one."""
+    """Return two noisy pictures; what the left one shows in column x is in column x - shift of the
+    right one.
+    """
     rng = np.random.default_rng(seed)
     scene = rng.uniform(10.0, 240.0, (h, w + shift))
     return scene[:, :w] + rng.normal(0, 3, (h, w)), scene[:, shift:] + rng.normal(0, 3, (h, w))
 
 
 def cells_verdict(
-    got: np.ndarray, right: np.ndarray, where: np.ndarray | None = None, what: str = "", hint: str = VOLUME_HINT
+    got: np.ndarray,
+    right: np.ndarray,
+    where: np.ndarray | None = None,
+    what: str = "",
+    hint: str = VOLUME_HINT,
 ) -> Verdict:
     """Judge costs by the share of wrong cells, per cent, and name the first of them.
 

@@ -1,5 +1,6 @@
-"""Write what turns a disparity into a depth. The lesson builds the cloud of points with it, from the map of every step;
-what is infinitely far or unknown must stay so, or the cloud shows points that nobody saw.
+"""Write what turns a disparity into a depth. The lesson builds the cloud of points with it, from
+the map of every step; what is infinitely far or unknown must stay so, or the cloud shows points
+that nobody saw.
 """
 
 import numpy as np
@@ -22,7 +23,7 @@ from workbench.exercise import (
     partial,
     worst,
 )
-from workbench.geometry import stereo
+from workbench.geometry.cameras import stereo
 
 
 @contract(
@@ -35,21 +36,25 @@ from workbench.geometry import stereo
         ),
     ),
 )
-def depth_from_disparity(d: Float[np.ndarray, "..."], f: float, baseline: float) -> Float[np.ndarray, "..."]:
+def depth_from_disparity(
+    d: Float[np.ndarray, "..."], f: float, baseline: float
+) -> Float[np.ndarray, "..."]:
     """Return the depth that each disparity stands for, metres along the optical axis.
 
-    Two cameras look along the same direction, the right one `baseline` to the right of the left one. A point at depth Z is
-    d pixels further left in the right picture. Similar triangles give Z / baseline = f / d.
+    Two cameras look along the same direction, the right one `baseline` to the right of the left
+    one. A point at depth Z is d pixels further left in the right picture. Similar triangles give Z
+    / baseline = f / d.
 
     Args:
-        d: Disparities, x in the left picture less x in the right one, pixels; an array of any shape, fractions included.
-            nan is unknown.
+        d: Disparities, x in the left picture less x in the right one, pixels; an array of any
+            shape, fractions included. nan is unknown.
         f: Focal length of both cameras, pixels.
         baseline: Distance between the cameras, metres.
 
     Returns:
-        Depths, metres, in a new array of the same shape. 0 gives inf: the rays are parallel, the point is infinitely far.
-        nan gives nan. A negative disparity gives nan: nothing in front of both cameras causes one.
+        Depths, metres, in a new array of the same shape. 0 gives inf: the rays are parallel, the
+        point is infinitely far. nan gives nan. A negative disparity gives nan: nothing in front of
+        both cameras causes one.
     """
     return stereo.depth_from_disparity(d, f, baseline)
 
@@ -63,14 +68,21 @@ def depth_verdict(got: np.ndarray, right: np.ndarray, what: str = "") -> Verdict
     i = np.unravel_index(np.argmax(np.where(np.isfinite(off), off, np.inf)), off.shape)
     hint = f"Yours is {against(got[i], right[i], unit='m')}. {DEPTH_HINT}"
     return band(
-        f"{what}largest error" if what else "Largest error", 100 * float(off[i]), "%", good=0.01, fair=5, hint=hint
+        f"{what}largest error" if what else "Largest error",
+        100 * float(off[i]),
+        "%",
+        good=0.01,
+        fair=5,
+        hint=hint,
     )
 
 
 @check(2)
 def near_and_far(candidate: Function) -> Verdict:
     """With f = 700 px and a baseline of 0.12 m, 84, 16.8 and 4.2 px are 1, 5 and 20 m."""
-    return depth_verdict(candidate(np.array([84.0, 16.8, 4.2]), 700.0, 0.12), np.array([1.0, 5.0, 20.0]))
+    return depth_verdict(
+        candidate(np.array([84.0, 16.8, 4.2]), 700.0, 0.12), np.array([1.0, 5.0, 20.0])
+    )
 
 
 @check(2)
@@ -78,7 +90,12 @@ def half_the_shift(candidate: Function) -> Verdict:
     """Over a whole map, half the disparity is twice the depth."""
     d = np.random.default_rng(STUDENTS).uniform(2.0, 60.0, (6, 8))
     Z = candidate(d, 400.0, 0.2)
-    return worst((depth_verdict(Z, 80.0 / d), depth_verdict(candidate(d / 2, 400.0, 0.2), 160.0 / d, "Half: ")))
+    return worst(
+        (
+            depth_verdict(Z, 80.0 / d),
+            depth_verdict(candidate(d / 2, 400.0, 0.2), 160.0 / d, "Half: "),
+        )
+    )
 
 
 @check(1)
@@ -102,22 +119,41 @@ def two_cameras(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def smaller_pictures(candidate: Function) -> Verdict:
-    """In pictures shrunk four times, f and d shrink, and the depth is the same; no disparities give no depths."""
+    """In pictures shrunk four times, f and d shrink, and the depth is the same; no disparities give
+    no depths.
+    """
     d = np.random.default_rng(GRADERS() + 1).uniform(3.0, 80.0, (3, 4, 2))
     if candidate(np.empty(0), 900.0, 0.15).size:
         return fail("No disparities came in, and depths came out; right are 0 of them.")
-    return worst(depth_verdict(candidate(d / k, 900.0 / k, 0.15), 135.0 / d, f"1/{k} size: ") for k in (1, 4))
+    return worst(
+        depth_verdict(candidate(d / k, 900.0 / k, 0.15), 135.0 / d, f"1/{k} size: ") for k in (1, 4)
+    )
 
 
 @check(3, public=False)
 def infinite_and_unknown(candidate: Function) -> Verdict:
-    """0 is infinitely far, nan stays nan, a negative disparity is nan, and a hundredth of a pixel is far away."""
-    wanted = [(0.0, np.inf), (np.nan, np.nan), (-3.5, np.nan), (0.01, 5000.0), (-0.01, np.nan), (1e-6, 5e7)]
-    wrong, lots = [], candidate(np.array([[d for d, _ in wanted], [d for d, _ in wanted]]), 500.0, 0.1)[1]
+    """0 is infinitely far, nan stays nan, a negative disparity is nan, and a hundredth of a pixel
+    is far away.
+    """
+    wanted = [
+        (0.0, np.inf),
+        (np.nan, np.nan),
+        (-3.5, np.nan),
+        (0.01, 5000.0),
+        (-0.01, np.nan),
+        (1e-6, 5e7),
+    ]
+    wrong, lots = (
+        [],
+        candidate(np.array([[d for d, _ in wanted], [d for d, _ in wanted]]), 500.0, 0.1)[1],
+    )
     for (d, right), in_a_map in zip(wanted, lots, strict=True):
         got = float(candidate(np.array([d, 10.0]), 500.0, 0.1)[0])
         alone = float(candidate(np.full(3, d), 500.0, 0.1)[1])
-        got = next((one for one in (alone, float(in_a_map)) if not np.isclose(one, right, equal_nan=True)), got)
+        got = next(
+            (one for one in (alone, float(in_a_map)) if not np.isclose(one, right, equal_nan=True)),
+            got,
+        )
         if not np.isclose(got, right, rtol=1e-6, equal_nan=True):
             wrong.append(f"for d = {number(d)} yours is {number(got)} m, right is {number(right)}")
     if not wrong:
@@ -126,7 +162,10 @@ def infinite_and_unknown(candidate: Function) -> Verdict:
     return partial((3 - len(wrong)) / 3, said) if len(wrong) < 3 else fail(said)
 
 
-@mistake("Your depth grows with the disparity. It is the other way round: near things jump further. Z = f B / d.")
+@mistake(
+    "Your depth grows with the disparity. It is the other way round: near things jump further. Z ="
+    " f B / d."
+)
 def proportional(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Depth grows with the disparity."""
     return baseline * d / f
@@ -138,20 +177,26 @@ def upside_down(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     return d / (f * baseline)
 
 
-@mistake("You returned f / d: the depth in baselines. Multiply by the baseline, and it is in metres.")
+@mistake(
+    "You returned f / d: the depth in baselines. Multiply by the baseline, and it is in metres."
+)
 def baseline_forgotten(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Depth in baselines."""
     return np.where(d >= 0, f / np.abs(d), np.nan)
 
 
-@mistake("You returned B / d, metres per pixel. Multiply by the focal length, which is in pixels too: Z = f B / d.")
+@mistake(
+    "You returned B / d, metres per pixel. Multiply by the focal length, which is in pixels too: Z"
+    " = f B / d."
+)
 def f_forgotten(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Metres over pixels."""
     return np.where(d >= 0, baseline / np.abs(d), np.nan)
 
 
 @mistake(
-    "You rounded the disparity to whole pixels. Far away that costs metres: at 20 m, 4.2 px instead of 4 is one metre."
+    "You rounded the disparity to whole pixels. Far away that costs metres: at 20 m, 4.2 px instead"
+    " of 4 is one metre."
 )
 def whole_pixels(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Drops what is between the pixels."""
@@ -160,8 +205,8 @@ def whole_pixels(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but d = 0, for which you returned nan. Parallel rays are no missing measurement: the point is "
-    "infinitely far, return inf."
+    "All is right but d = 0, for which you returned nan. Parallel rays are no missing measurement:"
+    " the point is infinitely far, return inf."
 )
 def zero_is_unknown(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Takes 0 for missing."""
@@ -169,8 +214,8 @@ def zero_is_unknown(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "Where d is not positive you returned a depth of 0, which is at the camera. d = 0 is infinitely far (inf); "
-    "nan and negative disparities are unknown (nan)."
+    "Where d is not positive you returned a depth of 0, which is at the camera. d = 0 is infinitely"
+    " far (inf); nan and negative disparities are unknown (nan)."
 )
 def zero_for_all_else(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Gives a depth of 0 to whatever is not positive."""
@@ -178,8 +223,8 @@ def zero_for_all_else(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "You replaced small disparities by a tiny positive number: the depth is then a made-up one. Let d = 0 give "
-    "inf, and negative ones nan."
+    "You replaced small disparities by a tiny positive number: the depth is then a made-up one. Let"
+    " d = 0 give inf, and negative ones nan."
 )
 def zero_made_small(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Keeps the division from its infinity."""
@@ -187,8 +232,8 @@ def zero_made_small(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but negative disparities, which you turned into points behind the cameras. Nothing that both "
-    "see causes one: return nan."
+    "All is right but negative disparities, which you turned into points behind the cameras."
+    " Nothing that both see causes one: return nan."
 )
 def behind_the_cameras(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Divides whatever comes."""
@@ -196,8 +241,8 @@ def behind_the_cameras(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but negative disparities, whose sign you dropped. Nothing in front of both cameras causes "
-    "one, it is a wrong match: return nan."
+    "All is right but negative disparities, whose sign you dropped. Nothing in front of both"
+    " cameras causes one, it is a wrong match: return nan."
 )
 def sign_dropped(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Takes the disparity's size."""
@@ -205,8 +250,8 @@ def sign_dropped(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but unknown disparities (nan), which you took for 0, infinitely far. Unknown stays unknown: "
-    "return nan."
+    "All is right but unknown disparities (nan), which you took for 0, infinitely far. Unknown"
+    " stays unknown: return nan."
 )
 def unknown_made_0(d: np.ndarray, f: float, baseline: float) -> np.ndarray:
     """Gives unknown disparities the value 0."""

@@ -1,5 +1,6 @@
-"""Write the cost volume: at every pixel, for every shift, the sum of absolute differences over a window. The lesson
-shows it slice by slice, and everything after it (paths, check, depth) follows from your costs.
+"""Write the cost volume: at every pixel, for every shift, the sum of absolute differences over a
+window. The lesson shows it slice by slice, and everything after it (paths, check, depth) follows
+from your costs.
 """
 
 from collections.abc import Callable
@@ -8,7 +9,7 @@ import numpy as np
 from jaxtyping import Float, Real
 
 from lessons.disparity.exercises import GRADERS, STUDENTS, cells_verdict, inner, textures
-from workbench.algorithms import cost_volume
+from workbench.algorithms.stereo import cost_volume
 from workbench.exercise import (
     Function,
     Verdict,
@@ -39,26 +40,30 @@ def sad_cost_volume(
 ) -> Float[np.ndarray, "d h w"]:
     """Return how badly every left pixel matches each of its candidates in the right picture.
 
-    cost[d, y, x] is the sum, over a window around the pixel, of the absolute differences |left(y, x) - right(y, x - d)|.
-    In steps: for each d take the differences of the columns that both have, x = d .. w - 1 of the left and 0 .. w - 1 - d of
-    the right picture. Then sum these over the window. Where that reaches over the border of the slice of differences,
-    the border's cells are repeated, as np.pad(..., mode="edge") does.
+    cost[d, y, x] is the sum, over a window around the pixel, of the absolute differences |left(y,
+    x) - right(y, x - d)|. In steps: for each d take the differences of the columns that both have,
+    x = d .. w - 1 of the left and 0 .. w - 1 - d of the right picture. Then sum these over the
+    window. Where that reaches over the border of the slice of differences, the border's cells are
+    repeated, as np.pad(..., mode="edge") does.
 
     Args:
-        left: Grey picture of the left camera: floats, or bytes (uint8), whose differences wrap round.
+        left: Grey picture of the left camera: floats, or bytes (uint8), whose differences wrap
+            round.
         right: Grey picture of the right camera, of the same size; rows correspond.
         max_disparity: Largest shift that is tried, pixels; d runs from 0 to this, both included.
         window: Side of the square window, pixels, odd; 1 is the pixel alone.
 
     Returns:
-        The costs as floats, (max_disparity + 1, h, w), in a new array. Where x < d the right picture shows nothing to
-        compare with: the cost is inf.
+        The costs as floats, (max_disparity + 1, h, w), in a new array. Where x < d the right
+        picture shows nothing to compare with: the cost is inf.
 
     Raises:
-        ValueError: If the pictures differ in size, the window is not odd and positive, or max_disparity is not below the
-            width.
+        ValueError: If the pictures differ in size, the window is not odd and positive, or
+            max_disparity is not below the width.
     """
-    return cost_volume.sad_cost_volume(left.astype(float), right.astype(float), max_disparity, window)
+    return cost_volume.sad_cost_volume(
+        left.astype(float), right.astype(float), max_disparity, window
+    )
 
 
 @check(3)
@@ -94,8 +99,8 @@ def _infinite(cost: np.ndarray) -> Verdict:
         return full(f"All {(x < d).sum()} such costs are inf.")
     k, y, u = (int(i) for i in np.argwhere(finite)[0])
     return fail(
-        f"{finite.sum()} of {(x < d).sum()} of them are not: cost[{k}, {y}, {u}] is {number(cost[k, y, u])}, right is "
-        f"inf: the right picture has no column {u - k}."
+        f"{finite.sum()} of {(x < d).sum()} of them are not: cost[{k}, {y}, {u}] is"
+        f" {number(cost[k, y, u])}, right is inf: the right picture has no column {u - k}."
     )
 
 
@@ -103,23 +108,36 @@ def _infinite(cost: np.ndarray) -> Verdict:
 def pictures_are_left_alone(candidate: Function) -> Verdict:
     """The pictures that come in are not changed."""
     left, right = textures(STUDENTS + 2)
-    return left_alone(candidate, cells_verdict(candidate(left, right, 4, 1), sad_cost_volume(left, right, 4, 1)))
+    return left_alone(
+        candidate, cells_verdict(candidate(left, right, 4, 1), sad_cost_volume(left, right, 4, 1))
+    )
 
 
 @check(2, public=False)
 def mirrored(candidate: Function) -> Verdict:
-    """Mirrored and exchanged, the same pairs of pixels have the same costs; one shift, and all that fit, are tried."""
+    """Mirrored and exchanged, the same pairs of pixels have the same costs; one shift, and all that
+    fit, are tried.
+    """
     left, right = textures(GRADERS(), 10, 17)
     cost = candidate(left, right, 5, 3)
     turned = candidate(right[:, ::-1].copy(), left[:, ::-1].copy(), 5, 3)
     back = np.full_like(cost, np.inf)
-    for d in range(len(cost)):  # left x and right x - d are columns w - 1 - x and w - 1 - x + d of the mirrored pair
+    for d in range(
+        len(cost)
+    ):  # left x and right x - d are columns w - 1 - x and w - 1 - x + d of the mirrored pair
         back[d, :, d:] = turned[d, :, d:][:, ::-1]
     wanted = sad_cost_volume(left, right, 5, 3)
-    verdicts = [cells_verdict(cost, wanted), cells_verdict(back, wanted, what="Mirrored and mapped back: ")]
+    verdicts = [
+        cells_verdict(cost, wanted),
+        cells_verdict(back, wanted, what="Mirrored and mapped back: "),
+    ]
     for largest in (0, 16):
         wanted = sad_cost_volume(left, right, largest, 3)
-        verdicts.append(cells_verdict(candidate(left, right, largest, 3), wanted, what=f"Shifts up to {largest}: "))
+        verdicts.append(
+            cells_verdict(
+                candidate(left, right, largest, 3), wanted, what=f"Shifts up to {largest}: "
+            )
+        )
     return worst(verdicts)
 
 
@@ -129,28 +147,43 @@ def brighter_pictures(candidate: Function) -> Verdict:
     left, right = textures(GRADERS() + 1, 9, 15)
     wanted = sad_cost_volume(left, right, 4, 3)
     where = inner(wanted, 3)
-    double = cells_verdict(candidate(2 * left, 2 * right, 4, 3), 2 * wanted, where, "Twice the contrast: ")
-    light = cells_verdict(candidate(left + 40, right + 40, 4, 3), wanted, where, "40 levels brighter: ")
+    double = cells_verdict(
+        candidate(2 * left, 2 * right, 4, 3), 2 * wanted, where, "Twice the contrast: "
+    )
+    light = cells_verdict(
+        candidate(left + 40, right + 40, 4, 3), wanted, where, "40 levels brighter: "
+    )
     return worst((double, light))
 
 
 @check(2, public=False)
 def windows_over_the_border(candidate: Function) -> Verdict:
-    """A window that reaches over the border of its slice repeats the border's cells, also one larger than the picture."""
+    """A window that reaches over the border of its slice repeats the border's cells, also one
+    larger than the picture.
+    """
     left, right = textures(GRADERS() + 2)
     wanted = sad_cost_volume(left, right, 4, 5)
-    hint = "Take the differences of the columns that both have, pad these by repeating their border, then sum."
+    hint = (
+        "Take the differences of the columns that both have, pad these by repeating their border,"
+        " then sum."
+    )
     verdicts = [cells_verdict(candidate(left, right, 4, 5), wanted, ~inner(wanted, 5), hint=hint)]
     for window in (7, 15):
         wanted = sad_cost_volume(left, right, 4, window)
-        verdicts.append(cells_verdict(candidate(left, right, 4, window), wanted, what=f"Window {window}: ", hint=hint))
+        verdicts.append(
+            cells_verdict(
+                candidate(left, right, 4, window), wanted, what=f"Window {window}: ", hint=hint
+            )
+        )
     return worst(verdicts)
 
 
 @check(1, public=False)
 def byte_pictures(candidate: Function) -> Verdict:
     """Pictures of bytes (uint8) give the same costs as floats."""
-    left, right = (np.rint(np.clip(picture, 0, 255)).astype(np.uint8) for picture in textures(GRADERS() + 3))
+    left, right = (
+        np.rint(np.clip(picture, 0, 255)).astype(np.uint8) for picture in textures(GRADERS() + 3)
+    )
     wanted = sad_cost_volume(left, right, 5, 3)
     hint = "In uint8, 3 - 5 is 254: convert to float before you subtract."
     return cells_verdict(candidate(left, right, 5, 3), wanted, hint=hint)
@@ -158,14 +191,36 @@ def byte_pictures(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def what_makes_no_sense(candidate: Function) -> Verdict:
-    """Pictures of two sizes, windows that are even or not positive, and shifts beyond the width are refused."""
+    """Pictures of two sizes, windows that are even or not positive, and shifts beyond the width are
+    refused.
+    """
     left, right = textures(GRADERS() + 4, 8, 12)
     return worst(
         (
-            refused(candidate, left, right[:, 1:].copy(), 3, 3, what="A right picture that is one column narrower"),
-            refused(candidate, left, right[1:].copy(), 3, 3, what="A right picture that is one row lower"),
-            *(refused(candidate, left, right, 3, window, what=f"A window of {window}") for window in (4, 0, -3)),
-            *(refused(candidate, left, right, d, 3, what=f"max_disparity = {d} for 12 px") for d in (12, 20)),
+            refused(
+                candidate,
+                left,
+                right[:, 1:].copy(),
+                3,
+                3,
+                what="A right picture that is one column narrower",
+            ),
+            refused(
+                candidate,
+                left,
+                right[1:].copy(),
+                3,
+                3,
+                what="A right picture that is one row lower",
+            ),
+            *(
+                refused(candidate, left, right, 3, window, what=f"A window of {window}")
+                for window in (4, 0, -3)
+            ),
+            *(
+                refused(candidate, left, right, d, 3, what=f"max_disparity = {d} for 12 px")
+                for d in (12, 20)
+            ),
         )
     )
 
@@ -202,43 +257,61 @@ def volume(
 
 def refuse(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> None:
     """Raise a ValueError where the contract asks for one."""
-    if left.shape != right.shape or window < 1 or window % 2 == 0 or not 0 <= max_disparity < left.shape[1]:
+    if (
+        left.shape != right.shape
+        or window < 1
+        or window % 2 == 0
+        or not 0 <= max_disparity < left.shape[1]
+    ):
         raise ValueError("sizes, window or range")
 
 
 @mistake(
-    "You compare left (x) with right (x + d). The right camera stands to the right, so that things are further "
-    "left in its picture: right (x - d)."
+    "You compare left (x) with right (x + d). The right camera stands to the right, so that things"
+    " are further left in its picture: right (x - d)."
 )
-def other_direction(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def other_direction(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """right(x + d)."""
     return volume(left[:, ::-1], right[:, ::-1], max_disparity, window)[:, :, ::-1]
 
 
 @mistake(
-    "Your costs are those of the right picture's pixels: right (x) against left (x + d). cost[d, y, x] belongs "
-    "to left pixel x, against right (x - d)."
+    "Your costs are those of the right picture's pixels: right (x) against left (x + d). cost[d, y,"
+    " x] belongs to left pixel x, against right (x - d)."
 )
-def seen_from_the_right(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def seen_from_the_right(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """The costs of the right picture's pixels."""
     return volume(right[:, ::-1], left[:, ::-1], max_disparity, window)[:, :, ::-1]
 
 
 @mistake(
-    "You rolled the right picture round: its last columns come in again on the left. Where x < d it shows "
-    "nothing to compare with: the cost is inf."
+    "You rolled the right picture round: its last columns come in again on the left. Where x < d it"
+    " shows nothing to compare with: the cost is inf."
 )
-def rolled_round(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def rolled_round(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """np.roll: what leaves on one side comes back on the other."""
     refuse(left, right, max_disparity, window)
-    return np.array([windowed(difference(left, np.roll(right, d, axis=1)), window) for d in range(max_disparity + 1)])
+    return np.array(
+        [
+            windowed(difference(left, np.roll(right, d, axis=1)), window)
+            for d in range(max_disparity + 1)
+        ]
+    )
 
 
 @mistake(
-    "Your cost is 0 where x < d. There is nothing to compare with, and 0 is the best cost there is: it would "
-    "win. Use inf."
+    "Your cost is 0 where x < d. There is nothing to compare with, and 0 is the best cost there is:"
+    " it would win. Use inf."
 )
-def free_where_unseen(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def free_where_unseen(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """0 where there is nothing to compare with."""
     return volume(left, right, max_disparity, window, outside=0.0)
 
@@ -250,10 +323,12 @@ def squares(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
 
 
 @mistake(
-    "You summed the differences with their signs: too bright here and too dark there cancel. Take absolute "
-    "values first."
+    "You summed the differences with their signs: too bright here and too dark there cancel. Take"
+    " absolute values first."
 )
-def signed_differences(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def signed_differences(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """The differences with their signs."""
     return volume(left, right, max_disparity, window, compare=lambda a, b: a.astype(float) - b)
 
@@ -264,17 +339,26 @@ def mean(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -
     return volume(left, right, max_disparity, window) / window**2
 
 
-@mistake("You subtracted bytes: in uint8, 3 - 5 is 254. Convert the pictures to float before you subtract.")
-def bytes_wrap_round(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+@mistake(
+    "You subtracted bytes: in uint8, 3 - 5 is 254. Convert the pictures to float before you"
+    " subtract."
+)
+def bytes_wrap_round(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """Subtracts bytes as they come."""
-    return volume(left, right, max_disparity, window, compare=lambda a, b: np.abs(a - b).astype(float))
+    return volume(
+        left, right, max_disparity, window, compare=lambda a, b: np.abs(a - b).astype(float)
+    )
 
 
 @mistake(
-    "Your windows count 0 beyond the border, which makes matches there look better than they are. Repeat the "
-    "border's cells (np.pad in mode edge)."
+    "Your windows count 0 beyond the border, which makes matches there look better than they are."
+    " Repeat the border's cells (np.pad in mode edge)."
 )
-def zeros_around(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def zeros_around(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """Windows that reach over the border sum fewer cells."""
 
     def add_up(image: np.ndarray, window: int) -> np.ndarray:
@@ -285,14 +369,17 @@ def zeros_around(left: np.ndarray, right: np.ndarray, max_disparity: int, window
 
 
 @mistake(
-    "You repeated the border of the pictures, so that a window near x = d compares columns that do not match. "
-    "Take the differences first, then repeat the border of their slice."
+    "You repeated the border of the pictures, so that a window near x = d compares columns that do"
+    " not match. Take the differences first, then repeat the border of their slice."
 )
-def pictures_padded(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def pictures_padded(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """Repeats the border of the pictures, not that of the slice."""
     r, (h, w) = window // 2, left.shape
     wide, other = (
-        np.pad(picture.astype(float), ((r, r), (r + max_disparity, r)), mode="edge") for picture in (left, right)
+        np.pad(picture.astype(float), ((r, r), (r + max_disparity, r)), mode="edge")
+        for picture in (left, right)
     )
     cost = np.full((max_disparity + 1, h, w), np.inf)
     for d in range(max_disparity + 1):
@@ -302,40 +389,64 @@ def pictures_padded(left: np.ndarray, right: np.ndarray, max_disparity: int, win
     return cost
 
 
-@mistake("You compare single pixels whatever the window. Sum the differences over window x window pixels.")
-def window_ignored(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+@mistake(
+    "You compare single pixels whatever the window. Sum the differences over window x window"
+    " pixels."
+)
+def window_ignored(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """One pixel at a time."""
     return volume(left, right, max_disparity, window, add_up=lambda image, _: image)
 
 
 @mistake(
-    "Your window is 2 window + 1 wide. `window` is its whole side, not its reach: it reaches window // 2 each way."
+    "Your window is 2 window + 1 wide. `window` is its whole side, not its reach: it reaches window"
+    " // 2 each way."
 )
-def window_for_radius(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def window_for_radius(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """A window of 2 window + 1."""
     return volume(left, right, max_disparity, 2 * window + 1)
 
 
-@mistake("Your volume has the disparity as last axis. The contract asks for cost[d, y, x]: np.moveaxis(cost, 2, 0).")
-def disparity_last(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+@mistake(
+    "Your volume has the disparity as last axis. The contract asks for cost[d, y, x]:"
+    " np.moveaxis(cost, 2, 0)."
+)
+def disparity_last(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """cost[y, x, d]."""
     return np.moveaxis(volume(left, right, max_disparity, window), 0, 2)
 
 
-@mistake("Your volume ends at max_disparity - 1: range(n) stops before n. There are max_disparity + 1 slices, from 0.")
-def last_slice_missing(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+@mistake(
+    "Your volume ends at max_disparity - 1: range(n) stops before n. There are max_disparity + 1"
+    " slices, from 0."
+)
+def last_slice_missing(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """range(max_disparity)."""
     return volume(left, right, max_disparity, window)[:max_disparity]
 
 
-@mistake("All is right but that you accept even windows, which have no middle pixel: raise a ValueError.")
-def even_windows(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+@mistake(
+    "All is right but that you accept even windows, which have no middle pixel: raise a ValueError."
+)
+def even_windows(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """Makes an even window odd."""
     return volume(left, right, max_disparity, window | 1)
 
 
 @alternative
-def volume_by_shifts(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def volume_by_shifts(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """One pixel of the window after the other, indices kept inside the slice."""
     (h, w), reach = left.shape, window // 2
     if left.shape != right.shape:
@@ -344,7 +455,11 @@ def volume_by_shifts(left: np.ndarray, right: np.ndarray, max_disparity: int, wi
         raise ValueError("window")
     if max_disparity not in range(w):
         raise ValueError("range")
-    a, b, cost = np.asarray(left, float), np.asarray(right, float), np.zeros((max_disparity + 1, h, w))
+    a, b, cost = (
+        np.asarray(left, float),
+        np.asarray(right, float),
+        np.zeros((max_disparity + 1, h, w)),
+    )
     y, x = np.mgrid[:h, :w]
     for d in range(max_disparity + 1):
         for up in range(-reach, reach + 1):
@@ -356,10 +471,18 @@ def volume_by_shifts(left: np.ndarray, right: np.ndarray, max_disparity: int, wi
 
 
 @alternative
-def volume_by_running_sums(left: np.ndarray, right: np.ndarray, max_disparity: int, window: int) -> np.ndarray:
+def volume_by_running_sums(
+    left: np.ndarray, right: np.ndarray, max_disparity: int, window: int
+) -> np.ndarray:
     """Differences of the sums over all cells above and to the left."""
     h, w = left.shape
-    if right.shape != (h, w) or window % 2 != 1 or window < 1 or max_disparity < 0 or max_disparity >= w:
+    if (
+        right.shape != (h, w)
+        or window % 2 != 1
+        or window < 1
+        or max_disparity < 0
+        or max_disparity >= w
+    ):
         raise ValueError("pictures of one size, an odd window, and shifts within the picture")
     cost = np.full((max_disparity + 1, h, w), np.inf)
     for d in range(max_disparity + 1):
@@ -367,6 +490,9 @@ def volume_by_running_sums(left: np.ndarray, right: np.ndarray, max_disparity: i
         off = np.pad(off, window // 2, mode="edge")
         sums = np.pad(off.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
         cost[d, :, d:] = (
-            sums[window:, window:] - sums[:-window, window:] - sums[window:, :-window] + sums[:-window, :-window]
+            sums[window:, window:]
+            - sums[:-window, window:]
+            - sums[window:, :-window]
+            + sums[:-window, :-window]
         )
     return cost

@@ -1,13 +1,24 @@
-"""Write the choice: at every pixel the disparity whose cost is lowest. The lesson chooses with it after every slice and
-every path, for the left picture and, to check, for the right one.
+"""Write the choice: at every pixel the disparity whose cost is lowest. The lesson chooses with it
+after every slice and every path, for the left picture and, to check, for the right one.
 """
 
 import numpy as np
 from jaxtyping import Int, Real
 
 from lessons.disparity.exercises import GRADERS, STUDENTS, textures
-from workbench.algorithms import cost_volume, disparity_map
-from workbench.exercise import Function, Verdict, alternative, band, check, contract, full, left_alone, mistake, worst
+from workbench.algorithms.stereo import cost_volume, disparity_map
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    band,
+    check,
+    contract,
+    full,
+    left_alone,
+    mistake,
+    worst,
+)
 
 
 @contract(
@@ -21,12 +32,14 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> Int[np.ndarray, "h w"]:
     """Return the disparity of the lowest cost at every pixel.
 
     Args:
-        cost: cost[d, y, x] says how badly left pixel (y, x) matches at disparity d = 0, 1, 2, ...; low is alike. Floats or
-            whole numbers, of any sign; inf where there is nothing to compare with. None is nan.
+        cost: cost[d, y, x] says how badly left pixel (y, x) matches at disparity d = 0, 1, 2, ...;
+            low is alike. Floats or whole numbers, of any sign; inf where there is nothing to
+            compare with. None is nan.
 
     Returns:
-        Disparities, pixels, whole numbers (an integer type), in a new array. Of several equal costs the smallest disparity
-        wins. A pixel whose costs are all inf gets 0. With a single slice all get 0.
+        Disparities, pixels, whole numbers (an integer type), in a new array. Of several equal costs
+        the smallest disparity wins. A pixel whose costs are all inf gets 0. With a single slice all
+        get 0.
     """
     return disparity_map.winner_takes_all(cost)
 
@@ -35,7 +48,9 @@ WINNER_HINT = "At each pixel: the d for which cost[d, y, x] is lowest."
 
 
 def valleys(seed: int, shape: tuple[int, int, int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return rugged costs with one lowest cost per pixel, and the disparities at which these are."""
+    """Return rugged costs with one lowest cost per pixel, and the disparities at which these
+    are.
+    """
     rng = np.random.default_rng(seed)
     d = rng.integers(0, shape[0], shape[1:])
     cost = rng.uniform(5.0, 60.0, shape)
@@ -43,7 +58,9 @@ def valleys(seed: int, shape: tuple[int, int, int]) -> tuple[np.ndarray, np.ndar
     return cost, d
 
 
-def map_verdict(got: np.ndarray, right: np.ndarray, what: str = "", hint: str = WINNER_HINT) -> Verdict:
+def map_verdict(
+    got: np.ndarray, right: np.ndarray, what: str = "", hint: str = WINNER_HINT
+) -> Verdict:
     """Judge disparities by the share of wrong pixels, per cent, and name the first of them."""
     wrong = got != right
     if not wrong.any():
@@ -51,7 +68,12 @@ def map_verdict(got: np.ndarray, right: np.ndarray, what: str = "", hint: str = 
     y, x = (int(i) for i in np.argwhere(wrong)[0])
     said = f"At (y, x) = ({y}, {x}) yours is {got[y, x]}, right is {right[y, x]}. {hint}"
     return band(
-        f"{what}wrong pixels" if what else "Wrong pixels", 100 * float(wrong.mean()), "%", good=0, fair=5, hint=said
+        f"{what}wrong pixels" if what else "Wrong pixels",
+        100 * float(wrong.mean()),
+        "%",
+        good=0,
+        fair=5,
+        hint=said,
     )
 
 
@@ -66,7 +88,9 @@ def deepest_valley(candidate: Function) -> Verdict:
 def equal_costs(candidate: Function) -> Verdict:
     """Of several equal costs the smallest disparity wins."""
     cost = np.random.default_rng(STUDENTS + 1).integers(1, 4, (8, 5, 6)).astype(float)
-    return map_verdict(candidate(cost), np.argmin(cost, axis=0), hint="Of equal costs the first one wins.")
+    return map_verdict(
+        candidate(cost), np.argmin(cost, axis=0), hint="Of equal costs the first one wins."
+    )
 
 
 @check(1)
@@ -91,14 +115,23 @@ def two_boards(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def infinite_costs(candidate: Function) -> Verdict:
-    """An infinite cost never wins, not over 10¹², but where all are: there it is 0, in a single slice too."""
+    """An infinite cost never wins, not over 10¹², but where all are: there it is 0, in a single
+    slice too.
+    """
     cost, _ = valleys(GRADERS() + 1, (8, 6, 10))
     d, _, x = np.indices(cost.shape)
     cost[x < d] = np.inf
     cost[:, 2, 3:5] = np.inf
-    hint, single = "inf is worse than any number.", np.where(np.arange(12).reshape(1, 3, 4) % 3 == 0, np.inf, 1.0)
-    verdicts = [map_verdict(candidate(c), np.argmin(c, axis=0), hint=hint) for c in (cost, 1e12 * cost)]
-    return worst([*verdicts, map_verdict(candidate(single), np.zeros((3, 4), int), "A single slice: ", hint)])
+    hint, single = (
+        "inf is worse than any number.",
+        np.where(np.arange(12).reshape(1, 3, 4) % 3 == 0, np.inf, 1.0),
+    )
+    verdicts = [
+        map_verdict(candidate(c), np.argmin(c, axis=0), hint=hint) for c in (cost, 1e12 * cost)
+    ]
+    return worst(
+        [*verdicts, map_verdict(candidate(single), np.zeros((3, 4), int), "A single slice: ", hint)]
+    )
 
 
 @check(2, public=False)
@@ -117,13 +150,23 @@ def only_the_order_counts(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def whole_numbers_and_one_slice(candidate: Function) -> Verdict:
-    """Whole numbers up to 65,535, negative ones, equal ones, and a volume of a single slice, are fine."""
+    """Whole numbers up to 65,535, negative ones, equal ones, and a volume of a single slice, are
+    fine.
+    """
     cost = np.random.default_rng(GRADERS() + 3).integers(250, 2**16, (20, 6, 4)).astype(np.uint16)
-    single = map_verdict(candidate(cost[:1].astype(float)), np.zeros((6, 4), int), "A single slice: ")
+    single = map_verdict(
+        candidate(cost[:1].astype(float)), np.zeros((6, 4), int), "A single slice: "
+    )
     signed = np.random.default_rng(GRADERS() + 4).integers(-9, 9, (6, 5, 7))
     few = np.random.default_rng(GRADERS() + 5).integers(0, 3, (9, 6, 5)).astype(np.uint8)
-    cases = ((cost, "Whole numbers: "), (signed, "Whole numbers of either sign: "), (few, "Equal whole numbers: "))
-    return worst([*(map_verdict(candidate(c), np.argmin(c, axis=0), what) for c, what in cases), single])
+    cases = (
+        (cost, "Whole numbers: "),
+        (signed, "Whole numbers of either sign: "),
+        (few, "Equal whole numbers: "),
+    )
+    return worst(
+        [*(map_verdict(candidate(c), np.argmin(c, axis=0), what) for c, what in cases), single]
+    )
 
 
 @mistake("You took the highest cost, the worst match. A cost is low where two pixels fit.")
@@ -133,8 +176,8 @@ def highest_wins(cost: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "All is right but ties: of several equal costs you took the largest disparity, the contract asks for the "
-    "smallest. Let a later one win only where it is lower (<, not <=)."
+    "All is right but ties: of several equal costs you took the largest disparity, the contract"
+    " asks for the smallest. Let a later one win only where it is lower (<, not <=)."
 )
 def last_of_several(cost: np.ndarray) -> np.ndarray:
     """The largest disparity of those with the lowest cost."""
@@ -153,14 +196,18 @@ def counted_from_1(cost: np.ndarray) -> np.ndarray:
     return np.argmin(cost, axis=0) + 1
 
 
-@mistake("You never choose 0. That is a disparity as good as any, of what is very far away; it does not mean missing.")
+@mistake(
+    "You never choose 0. That is a disparity as good as any, of what is very far away; it does not"
+    " mean missing."
+)
 def zero_left_out(cost: np.ndarray) -> np.ndarray:
     """Never chooses 0."""
     return np.argmin(cost[1:], axis=0) + 1 if len(cost) > 1 else np.zeros(cost.shape[1:], int)
 
 
 @mistake(
-    "You replaced infinite costs by 0, so that they win. They mark what the right picture does not show: leave them."
+    "You replaced infinite costs by 0, so that they win. They mark what the right picture does not"
+    " show: leave them."
 )
 def infinity_wins(cost: np.ndarray) -> np.ndarray:
     """Takes what cannot be compared for a perfect match."""
@@ -168,7 +215,8 @@ def infinity_wins(cost: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You stopped where the cost first rises. Curves have many valleys, and a later one may be deeper: look at all."
+    "You stopped where the cost first rises. Curves have many valleys, and a later one may be"
+    " deeper: look at all."
 )
 def first_valley(cost: np.ndarray) -> np.ndarray:
     """Stops where the cost first rises."""
@@ -180,13 +228,19 @@ def first_valley(cost: np.ndarray) -> np.ndarray:
     return winner
 
 
-@mistake("You looked for the lowest cost along a row of the picture. The disparity is the first axis: axis=0.")
+@mistake(
+    "You looked for the lowest cost along a row of the picture. The disparity is the first axis:"
+    " axis=0."
+)
 def along_columns(cost: np.ndarray) -> np.ndarray:
     """The best column of every row of every slice."""
     return np.argmin(cost, axis=2)
 
 
-@mistake("You looked for the lowest cost of the whole volume. Each pixel has its own: np.argmin(cost, axis=0).")
+@mistake(
+    "You looked for the lowest cost of the whole volume. Each pixel has its own: np.argmin(cost,"
+    " axis=0)."
+)
 def one_for_all_pixels(cost: np.ndarray) -> np.ndarray:
     """The best cell of the whole volume."""
     return np.full(cost.shape[1:], np.unravel_index(np.argmin(cost), cost.shape)[0])

@@ -1,14 +1,22 @@
-"""The exercises of this lesson: Mahalanobis' distance, Dijkstra, and the update of fast marching."""
+"""The exercises of this lesson: Mahalanobis' distance, Dijkstra, and the update of fast
+marching.
+"""
 
 import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = 23, HiddenSeed(7019)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    23,
+    HiddenSeed(7019),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
-def values_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "", *, fair: float = 1e-3) -> Verdict:
-    """Judge numbers by the one that is farthest off, relative to its size: all points up to 1e-6, half up to `fair`.
+def values_verdict(
+    got: np.ndarray, right: np.ndarray, hint: str, what: str = "", *, fair: float = 1e-3
+) -> Verdict:
+    """Judge numbers by the one that is farthest off, relative to its size: all points up to 1e-6,
+    half up to `fair`.
 
     Args:
         got: The answer.

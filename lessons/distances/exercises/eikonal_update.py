@@ -1,13 +1,22 @@
-"""Write the update of fast marching: the distance of a node from two neighbours' distances, as if a straight front came by.
-The lesson's front marches on what you return.
+"""Write the update of fast marching: the distance of a node from two neighbours' distances, as if a
+straight front came by. The lesson's front marches on what you return.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.distances.exercises import GRADERS, STUDENTS, values_verdict
-from workbench.algorithms import fast_marching
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.algorithms.surfaces import fast_marching
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 
 Values = Float[np.ndarray, " n"]
 
@@ -21,12 +30,15 @@ Values = Float[np.ndarray, " n"]
     ),
 )
 def eikonal_update(a: Values, b: Values, h: float) -> Values:
-    """Return for every node the u with (u - a)^2 + (u - b)^2 = h^2 that is neither below a nor below b.
+    """Return for every node the u with (u - a)^2 + (u - b)^2 = h^2 that is neither below a nor
+    below b.
 
-    Where there is none, since a and b differ by h or more, the front comes along one axis: u = min(a, b) + h.
+    Where there is none, since a and b differ by h or more, the front comes along one axis: u =
+    min(a, b) + h.
 
     Args:
-        a: The smaller distance of the neighbours to the left and right, one entry per node; inf where there is none.
+        a: The smaller distance of the neighbours to the left and right, one entry per node; inf
+            where there is none.
         b: That of those above and below, likewise. One of a and b is finite.
         h: Spacing of the grid, positive.
 
@@ -89,30 +101,38 @@ def any_spacing(candidate: Function) -> Verdict:
 @check(1, public=False)
 def one_node(candidate: Function) -> Verdict:
     """One node, one beside the source, one between two sources, and one far away."""
-    return worst((
-        found(candidate, np.array([0.7]), np.array([0.4]), 0.5, "One node: "),
-        found(candidate, np.array([0.0]), np.array([np.inf]), 0.5, "Beside the source: "),
-        found(candidate, np.zeros(1), np.zeros(1), 0.5, "Between two sources: "),
-        found(candidate, np.array([5e4]), np.array([5e4 + 3]), 10.0, "Far away: "),
-    ))  # fmt: skip
+    return worst(
+        (
+            found(candidate, np.array([0.7]), np.array([0.4]), 0.5, "One node: "),
+            found(candidate, np.array([0.0]), np.array([np.inf]), 0.5, "Beside the source: "),
+            found(candidate, np.zeros(1), np.zeros(1), 0.5, "Between two sources: "),
+            found(candidate, np.array([5e4]), np.array([5e4 + 3]), 10.0, "Far away: "),
+        )
+    )
 
 
 @mistake(
-    "You went along one axis always, min(a, b) + h: that is Manhattan's distance. Use both neighbours where you can."
+    "You went along one axis always, min(a, b) + h: that is Manhattan's distance. Use both"
+    " neighbours where you can."
 )
 def smaller_and_h(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     """Min + h."""
     return np.minimum(a, b) + h
 
 
-@mistake("You added h to the mean of both neighbours. A front that leans needs (u − a)² + (u − b)² = h².")
+@mistake(
+    "You added h to the mean of both neighbours. A front that leans needs (u − a)² + (u − b)² = h²."
+)
 def mean_and_h(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     """The mean, plus h."""
-    return np.where(np.abs(a - b) < h, (np.minimum(a, 1e9) + np.minimum(b, 1e9)) / 2 + h, np.minimum(a, b) + h)
+    return np.where(
+        np.abs(a - b) < h, (np.minimum(a, 1e9) + np.minimum(b, 1e9)) / 2 + h, np.minimum(a, b) + h
+    )
 
 
 @mistake(
-    "Where a and b differ by h or more your answer is no number. There the front comes along one axis: min(a, b) + h."
+    "Where a and b differ by h or more your answer is no number. There the front comes along one"
+    " axis: min(a, b) + h."
 )
 def no_fallback(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     """The formula alone: the root of a negative number."""
@@ -121,7 +141,8 @@ def no_fallback(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
 
 
 @mistake(
-    "Where 2 h² − (a − b)² was negative you put 0 for it, which gives the mean of a and b. There u = min(a, b) + h."
+    "Where 2 h² − (a − b)² was negative you put 0 for it, which gives the mean of a and b. There u"
+    " = min(a, b) + h."
 )
 def clipped_root(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     """The root of a negative number as 0."""
@@ -130,7 +151,8 @@ def clipped_root(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
 
 
 @mistake(
-    "You took the smaller solution of the quadratic. It lies below both neighbours: the front would run backwards."
+    "You took the smaller solution of the quadratic. It lies below both neighbours: the front would"
+    " run backwards."
 )
 def smaller_root(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     """Minus the root."""
@@ -140,7 +162,8 @@ def smaller_root(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
 
 
 @mistake(
-    "You solved for a spacing of 1. The spacing is h: its square stands under the root, and h is added on one axis."
+    "You solved for a spacing of 1. The spacing is h: its square stands under the root, and h is"
+    " added on one axis."
 )
 def spacing_of_one(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     """H taken for 1."""
@@ -148,7 +171,8 @@ def spacing_of_one(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
 
 
 @mistake(
-    "You fell back to the larger neighbour plus h. Along one axis the front comes from the nearer one: min(a, b) + h."
+    "You fell back to the larger neighbour plus h. Along one axis the front comes from the nearer"
+    " one: min(a, b) + h."
 )
 def larger_fallback(a: np.ndarray, b: np.ndarray, h: float) -> np.ndarray:
     """Max + h on one axis."""

@@ -1,5 +1,6 @@
-"""Write Mahalanobis' distance: how many standard deviations a point is from the mean, along its own direction. What you
-return decides which points are flagged, and which landmark a measurement is taken for.
+"""Write Mahalanobis' distance: how many standard deviations a point is from the mean, along its own
+direction. What you return decides which points are flagged, and which landmark a measurement is
+taken for.
 """
 
 import numpy as np
@@ -7,8 +8,17 @@ import scipy
 from jaxtyping import Float
 
 from lessons.distances.exercises import GRADERS, STUDENTS, values_verdict
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import metrics
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.points import metrics
 
 
 @contract(
@@ -17,10 +27,16 @@ from workbench.geometry import metrics
     forbid=("scipy.spatial.distance",),
     examples=(
         (
-            "mahalanobis(np.array([[1.0, -1], [1, 1]]), np.zeros(2), np.array([[1, 0.9], [0.9, 1]]))",
+            (
+                "mahalanobis(np.array([[1.0, -1], [1, 1]]), np.zeros(2), np.array([[1, 0.9], [0.9,"
+                " 1]]))"
+            ),
             "[4.4721, 1.0260]",
         ),
-        ("mahalanobis(np.array([[5.0, 2]]), np.array([1.0, 2]), np.array([[4.0, 0], [0, 1]]))", "[2]"),
+        (
+            "mahalanobis(np.array([[5.0, 2]]), np.array([1.0, 2]), np.array([[4.0, 0], [0, 1]]))",
+            "[2]",
+        ),
     ),
 )
 def mahalanobis(
@@ -50,7 +66,9 @@ def scattered(seed: int, count: int, dims: int) -> tuple[np.ndarray, np.ndarray,
     return np.round(rng.normal(0, 2, (count, dims)), 3), np.round(rng.normal(0, 2, dims), 2), C
 
 
-def found(candidate: Function, case: tuple[np.ndarray, np.ndarray, np.ndarray], what: str = "") -> Verdict:
+def found(
+    candidate: Function, case: tuple[np.ndarray, np.ndarray, np.ndarray], what: str = ""
+) -> Verdict:
     """Judge the distances of one case."""
     return values_verdict(candidate(*case), metrics.mahalanobis(*case), HINT, what)
 
@@ -77,7 +95,9 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_dimensions(candidate: Function) -> Verdict:
     """In 1, 3 and 7 dimensions."""
-    return worst(found(candidate, scattered(GRADERS() + d, 9, d), f"{d} dimensions: ") for d in (1, 3, 7))
+    return worst(
+        found(candidate, scattered(GRADERS() + d, 9, d), f"{d} dimensions: ") for d in (1, 3, 7)
+    )
 
 
 @check(2, public=False)
@@ -92,17 +112,24 @@ def units_do_not_matter(candidate: Function) -> Verdict:
 @check(1, public=False)
 def one_point_and_many(candidate: Function) -> Verdict:
     """One point, two points in two dimensions, and 3,000."""
-    return worst(found(candidate, scattered(GRADERS() + 30 + n, n, 2), f"{n:,} points: ") for n in (1, 2, 3000))
+    return worst(
+        found(candidate, scattered(GRADERS() + 30 + n, n, 2), f"{n:,} points: ")
+        for n in (1, 2, 3000)
+    )
 
 
-@mistake("You returned the squared distance. Take the root: only then it is a metric, and counts standard deviations.")
+@mistake(
+    "You returned the squared distance. Take the root: only then it is a metric, and counts"
+    " standard deviations."
+)
 def squared(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """Without the root."""
     return metrics.mahalanobis(p, mean, covariance) ** 2
 
 
 @mistake(
-    "You multiplied by the covariance itself. Its inverse belongs there: a step along a wide direction counts less."
+    "You multiplied by the covariance itself. Its inverse belongs there: a step along a wide"
+    " direction counts less."
 )
 def not_inverted(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """C for its inverse."""
@@ -110,7 +137,10 @@ def not_inverted(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.
     return np.sqrt(np.einsum("ni,ij,nj->n", v, covariance, v))
 
 
-@mistake("You used the variances alone, the diagonal of C. The correlations are what makes the ellipse slant.")
+@mistake(
+    "You used the variances alone, the diagonal of C. The correlations are what makes the ellipse"
+    " slant."
+)
 def diagonal_only(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """Each axis over its own standard deviation."""
     return np.linalg.norm((p - mean) / np.sqrt(np.diag(covariance)), axis=1)
@@ -122,20 +152,31 @@ def from_the_origin(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> 
     return metrics.mahalanobis(p, np.zeros_like(mean), covariance)
 
 
-@mistake("You took Euclid's distance; the covariance plays no part in it. Put its inverse between v and v.")
+@mistake(
+    "You took Euclid's distance; the covariance plays no part in it. Put its inverse between v"
+    " and v."
+)
 def euclid(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """Euclid's."""
     return np.linalg.norm(p - mean, axis=1)
 
 
-@mistake("You inverted C entry by entry. Its inverse is that of a matrix: np.linalg.inv, or solve C x = v.")
+@mistake(
+    "You inverted C entry by entry. Its inverse is that of a matrix: np.linalg.inv, or solve C x"
+    " = v."
+)
 def entries_inverted(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """1 / C."""
     v = p - mean
-    return np.sqrt(np.abs(np.einsum("ni,ij,nj->n", v, 1 / np.where(covariance == 0, np.inf, covariance), v)))
+    return np.sqrt(
+        np.abs(np.einsum("ni,ij,nj->n", v, 1 / np.where(covariance == 0, np.inf, covariance), v))
+    )
 
 
-@mistake("You divided by the variances where standard deviations belong, and left out the correlations: use inv(C).")
+@mistake(
+    "You divided by the variances where standard deviations belong, and left out the correlations:"
+    " use inv(C)."
+)
 def over_variances(p: np.ndarray, mean: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """Each axis over its variance."""
     return np.linalg.norm((p - mean) / np.diag(covariance), axis=1)

@@ -1,5 +1,5 @@
-"""Write Dijkstra's algorithm: how long the shortest way along edges is from one node to all. The lesson's fronts on grids,
-surfaces and rolls run on what you return.
+"""Write Dijkstra's algorithm: how long the shortest way along edges is from one node to all. The
+lesson's fronts on grids, surfaces and rolls run on what you return.
 """
 
 import heapq
@@ -10,8 +10,17 @@ import scipy
 from jaxtyping import Float, Int
 
 from lessons.distances.exercises import GRADERS, STUDENTS, values_verdict
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import geodesics
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.meshes import geodesics
 
 Edges = Int[np.ndarray, "e 2"]
 Lengths = Float[np.ndarray, " e"]
@@ -22,16 +31,24 @@ Lengths = Float[np.ndarray, " e"]
     forbid=("scipy.sparse.csgraph",),
     examples=(
         (
-            "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 0)",
+            (
+                "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]),"
+                " 4, 0)"
+            ),
             "[0, 1, 2, np.inf]",
         ),
         (
-            "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]), 4, 2)",
+            (
+                "shortest_distances(np.array([[0, 1], [1, 2], [0, 2]]), np.array([1.0, 1.0, 5.0]),"
+                " 4, 2)"
+            ),
             "[2, 1, 0, np.inf]",
         ),
     ),
 )
-def shortest_distances(edges: Edges, lengths: Lengths, count: int, source: int) -> Float[np.ndarray, " {count}"]:
+def shortest_distances(
+    edges: Edges, lengths: Lengths, count: int, source: int
+) -> Float[np.ndarray, " {count}"]:
     """Return the length of the shortest way from the source to every node.
 
     Args:
@@ -46,22 +63,31 @@ def shortest_distances(edges: Edges, lengths: Lengths, count: int, source: int) 
     return geodesics.shortest_distances(edges, lengths, count, source)
 
 
-HINT = "Take the nearest node that is not done, and see whether a way over it is shorter for its neighbours."
+HINT = (
+    "Take the nearest node that is not done, and see whether a way over it is shorter for its"
+    " neighbours."
+)
 
 
 def network(seed: int, count: int, near: int) -> tuple[np.ndarray, np.ndarray, int, int]:
-    """Return points of a square joined at random to some of the nearest, with lengths of their own, and a source."""
+    """Return points of a square joined at random to some of the nearest, with lengths of their own,
+    and a source.
+    """
     rng = np.random.default_rng(seed)
     p = rng.random((count, 2))
     order = np.argsort(np.linalg.norm(p[:, None] - p, axis=2), axis=1)[:, 1 : near + 1]
     pairs = np.column_stack([np.repeat(np.arange(count), near), order.ravel()])
     edges = np.unique(np.sort(pairs, axis=1), axis=0)
     edges = rng.permuted(edges[rng.permutation(len(edges))], axis=1)  # either end may come first
-    lengths = np.linalg.norm(p[edges[:, 0]] - p[edges[:, 1]], axis=1) * rng.uniform(0.5, 3.0, len(edges))
+    lengths = np.linalg.norm(p[edges[:, 0]] - p[edges[:, 1]], axis=1) * rng.uniform(
+        0.5, 3.0, len(edges)
+    )
     return edges, np.round(lengths + 0.001, 4), count, int(rng.integers(count))
 
 
-def found(candidate: Function, case: tuple[np.ndarray, np.ndarray, int, int], what: str = "") -> Verdict:
+def found(
+    candidate: Function, case: tuple[np.ndarray, np.ndarray, int, int], what: str = ""
+) -> Verdict:
     """Judge the distances in one graph."""
     return values_verdict(candidate(*case), geodesics.shortest_distances(*case), HINT, what)
 
@@ -89,7 +115,9 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def random_networks(candidate: Function) -> Verdict:
     """Networks of 8 to 200 nodes, from any source."""
-    return worst(found(candidate, network(GRADERS() + n, n, 4), f"{n} nodes: ") for n in (8, 40, 200))
+    return worst(
+        found(candidate, network(GRADERS() + n, n, 4), f"{n} nodes: ") for n in (8, 40, 200)
+    )
 
 
 @check(2, public=False)
@@ -102,7 +130,9 @@ def out_of_reach(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def the_smallest_graphs(candidate: Function) -> Verdict:
-    """A node alone, two nodes, nodes without an edge, a source without one; short and long edges."""
+    """A node alone, two nodes, nodes without an edge, a source without one; short and long
+    edges.
+    """
     alone = (np.empty((0, 2), int), np.empty(0), 1, 0)
     edge = np.array([[1, 0]])
     edges, lengths, count, _ = network(GRADERS() + 310, 12, 3)
@@ -115,7 +145,9 @@ def the_smallest_graphs(candidate: Function) -> Verdict:
             found(candidate, (alone[0], alone[1], 3, 1), "No edges: "),
             found(candidate, (edge, np.array([0.5]), 4, 2), "A source without edges: "),
             found(candidate, (edges, 1e6 * lengths, count, 5), "Long edges: "),
-            values_verdict(short, right, HINT, "Short edges, their lengths in thousandths: ", fair=1e-5),
+            values_verdict(
+                short, right, HINT, "Short edges, their lengths in thousandths: ", fair=1e-5
+            ),
         )
     )
 
@@ -135,7 +167,10 @@ def one_way(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> 
     return scipy.sparse.csgraph.dijkstra(graph, indices=np.array([source]))[0]
 
 
-@mistake("You keep the distance of a node's first visit. A later, shorter way must be allowed to lower it.")
+@mistake(
+    "You keep the distance of a node's first visit. A later, shorter way must be allowed to"
+    " lower it."
+)
 def first_visit(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
     """Breadth first, nothing is lowered."""
     beside, d = _beside(edges, lengths, count), np.full(count, np.inf)
@@ -155,21 +190,33 @@ def hops(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.
     return geodesics.shortest_distances(edges, np.ones(len(edges)), count, source)
 
 
-@mistake("Nodes that cannot be reached have the distance inf, not 0: start with inf everywhere but at the source.")
-def zero_out_of_reach(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
+@mistake(
+    "Nodes that cannot be reached have the distance inf, not 0: start with inf everywhere but at"
+    " the source."
+)
+def zero_out_of_reach(
+    edges: np.ndarray, lengths: np.ndarray, count: int, source: int
+) -> np.ndarray:
     """0 where no way leads."""
     d = geodesics.shortest_distances(edges, lengths, count, source)
     return np.where(np.isinf(d), 0.0, d)
 
 
-@mistake("Nodes that cannot be reached have the distance inf, not −1: start with inf everywhere but at the source.")
-def minus_one_out_of_reach(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
+@mistake(
+    "Nodes that cannot be reached have the distance inf, not −1: start with inf everywhere but at"
+    " the source."
+)
+def minus_one_out_of_reach(
+    edges: np.ndarray, lengths: np.ndarray, count: int, source: int
+) -> np.ndarray:
     """-1 where no way leads."""
     d = geodesics.shortest_distances(edges, lengths, count, source)
     return np.where(np.isinf(d), -1.0, d)
 
 
-@mistake("You went over the edges once. Distances must go on falling until no edge makes a way shorter.")
+@mistake(
+    "You went over the edges once. Distances must go on falling until no edge makes a way shorter."
+)
 def one_pass(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
     """A single round of relaxation."""
     d = np.full(count, np.inf)
@@ -180,7 +227,10 @@ def one_pass(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) ->
     return d
 
 
-@mistake("You compare the next edge alone, as a spanning tree does (Prim). Compare whole ways: d[node] + length.")
+@mistake(
+    "You compare the next edge alone, as a spanning tree does (Prim). Compare whole ways: d[node] +"
+    " length."
+)
 def next_edge_only(edges: np.ndarray, lengths: np.ndarray, count: int, source: int) -> np.ndarray:
     """Prim's order: the shortest edge that leaves what is done."""
     beside, d, done = _beside(edges, lengths, count), np.full(count, np.inf), np.zeros(count, bool)

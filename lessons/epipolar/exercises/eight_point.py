@@ -1,5 +1,5 @@
-"""Write the normalised eight-point algorithm: from matches to the fundamental matrix. All lines of the lesson and the motion
-after them are made of it.
+"""Write the normalised eight-point algorithm: from matches to the fundamental matrix. All lines of
+the lesson and the motion after them are made of it.
 """
 
 import numpy as np
@@ -22,38 +22,45 @@ from workbench.exercise import (
     worst,
 )
 from workbench.exercise.model import number
-from workbench.geometry import epipolar
+from workbench.geometry.two_views import epipolar
 
 
 @contract(
     slot="eight_point",
     examples=(
         (
-            "eight_point(np.cos(np.c_[0:9] ** [1, 2]),"
-            " np.cos(np.c_[0:9] ** [1, 2]) + [[k, 0] for k in range(9)])[1] ** 2",
+            (
+                "eight_point(np.cos(np.c_[0:9] ** [1, 2]),"
+                " np.cos(np.c_[0:9] ** [1, 2]) + [[k, 0] for k in range(9)])[1] ** 2"
+            ),
             "[0, 0, 0.5]",
         ),
         (
-            "eight_point(np.cos(np.c_[0:9] ** [1, 2]), np.cos(np.c_[0:9] ** [1, 2]) * [[k] for k in range(9)])[2]",
+            (
+                "eight_point(np.cos(np.c_[0:9] ** [1, 2]), np.cos(np.c_[0:9] ** [1, 2]) * [[k] for"
+                " k in range(9)])[2]"
+            ),
             "[0, 0, 0]",
         ),
     ),
     either=lambda F: -np.asarray(F),
 )
-def eight_point(uv_first: Float[np.ndarray, "n 2"], uv_second: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "3 3"]:
+def eight_point(
+    uv_first: Float[np.ndarray, "n 2"], uv_second: Float[np.ndarray, "n 2"]
+) -> Float[np.ndarray, "3 3"]:
     """Return the fundamental matrix F of matches, (u', v', 1) F (u, v, 1)^T = 0, of rank two.
 
-    The normalised eight-point algorithm: shift and scale the pixels of each picture to mean 0 and a mean distance of about
-    the square root of 2, take the unit vector that makes the sum of squares of all equations smallest, drop the smallest
-    singular value there, and go back to pixels.
+    The normalised eight-point algorithm: shift and scale the pixels of each picture to mean 0 and a
+    mean distance of about the square root of 2, take the unit vector that makes the sum of squares
+    of all equations smallest, drop the smallest singular value there, and go back to pixels.
 
     Args:
         uv_first: Pixels (column, row) of the first picture.
         uv_second: Their matches in the second, row k for row k.
 
     Returns:
-        F at any scale that keeps its numbers within 1e9; the examples have Frobenius norm one. F33 may be 0: do not
-        divide by it.
+        F at any scale that keeps its numbers within 1e9; the examples have Frobenius norm one. F33
+        may be 0: do not divide by it.
 
     Raises:
         ValueError: If there are fewer than eight matches.
@@ -61,12 +68,20 @@ def eight_point(uv_first: Float[np.ndarray, "n 2"], uv_second: Float[np.ndarray,
     return epipolar.fit_fundamental(uv_first, uv_second)
 
 
-HINT = "Normalise both pictures, solve, drop the smallest singular value, and only then F = T'^T F T."
+HINT = (
+    "Normalise both pictures, solve, drop the smallest singular value, and only then F = T'^T F T."
+)
 
 
 def judged(candidate: Function, pair: Pair, good: float, fair: float) -> Verdict:
-    """Judge F by how far points without noise are from their lines in both pictures, and tell of the farthest."""
-    F, x, y = candidate(pair.uv_first, pair.uv_second), homogeneous(pair.clean_first), homogeneous(pair.clean_second)
+    """Judge F by how far points without noise are from their lines in both pictures, and tell of
+    the farthest.
+    """
+    F, x, y = (
+        candidate(pair.uv_first, pair.uv_second),
+        homogeneous(pair.clean_first),
+        homogeneous(pair.clean_second),
+    )
     offs, feet = [], []
     with np.errstate(all="ignore"):
         for lines, p in ((y @ F, x), (x @ F.T, y)):
@@ -76,13 +91,24 @@ def judged(candidate: Function, pair: Pair, good: float, fair: float) -> Verdict
         off = float(np.sqrt(np.square(offs).mean()))
     if not np.isfinite(off):
         return fail(
-            f"F has no lines: it is {number(F[0])} in its first row, right is a matrix of finite numbers. {HINT}"
+            f"F has no lines: it is {number(F[0])} in its first row, right is a matrix of finite"
+            f" numbers. {HINT}"
         )
     k = int(np.abs(offs[1]).argmax())
     told = beside(
-        feet[1][k], pair.clean_second[k], HINT, f"The place on the line of {number(x[k, :2])} nearest to its partner"
+        feet[1][k],
+        pair.clean_second[k],
+        HINT,
+        f"The place on the line of {number(x[k, :2])} nearest to its partner",
     )
-    return band("Points without noise are from their lines", off, "px (rms)", good=good, fair=fair, hint=told)
+    return band(
+        "Points without noise are from their lines",
+        off,
+        "px (rms)",
+        good=good,
+        fair=fair,
+        hint=told,
+    )
 
 
 def ranked(candidate: Function, pair: Pair) -> Verdict:
@@ -94,7 +120,8 @@ def ranked(candidate: Function, pair: Pair) -> Verdict:
         return full("The third singular value of F is 0.")
     told = beside(np.array([values[2]]), np.zeros(1), HINT, "The third singular value of F")
     return fail(
-        f"F has rank three: its third singular value is {number(1e6 * share, 3)} millionths of the second. {told}"
+        f"F has rank three: its third singular value is {number(1e6 * share, 3)} millionths of the"
+        f" second. {told}"
     )
 
 
@@ -151,10 +178,18 @@ def the_last_entry_is_zero(candidate: Function) -> Verdict:
     unit = F * (np.sign(F[2, 1]) / np.linalg.norm(F))
     if not largest < 1e9:
         return fail(
-            f"F33 is 0 here, and the largest entry of F is {number(largest)}, right is 1 or so: scale F by its norm."
+            f"F33 is 0 here, and the largest entry of F is {number(largest)}, right is 1 or so:"
+            " scale F by its norm."
         )
     told = beside(unit, right, HINT, "F over its norm")
-    return band("F over its norm is off by", float(np.abs(unit - right).max()), "", good=1e-6, fair=1e-3, hint=told)
+    return band(
+        "F over its norm is off by",
+        float(np.abs(unit - right).max()),
+        "",
+        good=1e-6,
+        fair=1e-3,
+        hint=told,
+    )
 
 
 def similarity(uv: np.ndarray) -> np.ndarray:
@@ -177,14 +212,17 @@ def dropped(F: np.ndarray) -> np.ndarray:
     return U @ np.diag([s[0], s[1], 0]) @ Vt
 
 
-def normalised(uv_first: np.ndarray, uv_second: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def normalised(
+    uv_first: np.ndarray, uv_second: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return F of rank two in normalised coordinates, and both similarities."""
     T, S = similarity(uv_first), similarity(uv_second)
     return dropped(solved(homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ S.T)), T, S
 
 
 @mistake(
-    "You return the transpose: (u, v, 1) F (u', v', 1)^T = 0. The second picture's pixel belongs on the left of F."
+    "You return the transpose: (u, v, 1) F (u', v', 1)^T = 0. The second picture's pixel belongs on"
+    " the left of F."
 )
 def transposed(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Takes the second picture to the first."""
@@ -193,7 +231,8 @@ def transposed(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You solved in raw pixels. Shift and scale both pictures first: u u' is 100,000 times as large as 1 otherwise."
+    "You solved in raw pixels. Shift and scale both pictures first: u u' is 100,000 times as large"
+    " as 1 otherwise."
 )
 def raw_pixels(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Does not normalise."""
@@ -207,7 +246,10 @@ def rank_three(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     return S.T @ solved(homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ S.T) @ T
 
 
-@mistake("You went back to pixels with inverses. With x = T u it is y^T F x = u'^T (T'^T F T) u: no inverse is needed.")
+@mistake(
+    "You went back to pixels with inverses. With x = T u it is y^T F x = u'^T (T'^T F T) u: no"
+    " inverse is needed."
+)
 def denormalised_with_inverses(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Takes T'^-T F T^-1."""
     F, T, S = normalised(uv_first, uv_second)
@@ -215,7 +257,8 @@ def denormalised_with_inverses(uv_first: np.ndarray, uv_second: np.ndarray) -> n
 
 
 @mistake(
-    "You swapped the two similarities on the way back: T' of the second picture stands on the left, T on the right."
+    "You swapped the two similarities on the way back: T' of the second picture stands on the left,"
+    " T on the right."
 )
 def similarities_swapped(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Takes T^T F T'."""
@@ -223,7 +266,9 @@ def similarities_swapped(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndar
     return T.T @ F @ S
 
 
-@mistake("You did not go back to pixels: your F belongs to the normalised coordinates. Return T'^T F T.")
+@mistake(
+    "You did not go back to pixels: your F belongs to the normalised coordinates. Return T'^T F T."
+)
 def not_denormalised(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Forgets the way back."""
     return normalised(uv_first, uv_second)[0]
@@ -237,7 +282,8 @@ def without_transpose(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray
 
 
 @mistake(
-    "You dropped the smallest singular value in pixels, where that spoils the fit. Drop it before you go back to them."
+    "You dropped the smallest singular value in pixels, where that spoils the fit. Drop it before"
+    " you go back to them."
 )
 def dropped_in_pixels(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     """Makes rank two last."""
@@ -253,7 +299,9 @@ def by_eigenvectors(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     for uv in (uv_first, uv_second):
         mean = uv.mean(axis=0)
         scale = np.sqrt(2) / np.linalg.norm(uv - mean, axis=1).mean()
-        maps.append(np.array([[scale, 0, -scale * mean[0]], [0, scale, -scale * mean[1]], [0, 0, 1]]))
+        maps.append(
+            np.array([[scale, 0, -scale * mean[0]], [0, scale, -scale * mean[1]], [0, 0, 1]])
+        )
     A = []
     for first, second in zip(uv_first, uv_second, strict=True):
         u, v, _ = maps[0] @ [*first, 1]
@@ -274,7 +322,13 @@ def scaled_by_axes(uv_first: np.ndarray, uv_second: np.ndarray) -> np.ndarray:
     for uv in (uv_first, uv_second):
         mean, spread = uv.mean(axis=0), uv.std(axis=0)
         maps.append(
-            np.array([[1 / spread[0], 0, -mean[0] / spread[0]], [0, 1 / spread[1], -mean[1] / spread[1]], [0, 0, 1]])
+            np.array(
+                [
+                    [1 / spread[0], 0, -mean[0] / spread[0]],
+                    [0, 1 / spread[1], -mean[1] / spread[1]],
+                    [0, 0, 1],
+                ]
+            )
         )
     T, S = maps
     F = S.T @ dropped(solved(homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ S.T)) @ T

@@ -1,5 +1,5 @@
-"""Write which four motions an essential matrix allows. The lesson tries them one after the other, and goes on with the one
-that has most points in front of both cameras.
+"""Write which four motions an essential matrix allows. The lesson tries them one after the other,
+and goes on with the one that has most points in front of both cameras.
 """
 
 import itertools
@@ -23,39 +23,56 @@ from workbench.exercise import (
     worst,
 )
 from workbench.exercise.judging import degrees_between
-from workbench.geometry import essential
 from workbench.geometry.motions import exp_so3, motion, skew
+from workbench.geometry.two_views import essential
 
 
 @contract(
     slot="essential_to_poses",
     examples=(
-        ("essential_to_poses(array([[0., 0, 0], [0, 0, -1], [0, 1, 0]]))[:, :3, 3].min(axis=0)", "[-1, 0, 0]"),
-        ("essential_to_poses(array([[0., 0, 0], [0, 0, -1], [0, 1, 0]]))[:, :3, 3].max(axis=0)", "[1, 0, 0]"),
-        ("essential_to_poses(array([[0., 0, 0], [0, 0, -1], [0, 1, 0]]))[:, :3, :3].max(axis=0)", "np.eye(3)"),
+        (
+            "essential_to_poses(array([[0., 0, 0], [0, 0, -1], [0, 1, 0]]))[:, :3, 3].min(axis=0)",
+            "[-1, 0, 0]",
+        ),
+        (
+            "essential_to_poses(array([[0., 0, 0], [0, 0, -1], [0, 1, 0]]))[:, :3, 3].max(axis=0)",
+            "[1, 0, 0]",
+        ),
+        (
+            "essential_to_poses(array([[0., 0, 0], [0, 0, -1], [0, 1, 0]]))[:, :3, :3].max(axis=0)",
+            "np.eye(3)",
+        ),
     ),
     either=lambda Ts: [np.asarray(Ts)[list(order)] for order in itertools.permutations(range(4))],
-)  # fmt: skip
+)
 def essential_to_poses(E: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4 4 4"]:
-    """Return the four motions T_second_first with E = [t]x R at some scale, in any order; each t has length one.
+    """Return the four motions T_second_first with E = [t]x R at some scale, in any order; each t
+    has length one.
 
-    Two rotations, and with each of them t forth and back. Where E has noise they are near those of the E without.
+    Two rotations, and with each of them t forth and back. Where E has noise they are near those of
+    the E without.
 
     Args:
-        E: An essential matrix: two equal singular values and a zero, but for some noise; of any scale and sign.
+        E: An essential matrix: two equal singular values and a zero, but for some noise; of any
+            scale and sign.
 
     Returns:
-        Four 4x4 motions, each with R in the upper left, t in the last column and (0, 0, 0, 1) as last row. Every R is a
-        rotation with determinant 1.
+        Four 4x4 motions, each with R in the upper left, t in the last column and (0, 0, 0, 1) as
+        last row. Every R is a rotation with determinant 1.
     """
     return essential.essential_to_poses(E)
 
 
-HINT = "With E = U S V^T they are U W V^T and U W^T V^T, t = ± the last column of U; det U and det V have to be 1."
+HINT = (
+    "With E = U S V^T they are U W V^T and U W^T V^T, t = ± the last column of U; det U and det V"
+    " have to be 1."
+)
 
 
 def some_motions(seed: int, n: int = 6) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return essential matrices of many scales and both signs, with the motions they were made of."""
+    """Return essential matrices of many scales and both signs, with the motions they were made
+    of.
+    """
     rng = np.random.default_rng(seed)
     made = []
     for k in range(n):
@@ -73,25 +90,39 @@ def is_motion(T: np.ndarray) -> bool:
 
 
 def apart(T: np.ndarray, right: np.ndarray) -> float:
-    """Return by how many degrees the rotations differ, or by how many hundredths the translations, if that is more."""
+    """Return by how many degrees the rotations differ, or by how many hundredths the translations,
+    if that is more.
+    """
     if np.linalg.det(T[:3, :3]) < 0:
         return 180.0
-    return max(degrees_between(T[:3, :3], right[:3, :3]), 100 * float(np.linalg.norm(T[:3, 3] - right[:3, 3])))
+    return max(
+        degrees_between(T[:3, :3], right[:3, :3]),
+        100 * float(np.linalg.norm(T[:3, 3] - right[:3, 3])),
+    )
 
 
 def judged(Ts: np.ndarray, rights: np.ndarray, good: float = 0.01, fair: float = 0.5) -> Verdict:
-    """Judge whether each of some right motions is among the answers, by the one that is farthest from all of them."""
+    """Judge whether each of some right motions is among the answers, by the one that is farthest
+    from all of them.
+    """
     for T in Ts:
         if not is_motion(T):
             if np.isfinite(T).all() and np.allclose(T[:3, :3].T @ T[:3, :3], np.eye(3), atol=1e-6):
                 last = ", ".join(number(value) for value in T[3])
-                return fail(f"The last row of one of yours is ({last}), right is (0, 0, 0, 1). {HINT}")
-            told = beside(T[:3, :3].T @ T[:3, :3], np.eye(3), HINT, "R^T R") if np.isfinite(T).all() else HINT
+                return fail(
+                    f"The last row of one of yours is ({last}), right is (0, 0, 0, 1). {HINT}"
+                )
+            told = (
+                beside(T[:3, :3].T @ T[:3, :3], np.eye(3), HINT, "R^T R")
+                if np.isfinite(T).all()
+                else HINT
+            )
             return fail(f"One of yours is no motion. {told}")
         det = float(np.linalg.det(T[:3, :3]))
         if det < 0:
             return fail(
-                f"One of your rotations mirrors. {beside(np.array([det]), np.ones(1), HINT, 'Its determinant')}"
+                "One of your rotations mirrors."
+                f" {beside(np.array([det]), np.ones(1), HINT, 'Its determinant')}"
             )
         if abs((long := float(np.linalg.norm(T[:3, 3]))) - 1) > 1e-5:
             return fail(beside(np.array([long]), np.ones(1), HINT, "The length of one of your t"))
@@ -101,20 +132,31 @@ def judged(Ts: np.ndarray, rights: np.ndarray, good: float = 0.01, fair: float =
     by_t = degrees_between(nearest[:3, :3], rights[k][:3, :3]) < 0.01
     part, name = (np.s_[:3, 3], "its t") if by_t else (np.s_[:3, :3], "its R")
     told = beside(nearest[part], rights[k][part], HINT, name)
-    return band("The motion that you miss most is off by", float(offs[k].min()), "degrees, or hundredths of t",
-                good=good, fair=fair, hint=f"Of your nearest, {told}")  # fmt: skip
+    return band(
+        "The motion that you miss most is off by",
+        float(offs[k].min()),
+        "degrees, or hundredths of t",
+        good=good,
+        fair=fair,
+        hint=f"Of your nearest, {told}",
+    )
 
 
 @check(3)
 def the_true_motion(candidate: Function) -> Verdict:
     """The motion that E was made of is among the four, and so is the one with t turned round."""
-    return worst(judged(candidate(E), np.stack([T, motion(T[:3, :3], -T[:3, 3])])) for E, T in some_motions(STUDENTS))
+    return worst(
+        judged(candidate(E), np.stack([T, motion(T[:3, :3], -T[:3, 3])]))
+        for E, T in some_motions(STUDENTS)
+    )
 
 
 @check(3)
 def all_four(candidate: Function) -> Verdict:
     """All four motions are there, whatever the scale and sign of E."""
-    return worst(judged(candidate(E), essential.essential_to_poses(E)) for E, _ in some_motions(STUDENTS + 1))
+    return worst(
+        judged(candidate(E), essential.essential_to_poses(E)) for E, _ in some_motions(STUDENTS + 1)
+    )
 
 
 @check(1)
@@ -126,7 +168,9 @@ def matrices_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_matrices(candidate: Function) -> Verdict:
-    """So they are for other matrices, of very small and very large numbers too, and none of them mirrors."""
+    """So they are for other matrices, of very small and very large numbers too, and none of them
+    mirrors.
+    """
     cases = [E for E, _ in some_motions(GRADERS(), 12)]
     cases += [1e-6 * cases[0], -1e6 * cases[1]]
     return worst(judged(candidate(E), essential.essential_to_poses(E)) for E in cases)
@@ -134,18 +178,24 @@ def other_matrices(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def with_noise(candidate: Function) -> Verdict:
-    """Of a matrix that is an essential one but for 0.3 % of noise, they are motions, and within 2.5 degrees."""
+    """Of a matrix that is an essential one but for 0.3 % of noise, they are motions, and within 2.5
+    degrees.
+    """
     rng, verdicts = np.random.default_rng(GRADERS() + 1), []
     for E, _ in some_motions(GRADERS() + 1):
         noisy = E + 0.003 * np.linalg.norm(E) * rng.normal(size=(3, 3))
-        verdicts.append(judged(candidate(noisy), essential.essential_to_poses(E), good=2.5, fair=5.0))
+        verdicts.append(
+            judged(candidate(noisy), essential.essential_to_poses(E), good=2.5, fair=5.0)
+        )
     return worst(verdicts)
 
 
 @check(1, public=False)
 def along_the_axes(candidate: Function) -> Verdict:
     """Ahead, aside and up without a turn, as well."""
-    return worst(judged(candidate(skew(t)), essential.essential_to_poses(skew(t))) for t in np.eye(3))
+    return worst(
+        judged(candidate(skew(t)), essential.essential_to_poses(skew(t))) for t in np.eye(3)
+    )
 
 
 W = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
@@ -166,7 +216,8 @@ def proper(E: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 @mistake(
-    "Some of your rotations have determinant −1: they mirror. Turn the sign of U or V round where its determinant is −1."
+    "Some of your rotations have determinant −1: they mirror. Turn the sign of U or V round where"
+    " its determinant is −1."
 )
 def signs_not_mended(E: np.ndarray) -> np.ndarray:
     """Takes U and V as they come."""
@@ -181,7 +232,10 @@ def v_for_its_transpose(E: np.ndarray) -> np.ndarray:
     return four((U @ W @ Vt.T, U @ W.T @ Vt.T), U[:, 2])
 
 
-@mistake("You have one rotation only. There are two, half a turn about the baseline apart: with W and with W^T.")
+@mistake(
+    "You have one rotation only. There are two, half a turn about the baseline apart: with W and"
+    " with W^T."
+)
 def one_rotation(E: np.ndarray) -> np.ndarray:
     """Uses W twice."""
     U, Vt = proper(E)
@@ -197,7 +251,8 @@ def one_direction(E: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your t is the last column of V, which is the second centre seen from the first camera. t is the last column of U."
+    "Your t is the last column of V, which is the second centre seen from the first camera. t is"
+    " the last column of U."
 )
 def t_from_v(E: np.ndarray) -> np.ndarray:
     """Takes the null vector on the wrong side."""

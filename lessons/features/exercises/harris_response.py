@@ -1,5 +1,5 @@
-"""Write the corner response of a picture. The part "pictures" of the lesson takes its corners from your function:
-`--part pictures --turn 0`.
+"""Write the corner response of a picture. The part "pictures" of the lesson takes its corners from
+your function: `--part pictures --turn 0`.
 """
 
 import numpy as np
@@ -7,8 +7,19 @@ import scipy
 from jaxtyping import Float
 
 from lessons.features.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, band, beside, check, contract, left_alone, mistake, worst
-from workbench.geometry import keypoints
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    band,
+    beside,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.features import keypoints
 
 
 @contract(
@@ -22,9 +33,10 @@ from workbench.geometry import keypoints
 def harris_response(image: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w"]:
     """Return det(M) - 0.04 trace(M)^2 of every pixel.
 
-    Smooth the picture by a Gaussian of 1 px. Its derivatives g_u (along columns) and g_v (along rows) are Sobel's over 8,
-    in grey levels per pixel. M = [[A, B], [B, C]] holds g_u g_u, g_u g_v and g_v g_v, each of them smoothed by a Gaussian
-    of 1.5 px after multiplying. All of it with scipy.ndimage's gaussian_filter and sobel as they are by default.
+    Smooth the picture by a Gaussian of 1 px. Its derivatives g_u (along columns) and g_v (along
+    rows) are Sobel's over 8, in grey levels per pixel. M = [[A, B], [B, C]] holds g_u g_u, g_u g_v
+    and g_v g_v, each of them smoothed by a Gaussian of 1.5 px after multiplying. All of it with
+    scipy.ndimage's gaussian_filter and sobel as they are by default.
 
     Args:
         image: Grey levels, indexed [v, u].
@@ -53,7 +65,14 @@ def judged(candidate: Function, image: np.ndarray, what: str) -> Verdict:
     at = np.unravel_index(int(off.argmax()), off.shape)
     share = float(off.max() / max(float(np.abs(right).max()), 1e-12))
     hint = beside(got[at], right[at], HINT, f"The response at row {at[0]}, column {at[1]}")
-    return band(f"{what}: largest difference over the largest response", share, "", good=1e-6, fair=1e-3, hint=hint)
+    return band(
+        f"{what}: largest difference over the largest response",
+        share,
+        "",
+        good=1e-6,
+        fair=1e-3,
+        hint=hint,
+    )
 
 
 @check(2)
@@ -93,9 +112,13 @@ def other_pictures(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def brightness_and_contrast(candidate: Function) -> Verdict:
-    """A darker picture of a hundredth of the contrast: its response is smaller by 10⁸; of a ten-thousandth, by 10¹⁶."""
+    """A darker picture of a hundredth of the contrast: its response is smaller by 10⁸; of a
+    ten-thousandth, by 10¹⁶.
+    """
     picture = textured(GRADERS() + 2, 40, 40)
-    return worst([judged(candidate, c * picture + 3.0, f"Contrast times {c:g}") for c in (1e-2, 1e-4)])
+    return worst(
+        [judged(candidate, c * picture + 3.0, f"Contrast times {c:g}") for c in (1e-2, 1e-4)]
+    )
 
 
 def products(image: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -110,14 +133,20 @@ def gathered(x: np.ndarray) -> np.ndarray:
     return scipy.ndimage.gaussian_filter(x, 1.5)
 
 
-@mistake("You left out the window: of a single pixel's derivatives det M is 0. Smooth the three products by 1.5 px.")
+@mistake(
+    "You left out the window: of a single pixel's derivatives det M is 0. Smooth the three products"
+    " by 1.5 px."
+)
 def no_window(image: np.ndarray) -> np.ndarray:
     """Takes the products of each pixel alone."""
     a, b, c, _ = products(image)
     return a * c - b * b - 0.04 * (a + c) ** 2
 
 
-@mistake("Your trace is not squared: det M is of the fourth order in grey levels, so the trace enters as its square.")
+@mistake(
+    "Your trace is not squared: det M is of the fourth order in grey levels, so the trace enters as"
+    " its square."
+)
 def trace_not_squared(image: np.ndarray) -> np.ndarray:
     """Subtracts 0.04 trace M."""
     a, b, c = (gathered(x) for x in products(image)[:3])
@@ -125,7 +154,8 @@ def trace_not_squared(image: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You smoothed the derivatives and multiplied then, so det M is 0 everywhere. Multiply first, smooth the products."
+    "You smoothed the derivatives and multiplied then, so det M is 0 everywhere. Multiply first,"
+    " smooth the products."
 )
 def smoothed_before_multiplying(image: np.ndarray) -> np.ndarray:
     """Averages the derivatives."""
@@ -135,7 +165,10 @@ def smoothed_before_multiplying(image: np.ndarray) -> np.ndarray:
     return a * c - b * b - 0.04 * (a + c) ** 2
 
 
-@mistake("Your derivatives are not Sobel's over 8: its weights sum to 8 on a slope of one grey level per pixel.")
+@mistake(
+    "Your derivatives are not Sobel's over 8: its weights sum to 8 on a slope of one grey level per"
+    " pixel."
+)
 def not_over_eight(image: np.ndarray) -> np.ndarray:
     """Leaves out the 8."""
     a, b, c = (64.0 * gathered(x) for x in products(image)[:3])
@@ -155,7 +188,9 @@ def in_numpy_alone(image: np.ndarray) -> np.ndarray:
 
     def filtered(x: np.ndarray, weights: np.ndarray, axis: int) -> np.ndarray:
         reach = len(weights) // 2
-        padded = np.pad(x, [(reach, reach) if k == axis else (0, 0) for k in (0, 1)], mode="symmetric")
+        padded = np.pad(
+            x, [(reach, reach) if k == axis else (0, 0) for k in (0, 1)], mode="symmetric"
+        )
         return np.lib.stride_tricks.sliding_window_view(padded, len(weights), axis) @ weights
 
     def smoothed(x: np.ndarray, sigma: float) -> np.ndarray:
@@ -163,7 +198,11 @@ def in_numpy_alone(image: np.ndarray) -> np.ndarray:
         weights = weights / weights.sum()
         return filtered(filtered(x, weights, 0), weights, 1)
 
-    smooth, one_two_one, difference = smoothed(image, 1.0), np.array([1, 2, 1]), np.array([-1, 0, 1])
+    smooth, one_two_one, difference = (
+        smoothed(image, 1.0),
+        np.array([1, 2, 1]),
+        np.array([-1, 0, 1]),
+    )
     g_u = filtered(filtered(smooth, difference, 1), one_two_one, 0) / 8
     g_v = filtered(filtered(smooth, difference, 0), one_two_one, 1) / 8
     a, b, c = (smoothed(x, 1.5) for x in (g_u * g_u, g_u * g_v, g_v * g_v))
@@ -174,7 +213,9 @@ def in_numpy_alone(image: np.ndarray) -> np.ndarray:
 def by_eigenvalues(image: np.ndarray) -> np.ndarray:
     """Det is the product of the eigenvalues, trace their sum."""
     a, b, c = (gathered(x) for x in products(image)[:3])
-    low, high = np.linalg.eigvalsh(np.stack([np.stack([a, b], -1), np.stack([b, c], -1)], -2)).transpose(2, 0, 1)
+    low, high = np.linalg.eigvalsh(
+        np.stack([np.stack([a, b], -1), np.stack([b, c], -1)], -2)
+    ).transpose(2, 0, 1)
     return low * high - 0.04 * (low + high) ** 2
 
 

@@ -1,28 +1,51 @@
-"""Write the filter: keep a match only where both descriptors are nearest to each other, and the nearest is much nearer than
-the second nearest. RANSAC draws its samples from what your function keeps.
+"""Write the filter: keep a match only where both descriptors are nearest to each other, and the
+nearest is much nearer than the second nearest. RANSAC draws its samples from what your function
+keeps.
 """
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from lessons.features.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
-from workbench.geometry import matching
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    fail,
+    full,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.features import matching
 
 
 @contract(
     slot="mutual_matches",
     examples=(
-        ("mutual_matches(np.array([[0.0], [5.0], [5.2]]), np.array([[0.3], [5.1], [9.0]]), 0.9)", "[0, 1, -1]"),
-        ("mutual_matches(np.array([[0.0, 0], [4, 0]]), np.array([[4.0, 1], [0, 1], [0, 1.1]]), 0.8)", "[-1, 0]"),
+        (
+            "mutual_matches(np.array([[0.0], [5.0], [5.2]]), np.array([[0.3], [5.1], [9.0]]), 0.9)",
+            "[0, 1, -1]",
+        ),
+        (
+            (
+                "mutual_matches(np.array([[0.0, 0], [4, 0]]), np.array([[4.0, 1], [0, 1], [0,"
+                " 1.1]]), 0.8)"
+            ),
+            "[-1, 0]",
+        ),
     ),
 )
-def mutual_matches(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float) -> Int[np.ndarray, " n"]:
+def mutual_matches(
+    a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"], ratio: float
+) -> Int[np.ndarray, " n"]:
     """Return for each row of a the index of its match in b, or -1 where it has none.
 
-    Row i of a matches row j of b where j is the nearest of all rows of b to a[i], i is the nearest of all rows of a to
-    b[j], the first of equally near ones, and the distance of a[i] to b[j] is less than ratio times its distance to the
-    second nearest row of b.
+    Row i of a matches row j of b where j is the nearest of all rows of b to a[i], i is the nearest
+    of all rows of a to b[j], the first of equally near ones, and the distance of a[i] to b[j] is
+    less than ratio times its distance to the second nearest row of b.
 
     Args:
         a: Descriptors, one per row.
@@ -39,7 +62,9 @@ HINT = "Nearest both ways, and d1 < ratio * d2 for the distances to the two near
 
 
 def sets(seed: int, n: int, m: int, d: int, shift: float = 0.6) -> tuple[np.ndarray, np.ndarray]:
-    """Return descriptors that partly belong together, some clearly and some hardly, in another order."""
+    """Return descriptors that partly belong together, some clearly and some hardly, in another
+    order.
+    """
     rng = np.random.default_rng(seed)
     common = rng.normal(size=(min(n, m), d))
     a, b = (
@@ -57,27 +82,37 @@ def judged(candidate: Function, a: np.ndarray, b: np.ndarray, ratio: float, what
     if not len(off):
         return full(f"{what}: all {len(right)} rows are right.")
     i = int(off[0])
-    kept = f"you keep {np.count_nonzero(got >= 0)} matches, right are {np.count_nonzero(right >= 0)}"
+    kept = (
+        f"you keep {np.count_nonzero(got >= 0)} matches, right are {np.count_nonzero(right >= 0)}"
+    )
     return fail(f"{what}: {kept}; [{i}] is {int(got[i])}, right is {int(right[i])}. {HINT}")
 
 
 @check(2)
 def a_few(candidate: Function) -> Verdict:
     """Thirty descriptors of each set, at ratios of 0.9 and 0.5."""
-    return worst(judged(candidate, *sets(STUDENTS, 30, 30, 5), ratio, f"30 and 30, {ratio:g}") for ratio in (0.9, 0.5))
+    return worst(
+        judged(candidate, *sets(STUDENTS, 30, 30, 5), ratio, f"30 and 30, {ratio:g}")
+        for ratio in (0.9, 0.5)
+    )
 
 
 @check(1)
 def sets_of_other_sizes(candidate: Function) -> Verdict:
     """More descriptors in one set than in the other, both ways round."""
     cases = ((12, 40, 0.85), (40, 12, 0.85), (50, 40, 0.5))
-    return worst(judged(candidate, *sets(STUDENTS + n, n, m, 4), ratio, f"{n} and {m}") for n, m, ratio in cases)
+    return worst(
+        judged(candidate, *sets(STUDENTS + n, n, m, 4), ratio, f"{n} and {m}")
+        for n, m, ratio in cases
+    )
 
 
 @check(1)
 def inputs_are_left_alone(candidate: Function) -> Verdict:
     """The descriptors are not changed."""
-    return left_alone(candidate, judged(candidate, *sets(STUDENTS + 2, 10, 12, 3), 0.9, "10 and 12"))
+    return left_alone(
+        candidate, judged(candidate, *sets(STUDENTS + 2, 10, 12, 3), 0.9, "10 and 12")
+    )
 
 
 @check(2, public=False)
@@ -93,7 +128,9 @@ def several_ratios(candidate: Function) -> Verdict:
 def crowded(candidate: Function) -> Verdict:
     """Many of one set want the same few of the other, two of them even, or one wants many."""
     rng = np.random.default_rng(GRADERS() + 9)
-    found = [judged(candidate, rng.normal(size=(60, 3)), 2.5 * rng.normal(size=(8, 3)), 0.95, "60 and 8")]
+    found = [
+        judged(candidate, rng.normal(size=(60, 3)), 2.5 * rng.normal(size=(8, 3)), 0.95, "60 and 8")
+    ]
     for n, m, d in ((60, 2, 3), (1, 30, 3), (1, 2, 1), (30, 30, 1)):
         a, b = sets(GRADERS() + n + m, n, m, d, 0.3)
         found.append(judged(candidate, a, b, 0.97, f"{n} and {m}, of {d} numbers"))
@@ -109,14 +146,25 @@ def like_histograms(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def equal_descriptors(candidate: Function) -> Verdict:
-    """Of equal rows of a the first has the match; equal rows of b are none; a distance of 0 is one; less is not equal."""
+    """Of equal rows of a the first has the match; equal rows of b are none; a distance of 0 is one;
+    less is not equal.
+    """
     rng = np.random.default_rng(GRADERS() + 30)
     b = rng.permutation(np.arange(40.0).reshape(10, 4) ** 2 % 37)
     a = b[[3, 3, 0, 7, 5, 5, 5, 0, 1]] + np.array([1.0, 1, 0, 0, 2, 2, 2, 2, 12])[:, None]
-    twice = np.concatenate([b[:8], b[7:], b[[3]]])  # one of two equal rows follows the other, and one stands last
-    verdicts = [judged(candidate, a, b, 0.5, "Equal rows of a"), judged(candidate, a, twice, 0.5, "Equal rows of b")]
+    twice = np.concatenate(
+        [b[:8], b[7:], b[[3]]]
+    )  # one of two equal rows follows the other, and one stands last
+    verdicts = [
+        judged(candidate, a, b, 0.5, "Equal rows of a"),
+        judged(candidate, a, twice, 0.5, "Equal rows of b"),
+    ]
     steps = np.array([[1.0, 0], [0, 2], [9, 0]])
-    verdicts.append(judged(candidate, np.zeros((1, 2)), steps, 0.5, "A distance that is the ratio times the second"))
+    verdicts.append(
+        judged(
+            candidate, np.zeros((1, 2)), steps, 0.5, "A distance that is the ratio times the second"
+        )
+    )
     return worst(verdicts)
 
 
@@ -133,7 +181,10 @@ def kept(D: np.ndarray, passes: np.ndarray, mutual: bool = True) -> np.ndarray:
     return np.where(passes, j, -1)
 
 
-@mistake("You ask one way only: the match of b[j] must be a[i] too. Several rows of a now share one row of b.")
+@mistake(
+    "You ask one way only: the match of b[j] must be a[i] too. Several rows of a now share one row"
+    " of b."
+)
 def one_direction(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Only the ratio."""
     D = distances(a, b)
@@ -141,7 +192,10 @@ def one_direction(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     return kept(D, low[:, 0] < ratio * low[:, 1], mutual=False)
 
 
-@mistake("You compare squared distances with the ratio, which lets more pass: take the roots, or square the ratio too.")
+@mistake(
+    "You compare squared distances with the ratio, which lets more pass: take the roots, or square"
+    " the ratio too."
+)
 def squared_distances(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """d1² < ratio d2²."""
     D = distances(a, b) ** 2
@@ -149,7 +203,9 @@ def squared_distances(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     return kept(D, low[:, 0] < ratio * low[:, 1])
 
 
-@mistake("Your ratio test is reversed: it keeps what is ambiguous. Keep a match where d1 < ratio * d2.")
+@mistake(
+    "Your ratio test is reversed: it keeps what is ambiguous. Keep a match where d1 < ratio * d2."
+)
 def test_reversed(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """d1 > ratio d2."""
     D = distances(a, b)
@@ -158,7 +214,8 @@ def test_reversed(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
 
 
 @mistake(
-    "You keep every match that is nearest both ways. The ratio of the two nearest distances has to be asked as well."
+    "You keep every match that is nearest both ways. The ratio of the two nearest distances has to"
+    " be asked as well."
 )
 def no_ratio(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Only mutual."""
@@ -166,7 +223,10 @@ def no_ratio(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     return kept(D, np.ones(len(D), bool))
 
 
-@mistake("Your second nearest is among the rows of a. It is the second nearest row of b to the same a[i].")
+@mistake(
+    "Your second nearest is among the rows of a. It is the second nearest row of b to the same"
+    " a[i]."
+)
 def second_of_the_wrong_set(a: np.ndarray, b: np.ndarray, ratio: float) -> np.ndarray:
     """Asks the ratio down the columns."""
     D = distances(a, b)

@@ -1,13 +1,24 @@
-"""Write the three angles of pairs of points with normals, all pairs at once. Both scans are described with your function,
-so what it gets wrong shows in the share of matches that are right.
+"""Write the three angles of pairs of points with normals, all pairs at once. Both scans are
+described with your function, so what it gets wrong shows in the share of matches that are right.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.features.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, band, beside, check, contract, left_alone, mistake, worst
-from workbench.geometry import fpfh
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    band,
+    beside,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.features import fpfh
 from workbench.geometry.motions import exp_so3
 
 
@@ -15,11 +26,17 @@ from workbench.geometry.motions import exp_so3
     slot="pair_angles",
     examples=(
         (
-            "pair_angles(np.zeros((1, 3)), np.array([[0.0, 0, 1]]), np.array([[0.0, 1, 0]]), np.array([[0.0, 0.6, 0.8]]))",
+            (
+                "pair_angles(np.zeros((1, 3)), np.array([[0.0, 0, 1]]), np.array([[0.0, 1, 0]]),"
+                " np.array([[0.0, 0.6, 0.8]]))"
+            ),
             "[[0.6435, 0, -0.6]]",
         ),
         (
-            "pair_angles(np.array([[0.0, 1, 0]]), np.array([[0.0, 0.6, 0.8]]), np.zeros((1, 3)), np.array([[0.0, 0, 1]]))",
+            (
+                "pair_angles(np.array([[0.0, 1, 0]]), np.array([[0.0, 0.6, 0.8]]), np.zeros((1,"
+                " 3)), np.array([[0.0, 0, 1]]))"
+            ),
             "[[0.6435, 0, -0.6]]",
         ),
     ),
@@ -32,9 +49,9 @@ def pair_angles(
 ) -> Float[np.ndarray, "k 3"]:
     """Return (theta, alpha, phi) of each pair of points with normals; row k belongs to row k.
 
-    Let d be the unit line from one point to the other. Of the two normals, u is the one with the larger |u . d|, and d
-    runs from its point to the other, whose normal is n. With v = (d x u) / |d x u| and w = u x v:
-    theta = atan2(w . n, u . n), alpha = v . n, phi = u . d.
+    Let d be the unit line from one point to the other. Of the two normals, u is the one with the
+    larger |u . d|, and d runs from its point to the other, whose normal is n. With v = (d x u) / |d
+    x u| and w = u x v: theta = atan2(w . n, u . n), alpha = v . n, phi = u . d.
 
     Args:
         p_i: The first points, metres.
@@ -43,8 +60,8 @@ def pair_angles(
         n_j: Their unit normals. No line runs along the normal u.
 
     Returns:
-        One row per pair: theta in radians, alpha and phi as they are. Exchanging the two points of a pair changes
-        nothing. The inputs stay as they are.
+        One row per pair: theta in radians, alpha and phi as they are. Exchanging the two points of
+        a pair changes nothing. The inputs stay as they are.
     """
     return fpfh.pair_angles(p_i, n_i, p_j, n_j)
 
@@ -71,7 +88,9 @@ def judged(candidate: Function, case: tuple[np.ndarray, ...], what: str) -> Verd
     off = np.abs(np.where(np.isfinite(off), off, np.inf))
     row = int(off.max(axis=1).argmax())
     hint = beside(got[row], right[row], HINT, "(theta, alpha, phi)")
-    return band(f"{what}: largest difference", float(off.max()), "", good=1e-6, fair=1e-3, hint=hint)
+    return band(
+        f"{what}: largest difference", float(off.max()), "", good=1e-6, fair=1e-3, hint=hint
+    )
 
 
 @check(2)
@@ -85,7 +104,10 @@ def in_either_order(candidate: Function) -> Verdict:
     """The two points of a pair exchanged: the same three angles."""
     p_i, n_i, p_j, n_j = pairs(STUDENTS + 1, 30)
     return worst(
-        [judged(candidate, (p_i, n_i, p_j, n_j), "One way"), judged(candidate, (p_j, n_j, p_i, n_i), "Exchanged")]
+        [
+            judged(candidate, (p_i, n_i, p_j, n_j), "One way"),
+            judged(candidate, (p_j, n_j, p_i, n_i), "Exchanged"),
+        ]
     )
 
 
@@ -101,7 +123,9 @@ def any_distance(candidate: Function) -> Verdict:
     verdicts = []
     for scale in (1000.0, 0.02, 1e-4):
         p_i, n_i, p_j, n_j = pairs(GRADERS(), 20)
-        verdicts.append(judged(candidate, (p_i, n_i, p_i + scale * (p_j - p_i), n_j), f"{scale:g} times as far"))
+        verdicts.append(
+            judged(candidate, (p_i, n_i, p_i + scale * (p_j - p_i), n_j), f"{scale:g} times as far")
+        )
     return worst(verdicts)
 
 
@@ -115,7 +139,9 @@ def moved(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def one_pair(candidate: Function) -> Verdict:
-    """A single pair, normals more than a right angle apart, and pairs with equal or opposite normals."""
+    """A single pair, normals more than a right angle apart, and pairs with equal or opposite
+    normals.
+    """
     p_i, n_i, p_j, n_j = pairs(GRADERS() + 2, 1)
     one = judged(candidate, (p_i, n_i, p_j, -n_j), "One pair")
     p_i, n_i, p_j, _ = pairs(GRADERS() + 3, 12)
@@ -129,7 +155,13 @@ def one_pair(candidate: Function) -> Verdict:
 
 
 def framed(
-    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray, *, swap: bool = True, unit: bool = True
+    p_i: np.ndarray,
+    n_i: np.ndarray,
+    p_j: np.ndarray,
+    n_j: np.ndarray,
+    *,
+    swap: bool = True,
+    unit: bool = True,
 ) -> tuple[np.ndarray, ...]:
     """Return d, u, n, v, w of every pair, written as the task has it."""
     d = p_j - p_i
@@ -143,13 +175,18 @@ def framed(
     return d, u, n, v, np.cross(u, v)
 
 
-def angles_in(d: np.ndarray, u: np.ndarray, n: np.ndarray, v: np.ndarray, w: np.ndarray) -> np.ndarray:
+def angles_in(
+    d: np.ndarray, u: np.ndarray, n: np.ndarray, v: np.ndarray, w: np.ndarray
+) -> np.ndarray:
     """Return the angles in a frame."""
-    return np.column_stack([np.arctan2((w * n).sum(1), (u * n).sum(1)), (v * n).sum(1), (u * d).sum(1)])
+    return np.column_stack(
+        [np.arctan2((w * n).sum(1), (u * n).sum(1)), (v * n).sum(1), (u * d).sum(1)]
+    )
 
 
 @mistake(
-    "Your angles depend on the order of the two points. u is the normal that is nearer to the line, from either point."
+    "Your angles depend on the order of the two points. u is the normal that is nearer to the line,"
+    " from either point."
 )
 def never_swapped(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
     """Always takes the first point as source."""
@@ -162,17 +199,27 @@ def line_not_unit(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.nda
     return angles_in(*framed(p_i, n_i, p_j, n_j, unit=False))
 
 
-@mistake("The two arguments of your arctangent are exchanged: theta = atan2(w . n, u . n), the sine comes first.")
-def arctangent_exchanged(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
+@mistake(
+    "The two arguments of your arctangent are exchanged: theta = atan2(w . n, u . n), the sine"
+    " comes first."
+)
+def arctangent_exchanged(
+    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
+) -> np.ndarray:
     """Takes atan2(u n, w n)."""
     d, u, n, v, w = framed(p_i, n_i, p_j, n_j)
-    return np.column_stack([np.arctan2((u * n).sum(1), (w * n).sum(1)), (v * n).sum(1), (u * d).sum(1)])
+    return np.column_stack(
+        [np.arctan2((u * n).sum(1), (w * n).sum(1)), (v * n).sum(1), (u * d).sum(1)]
+    )
 
 
 @mistake(
-    "You exchange the normals but keep d: where the second point is the source, the line runs from it to the first."
+    "You exchange the normals but keep d: where the second point is the source, the line runs from"
+    " it to the first."
 )
-def line_not_turned(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
+def line_not_turned(
+    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
+) -> np.ndarray:
     """Swaps the normals and not the line."""
     d, u, n, *_ = framed(p_i, n_i, p_j, n_j)
     d = (p_j - p_i) / np.linalg.norm(p_j - p_i, axis=1, keepdims=True)
@@ -182,17 +229,25 @@ def line_not_turned(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.n
 
 
 @mistake(
-    "Your v is not of length 1: d and u are not at a right angle, so their cross product has to be divided by its length."
+    "Your v is not of length 1: d and u are not at a right angle, so their cross product has to be"
+    " divided by its length."
 )
-def cross_not_unit(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
+def cross_not_unit(
+    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
+) -> np.ndarray:
     """Leaves v as the cross product is."""
     d, u, n, *_ = framed(p_i, n_i, p_j, n_j)
     v = np.cross(d, u)
     return angles_in(d, u, n, v, np.cross(u, v))
 
 
-@mistake("Your v points the other way: it is d x u, in this order. So the signs of alpha and theta are not right.")
-def cross_exchanged(p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray) -> np.ndarray:
+@mistake(
+    "Your v points the other way: it is d x u, in this order. So the signs of alpha and theta are"
+    " not right."
+)
+def cross_exchanged(
+    p_i: np.ndarray, n_i: np.ndarray, p_j: np.ndarray, n_j: np.ndarray
+) -> np.ndarray:
     """Takes u x d."""
     d, u, n, v, w = framed(p_i, n_i, p_j, n_j)
     return angles_in(d, u, n, -v, -w)

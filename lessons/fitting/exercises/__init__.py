@@ -4,13 +4,23 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, band, fail
 
-STUDENTS, GRADERS = 71, HiddenSeed(8610)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    71,
+    HiddenSeed(8610),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 def entries(
-    what: str, got: np.ndarray, right: np.ndarray, hint: str, *, good: float = 1e-6, fair: float = 1e-3
+    what: str,
+    got: np.ndarray,
+    right: np.ndarray,
+    hint: str,
+    *,
+    good: float = 1e-6,
+    fair: float = 1e-3,
 ) -> Verdict:
-    """Judge numbers by the one that is farthest off, as a share of the largest right one, and say which it is.
+    """Judge numbers by the one that is farthest off, as a share of the largest right one, and say
+    which it is.
 
     Args:
         what: What the numbers are.
@@ -27,4 +37,11 @@ def entries(
     said = f"Entry [{where}] is {against(float(got[at]), float(right[at]), 4)}."
     if not np.isfinite(off[at]):
         return fail(f"{what}: {said} {hint}")
-    return band(f"{what}: off by a share of", float(off[at]) / size, "", good=good, fair=fair, hint=f"{said} {hint}")
+    return band(
+        f"{what}: off by a share of",
+        float(off[at]) / size,
+        "",
+        good=good,
+        fair=fair,
+        hint=f"{said} {hint}",
+    )

@@ -1,13 +1,22 @@
-"""Write the linear problem of a circle: how far each point is from it, and how that changes with its centre and radius. The
-lesson's descent takes both from you at every step.
+"""Write the linear problem of a circle: how far each point is from it, and how that changes with
+its centre and radius. The lesson's descent takes both from you at every step.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.fitting.exercises import GRADERS, STUDENTS, entries
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry.circles_spheres import linearise_sphere
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.shapes.circles_spheres import linearise_sphere
 
 
 @contract(
@@ -30,15 +39,18 @@ def circle_linearised(
         p: The points, one row (x, y) each, metres.
 
     Returns:
-        The residuals (n,), each point's distance from the centre less R: positive outside, negative inside. And the Jacobian
-        (n, 3), by how much each residual changes per metre of x, of y and of R. A point at the centre itself has the
-        slopes 0, 0, -1.
+        The residuals (n,), each point's distance from the centre less R: positive outside, negative
+        inside. And the Jacobian (n, 3), by how much each residual changes per metre of x, of y and
+        of R. A point at the centre itself has the slopes 0, 0, -1.
     """
     return linearise_sphere(circle, p)
 
 
 RESIDUAL_HINT = "A residual is the distance from the centre less R: not squared, and with its sign."
-SLOPE_HINT = "Moving the centre towards a point brings it nearer: the row is −(p − c) / |p − c|, and then −1 for R."
+SLOPE_HINT = (
+    "Moving the centre towards a point brings it nearer: the row is −(p − c) / |p − c|, and then −1"
+    " for R."
+)
 
 
 def some_points(seed: int, n: int = 12) -> tuple[np.ndarray, np.ndarray]:
@@ -63,7 +75,9 @@ def judged(candidate: Function, circle: np.ndarray, p: np.ndarray) -> Verdict:
 def distances_have_signs(candidate: Function) -> Verdict:
     """Points outside are at positive distances, points inside at negative ones."""
     circle, p = some_points(STUDENTS)
-    return entries("Residuals", candidate(circle, p)[0], linearise_sphere(circle, p)[0], RESIDUAL_HINT)
+    return entries(
+        "Residuals", candidate(circle, p)[0], linearise_sphere(circle, p)[0], RESIDUAL_HINT
+    )
 
 
 @check(3)
@@ -84,7 +98,11 @@ def iterated_it_finds_the_circle(candidate: Function) -> Verdict:
     """Six steps of Gauss-Newton with it end at the circle with the least squared distances."""
     rng = np.random.default_rng(GRADERS())
     turn = rng.uniform(0.0, 4.0, 50)
-    p = np.column_stack([np.cos(turn), np.sin(turn)]) + 0.03 * rng.normal(size=(50, 2)) + [3.0, -2.0]
+    p = (
+        np.column_stack([np.cos(turn), np.sin(turn)])
+        + 0.03 * rng.normal(size=(50, 2))
+        + [3.0, -2.0]
+    )
     circle, right = np.array([3.2, -1.9, 0.8]), np.array([3.2, -1.9, 0.8])
     for _ in range(6):
         residuals, jacobian = candidate(circle, p)
@@ -97,15 +115,23 @@ def iterated_it_finds_the_circle(candidate: Function) -> Verdict:
 @check(2, public=False)
 def other_circles(candidate: Function) -> Verdict:
     """Large, small and far circles, and single points, have theirs."""
-    verdicts = [judged(candidate, *some_points(GRADERS() + 1, 1)), judged(candidate, *some_points(GRADERS() + 2, 40))]
+    verdicts = [
+        judged(candidate, *some_points(GRADERS() + 1, 1)),
+        judged(candidate, *some_points(GRADERS() + 2, 40)),
+    ]
     circle, p = some_points(GRADERS() + 3)
-    verdicts += [judged(candidate, 100.0 * circle, 100.0 * p), judged(candidate, 0.01 * circle, 0.01 * p)]
+    verdicts += [
+        judged(candidate, 100.0 * circle, 100.0 * p),
+        judged(candidate, 0.01 * circle, 0.01 * p),
+    ]
     return worst(verdicts)
 
 
 @check(1, public=False)
 def a_point_at_the_centre(candidate: Function) -> Verdict:
-    """A point at the centre has no direction, and slopes 0, 0, −1; a micrometre from it there is one."""
+    """A point at the centre has no direction, and slopes 0, 0, −1; a micrometre from it there is
+    one.
+    """
     circle = np.array([0.5, -0.25, 2.0])
     near = np.array([[0.5 + 1e-6, -0.25], [0.5, -0.25 - 2e-6], [0.5 - 3e-6, -0.25 + 4e-6]])
     here = judged(candidate, circle, np.array([[0.5, -0.25], [2.5, -0.25], [0.5, 3.0]]))
@@ -125,8 +151,8 @@ def minus_ones(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You squared: |p − c|² − R² is the algebraic distance of Kåsa's fit, which makes short arcs too small. Take "
-    "|p − c| − R."
+    "You squared: |p − c|² − R² is the algebraic distance of Kåsa's fit, which makes short arcs too"
+    " small. Take |p − c| − R."
 )
 def squared_distances(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Linearises the algebraic distance."""
@@ -135,7 +161,8 @@ def squared_distances(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np
 
 
 @mistake(
-    "Your Jacobian has the wrong sign: a centre that moves towards a point brings it nearer. Steps with it go uphill."
+    "Your Jacobian has the wrong sign: a centre that moves towards a point brings it nearer. Steps"
+    " with it go uphill."
 )
 def sign_of_the_jacobian(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Returns -J."""
@@ -144,8 +171,8 @@ def sign_of_the_jacobian(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray,
 
 
 @mistake(
-    "Your Jacobian is that of the squared distance, or not divided by |p − c|: the slopes by x and y are those "
-    "of a unit vector."
+    "Your Jacobian is that of the squared distance, or not divided by |p − c|: the slopes by x and"
+    " y are those of a unit vector."
 )
 def not_divided(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Leaves the direction long."""
@@ -153,7 +180,10 @@ def not_divided(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarr
     return length - circle[2], np.column_stack([-v, minus_ones(p)])
 
 
-@mistake("You take R − |p − c|, with its slopes. That fits the same circle, but here outside is positive: |p − c| − R.")
+@mistake(
+    "You take R − |p − c|, with its slopes. That fits the same circle, but here outside is"
+    " positive: |p − c| − R."
+)
 def turned_round(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Makes inside positive in both."""
     residuals, jacobian = linearise_sphere(circle, p)
@@ -161,7 +191,8 @@ def turned_round(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 @mistake(
-    "Your residuals have the wrong sign for your Jacobian: R − |p − c| with the slopes of |p − c| − R goes uphill."
+    "Your residuals have the wrong sign for your Jacobian: R − |p − c| with the slopes of |p − c| −"
+    " R goes uphill."
 )
 def residuals_turned_round(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Makes inside positive in the residuals alone."""
@@ -170,8 +201,8 @@ def residuals_turned_round(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarra
 
 
 @mistake(
-    "Your residuals have lost their sign. A distance with |...| around it has a kink at the circle: keep inside "
-    "negative."
+    "Your residuals have lost their sign. A distance with |...| around it has a kink at the circle:"
+    " keep inside negative."
 )
 def absolute_distances(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Takes the absolute value of the residuals."""
@@ -179,7 +210,10 @@ def absolute_distances(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, n
     return np.abs(residuals), jacobian
 
 
-@mistake("The column of R has the wrong sign: a larger circle is nearer to a point outside, so its slope is −1.")
+@mistake(
+    "The column of R has the wrong sign: a larger circle is nearer to a point outside, so its slope"
+    " is −1."
+)
 def sign_of_the_radius(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Has +1 for R."""
     residuals, jacobian = linearise_sphere(circle, p)
@@ -187,8 +221,8 @@ def sign_of_the_radius(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, n
 
 
 @mistake(
-    "Your slopes by x and y have the wrong sign, the one by R is right: a centre that moves towards a point is "
-    "nearer to it."
+    "Your slopes by x and y have the wrong sign, the one by R is right: a centre that moves towards"
+    " a point is nearer to it."
 )
 def sign_of_the_center(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Has +v / |v| for the centre."""
@@ -203,7 +237,10 @@ def radius_forgotten(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.
     return residuals + circle[2], jacobian
 
 
-@mistake("A point at the centre makes your Jacobian divide by 0. It has no direction: give it the slopes 0, 0, −1.")
+@mistake(
+    "A point at the centre makes your Jacobian divide by 0. It has no direction: give it the slopes"
+    " 0, 0, −1."
+)
 def divided_by_zero(circle: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Divides whatever the distance."""
     v, length, _ = parts(circle, p)

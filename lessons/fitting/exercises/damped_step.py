@@ -1,13 +1,22 @@
-"""Write the step of Levenberg and Marquardt. The lesson tries yours out at every iteration, keeps it where it lowers the sum
-of squares, and asks for a shorter one where it does not.
+"""Write the step of Levenberg and Marquardt. The lesson tries yours out at every iteration, keeps
+it where it lowers the sum of squares, and asks for a shorter one where it does not.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.fitting.exercises import GRADERS, STUDENTS, entries
-from workbench.algorithms import least_squares
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.algorithms.least_squares import descent as least_squares
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 
 
 @contract(
@@ -20,13 +29,15 @@ from workbench.exercise import Function, Verdict, alternative, check, contract, 
 def damped_step(
     residuals: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n k"], damping: float
 ) -> Float[np.ndarray, " k"]:
-    """Return the step that solves (JᵀJ + damping D) step = −Jᵀr, where D is the diagonal of JᵀJ and 0 beside it.
+    """Return the step that solves (JᵀJ + damping D) step = −Jᵀr, where D is the diagonal of JᵀJ and
+    0 beside it.
 
     With damping 0 it is the step of Gauss and Newton, to where the linear problem is least.
 
     Args:
         residuals: r, what should become small.
-        jacobian: J, by how much each of them changes per unit of each unknown. Its columns are independent.
+        jacobian: J, by how much each of them changes per unit of each unknown. Its columns are
+            independent.
         damping: 0 or more.
     """
     return least_squares.damped_step(residuals, jacobian, damping)
@@ -41,10 +52,14 @@ def problem(seed: int, n: int = 20, k: int = 3) -> tuple[np.ndarray, np.ndarray]
     return rng.normal(size=n), rng.normal(size=(n, k)) * rng.uniform(0.5, 2.0, k) + 0.3
 
 
-def judged(candidate: Function, residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> Verdict:
+def judged(
+    candidate: Function, residuals: np.ndarray, jacobian: np.ndarray, damping: float
+) -> Verdict:
     """Judge a step by its entries."""
     right = least_squares.damped_step(residuals, jacobian, damping)
-    return entries(f"Step with damping {damping:g}", candidate(residuals, jacobian, damping), right, HINT)
+    return entries(
+        f"Step with damping {damping:g}", candidate(residuals, jacobian, damping), right, HINT
+    )
 
 
 @check(2)
@@ -56,7 +71,10 @@ def without_damping(candidate: Function) -> Verdict:
 @check(3)
 def with_damping(candidate: Function) -> Verdict:
     """Damping adds to the diagonal, each entry in its own unit."""
-    return worst(judged(candidate, *problem(STUDENTS + k), damping) for k, damping in enumerate((0.1, 1.0, 30.0)))
+    return worst(
+        judged(candidate, *problem(STUDENTS + k), damping)
+        for k, damping in enumerate((0.1, 1.0, 30.0))
+    )
 
 
 @check(1)
@@ -67,16 +85,25 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_units(candidate: Function) -> Verdict:
-    """An unknown counted in millimetres gets a step a thousand times as large, in kilometres a thousandth."""
+    """An unknown counted in millimetres gets a step a thousand times as large, in kilometres a
+    thousandth.
+    """
     residuals, jacobian = problem(GRADERS())
-    return worst(judged(candidate, residuals, jacobian / [1.0, unit, 1.0], 0.2) for unit in (1000.0, 0.001))
+    return worst(
+        judged(candidate, residuals, jacobian / [1.0, unit, 1.0], 0.2) for unit in (1000.0, 0.001)
+    )
 
 
 @check(2, public=False)
 def other_sizes(candidate: Function) -> Verdict:
-    """Other numbers of unknowns have their steps too, with little damping and with much; where r is 0 the step is 0."""
+    """Other numbers of unknowns have their steps too, with little damping and with much; where r is
+    0 the step is 0.
+    """
     sizes = ((5, 1, 0.0), (8, 2, 0.3), (40, 5, 2.0), (6, 6, 0.01), (9, 3, 1e-4), (9, 3, 1e5))
-    found = [judged(candidate, *problem(GRADERS() + k, n, m), damping) for k, (n, m, damping) in enumerate(sizes, 1)]
+    found = [
+        judged(candidate, *problem(GRADERS() + k, n, m), damping)
+        for k, (n, m, damping) in enumerate(sizes, 1)
+    ]
     return worst([*found, judged(candidate, np.zeros(8), problem(GRADERS())[1][:8], 0.5)])
 
 
@@ -86,11 +113,14 @@ def normal(jacobian: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You added damping times the identity. Marquardt's matrix has the diagonal of JᵀJ, so that units do not matter."
+    "You added damping times the identity. Marquardt's matrix has the diagonal of JᵀJ, so that"
+    " units do not matter."
 )
 def identity(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Adds damping I."""
-    return np.linalg.solve(normal(jacobian) + damping * np.eye(jacobian.shape[1]), -jacobian.T @ residuals)
+    return np.linalg.solve(
+        normal(jacobian) + damping * np.eye(jacobian.shape[1]), -jacobian.T @ residuals
+    )
 
 
 @mistake("Your step has the wrong sign: it goes up. The right side is −Jᵀr.")
@@ -99,19 +129,28 @@ def uphill(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.nd
     return -least_squares.damped_step(residuals, jacobian, damping)
 
 
-@mistake("You shortened Gauss and Newton's step by 1 + damping. Damping also turns the step: it goes into the matrix.")
+@mistake(
+    "You shortened Gauss and Newton's step by 1 + damping. Damping also turns the step: it goes"
+    " into the matrix."
+)
 def shortened(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Divides the step."""
     return least_squares.damped_step(residuals, jacobian, 0.0) / (1.0 + damping)
 
 
-@mistake("Your step does not depend on the damping. It belongs on the diagonal: JᵀJ + damping · diag(JᵀJ).")
+@mistake(
+    "Your step does not depend on the damping. It belongs on the diagonal: JᵀJ + damping ·"
+    " diag(JᵀJ)."
+)
 def undamped(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Leaves the damping out."""
     return least_squares.damped_step(residuals, jacobian, 0.0)
 
 
-@mistake("You replaced the diagonal by damping times itself. It is added to it: the diagonal grows by 1 + damping.")
+@mistake(
+    "You replaced the diagonal by damping times itself. It is added to it: the diagonal grows by 1"
+    " + damping."
+)
 def replaced(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Writes over the diagonal."""
     A = normal(jacobian)
@@ -138,7 +177,10 @@ def everywhere(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> n
     return np.linalg.lstsq(normal(jacobian) + damping, -jacobian.T @ residuals, rcond=None)[0]
 
 
-@mistake("You return −Jᵀr, the way down, without the matrix: it has another unit than a step. Solve with JᵀJ.")
+@mistake(
+    "You return −Jᵀr, the way down, without the matrix: it has another unit than a step. Solve with"
+    " JᵀJ."
+)
 def gradient(residuals: np.ndarray, jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Goes down the gradient."""
     return -jacobian.T @ residuals

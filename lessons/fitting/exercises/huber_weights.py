@@ -1,13 +1,22 @@
-"""Write how much each point counts under Huber's loss. The lesson's robust fits of a plane take their weights from you,
-round by round: choose the preset drift.
+"""Write how much each point counts under Huber's loss. The lesson's robust fits of a plane take
+their weights from you, round by round: choose the preset drift.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.fitting.exercises import GRADERS, STUDENTS, entries
-from workbench.algorithms import robust
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.algorithms.robust import estimators as robust
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 
 
 @contract(
@@ -21,8 +30,8 @@ from workbench.exercise import Function, Verdict, alternative, check, contract, 
 def huber_weights(residuals: Float[np.ndarray, " n"], corner: float) -> Float[np.ndarray, " n"]:
     """Return the weights with which least squares has the slope of Huber's loss.
 
-    The loss is r² / 2 up to the corner on both sides, and goes straight on from there: corner (|r| − corner / 2). A weight
-    is its slope divided by r, 1 at r = 0.
+    The loss is r² / 2 up to the corner on both sides, and goes straight on from there: corner (|r|
+    − corner / 2). A weight is its slope divided by r, 1 at r = 0.
 
     Args:
         residuals: Signed distances, metres.
@@ -41,7 +50,9 @@ def some_residuals(seed: int, corner: float, n: int = 15) -> np.ndarray:
 
 def judged(candidate: Function, residuals: np.ndarray, corner: float) -> Verdict:
     """Judge weights by their entries."""
-    return entries("Weights", candidate(residuals, corner), robust.huber_weights(residuals, corner), HINT)
+    return entries(
+        "Weights", candidate(residuals, corner), robust.huber_weights(residuals, corner), HINT
+    )
 
 
 @check(2)
@@ -54,7 +65,8 @@ def near_points_count_fully(candidate: Function) -> Verdict:
 def far_points_count_less(candidate: Function) -> Verdict:
     """Points beyond the corner lose weight with their distance, on either side."""
     return worst(
-        judged(candidate, some_residuals(STUDENTS + k, corner), corner) for k, corner in enumerate((1.0, 0.03))
+        judged(candidate, some_residuals(STUDENTS + k, corner), corner)
+        for k, corner in enumerate((1.0, 0.03))
     )
 
 
@@ -73,22 +85,34 @@ def all_on_one_side(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_corners(candidate: Function) -> Verdict:
-    """Other corners, single points, points at a corner, on the plane and very far off it have their weights too."""
-    cases = [(some_residuals(GRADERS() + 1, 4.685, 30), 4.685), (np.array([-2.5]), 1.345), (np.array([0.0]), 0.1)]
-    cases += [(np.array([-0.5, 0.5, 1e-9, -1e-9, 0.0]), 0.5), (np.array([4e3, -9e2, 0.0]), 0.2), (np.zeros(4), 0.3)]
+    """Other corners, single points, points at a corner, on the plane and very far off it have their
+    weights too.
+    """
+    cases = [
+        (some_residuals(GRADERS() + 1, 4.685, 30), 4.685),
+        (np.array([-2.5]), 1.345),
+        (np.array([0.0]), 0.1),
+    ]
+    cases += [
+        (np.array([-0.5, 0.5, 1e-9, -1e-9, 0.0]), 0.5),
+        (np.array([4e3, -9e2, 0.0]), 0.2),
+        (np.zeros(4), 0.3),
+    ]
     cases.append((some_residuals(GRADERS() + 2, 1e-5), 1e-5))
     return worst(judged(candidate, r, corner) for r, corner in cases)
 
 
-@mistake("Points far on the negative side have weight 1, or more: take the absolute value of a residual.")
+@mistake(
+    "Points far on the negative side have weight 1, or more: take the absolute value of a residual."
+)
 def no_absolute(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Compares signed residuals."""
     return corner / np.maximum(residuals, corner)
 
 
 @mistake(
-    "Your weights are squared: corner² / r² falls too fast. The slope of Huber's loss beyond the corner is "
-    "corner, divided by r."
+    "Your weights are squared: corner² / r² falls too fast. The slope of Huber's loss beyond the"
+    " corner is corner, divided by r."
 )
 def squared(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Squares the weights."""
@@ -107,13 +131,18 @@ def loss(residuals: np.ndarray, corner: float) -> np.ndarray:
     return robust.huber_loss(residuals, corner)
 
 
-@mistake("You cut: 1 within the corner and 0 beyond. Huber lets far points pull, with corner / |r|.")
+@mistake(
+    "You cut: 1 within the corner and 0 beyond. Huber lets far points pull, with corner / |r|."
+)
 def cut(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Leaves far points out."""
     return (np.abs(residuals) <= corner).astype(float)
 
 
-@mistake("Near points have weights above 1 in your answer. Up to the corner every point counts alike: at most 1.")
+@mistake(
+    "Near points have weights above 1 in your answer. Up to the corner every point counts alike: at"
+    " most 1."
+)
 def unbounded(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Takes corner / |r| everywhere."""
     return corner / np.maximum(np.abs(residuals), 1e-9)
@@ -126,29 +155,36 @@ def upside_down(residuals: np.ndarray, corner: float) -> np.ndarray:
 
 
 @mistake(
-    "You took the square root of the weights, which multiplies rows of a linear problem. The weights themselves "
-    "are asked for."
+    "You took the square root of the weights, which multiplies rows of a linear problem. The"
+    " weights themselves are asked for."
 )
 def square_root(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Takes the root."""
     return np.sqrt(robust.huber_weights(residuals, corner))
 
 
-@mistake("Beyond the corner your weight is 1 / |r|. It is corner / |r|, so that it goes on from 1 without a jump.")
+@mistake(
+    "Beyond the corner your weight is 1 / |r|. It is corner / |r|, so that it goes on from 1"
+    " without a jump."
+)
 def jumps(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Forgets the corner in the numerator."""
     far = np.abs(residuals)
     return np.where(far <= corner, 1.0, 1.0 / np.where(far > 0, far, 1.0))
 
 
-@mistake("These are the weights of Cauchy's loss, 1 / (1 + (r / corner)²). Huber's are exactly 1 up to the corner.")
+@mistake(
+    "These are the weights of Cauchy's loss, 1 / (1 + (r / corner)²). Huber's are exactly 1 up to"
+    " the corner."
+)
 def cauchy(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Takes another loss."""
     return robust.CAUCHY.weights(residuals, corner)
 
 
 @mistake(
-    "These are the weights of Tukey's loss, 0 beyond the corner. Huber's are corner / |r| there, and exactly 1 within."
+    "These are the weights of Tukey's loss, 0 beyond the corner. Huber's are corner / |r| there,"
+    " and exactly 1 within."
 )
 def tukey(residuals: np.ndarray, corner: float) -> np.ndarray:
     """Takes another loss."""

@@ -1,13 +1,23 @@
-"""Write the graph of nearest neighbours of a cloud: an edge wherever one point is among the k nearest others of the other.
-The lesson grows its graphs with your function, colours their pieces, and cuts them.
+"""Write the graph of nearest neighbours of a cloud: an edge wherever one point is among the k
+nearest others of the other. The lesson grows its graphs with your function, colours their pieces,
+and cuts them.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.graphs.exercises import GRADERS, STUDENTS, matrix_verdict
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import graphs
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.graphs import adjacency as graphs
 from workbench.geometry.motions import exp_so3
 
 
@@ -32,21 +42,27 @@ def with_a_pair(seed: int) -> np.ndarray:
             "knn_adjacency(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0], [7, 0, 0]]), 1)",
             "[[0, 1, 0, 0], [1, 0, 1, 0], [0, 1, 0, 1], [0, 0, 1, 0]]",
         ),
-        ("knn_adjacency(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0]]), 2)", "[[0, 1, 1], [1, 0, 1], [1, 1, 0]]"),
+        (
+            "knn_adjacency(np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0]]), 2)",
+            "[[0, 1, 1], [1, 0, 1], [1, 1, 0]]",
+        ),
     ),
 )
 def knn_adjacency(p: Float[np.ndarray, "n d"], k: int) -> Float[np.ndarray, "n n"]:
     """Return the symmetric adjacency matrix of the k-nearest-neighbour graph, entries 0 or 1.
 
-    There is an edge between two points where either of them is among the k nearest others of the other.
+    There is an edge between two points where either of them is among the k nearest others of the
+    other.
 
     Args:
-        p: Points, one row each, metres. Distances that would compete for the last place are never equal.
+        p: Points, one row each, metres. Distances that would compete for the last place are never
+            equal.
         k: How many neighbours each point names, 0 < k < n.
 
     Returns:
-        A[i, j] = A[j, i] = 1 for an edge, else 0. The diagonal is 0: a point is not its own neighbour, also where another
-        lies at its place. Every row has k ones or more. The input stays as it is.
+        A[i, j] = A[j, i] = 1 for an edge, else 0. The diagonal is 0: a point is not its own
+        neighbour, also where another lies at its place. Every row has k ones or more. The input
+        stays as it is.
     """
     return graphs.knn_adjacency(p, k)
 
@@ -74,7 +90,9 @@ def four_on_a_line(candidate: Function) -> Verdict:
 
 @check(2)
 def two_lumps(candidate: Function) -> Verdict:
-    """40 points of two densities with four neighbours each: a naming that is not returned is an edge too."""
+    """40 points of two densities with four neighbours each: a naming that is not returned is an
+    edge too.
+    """
     return found(candidate, cloud(STUDENTS, 40), 4)
 
 
@@ -88,12 +106,16 @@ def points_are_left_alone(candidate: Function) -> Verdict:
 def other_counts(candidate: Function) -> Verdict:
     """One neighbour to all but one, few points and many."""
     cases = ((2, 1), (10, 9), (30, 1), (60, 7))
-    return worst(found(candidate, cloud(GRADERS() + n, n), k, f"{n} points, k = {k}: ") for n, k in cases)
+    return worst(
+        found(candidate, cloud(GRADERS() + n, n), k, f"{n} points, k = {k}: ") for n, k in cases
+    )
 
 
 @check(2, public=False)
 def moved_clouds(candidate: Function) -> Verdict:
-    """Turned, moved a kilometre, enlarged, made tiny or in another order it is the same; points may have 1 or 5 numbers."""
+    """Turned, moved a kilometre, enlarged, made tiny or in another order it is the same; points may
+    have 1 or 5 numbers.
+    """
     rng = np.random.default_rng(GRADERS())
     p = cloud(GRADERS() + 1, 50)
     away = 3.0 * p @ exp_so3(rng.normal(size=3)).T + 1000.0 * rng.normal(size=3)
@@ -105,15 +127,22 @@ def moved_clouds(candidate: Function) -> Verdict:
 @check(1, public=False)
 def two_at_one_place(candidate: Function) -> Verdict:
     """Of two points at one place each names the other, and not itself, of three both others."""
-    verdicts = [found(candidate, with_a_pair(GRADERS() + k), 1, "Two at one place: ") for k in range(3)]
-    verdicts += [found(candidate, with_a_pair(GRADERS() + k), 3, "Two at one place, k = 3: ") for k in range(3)]
+    verdicts = [
+        found(candidate, with_a_pair(GRADERS() + k), 1, "Two at one place: ") for k in range(3)
+    ]
+    verdicts += [
+        found(candidate, with_a_pair(GRADERS() + k), 3, "Two at one place, k = 3: ")
+        for k in range(3)
+    ]
     p = with_a_pair(GRADERS() + 3)
     p[0] = p[9]
     return worst([*verdicts, found(candidate, p, 2, "Three at one place: ")])
 
 
 def ranks(p: np.ndarray) -> np.ndarray:
-    """Return for every point all points in the order of their distance, itself among them, ties by number."""
+    """Return for every point all points in the order of their distance, itself among them, ties by
+    number.
+    """
     return np.argsort(np.linalg.norm(p[:, None] - p, axis=2), axis=1, kind="stable")
 
 
@@ -125,7 +154,8 @@ def joined(rows: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Each point found itself first and used up one of its k neighbours. Ask for k + 1 and leave the point itself out."
+    "Each point found itself first and used up one of its k neighbours. Ask for k + 1 and leave the"
+    " point itself out."
 )
 def itself_counted(p: np.ndarray, k: int) -> np.ndarray:
     """The k nearest, of which the point is one; the diagonal is cleared."""
@@ -134,26 +164,35 @@ def itself_counted(p: np.ndarray, k: int) -> np.ndarray:
     return adjacency
 
 
-@mistake("Each point is its own neighbour and takes one of the k places: the diagonal is 1. Nobody names itself here.")
+@mistake(
+    "Each point is its own neighbour and takes one of the k places: the diagonal is 1. Nobody names"
+    " itself here."
+)
 def loops_that_take_a_place(p: np.ndarray, k: int) -> np.ndarray:
     """The k nearest, of which the point is one."""
     return joined(ranks(p)[:, :k])
 
 
-@mistake("The edges are right, but the diagonal is 1: a point is not its own neighbour. Set it to 0.")
+@mistake(
+    "The edges are right, but the diagonal is 1: a point is not its own neighbour. Set it to 0."
+)
 def loops_kept(p: np.ndarray, k: int) -> np.ndarray:
     """Right but for the diagonal."""
     return np.maximum(graphs.knn_adjacency(p, k), np.eye(len(p)))
 
 
-@mistake("Your matrix is not symmetric: you kept who names whom. An edge has no direction: take the maximum with A.T.")
+@mistake(
+    "Your matrix is not symmetric: you kept who names whom. An edge has no direction: take the"
+    " maximum with A.T."
+)
 def one_way(p: np.ndarray, k: int) -> np.ndarray:
     """Who names whom."""
     return graphs.directed_graph(graphs.neighbours(p, k)[0]).toarray()
 
 
 @mistake(
-    "You kept an edge only where both points name each other. Asked for is an edge where either does: `or`, not `and`."
+    "You kept an edge only where both points name each other. Asked for is an edge where either"
+    " does: `or`, not `and`."
 )
 def mutual(p: np.ndarray, k: int) -> np.ndarray:
     """The mutual graph: some points keep fewer than k."""
@@ -161,7 +200,10 @@ def mutual(p: np.ndarray, k: int) -> np.ndarray:
     return named * named.T
 
 
-@mistake("You added A and A.T: where both name each other the entry is 2. Entries are 0 or 1: take the maximum.")
+@mistake(
+    "You added A and A.T: where both name each other the entry is 2. Entries are 0 or 1: take the"
+    " maximum."
+)
 def added_up(p: np.ndarray, k: int) -> np.ndarray:
     """A + A.T."""
     named = one_way(p, k)
@@ -180,15 +222,18 @@ def farthest(p: np.ndarray, k: int) -> np.ndarray:
     return joined(ranks(p)[:, -k:])
 
 
-@mistake("You average the two directions: an edge that one end names is 0.5. Either naming makes a whole edge, 1.")
+@mistake(
+    "You average the two directions: an edge that one end names is 0.5. Either naming makes a whole"
+    " edge, 1."
+)
 def averaged(p: np.ndarray, k: int) -> np.ndarray:
     """(A + A.T) / 2."""
     return added_up(p, k) / 2
 
 
 @mistake(
-    "All is right but where two points lie at one place: the first column of a search is then not always the point itself."
-    " Leave it out by its number, not by its place."
+    "All is right but where two points lie at one place: the first column of a search is then not"
+    " always the point itself. Leave it out by its number, not by its place."
 )
 def first_column_dropped(p: np.ndarray, k: int) -> np.ndarray:
     """Takes the first of the order for the point itself."""

@@ -1,5 +1,6 @@
-"""Write the Laplacian of a weighted graph from its adjacency matrix. What you return is what the lesson's spectra, cuts and
-heat are computed from: watch the eigenvalues, and whether a constant still costs nothing.
+"""Write the Laplacian of a weighted graph from its adjacency matrix. What you return is what the
+lesson's spectra, cuts and heat are computed from: watch the eigenvalues, and whether a constant
+still costs nothing.
 """
 
 import numpy as np
@@ -18,27 +19,32 @@ from workbench.exercise import (
     mistake,
     worst,
 )
-from workbench.geometry import graphs
+from workbench.geometry.graphs import adjacency as graphs
 
 
 @contract(
     slot="laplacian",
     forbid=("scipy.sparse.csgraph",),
     examples=(
-        ("laplacian(np.array([[0.0, 1, 0], [1, 0, 1], [0, 1, 0]]))", "[[1, -1, 0], [-1, 2, -1], [0, -1, 1]]"),
+        (
+            "laplacian(np.array([[0.0, 1, 0], [1, 0, 1], [0, 1, 0]]))",
+            "[[1, -1, 0], [-1, 2, -1], [0, -1, 1]]",
+        ),
         ("laplacian(np.array([[0.0, 2.5], [2.5, 0]]))", "[[2.5, -2.5], [-2.5, 2.5]]"),
     ),
 )
 def laplacian(adjacency: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n n"]:
-    """Return L = D - A, D being the diagonal matrix of the degrees, the sums of weights at each node.
+    """Return L = D - A, D being the diagonal matrix of the degrees, the sums of weights at each
+    node.
 
     Args:
-        adjacency: A, symmetric, without negative entries, 0 on the diagonal. A[i, j] is the weight of the edge between
-            nodes i and j, 0 where there is none; weights are any positive numbers.
+        adjacency: A, symmetric, without negative entries, 0 on the diagonal. A[i, j] is the weight
+            of the edge between nodes i and j, 0 where there is none; weights are any positive
+            numbers.
 
     Returns:
-        (L u)[i] is the sum over j of A[i, j] (u[i] - u[j]). Every row adds up to 0; the row of a node without edges is 0.
-        Nothing is divided by the degrees. The input stays as it is.
+        (L u)[i] is the sum over j of A[i, j] (u[i] - u[j]). Every row adds up to 0; the row of a
+        node without edges is 0. Nothing is divided by the degrees. The input stays as it is.
     """
     return graphs.laplacian(adjacency)
 
@@ -88,24 +94,35 @@ def a_constant_costs_nothing(candidate: Function) -> Verdict:
 def graphs_of_all_sizes(candidate: Function) -> Verdict:
     """Graphs of 2 to 60 nodes, sparse and full, entry by entry."""
     sizes = ((2, 1.0), (9, 0.3), (25, 1.0), (60, 0.1))
-    return worst(found(candidate, weighted(GRADERS() + 10 + n, n, chance), f"{n} nodes: ") for n, chance in sizes)
+    return worst(
+        found(candidate, weighted(GRADERS() + 10 + n, n, chance), f"{n} nodes: ")
+        for n, chance in sizes
+    )
 
 
 @check(1, public=False)
 def nodes_without_edges(candidate: Function) -> Verdict:
-    """A node without edges has a row of zeros, a graph of one node is 0; weights of a millionth and of a million count."""
+    """A node without edges has a row of zeros, a graph of one node is 0; weights of a millionth and
+    of a million count.
+    """
     lonely = weighted(GRADERS() + 20, 7)
     lonely[:, [2, 5]] = lonely[[2, 5]] = 0.0
-    none = [found(candidate, np.zeros((n, n)), what) for n, what in ((1, "One node: "), (4, "Four lone nodes: "))]
+    none = [
+        found(candidate, np.zeros((n, n)), what)
+        for n, what in ((1, "One node: "), (4, "Four lone nodes: "))
+    ]
     large = found(candidate, 1e6 * weighted(GRADERS() + 21, 6), "Weights of a million: ")
     small = 1e-3 * weighted(GRADERS() + 22, 6)
     hint = f"Weights of a thousandth count. {HINT}"
-    tiny = matrix_verdict(1e3 * candidate(1e-3 * small), 1e3 * graphs.laplacian(1e-3 * small), hint, "Tiny weights: ")
+    tiny = matrix_verdict(
+        1e3 * candidate(1e-3 * small), 1e3 * graphs.laplacian(1e-3 * small), hint, "Tiny weights: "
+    )
     return worst((found(candidate, lonely, "Two lone nodes: "), *none, large, tiny))
 
 
 @mistake(
-    "You returned A - D. The Laplacian is D - A: degrees on the diagonal are positive, its eigenvalues not negative."
+    "You returned A - D. The Laplacian is D - A: degrees on the diagonal are positive, its"
+    " eigenvalues not negative."
 )
 def sign(adjacency: np.ndarray) -> np.ndarray:
     """A - D."""
@@ -113,27 +130,35 @@ def sign(adjacency: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You counted neighbours on the diagonal. Where edges have weights, a degree is their sum: adjacency.sum(axis=1)."
+    "You counted neighbours on the diagonal. Where edges have weights, a degree is their sum:"
+    " adjacency.sum(axis=1)."
 )
 def neighbours_counted(adjacency: np.ndarray) -> np.ndarray:
     """The number of neighbours for the sum of their weights."""
     return np.diag((adjacency > 0).sum(axis=1).astype(float)) - adjacency
 
 
-@mistake("You returned D + A, the signless Laplacian. A constant then costs twice the degree; L = D - A.")
+@mistake(
+    "You returned D + A, the signless Laplacian. A constant then costs twice the degree; L = D - A."
+)
 def signless(adjacency: np.ndarray) -> np.ndarray:
     """D + A."""
     return np.diag(adjacency.sum(axis=1)) + adjacency
 
 
-@mistake("You divided each row by its degree: that is the random-walk Laplacian. Asked for is D - A itself.")
+@mistake(
+    "You divided each row by its degree: that is the random-walk Laplacian. Asked for is D - A"
+    " itself."
+)
 def divided_by_degrees(adjacency: np.ndarray) -> np.ndarray:
     """I - D^(-1) A."""
     d = adjacency.sum(axis=1)
     return graphs.laplacian(adjacency) / np.where(d > 0, d, 1.0)[:, None]
 
 
-@mistake("You returned the symmetric normalised Laplacian, 1 on its diagonal. Asked for is D - A itself.")
+@mistake(
+    "You returned the symmetric normalised Laplacian, 1 on its diagonal. Asked for is D - A itself."
+)
 def normalised(adjacency: np.ndarray) -> np.ndarray:
     """D^(-1/2) L D^(-1/2)."""
     d = adjacency.sum(axis=1)
@@ -141,7 +166,9 @@ def normalised(adjacency: np.ndarray) -> np.ndarray:
     return graphs.laplacian(adjacency) / root[:, None] / root
 
 
-@mistake("You took every edge for one of weight 1, on the diagonal and beside it. Keep the weights of A.")
+@mistake(
+    "You took every edge for one of weight 1, on the diagonal and beside it. Keep the weights of A."
+)
 def weights_ignored(adjacency: np.ndarray) -> np.ndarray:
     """The Laplacian of the graph without its weights."""
     return graphs.laplacian((adjacency > 0).astype(float))

@@ -1,11 +1,16 @@
-"""The exercises of this lesson: find partners, align pairs, step towards planes. All judged in degrees and metres."""
+"""The exercises of this lesson: find partners, align pairs, step towards planes. All judged in
+degrees and metres.
+"""
 
 import numpy as np
 
 from workbench.exercise import HiddenSeed
 from workbench.geometry.motions import exp_so3, motion
 
-STUDENTS, GRADERS = 37, HiddenSeed(8620)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    37,
+    HiddenSeed(8620),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 def a_motion(rng: np.random.Generator, degrees: float, metres: float = 1.0) -> np.ndarray:

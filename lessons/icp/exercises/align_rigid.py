@@ -1,5 +1,5 @@
-"""Write the rigid alignment of paired points (Kabsch), with the mirror image ruled out. The lesson's fit steps are made
-by it; it is judged in degrees and metres, never by its residual.
+"""Write the rigid alignment of paired points (Kabsch), with the mirror image ruled out. The
+lesson's fit steps are made by it; it is judged in degrees and metres, never by its residual.
 """
 
 import numpy as np
@@ -20,8 +20,7 @@ from workbench.exercise import (
     refused,
     worst,
 )
-from workbench.geometry import alignment
-from workbench.geometry.motions import apply, exp_so3, inverse, motion
+from workbench.geometry.motions import alignment, apply, exp_so3, inverse, motion
 
 
 @contract(
@@ -29,28 +28,38 @@ from workbench.geometry.motions import apply, exp_so3, inverse, motion
     forbid=("scipy.spatial.transform",),
     examples=(
         (
-            "align_rigid(np.array([[2.0, 0, 0], [3, 0, 0], [2, 1, 0]]), np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]))",
+            (
+                "align_rigid(np.array([[2.0, 0, 0], [3, 0, 0], [2, 1, 0]]), np.array([[0.0, 0, 0],"
+                " [1, 0, 0], [0, 1, 0]]))"
+            ),
             "[[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
         (
-            "align_rigid(np.array([[0.0, 0, 0], [0, 1, 0], [-1, 0, 0]]), np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]))",
+            (
+                "align_rigid(np.array([[0.0, 0, 0], [0, 1, 0], [-1, 0, 0]]), np.array([[0.0, 0, 0],"
+                " [1, 0, 0], [0, 1, 0]]))"
+            ),
             "[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
     ),
 )
-def align_rigid(p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "4 4"]:
+def align_rigid(
+    p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, "4 4"]:
     """Return the rigid motion T_target_source that brings paired points closest together.
 
-    It minimises the sum of the squared distances |p_target - (R p_source + t)| over all rotations R and translations t.
+    It minimises the sum of the squared distances |p_target - (R p_source + t)| over all rotations R
+    and translations t.
 
     Args:
         p_target: Points in the target frame, metres.
         p_source: Their partners in the source frame, metres: row k belongs to row k.
 
     Returns:
-        The 4x4 motion with R in the upper left, t in the last column and (0, 0, 0, 1) as last row. R is always a rotation
-        with determinant 1, also where a mirror image would fit better: flat clouds with noise, mirrored clouds. Points on
-        one line, or a single pair, leave a part of the turn open; any one of the best motions is right then.
+        The 4x4 motion with R in the upper left, t in the last column and (0, 0, 0, 1) as last row.
+        R is always a rotation with determinant 1, also where a mirror image would fit better: flat
+        clouds with noise, mirrored clouds. Points on one line, or a single pair, leave a part of
+        the turn open; any one of the best motions is right then.
 
     Raises:
         ValueError: If there are no pairs (n = 0).
@@ -58,7 +67,9 @@ def align_rigid(p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, 
     return alignment.align_rigid(p_target, p_source)
 
 
-ALIGN_HINT = "Centre both clouds, take the SVD of their covariance, and see which way round R belongs."
+ALIGN_HINT = (
+    "Centre both clouds, take the SVD of their covariance, and see which way round R belongs."
+)
 
 
 def a_cloud(rng: np.random.Generator, n: int = 60) -> np.ndarray:
@@ -66,9 +77,13 @@ def a_cloud(rng: np.random.Generator, n: int = 60) -> np.ndarray:
     return rng.normal(size=(n, 3)) * [0.5, 0.3, 0.2] + [0.4, -0.7, 0.3]
 
 
-def aligned(candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = ALIGN_HINT) -> Verdict:
+def aligned(
+    candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = ALIGN_HINT
+) -> Verdict:
     """Judge by the least-squares motion: in degrees, and in metres at the points."""
-    return motion_verdict(candidate(p_target, p_source), alignment.align_rigid(p_target, p_source), hint, p=p_source)
+    return motion_verdict(
+        candidate(p_target, p_source), alignment.align_rigid(p_target, p_source), hint, p=p_source
+    )
 
 
 @check(2)
@@ -79,18 +94,26 @@ def exact_pairs(candidate: Function) -> Verdict:
         rng = np.random.default_rng(STUDENTS + k)
         T, p_source = a_motion(rng, degrees), a_cloud(rng)
         found = candidate(apply(T, p_source), p_source)
-        verdicts.append(motion_verdict(found, T, f"{degrees:g} degrees apart. {ALIGN_HINT}", p=p_source))
+        verdicts.append(
+            motion_verdict(found, T, f"{degrees:g} degrees apart. {ALIGN_HINT}", p=p_source)
+        )
     return worst(verdicts)
 
 
 @check(2)
 def turned_rod(candidate: Function) -> Verdict:
-    """A rod turned by up to 170 degrees is turned back, though its ends look alike: half a turn leaves a small residual."""
+    """A rod turned by up to 170 degrees is turned back, though its ends look alike: half a turn
+    leaves a small residual.
+    """
     rng, verdicts = np.random.default_rng(STUDENTS + 5), []
     for degrees in (170.0, 120.0, -170.0):
         p_source = rng.normal(size=(80, 3)) * [0.6, 0.012, 0.01]
-        T = motion(exp_so3(np.radians(degrees) * np.array([0.0, 0.6, 0.8])), np.array([0.2, 0.1, -0.3]))
-        verdicts.append(motion_verdict(candidate(apply(T, p_source), p_source), T, ALIGN_HINT, p=p_source))
+        T = motion(
+            exp_so3(np.radians(degrees) * np.array([0.0, 0.6, 0.8])), np.array([0.2, 0.1, -0.3])
+        )
+        verdicts.append(
+            motion_verdict(candidate(apply(T, p_source), p_source), T, ALIGN_HINT, p=p_source)
+        )
     return worst(verdicts)
 
 
@@ -109,7 +132,9 @@ def noisy_pairs(candidate: Function) -> Verdict:
     for k in range(3):
         rng = np.random.default_rng(GRADERS() + k)
         p_source = a_cloud(rng, 200)
-        p_target = apply(a_motion(rng, 60.0 + 40.0 * k), p_source) + 0.02 * rng.normal(size=p_source.shape)
+        p_target = apply(a_motion(rng, 60.0 + 40.0 * k), p_source) + 0.02 * rng.normal(
+            size=p_source.shape
+        )
         verdicts += [aligned(candidate, p_target, p_source), aligned(candidate, p_source, p_target)]
     return worst(verdicts)
 
@@ -125,54 +150,81 @@ def no_mirror_image(candidate: Function) -> Verdict:
         verdicts.append(aligned(candidate, p_target, flat, "Is the determinant of R 1 here?"))
         solid = a_cloud(rng)
         mirrored = apply(a_motion(rng, 20.0 * k), solid * [1.0, 1.0, -1.0])
-        verdicts.append(aligned(candidate, mirrored, solid, "The cloud is mirrored: is the determinant of R 1?"))
+        verdicts.append(
+            aligned(candidate, mirrored, solid, "The cloud is mirrored: is the determinant of R 1?")
+        )
     return worst(verdicts)
 
 
 @check(1, public=False)
 def far_away(candidate: Function) -> Verdict:
-    """Clouds ten kilometres from the origin, of a centimetre, and half a turn apart are aligned as well."""
+    """Clouds ten kilometres from the origin, of a centimetre, and half a turn apart are aligned as
+    well.
+    """
     rng = np.random.default_rng(GRADERS() + 30)
     p_source = a_cloud(rng) + np.array([10_000.0, -4_000.0, 300.0])
-    p_target = apply(a_motion(rng, 75.0), p_source - p_source.mean(0)) + np.array([-6_000.0, 8_000.0, 0.0])
+    p_target = apply(a_motion(rng, 75.0), p_source - p_source.mean(0)) + np.array(
+        [-6_000.0, 8_000.0, 0.0]
+    )
     verdicts = [aligned(candidate, p_target, p_source)]
     small = 0.02 * a_cloud(rng)
-    verdicts.append(aligned(candidate, apply(a_motion(rng, 50.0, 0.1), small), small, f"Of a centimetre. {ALIGN_HINT}"))
+    verdicts.append(
+        aligned(
+            candidate,
+            apply(a_motion(rng, 50.0, 0.1), small),
+            small,
+            f"Of a centimetre. {ALIGN_HINT}",
+        )
+    )
     for turn in ([1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]):
         solid = a_cloud(rng)
-        verdicts.append(aligned(candidate, solid * turn + 0.5, solid, f"Half a turn apart. {ALIGN_HINT}"))
+        verdicts.append(
+            aligned(candidate, solid * turn + 0.5, solid, f"Half a turn apart. {ALIGN_HINT}")
+        )
     return worst(verdicts)
 
 
 @check(1, public=False)
 def points_on_a_line(candidate: Function) -> Verdict:
-    """Points on one line, at one place, and one pair to three get one of their best motions; no pairs are refused."""
+    """Points on one line, at one place, and one pair to three get one of their best motions; no
+    pairs are refused.
+    """
     rng = np.random.default_rng(GRADERS() + 40)
     line = np.outer(np.linspace(-1, 1, 9), [0.6, 0.0, 0.8]) + 0.3
     T = a_motion(rng, 65.0)
     verdicts = [refused(candidate, np.empty((0, 3)), np.empty((0, 3)), what="A call without pairs")]
     few = a_cloud(rng, 3)
-    cases = (("Points on a line", line), ("A single pair", line[:1]), ("Two pairs", few[:2]), ("Three pairs", few),
-             ("Points at one place", np.tile(few[0], (4, 1))))  # fmt: skip
+    cases = (
+        ("Points on a line", line),
+        ("A single pair", line[:1]),
+        ("Two pairs", few[:2]),
+        ("Three pairs", few),
+        ("Points at one place", np.tile(few[0], (4, 1))),
+    )
     for what, p_source in cases:
         got, p_target = candidate(apply(T, p_source), p_source), apply(T, p_source)
         moved = apply(got, p_source)
         away = float(np.linalg.norm(moved - p_target, axis=1).max())
         hint = beside(moved[-1], p_target[-1], ALIGN_HINT, "The last point")
         verdicts.append(motion_verdict(got, got, f"{what}. {ALIGN_HINT}"))
-        verdicts.append(band(f"{what}: largest distance left", away, "m", good=1e-3, fair=2e-2, hint=hint))
+        verdicts.append(
+            band(f"{what}: largest distance left", away, "m", good=1e-3, fair=2e-2, hint=hint)
+        )
     return worst(verdicts)
 
 
-@mistake("You moved the centroids onto each other and did not rotate. Find R from the covariance of the centred pairs.")
+@mistake(
+    "You moved the centroids onto each other and did not rotate. Find R from the covariance of the"
+    " centred pairs."
+)
 def centroids_only(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Matches the centroids and does not rotate."""
     return motion(np.eye(3), p_target.mean(0) - p_source.mean(0))
 
 
 @mistake(
-    "Your R equals the transpose of the right one. From the SVD U D V^T of sum(target source^T) it is U V^T, "
-    "from that of sum(source target^T) it is V U^T."
+    "Your R equals the transpose of the right one. From the SVD U D V^T of sum(target source^T) it"
+    " is U V^T, from that of sum(source target^T) it is V U^T."
 )
 def rotation_transposed(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Uses R^T, with the translation that goes with it."""
@@ -181,8 +233,8 @@ def rotation_transposed(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarra
 
 
 @mistake(
-    "Your R is right but where it is a mirror image (determinant -1), as on flat, noisy clouds. Flip the "
-    "direction with the smallest singular value then."
+    "Your R is right but where it is a mirror image (determinant -1), as on flat, noisy clouds."
+    " Flip the direction with the smallest singular value then."
 )
 def reflection_kept(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Leaves the determinant as it comes from the SVD."""
@@ -191,8 +243,8 @@ def reflection_kept(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Where the SVD gives a mirror image you negate all of R. Only the direction with the smallest singular "
-    "value changes its sign: it costs least."
+    "Where the SVD gives a mirror image you negate all of R. Only the direction with the smallest"
+    " singular value changes its sign: it costs least."
 )
 def whole_matrix_negated(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Negates R where its determinant is -1."""
@@ -202,8 +254,8 @@ def whole_matrix_negated(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarr
 
 
 @mistake(
-    "You returned the motion from target to source: the inverse of the right one. T_target_source takes source "
-    "points to the target."
+    "You returned the motion from target to source: the inverse of the right one. T_target_source"
+    " takes source points to the target."
 )
 def target_to_source(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Returns T_source_target."""
@@ -211,7 +263,8 @@ def target_to_source(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your rotation is right, your translation is not: the source's centroid turns too, t = mean_target - R mean_source."
+    "Your rotation is right, your translation is not: the source's centroid turns too, t ="
+    " mean_target - R mean_source."
 )
 def centroid_not_turned(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Uses t = mean_target - mean_source with any R."""
@@ -219,7 +272,10 @@ def centroid_not_turned(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarra
     return motion(T[:3, :3], p_target.mean(0) - p_source.mean(0))
 
 
-@mistake("You built the covariance from points that are not centred. Subtract each cloud's centroid first.")
+@mistake(
+    "You built the covariance from points that are not centred. Subtract each cloud's centroid"
+    " first."
+)
 def not_centred(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Takes the products of the points themselves."""
     R = alignment.nearest_rotation(p_target.T @ p_source)
@@ -227,14 +283,16 @@ def not_centred(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You laid the principal axes over each other. Their signs are open, so you may be half a turn off with a "
-    "small residual. The rows are pairs: use them."
+    "You laid the principal axes over each other. Their signs are open, so you may be half a turn"
+    " off with a small residual. The rows are pairs: use them."
 )
 def principal_axes(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Lays the principal axes over each other, whose signs nobody knows."""
     centred = (p - p.mean(0) for p in (p_target, p_source))
     axes_target, axes_source = (np.linalg.eigh(p.T @ p)[1] for p in centred)
-    axes_target, axes_source = (axes * [1, 1, np.sign(np.linalg.det(axes))] for axes in (axes_target, axes_source))
+    axes_target, axes_source = (
+        axes * [1, 1, np.sign(np.linalg.det(axes))] for axes in (axes_target, axes_source)
+    )
     R = axes_target @ axes_source.T
     return motion(R, p_target.mean(0) - R @ p_source.mean(0))
 

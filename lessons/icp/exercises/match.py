@@ -1,12 +1,12 @@
-"""Write ICP's first half: for every source point the index of its nearest target point. The lesson draws your
-correspondences, and fits the motion to them.
+"""Write ICP's first half: for every source point the index of its nearest target point. The lesson
+draws your correspondences, and fits the motion to them.
 """
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from lessons.icp.exercises import GRADERS, STUDENTS, a_motion
-from workbench.algorithms.icp import nearest
+from workbench.algorithms.registration.icp import nearest
 from workbench.exercise import (
     Function,
     Verdict,
@@ -29,20 +29,30 @@ from workbench.geometry.motions import apply
     slot="match",
     forbid=("scipy.spatial",),
     examples=(
-        ("match(np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0.9, 0, 0], [0.2, 0, 0], [5, 0, 0]]))", "[1, 0, 1]"),
+        (
+            (
+                "match(np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0.9, 0, 0], [0.2, 0, 0], [5,"
+                " 0, 0]]))"
+            ),
+            "[1, 0, 1]",
+        ),
         ("match(np.array([[0.0, 0, 0], [0, 0, 1]]), np.array([[0.0, 0, 0.7]]))", "[1]"),
     ),
 )
-def match(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]) -> Int[np.ndarray, "n"]:
+def match(
+    p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]
+) -> Int[np.ndarray, "n"]:
     """Return for each source point the index of the target point nearest to it.
 
     Args:
         p_target: The cloud to find partners in, metres.
-        p_source: The points that want a partner, metres; in the target frame, as ICP has moved them so far.
+        p_source: The points that want a partner, metres; in the target frame, as ICP has moved them
+            so far.
 
     Returns:
-        n whole numbers from 0 to m - 1, Euclidean distances deciding. Several source points may share a partner, and target
-        points may stay without one. Where two target points are equally near, either is right.
+        n whole numbers from 0 to m - 1, Euclidean distances deciding. Several source points may
+        share a partner, and target points may stay without one. Where two target points are equally
+        near, either is right.
 
     Raises:
         ValueError: If there is no target point (m = 0).
@@ -50,11 +60,17 @@ def match(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]
     return np.asarray(nearest(p_target, p_source), dtype=np.int64)
 
 
-MATCH_HINT = "For each source point on its own: the smallest Euclidean distance to all target points."
+MATCH_HINT = (
+    "For each source point on its own: the smallest Euclidean distance to all target points."
+)
 
 
-def nearest_found(candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = MATCH_HINT) -> Verdict:
-    """Judge partners by their distance: all for the nearest everywhere, half where 19 of 20 have it."""
+def nearest_found(
+    candidate: Function, p_target: np.ndarray, p_source: np.ndarray, hint: str = MATCH_HINT
+) -> Verdict:
+    """Judge partners by their distance: all for the nearest everywhere, half where 19 of 20 have
+    it.
+    """
     indices, wanted = candidate(p_target, p_source), nearest(p_target, p_source)
     outside = int(((indices < 0) | (indices >= len(p_target))).sum())
     if outside:
@@ -67,9 +83,14 @@ def nearest_found(candidate: Function, p_target: np.ndarray, p_source: np.ndarra
     if wrong == 0:
         return full(f"All {len(indices)} partners are the nearest.")
     k = int(np.argmax(more))
-    said = f"{wrong} of {len(indices)} partners are not the nearest. [{k}] is {indices[k]}, right is {wanted[k]}: "
+    said = (
+        f"{wrong} of {len(indices)} partners are not the nearest. [{k}] is {indices[k]}, right is"
+        f" {wanted[k]}: "
+    )
     said += f"{number(more[k], 2)} m nearer."
-    return partial(0.5, f"{said} {hint}") if wrong <= 0.05 * len(indices) else fail(f"{said} {hint}")
+    return (
+        partial(0.5, f"{said} {hint}") if wrong <= 0.05 * len(indices) else fail(f"{said} {hint}")
+    )
 
 
 def two_clouds(seed: int, m: int, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -83,7 +104,9 @@ def few_points(candidate: Function) -> Verdict:
     """Four points find their partners among three, and two of them share one."""
     p_target = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     p_source = np.array([[0.9, 0.1, 0.2], [0.2, 0.1, 0.9], [1.4, 0.2, 0.3], [0.1, -0.2, 0.1]])
-    return nearest_found(candidate, p_target, p_source, f"Asked for were [1, 2, 1, 0]. {MATCH_HINT}")
+    return nearest_found(
+        candidate, p_target, p_source, f"Asked for were [1, 2, 1, 0]. {MATCH_HINT}"
+    )
 
 
 @check(2)
@@ -100,11 +123,15 @@ def clouds_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def uneven_clouds(candidate: Function) -> Verdict:
-    """Few targets for many points, many for few, and single ones are all served, in a room and in a town."""
+    """Few targets for many points, many for few, and single ones are all served, in a room and in a
+    town.
+    """
     sizes = ((7, 300), (300, 7), (1, 20), (90, 90), (30, 1))
     clouds = [two_clouds(GRADERS() + k, m, n) for k, (m, n) in enumerate(sizes)]
     p_target, p_source = two_clouds(GRADERS() + 9, 60, 60)
-    return worst(nearest_found(candidate, *pair) for pair in (*clouds, (2000 * p_target, 2000 * p_source)))
+    return worst(
+        nearest_found(candidate, *pair) for pair in (*clouds, (2000 * p_target, 2000 * p_source))
+    )
 
 
 @check(1, public=False)
@@ -115,7 +142,12 @@ def moved_clouds(candidate: Function) -> Verdict:
         p_target, p_source = two_clouds(GRADERS() + 10 + k, 120, 100)
         T = a_motion(np.random.default_rng(GRADERS() + k), 100.0, 1e6)
         verdicts.append(
-            nearest_found(candidate, apply(T, p_target), apply(T, p_source), "Far from the origin. " + MATCH_HINT)
+            nearest_found(
+                candidate,
+                apply(T, p_target),
+                apply(T, p_source),
+                "Far from the origin. " + MATCH_HINT,
+            )
         )
     return worst(verdicts)
 
@@ -124,18 +156,22 @@ def moved_clouds(candidate: Function) -> Verdict:
 def double_points(candidate: Function) -> Verdict:
     """Target points that occur twice do no harm."""
     p_target, p_source = two_clouds(GRADERS() + 20, 40, 60)
-    return nearest_found(candidate, np.vstack([p_target, p_target]), np.vstack([p_source, p_target]))
+    return nearest_found(
+        candidate, np.vstack([p_target, p_target]), np.vstack([p_source, p_target])
+    )
 
 
 @check(1, public=False)
 def no_target(candidate: Function) -> Verdict:
     """A target without points is refused."""
-    return refused(candidate, np.empty((0, 3)), two_clouds(GRADERS(), 1, 5)[1], what="An empty target")
+    return refused(
+        candidate, np.empty((0, 3)), two_clouds(GRADERS(), 1, 5)[1], what="An empty target"
+    )
 
 
 @mistake(
-    "You returned the nearest source point of each target point. Nearest neighbour is not symmetric: it must be "
-    "one target index for each source point."
+    "You returned the nearest source point of each target point. Nearest neighbour is not"
+    " symmetric: it must be one target index for each source point."
 )
 def matched_backwards(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Finds the source point nearest to each target point."""
@@ -143,8 +179,8 @@ def matched_backwards(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You paired points with the same row number. The rows of two scans have nothing to do with each other: "
-    "compare distances."
+    "You paired points with the same row number. The rows of two scans have nothing to do with each"
+    " other: compare distances."
 )
 def paired_by_row(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Pairs points with the same row number."""
@@ -152,8 +188,8 @@ def paired_by_row(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You give every target point away only once. In ICP several source points may share a partner: each takes "
-    "its nearest, on its own."
+    "You give every target point away only once. In ICP several source points may share a partner:"
+    " each takes its nearest, on its own."
 )
 def one_to_one(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Gives every target point away once, first come first served, as long as there are any."""
@@ -171,7 +207,10 @@ def height_ignored(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     return np.argmin(np.linalg.norm(p_source[:, None, :2] - p_target[:, :2], axis=2), axis=1)
 
 
-@mistake("You sum absolute differences. That is the Manhattan distance; sum their squares for the Euclidean one.")
+@mistake(
+    "You sum absolute differences. That is the Manhattan distance; sum their squares for the"
+    " Euclidean one."
+)
 def manhattan_distance(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Sums absolute differences."""
     return np.argmin(np.abs(p_source[:, None] - p_target).sum(axis=2), axis=1)
@@ -184,7 +223,8 @@ def farthest(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You use |a|^2 + |b|^2 - 2 a·b. Far from the origin these cancel and leave no digits: subtract the points first."
+    "You use |a|^2 + |b|^2 - 2 a·b. Far from the origin these cancel and leave no digits: subtract"
+    " the points first."
 )
 def squares_expanded(p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
     """Uses |a|^2 + |b|^2 - 2 a b, where far from the origin all digits cancel."""

@@ -1,5 +1,6 @@
-"""Write one linear point-to-plane step: the small motion that brings points closest to the tangent planes at their
-partners. The lesson uses it where its fit is point-to-plane: choose the preset plane to watch yours.
+"""Write one linear point-to-plane step: the small motion that brings points closest to the tangent
+planes at their partners. The lesson uses it where its fit is point-to-plane: choose the preset
+plane to watch yours.
 """
 
 import numpy as np
@@ -19,8 +20,7 @@ from workbench.exercise import (
     number,
     worst,
 )
-from workbench.geometry import alignment
-from workbench.geometry.motions import apply, exp_so3, motion, skew
+from workbench.geometry.motions import alignment, apply, exp_so3, motion, skew
 
 
 @contract(
@@ -28,35 +28,49 @@ from workbench.geometry.motions import apply, exp_so3, motion, skew
     preset="plane",
     examples=(
         (
-            "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0]]), np.array([[0.0, 0, 1]]))",
+            (
+                "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0]]),"
+                " np.array([[0.0, 0, 1]]))"
+            ),
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
         (
-            "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0.5]]), np.array([[0.0, 0, 1]]))",
+            (
+                "point_to_plane_step(np.array([[9.0, 0, 0]]), np.array([[0.0, 0, 0.5]]),"
+                " np.array([[0.0, 0, 1]]))"
+            ),
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, -0.5], [0, 0, 0, 1]]",
         ),
     ),
 )
 def point_to_plane_step(
-    p_target: Float[np.ndarray, "n 3"], p_source: Float[np.ndarray, "n 3"], n_target: Float[np.ndarray, "n 3"]
+    p_target: Float[np.ndarray, "n 3"],
+    p_source: Float[np.ndarray, "n 3"],
+    n_target: Float[np.ndarray, "n 3"],
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the small rigid motion that brings points closest to the tangent planes at their partners.
+    """Return the small rigid motion that brings points closest to the tangent planes at their
+    partners.
 
-    Solve the linear least-squares problem in the rotation vector w (radians) and the translation v (metres),
+    Solve the linear least-squares problem in the rotation vector w (radians) and the translation v
+    (metres),
 
         sum of ((p_source + w x p_source + v - p_target) . n_target)^2,
 
-    and return the motion that turns by |w| about w and shifts by v. You may count w from the origin or from the centroid
-    of p_source, as long as the motion that you return is that of the points: near the solution both are the same.
+    and return the motion that turns by |w| about w and shifts by v. You may count w from the origin
+    or from the centroid of p_source, as long as the motion that you return is that of the points:
+    near the solution both are the same.
 
     Args:
         p_target: A point on each plane, target frame, metres.
-        p_source: The points to move, row k towards plane k; in the target frame too, moved by the motion so far.
-        n_target: Unit normals of the planes, target frame. Either sign is right: n and -n are one plane.
+        p_source: The points to move, row k towards plane k; in the target frame too, moved by the
+            motion so far.
+        n_target: Unit normals of the planes, target frame. Either sign is right: n and -n are one
+            plane.
 
     Returns:
-        The 4x4 motion to be composed on the left, T_target_source = step @ T_target_source, with a proper rotation.
-        Directions that the planes leave open (sliding along a single plane) get the smallest motion, none.
+        The 4x4 motion to be composed on the left, T_target_source = step @ T_target_source, with a
+        proper rotation. Directions that the planes leave open (sliding along a single plane) get
+        the smallest motion, none.
     """
     return alignment.point_to_plane_step(p_target, p_source, n_target)
 
@@ -65,18 +79,24 @@ STEP_HINT = "Each pair gives one row: (p_source x n, n) times (w, v) is (p_targe
 
 
 def planes(rng: np.random.Generator, n: int = 80) -> tuple[np.ndarray, np.ndarray]:
-    """Return points and unit normals of a closed, uneven surface half a metre in size, aside from the origin."""
+    """Return points and unit normals of a closed, uneven surface half a metre in size, aside from
+    the origin.
+    """
     n_target = rng.normal(size=(n, 3))
     n_target /= np.linalg.norm(n_target, axis=1, keepdims=True)
     return n_target * [0.6, 0.4, 0.25] + [0.2, -0.1, 0.3], n_target
 
 
-def slid(rng: np.random.Generator, p: np.ndarray, normals: np.ndarray, metres: float = 0.1) -> np.ndarray:
+def slid(
+    rng: np.random.Generator, p: np.ndarray, normals: np.ndarray, metres: float = 0.1
+) -> np.ndarray:
     """Return other points of the same planes: nearest neighbours are never the very same points."""
     return p + np.cross(normals, rng.normal(size=p.shape)) * metres
 
 
-def arrived(candidate: Function, seed: int, degrees: float, metres: float, aside: float = 0.0) -> Verdict:
+def arrived(
+    candidate: Function, seed: int, degrees: float, metres: float, aside: float = 0.0
+) -> Verdict:
     """Judge the motion that six steps make of a start that is this far off."""
     rng = np.random.default_rng(seed)
     p_true, n_target = planes(rng)
@@ -88,7 +108,10 @@ def arrived(candidate: Function, seed: int, degrees: float, metres: float, aside
         T = candidate(p_target, apply(T, p_source), n_target) @ T
         if not np.abs(T).max() < 1e9:
             most = number(np.abs(T).max(), 2)
-            return fail(f"The steps run away: the largest number of T is {most}, right is below 10. {STEP_HINT}")
+            return fail(
+                f"The steps run away: the largest number of T is {most}, right is below 10."
+                f" {STEP_HINT}"
+            )
     away = motion(off[:3, :3], c + off[:3, 3] - off[:3, :3] @ c)
     said = f"T_left is the motion that is left after six steps. {STEP_HINT}"
     return motion_verdict(T @ away, np.eye(4), said, p=p_true, name="T_left")
@@ -96,7 +119,9 @@ def arrived(candidate: Function, seed: int, degrees: float, metres: float, aside
 
 @check(1)
 def shift_only(candidate: Function) -> Verdict:
-    """Points that are only shifted come back in one step, though their partners lie elsewhere on the planes."""
+    """Points that are only shifted come back in one step, though their partners lie elsewhere on
+    the planes.
+    """
     rng = np.random.default_rng(STUDENTS)
     p_true, n_target = planes(rng)
     right = motion(np.eye(3), np.array([0.03, -0.05, 0.08]))
@@ -116,10 +141,14 @@ def planes_are_left_alone(candidate: Function) -> Verdict:
     rng = np.random.default_rng(STUDENTS + 3)
     p_true, n_target = planes(rng)
     p_source = apply(a_motion(rng, 1.0, 0.02), p_true)
-    return left_alone(candidate, _stepped(candidate(p_true, p_source, n_target), p_true, p_source, n_target))
+    return left_alone(
+        candidate, _stepped(candidate(p_true, p_source, n_target), p_true, p_source, n_target)
+    )
 
 
-def _stepped(step: np.ndarray, p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> Verdict:
+def _stepped(
+    step: np.ndarray, p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
+) -> Verdict:
     right = alignment.point_to_plane_step(p_target, p_source, n_target)
     return motion_verdict(step, right, STEP_HINT, p=p_source)
 
@@ -133,7 +162,9 @@ def noisy_step(candidate: Function) -> Verdict:
         p_true, n_target = planes(rng, 150)
         p_source = apply(a_motion(rng, 0.5, 0.02), p_true) + 0.005 * rng.normal(size=p_true.shape)
         p_target, signs = slid(rng, p_true, n_target), rng.choice([-1.0, 1.0], (150, 1))
-        verdicts.append(_stepped(candidate(p_target, p_source, signs * n_target), p_target, p_source, n_target))
+        verdicts.append(
+            _stepped(candidate(p_target, p_source, signs * n_target), p_target, p_source, n_target)
+        )
     return worst(verdicts)
 
 
@@ -141,13 +172,18 @@ def noisy_step(candidate: Function) -> Verdict:
 def steps_arrive_elsewhere(candidate: Function) -> Verdict:
     """Six steps arrive from other starts too, also five metres from the origin."""
     return worst(
-        [arrived(candidate, GRADERS() + 10, 15.0, 0.1), arrived(candidate, GRADERS() + 11, 8.0, 0.05, aside=5.0)]
+        [
+            arrived(candidate, GRADERS() + 10, 15.0, 0.1),
+            arrived(candidate, GRADERS() + 11, 8.0, 0.05, aside=5.0),
+        ]
     )
 
 
 @check(1, public=False)
 def sliding(candidate: Function) -> Verdict:
-    """One plane, or two, pull points onto themselves and do not slide or spin them; one pair is enough for that."""
+    """One plane, or two, pull points onto themselves and do not slide or spin them; one pair is
+    enough for that.
+    """
     rng = np.random.default_rng(GRADERS() + 20)
     flat = rng.uniform(-1, 1, (40, 3)) * [1.0, 1.0, 0.0]
     flat -= flat.mean(0)
@@ -159,15 +195,27 @@ def sliding(candidate: Function) -> Verdict:
     verdicts = [motion_verdict(candidate(p_target, lifted, n_target), right, hint, p=lifted)]
     normal, place = np.array([[0.6, 0.0, 0.8]]), np.zeros((1, 3))
     one = motion(np.eye(3), 0.07 * normal[0])
-    verdicts.append(motion_verdict(candidate(place + 0.07 * normal, place, normal), one, f"One pair. {hint}", p=place))
-    walls = np.array([[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]])  # two and two, seen from the middle
+    verdicts.append(
+        motion_verdict(
+            candidate(place + 0.07 * normal, place, normal), one, f"One pair. {hint}", p=place
+        )
+    )
+    walls = np.array(
+        [[1.0, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]]
+    )  # two and two, seen from the middle
     p_walls, both = 1.5 * walls, motion(np.eye(3), np.array([0.03, -0.05, 0.0]))
     moved = p_walls + np.abs(walls) * [0.03, -0.05, 0.0]
-    verdicts.append(motion_verdict(candidate(moved, p_walls, np.abs(walls)), both, f"Two planes. {hint}", p=p_walls))
+    verdicts.append(
+        motion_verdict(
+            candidate(moved, p_walls, np.abs(walls)), both, f"Two planes. {hint}", p=p_walls
+        )
+    )
     return worst(verdicts)
 
 
-def linear(p_source: np.ndarray, n_target: np.ndarray, gap: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def linear(
+    p_source: np.ndarray, n_target: np.ndarray, gap: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return (w, v) of least squares, w about the origin."""
     A = np.hstack([np.cross(p_source, n_target), n_target])
     x = np.linalg.lstsq(A, gap, rcond=1e-9)[0]
@@ -179,7 +227,10 @@ def gaps(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np
     return np.sum((p_target - p_source) * n_target, axis=1)
 
 
-@mistake("Your step goes away from the planes: the right side has the wrong sign. It is (p_target - p_source) · n.")
+@mistake(
+    "Your step goes away from the planes: the right side has the wrong sign. It is (p_target -"
+    " p_source) · n."
+)
 def sign_of_the_gap(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
     """Moves away from the planes."""
     w, v = linear(p_source, n_target, -gaps(p_target, p_source, n_target))
@@ -187,40 +238,53 @@ def sign_of_the_gap(p_target: np.ndarray, p_source: np.ndarray, n_target: np.nda
 
 
 @mistake(
-    "Your translation is right and your rotation turns backwards. (w x p) · n = w · (p x n), so the rows hold p x n and "
-    "not n x p; and R turns by w, its transpose by -w."
+    "Your translation is right and your rotation turns backwards. (w x p) · n = w · (p x n), so the"
+    " rows hold p x n and not n x p; and R turns by w, its transpose by -w."
 )
-def cross_product_turned_round(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
+def cross_product_turned_round(
+    p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
+) -> np.ndarray:
     """Uses n x p for p x n."""
     w, v = linear(p_source, n_target, gaps(p_target, p_source, n_target))
     return motion(exp_so3(-w), v)
 
 
 @mistake(
-    "You aligned the points themselves. Only the distance along the normal counts: sliding along a plane costs nothing."
+    "You aligned the points themselves. Only the distance along the normal counts: sliding along a"
+    " plane costs nothing."
 )
 def point_to_point(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
     """Does not use the normals."""
     return alignment.align_rigid(p_target, p_source)
 
 
-@mistake("You returned I + [w]x, which stretches the cloud at every step. Return the rotation by |w| about w.")
-def no_proper_rotation(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
+@mistake(
+    "You returned I + [w]x, which stretches the cloud at every step. Return the rotation by |w|"
+    " about w."
+)
+def no_proper_rotation(
+    p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
+) -> np.ndarray:
     """Returns I + [w]x."""
     w, v = linear(p_source, n_target, gaps(p_target, p_source, n_target))
     return motion(np.eye(3) + skew(w), v)
 
 
-@mistake("You left the rotation out. There are six unknowns: three of rotation, w, and three of translation, v.")
-def translation_only(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
+@mistake(
+    "You left the rotation out. There are six unknowns: three of rotation, w, and three of"
+    " translation, v."
+)
+def translation_only(
+    p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
+) -> np.ndarray:
     """Leaves the rotation out."""
     v = np.linalg.lstsq(n_target, gaps(p_target, p_source, n_target), rcond=1e-9)[0]
     return motion(np.eye(3), v)
 
 
 @mistake(
-    "All is right but where the planes leave a direction open: your 6×6 system is singular there. Use least "
-    "squares with the smallest norm (np.linalg.lstsq)."
+    "All is right but where the planes leave a direction open: your 6×6 system is singular there."
+    " Use least squares with the smallest norm (np.linalg.lstsq)."
 )
 def singular(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
     """Solves the normal equations as if the planes held everything."""
@@ -229,15 +293,22 @@ def singular(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -
     return motion(exp_so3(x[:3]), x[3:])
 
 
-@mistake("You turn about the centroid, but your motion turns about the origin. Add c - R c to the translation.")
-def centroid_forgotten(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
+@mistake(
+    "You turn about the centroid, but your motion turns about the origin. Add c - R c to the"
+    " translation."
+)
+def centroid_forgotten(
+    p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
+) -> np.ndarray:
     """Turns about the centroid and forgets to say so in t."""
     w, v = linear(p_source - p_source.mean(0), n_target, gaps(p_target, p_source, n_target))
     return motion(exp_so3(w), v)
 
 
 @alternative
-def step_about_the_origin(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
+def step_about_the_origin(
+    p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
+) -> np.ndarray:
     """Low's product of three turns, about the origin."""
     A = np.hstack([np.cross(p_source, n_target), n_target])
     gap = np.sum((p_target - p_source) * n_target, axis=1)
@@ -251,11 +322,17 @@ def step_about_the_origin(p_target: np.ndarray, p_source: np.ndarray, n_target: 
 
 
 @alternative
-def step_by_pseudo_inverse(p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray) -> np.ndarray:
-    """Normal equations about the centroid, pseudo-inverse, and the rotation from the SVD of I + [w]x."""
+def step_by_pseudo_inverse(
+    p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
+) -> np.ndarray:
+    """Normal equations about the centroid, pseudo-inverse, and the rotation from the SVD of I +
+    [w]x.
+    """
     c = p_source.mean(axis=0)
     A = np.hstack([np.cross(p_source - c, n_target), n_target])
-    x = np.linalg.pinv(A.T @ A, rcond=1e-10, hermitian=True) @ (A.T @ gaps(p_target, p_source, n_target))
+    x = np.linalg.pinv(A.T @ A, rcond=1e-10, hermitian=True) @ (
+        A.T @ gaps(p_target, p_source, n_target)
+    )
     W = np.array([[1, -x[2], x[1]], [x[2], 1, -x[0]], [-x[1], x[0], 1]])
     U, _, Vt = np.linalg.svd(W)
     T = np.eye(4)

@@ -1,14 +1,20 @@
-"""The exercises of this lesson: a rotation of six numbers, the gradient of Chamfer, and how much samples of a ray count."""
+"""The exercises of this lesson: a rotation of six numbers, the gradient of Chamfer, and how much
+samples of a ray count.
+"""
 
 import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 
-STUDENTS, GRADERS = 61, HiddenSeed(9203)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    61,
+    HiddenSeed(9203),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "") -> Verdict:
-    """Judge numbers by the farthest off, relative to the largest: all points up to 1e-6, half up to 1e-3.
+    """Judge numbers by the farthest off, relative to the largest: all points up to 1e-6, half up to
+    1e-3.
 
     Args:
         got: The answer.
@@ -24,5 +30,7 @@ def entries_verdict(got: np.ndarray, right: np.ndarray, hint: str, what: str = "
         return full(f"{what}all {got.size} numbers are right.")
     i = np.unravel_index(int(np.argmax(off)), off.shape)
     place, wrong = ", ".join(str(int(k)) for k in i), int((off > 1e-6).sum())
-    said = f"{what}{wrong} of {got.size} numbers are wrong: [{place}] is {against(got[i], right[i])}."
+    said = (
+        f"{what}{wrong} of {got.size} numbers are wrong: [{place}] is {against(got[i], right[i])}."
+    )
     return partial(0.5, f"{said} Close. {hint}") if off.max() <= 1e-3 else fail(f"{said} {hint}")

@@ -1,5 +1,6 @@
-"""Write the gradient of the Chamfer distance by the points of the first cloud. Sets of points and meshes of the lesson then
-learn by it: a wrong sign shows at once, a missing side only where points are missing.
+"""Write the gradient of the Chamfer distance by the points of the first cloud. Sets of points and
+meshes of the lesson then learn by it: a wrong sign shows at once, a missing side only where points
+are missing.
 """
 
 import numpy as np
@@ -7,8 +8,17 @@ import scipy
 from jaxtyping import Float
 
 from lessons.learning.exercises import GRADERS, STUDENTS, entries_verdict
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import shape_distances
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.points import shape_distances
 
 HINT = "2/n (p_i − its nearest q), plus 2/m (p_i − q_j) for every q_j whose nearest is p_i."
 
@@ -24,11 +34,13 @@ HINT = "2/n (p_i − its nearest q), plus 2/m (p_i − q_j) for every q_j whose 
         ),
     ),
 )
-def chamfer_gradient(p: Float[np.ndarray, "n 3"], q: Float[np.ndarray, "m 3"]) -> Float[np.ndarray, "n 3"]:
+def chamfer_gradient(
+    p: Float[np.ndarray, "n 3"], q: Float[np.ndarray, "m 3"]
+) -> Float[np.ndarray, "n 3"]:
     """Return the gradient of the Chamfer distance by the points of p.
 
-    The distance is (1 / n) sum_i min_j |p_i - q_j|^2 + (1 / m) sum_j min_i |p_i - q_j|^2. Each minimum is taken by one pair,
-    and only the pairs count: several q may have the same nearest p.
+    The distance is (1 / n) sum_i min_j |p_i - q_j|^2 + (1 / m) sum_j min_i |p_i - q_j|^2. Each
+    minimum is taken by one pair, and only the pairs count: several q may have the same nearest p.
 
     Args:
         p: n points, metres.
@@ -54,7 +66,9 @@ def found(candidate: Function, p: np.ndarray, q: np.ndarray, what: str = "") -> 
 @check(2)
 def one_point_and_two(candidate: Function) -> Verdict:
     """One point between two: both pull, the nearer one twice."""
-    return found(candidate, np.array([[0.2, 0.0, 0.0]]), np.array([[1.0, 0.5, 0.0], [-1.0, 0.0, 0.3]]))
+    return found(
+        candidate, np.array([[0.2, 0.0, 0.0]]), np.array([[1.0, 0.5, 0.0], [-1.0, 0.0, 0.3]])
+    )
 
 
 @check(2)
@@ -84,7 +98,9 @@ def clouds_are_left_alone(candidate: Function) -> Verdict:
 def of_any_size(candidate: Function) -> Verdict:
     """1 and 30 points, 30 and 1, 200 and 150, one and one."""
     sizes = ((1, 30), (30, 1), (200, 150), (1, 1))
-    return worst(found(candidate, *clouds(GRADERS() + n, n, m), f"{n} and {m} points: ") for n, m in sizes)
+    return worst(
+        found(candidate, *clouds(GRADERS() + n, n, m), f"{n} and {m} points: ") for n, m in sizes
+    )
 
 
 @check(1, public=False)
@@ -117,19 +133,28 @@ def _back(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     return g
 
 
-@mistake("You have the side from p to q alone. Points of q that no p is nearest to pull as well: add the other side.")
+@mistake(
+    "You have the side from p to q alone. Points of q that no p is nearest to pull as well: add the"
+    " other side."
+)
 def one_sided(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Only from p to q."""
     return _there(p, q) / len(p)
 
 
-@mistake("You have the side from q to p alone. Every point of p is also drawn to its own nearest q: add that side.")
+@mistake(
+    "You have the side from q to p alone. Every point of p is also drawn to its own nearest q: add"
+    " that side."
+)
 def only_back(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Only from q to p."""
     return _back(p, q) / len(q)
 
 
-@mistake("g[j] += ... keeps only the last of several equal indices. np.add.at, or np.bincount, adds all of them.")
+@mistake(
+    "g[j] += ... keeps only the last of several equal indices. np.add.at, or np.bincount, adds all"
+    " of them."
+)
 def duplicates_lost(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Adds through an index with repeats."""
     g, j = _there(p, q) / len(p), _nearest(p, q)[1]
@@ -137,7 +162,10 @@ def duplicates_lost(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     return g
 
 
-@mistake("Your sign is the other way round: a gradient points to where the distance grows, away from the partners.")
+@mistake(
+    "Your sign is the other way round: a gradient points to where the distance grows, away from the"
+    " partners."
+)
 def sign_reversed(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """The way down."""
     return -shape_distances.chamfer_gradient(p, q)
@@ -155,7 +183,10 @@ def sums_for_means(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     return _there(p, q) + _back(p, q)
 
 
-@mistake("You divided each side by the count of the other cloud. The side from p has n terms, that from q has m.")
+@mistake(
+    "You divided each side by the count of the other cloud. The side from p has n terms, that from"
+    " q has m."
+)
 def counts_swapped(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Divides by m for n."""
     return _there(p, q) / len(q) + _back(p, q) / len(p)
@@ -167,7 +198,9 @@ def both_by_the_first_count(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     return (_there(p, q) + _back(p, q)) / len(p)
 
 
-@mistake("You took unit vectors: that is the gradient of distances. This distance has their squares.")
+@mistake(
+    "You took unit vectors: that is the gradient of distances. This distance has their squares."
+)
 def of_distances(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Without squares."""
     i, j = _nearest(p, q)

@@ -1,15 +1,27 @@
-"""Write how much each sample of a ray counts in the colour that its pixel sees. The radiance field of the lesson learns
-through your weights; the gradient is ours.
+"""Write how much each sample of a ray counts in the colour that its pixel sees. The radiance field
+of the lesson learns through your weights; the gradient is ours.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.learning.exercises import GRADERS, STUDENTS, entries_verdict
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import volume_rendering
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.cameras import volume_rendering
 
-HINT = "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all samples before i, and not i itself."
+HINT = (
+    "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all samples before i, and not i"
+    " itself."
+)
 
 
 @contract(
@@ -23,8 +35,9 @@ HINT = "w_i = T_i (1 − exp(−density_i · spacing)); T_i is what passes all s
 def ray_weights(density: Float[np.ndarray, "r s"], spacing: float) -> Float[np.ndarray, "r s"]:
     """Return how much each sample counts in what its ray sees.
 
-    A sample stops the share 1 - exp(-density * spacing) of the light that reaches it; what reaches it is what all samples
-    before it let through. The weight is the product: the share of the pixel's colour that comes from there.
+    A sample stops the share 1 - exp(-density * spacing) of the light that reaches it; what reaches
+    it is what all samples before it let through. The weight is the product: the share of the
+    pixel's colour that comes from there.
 
     Args:
         density: One row for each of r rays, s samples from near to far, 1/m, not negative.
@@ -105,21 +118,27 @@ def _before(passed: np.ndarray) -> np.ndarray:
     return np.cumprod(np.concatenate([np.ones((len(passed), 1)), passed[:, :-1]], axis=1), axis=1)
 
 
-@mistake("Your T_i already has sample i in it. Light reaches sample i through those before it: begin with 1.")
+@mistake(
+    "Your T_i already has sample i in it. Light reaches sample i through those before it: begin"
+    " with 1."
+)
 def own_sample_included(density: np.ndarray, spacing: float) -> np.ndarray:
     """Product up to i."""
     stopped = _stopped(density, spacing)
     return np.cumprod(1 - stopped, axis=1) * stopped
 
 
-@mistake("You left out the spacing: density is per metre, and a sample stands for `spacing` metres.")
+@mistake(
+    "You left out the spacing: density is per metre, and a sample stands for `spacing` metres."
+)
 def no_spacing(density: np.ndarray, spacing: float) -> np.ndarray:
     """Takes 1 m."""
     return volume_rendering.ray_weights(density, 1.0)
 
 
 @mistake(
-    "You took density · spacing as the share that is stopped: that may exceed 1. It is 1 − exp(−density · spacing)."
+    "You took density · spacing as the share that is stopped: that may exceed 1. It is 1 −"
+    " exp(−density · spacing)."
 )
 def linear_share(density: np.ndarray, spacing: float) -> np.ndarray:
     """Linear alpha."""
@@ -128,14 +147,18 @@ def linear_share(density: np.ndarray, spacing: float) -> np.ndarray:
 
 
 @mistake(
-    "T_i is exp(−…) in your function, but the share that is stopped is density · spacing: it is 1 − exp(−…) as well."
+    "T_i is exp(−…) in your function, but the share that is stopped is density · spacing: it is 1 −"
+    " exp(−…) as well."
 )
 def linear_share_behind_exponentials(density: np.ndarray, spacing: float) -> np.ndarray:
     """Linear in one of the two factors."""
     return _before(np.exp(-density * spacing)) * density * spacing
 
 
-@mistake("You left out T_i: what stands behind a wall is not seen. Multiply by what all samples before let through.")
+@mistake(
+    "You left out T_i: what stands behind a wall is not seen. Multiply by what all samples before"
+    " let through."
+)
 def nothing_hides(density: np.ndarray, spacing: float) -> np.ndarray:
     """Only what is stopped."""
     return _stopped(density, spacing)
@@ -147,14 +170,20 @@ def far_to_near(density: np.ndarray, spacing: float) -> np.ndarray:
     return volume_rendering.ray_weights(density[:, ::-1], spacing)[:, ::-1]
 
 
-@mistake("You divided by the sum. The weights of a ray need not add up to 1: the rest sees what lies behind.")
+@mistake(
+    "You divided by the sum. The weights of a ray need not add up to 1: the rest sees what lies"
+    " behind."
+)
 def normalised(density: np.ndarray, spacing: float) -> np.ndarray:
     """Adds up to 1."""
     w = volume_rendering.ray_weights(density, spacing)
     return w / np.maximum(w.sum(axis=1, keepdims=True), 1e-12)
 
 
-@mistake("You return what reaches each sample. Its weight is the share of that which it stops: times 1 − exp(−…).")
+@mistake(
+    "You return what reaches each sample. Its weight is the share of that which it stops: times 1 −"
+    " exp(−…)."
+)
 def only_what_arrives(density: np.ndarray, spacing: float) -> np.ndarray:
     """T alone."""
     return _before(np.exp(-density * spacing))
@@ -188,5 +217,7 @@ def with_products(density: np.ndarray, spacing: float) -> np.ndarray:
 @alternative
 def by_differences(density: np.ndarray, spacing: float) -> np.ndarray:
     """What passes up to a sample, minus what passes it."""
-    passed = np.exp(-np.cumsum(np.concatenate([np.zeros((len(density), 1)), density], axis=1), axis=1) * spacing)
+    passed = np.exp(
+        -np.cumsum(np.concatenate([np.zeros((len(density), 1)), density], axis=1), axis=1) * spacing
+    )
     return passed[:, :-1] - passed[:, 1:]

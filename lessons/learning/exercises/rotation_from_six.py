@@ -1,13 +1,22 @@
-"""Write what makes rotations of six numbers each: two columns made orthonormal, and a third. The task `rotation` learns
-through your function; its gradient is ours.
+"""Write what makes rotations of six numbers each: two columns made orthonormal, and a third. The
+task `rotation` learns through your function; its gradient is ours.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.learning.exercises import GRADERS, STUDENTS, entries_verdict
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import rotation_outputs
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.motions import rotation_outputs
 
 HINT = "u = a / |a|; v is b without its part along u, normalised; the third column is u × v."
 
@@ -16,15 +25,21 @@ HINT = "u = a / |a|; v is b without its part along u, normalised; the third colu
     slot="rotation_from_six",
     preset="rotation",
     examples=(
-        ("rotation_from_six(array([[2., 0., 0., 1., 3., 0.]]))", "[[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]"),
-        ("rotation_from_six(array([[0., 5., 0., 0., 1., 2.]]))", "[[[0, 0, 1], [1, 0, 0], [0, 1, 0]]]"),
+        (
+            "rotation_from_six(array([[2., 0., 0., 1., 3., 0.]]))",
+            "[[[1, 0, 0], [0, 1, 0], [0, 0, 1]]]",
+        ),
+        (
+            "rotation_from_six(array([[0., 5., 0., 0., 1., 2.]]))",
+            "[[[0, 0, 1], [1, 0, 0], [0, 1, 0]]]",
+        ),
     ),
 )
 def rotation_from_six(y: Float[np.ndarray, "n 6"]) -> Float[np.ndarray, "n 3 3"]:
     """Return one rotation for each row of six numbers.
 
-    The first three numbers, a, and the last three, b, become the first two columns: a normalised is u; b without its part
-    along u, normalised, is v. The third column is u × v.
+    The first three numbers, a, and the last three, b, become the first two columns: a normalised is
+    u; b without its part along u, normalised, is v. The third column is u × v.
 
     Args:
         y: n rows; a and b are never zero, nor parallel.
@@ -52,7 +67,9 @@ def they_are_rotations(candidate: Function) -> Verdict:
     R = candidate(numbers(STUDENTS, 40))
     products = R.swapaxes(1, 2) @ R
     upright = entries_verdict(products, np.tile(np.eye(3), (len(R), 1, 1)), HINT, "RᵀR: ")
-    return worst((upright, entries_verdict(np.linalg.det(R), np.ones(len(R)), HINT, "Determinants: ")))
+    return worst(
+        (upright, entries_verdict(np.linalg.det(R), np.ones(len(R)), HINT, "Determinants: "))
+    )
 
 
 @check(2)
@@ -87,7 +104,12 @@ def lengths_do_not_matter(candidate: Function) -> Verdict:
 def nearly_parallel(candidate: Function) -> Verdict:
     """Two vectors a degree apart still make a rotation."""
     y = numbers(GRADERS() + 5, 8)
-    y[:, 3:] = y[:, :3] + 0.02 * np.linalg.norm(y[:, :3], axis=1, keepdims=True) * np.eye(3)[[0, 1, 2, 0, 1, 2, 0, 1]]
+    y[:, 3:] = (
+        y[:, :3]
+        + 0.02
+        * np.linalg.norm(y[:, :3], axis=1, keepdims=True)
+        * np.eye(3)[[0, 1, 2, 0, 1, 2, 0, 1]]
+    )
     return found(candidate, y)
 
 
@@ -107,14 +129,18 @@ def crossed_the_wrong_way(y: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You normalised b, but left in its part along u: the columns are not at right angles. Take (u · b) u off first."
+    "You normalised b, but left in its part along u: the columns are not at right angles. Take (u ·"
+    " b) u off first."
 )
 def without_gram_and_schmidt(y: np.ndarray) -> np.ndarray:
     """Only normalises."""
     return _columns(_unit(y[:, :3]), _unit(y[:, 3:]))
 
 
-@mistake("You put u, v and u × v into rows. They are columns: what you return is the inverse of the rotation.")
+@mistake(
+    "You put u, v and u × v into rows. They are columns: what you return is the inverse of the"
+    " rotation."
+)
 def rows_for_columns(y: np.ndarray) -> np.ndarray:
     """Transposed."""
     return rotation_outputs.rotation_from_six(y).swapaxes(1, 2)
@@ -127,7 +153,9 @@ def second_not_normalised(y: np.ndarray) -> np.ndarray:
     return _columns(u, y[:, 3:] - (u * y[:, 3:]).sum(axis=1, keepdims=True) * u)
 
 
-@mistake("You took (a · b) a off b, with a as it came. The part along a is (u · b) u, with u normalised.")
+@mistake(
+    "You took (a · b) a off b, with a as it came. The part along a is (u · b) u, with u normalised."
+)
 def projected_on_the_long_vector(y: np.ndarray) -> np.ndarray:
     """Projects before normalising."""
     a, b = y[:, :3], y[:, 3:]

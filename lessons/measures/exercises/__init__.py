@@ -1,12 +1,17 @@
-"""The exercises of this lesson: the volume of a mesh, points spread over it, and a volume by chance."""
+"""The exercises of this lesson: the volume of a mesh, points spread over it, and a volume by
+chance.
+"""
 
 import numpy as np
 
-from workbench.data import solids, surfaces
+from workbench.data.shapes import solids, surfaces
 from workbench.exercise import HiddenSeed, Verdict, against, fail, full, partial
 from workbench.geometry.motions import exp_so3
 
-STUDENTS, GRADERS = 31, HiddenSeed(9241)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    31,
+    HiddenSeed(9241),
+)  # seeds of what a student sees run, and of what only a grader does
 
 Mesh = tuple[np.ndarray, np.ndarray]
 
@@ -36,7 +41,9 @@ def relative_verdict(
 
 
 def blob(seed: int, middle: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Mesh:
-    """Return a lopsided closed mesh without symmetry, turned somehow, its triangles of different sizes."""
+    """Return a lopsided closed mesh without symmetry, turned somehow, its triangles of different
+    sizes.
+    """
     rng = np.random.default_rng(seed)
     torus = surfaces.torus(180, 1.0, 0.4, jitter=0.2, rng=rng)
     p = torus.p * [1.0, 0.7, 1.6] + 0.25 * torus.p[:, [1, 2, 0]] ** 2

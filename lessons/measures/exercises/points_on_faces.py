@@ -1,5 +1,5 @@
-"""Write what spreads points evenly over a mesh: each row of three random numbers becomes one point. The lesson fills a
-triangle with it, then the whole surface, and looks where the points' mean lies.
+"""Write what spreads points evenly over a mesh: each row of three random numbers becomes one point.
+The lesson fills a triangle with it, then the whole surface, and looks where the points' mean lies.
 """
 
 import numpy as np
@@ -20,8 +20,8 @@ from workbench.exercise import (
     partial,
     worst,
 )
-from workbench.geometry import sampling
 from workbench.geometry.meshes import face_areas
+from workbench.geometry.points import sampling
 
 CORNERS = "np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0]]), np.array([[0, 1, 2]])"
 
@@ -37,16 +37,18 @@ CORNERS = "np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0]]), np.array([[0, 1, 2]])"
 def points_on_faces(
     p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], u: Float[np.ndarray, "n 3"]
 ) -> Float[np.ndarray, "n 3"]:
-    """Return a point on the mesh for each row of numbers: evenly spread, as the rows are over the unit cube.
+    """Return a point on the mesh for each row of numbers: evenly spread, as the rows are over the
+    unit cube.
 
-    The first number picks the face, each as likely as it is large. The second and the third place the point in it: with s
-    the square root of the second and t the third it is (1 - s) a + s (1 - t) b + s t c. (Another way to place it that is
-    as even earns as much.)
+    The first number picks the face, each as likely as it is large. The second and the third place
+    the point in it: with s the square root of the second and t the third it is (1 - s) a + s (1 -
+    t) b + s t c. (Another way to place it that is as even earns as much.)
 
     Args:
         p: Vertices, metres, one row each.
         faces: Three vertex numbers per triangle, corners a, b, c. Some may have no area.
-        u: n rows of three numbers, 0 <= u < 1. They are all the chance there is: the same row gives the same point.
+        u: n rows of three numbers, 0 <= u < 1. They are all the chance there is: the same row gives
+            the same point.
 
     Returns:
         n points, metres, in the order of the rows. The inputs stay as they are.
@@ -54,12 +56,17 @@ def points_on_faces(
     return sampling.points_on_faces(p, faces, u)
 
 
-AREA_HINT = "Pick a face by where the first number falls among the running sums of the areas, over their total."
+AREA_HINT = (
+    "Pick a face by where the first number falls among the running sums of the areas, over their"
+    " total."
+)
 PLACE_HINT = "Near a corner there is less room: take the square root of the second number."
 
 
 def even(count: int, seed: int) -> np.ndarray:
-    """Return rows that fill the unit cube evenly, count x count x count, each somewhere in its cell."""
+    """Return rows that fill the unit cube evenly, count x count x count, each somewhere in its
+    cell.
+    """
     rng = np.random.default_rng(seed)
     cell = np.stack(np.meshgrid(*[np.arange(count)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     return rng.permutation((cell + rng.random(cell.shape)) / count)
@@ -77,10 +84,15 @@ def nothing(what: str, got: float, hint: str) -> Verdict:
     return relative_verdict(what, max(got, 0.0), 0.0, hint, good=1e-4, fair=1e-1, size=1.0)
 
 
-def share_verdict(what: str, got: np.ndarray, right: np.ndarray, hint: str, good: float, fair: float) -> Verdict:
+def share_verdict(
+    what: str, got: np.ndarray, right: np.ndarray, hint: str, good: float, fair: float
+) -> Verdict:
     """Judge shares of points by the largest difference, in per cent of all."""
     k = int(np.abs(got - right).argmax())
-    said = f"{what}: {100 * got[k]:.1f} % of the points lie in one of the parts, right is {100 * right[k]:.1f} %"
+    said = (
+        f"{what}: {100 * got[k]:.1f} % of the points lie in one of the parts, right is"
+        f" {100 * right[k]:.1f} %"
+    )
     off = 100 * abs(got[k] - right[k])
     if off <= good:
         return full(f"{said}.")
@@ -109,13 +121,29 @@ def filled(candidate: Function, triangle: np.ndarray, seed: int) -> Verdict:
     level = np.clip(np.floor(4 * weights_of(q, triangle)), 0, 3).astype(int)
     shares = np.bincount(np.ravel_multi_index(level.T, (4, 4, 4)), minlength=64) / len(q)
     parts = np.array([i + j + k in (2, 3) for i, j, k in np.ndindex(4, 4, 4)])
-    return share_verdict("In one triangle", shares[parts], np.full(16, 1 / 16), PLACE_HINT, 1.0, 2.0)
+    return share_verdict(
+        "In one triangle", shares[parts], np.full(16, 1 / 16), PLACE_HINT, 1.0, 2.0
+    )
 
 
 @check(2)
 def large_faces_get_more(candidate: Function) -> Verdict:
-    """Of two faces the three times larger one gets three times as many points, a face without area none."""
-    p = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 5], [3, 0, 5], [0, 1, 5], [0, 0, 2], [1, 0, 2], [2, 0, 2]])
+    """Of two faces the three times larger one gets three times as many points, a face without area
+    none.
+    """
+    p = np.array(
+        [
+            [0.0, 0, 0],
+            [1, 0, 0],
+            [0, 1, 0],
+            [0, 0, 5],
+            [3, 0, 5],
+            [0, 1, 5],
+            [0, 0, 2],
+            [1, 0, 2],
+            [2, 0, 2],
+        ]
+    )
     q = candidate(p, np.array([[6, 7, 8], [0, 1, 2], [3, 4, 5]]), even(12, STUDENTS + 1))
     shares = np.array([(np.abs(q[:, 2] - z) < 1e-6).mean() for z in (2, 0, 5)])
     return share_verdict("Three faces", shares, np.array([0, 0.25, 0.75]), AREA_HINT, 1.0, 3.0)
@@ -128,13 +156,16 @@ def what_comes_in_is_left_alone(candidate: Function) -> Verdict:
     u = even(6, STUDENTS + 2)
     q = candidate(p, faces, u)
     return left_alone(
-        candidate, full("Points came back.") if np.isfinite(q).all() else fail("Some points are not finite.")
+        candidate,
+        full("Points came back.") if np.isfinite(q).all() else fail("Some points are not finite."),
     )
 
 
 @check(2, public=False)
 def a_whole_surface(candidate: Function) -> Verdict:
-    """On a mesh of faces of many sizes every part gets its share, face by face, and on one a thousandth as large."""
+    """On a mesh of faces of many sizes every part gets its share, face by face, and on one a
+    thousandth as large.
+    """
     p, faces = with_small_half(*blob(GRADERS()))
     q = candidate(p, faces, even(16, GRADERS()))
     areas = face_areas(p, faces)
@@ -143,8 +174,17 @@ def a_whole_surface(candidate: Function) -> Verdict:
     off = 100 * float(np.linalg.norm(q.mean(axis=0) - middle)) / size
     what = "Mean of the points off the surface's middle, % of the diagonal"
     large = relative_verdict(what, off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
-    off = float(np.linalg.norm(1000 * candidate(0.001 * p, faces, even(16, GRADERS())).mean(axis=0) - middle)) / size
-    small = relative_verdict(f"{what}, of a small one", 100 * off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100)
+    off = (
+        float(
+            np.linalg.norm(
+                1000 * candidate(0.001 * p, faces, even(16, GRADERS())).mean(axis=0) - middle
+            )
+        )
+        / size
+    )
+    small = relative_verdict(
+        f"{what}, of a small one", 100 * off, 0.0, AREA_HINT, good=0.8, fair=1.5, size=100
+    )
     return worst((large, small))
 
 
@@ -154,24 +194,33 @@ def other_triangles(candidate: Function) -> Verdict:
     return worst(
         filled(candidate, triangle, GRADERS() + k)
         for k, triangle in enumerate(
-            (np.array([[0.0, 0, 0], [10, 0, 0], [0, 0.1, 0]]), np.array([[5.0, 5, 5], [5, 5.01, 5], [5.01, 5, 5.01]]))
+            (
+                np.array([[0.0, 0, 0], [10, 0, 0], [0, 0.1, 0]]),
+                np.array([[5.0, 5, 5], [5, 5.01, 5], [5.01, 5, 5.01]]),
+            )
         )
     )
 
 
 @check(1, public=False)
 def the_same_row_gives_the_same_point(candidate: Function) -> Verdict:
-    """Rows do not know of each other: in another order they give the same points, and so they do again."""
+    """Rows do not know of each other: in another order they give the same points, and so they do
+    again.
+    """
     p, faces = blob(GRADERS() + 1)
     u = even(7, GRADERS() + 3)
     q, again = candidate(p, faces, u), candidate(p, faces, u[::-1].copy())
     off = float(np.linalg.norm(q - again[::-1], axis=1).max())
     hint = "Use the rows of u, in their order, and no numbers of your own."
-    return worst([nothing("The same rows give points apart by, m", off, hint), each_number_counts(candidate)])
+    return worst(
+        [nothing("The same rows give points apart by, m", off, hint), each_number_counts(candidate)]
+    )
 
 
 def each_number_counts(candidate: Function) -> Verdict:
-    """Judge whether the second number and the third each move the point in its face, and the first does not."""
+    """Judge whether the second number and the third each move the point in its face, and the first
+    does not.
+    """
     triangle, one = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]]), np.array([[0, 1, 2]])
     u = np.array([[0.3, 0.4, 0.2], [0.6, 0.4, 0.2], [0.3, 0.7, 0.2], [0.3, 0.4, 0.6]])
     q = candidate(triangle, one, u)
@@ -179,26 +228,41 @@ def each_number_counts(candidate: Function) -> Verdict:
     for k, name in ((1, "second"), (2, "third")):
         if moved[k] < 1e-3:
             return fail(
-                f"Another {name} number moves the point by {moved[k]:.3g} m, right is more than 0. {PLACE_HINT}"
+                f"Another {name} number moves the point by {moved[k]:.3g} m, right is more than 0."
+                f" {PLACE_HINT}"
             )
-    hint = "With a single face the first number has nothing to pick, and it does not place the point."
-    return nothing("In a single face another first number moves the point by, m", float(moved[0]), hint)
+    hint = (
+        "With a single face the first number has nothing to pick, and it does not place the point."
+    )
+    return nothing(
+        "In a single face another first number moves the point by, m", float(moved[0]), hint
+    )
 
 
 @check(1, public=False)
 def numbers_at_the_ends(candidate: Function) -> Verdict:
-    """0 and what is next to 1 give points of the mesh as well, one row one point, and no rows no points."""
+    """0 and what is next to 1 give points of the mesh as well, one row one point, and no rows no
+    points.
+    """
     triangle, one = np.array([[1.0, 0, 0], [0, 2, 0.5], [-1, -1, 2]]), np.array([[0, 1, 2]])
     if len(candidate(triangle, one, np.empty((0, 3)))):
         return fail("No rows came in, and points went out.")
-    u = np.array([[a, b, c] for a in (0.0, 1 - 1e-16) for b in (0.0, 1 - 1e-16) for c in (0.0, 1 - 1e-16)])
+    u = np.array(
+        [[a, b, c] for a in (0.0, 1 - 1e-16) for b in (0.0, 1 - 1e-16) for c in (0.0, 1 - 1e-16)]
+    )
     weights = weights_of(candidate(triangle, one, u), triangle)
     single = weights_of(candidate(triangle, one, np.array([[0.2, 0.5, 0.3]])), triangle)
     off = float(-min(weights.min(), single.min()))
-    p = np.concatenate([[[0.0, 0, z], [1, 0, z], [0, 1, z]] for z in range(10)])  # ten times a tenth is not quite 1
+    p = np.concatenate(
+        [[[0.0, 0, z], [1, 0, z], [0, 1, z]] for z in range(10)]
+    )  # ten times a tenth is not quite 1
     x, y, z = candidate(p, np.arange(30).reshape(10, 3), u).T
-    off = max(off, float(-np.min([x, y, 1 - x - y])), float(np.abs(z - np.rint(np.clip(z, 0, 9))).max()))
-    return nothing("Farthest off the triangles, in edges", off, "Look at rows of 0 and of nearly 1.")
+    off = max(
+        off, float(-np.min([x, y, 1 - x - y])), float(np.abs(z - np.rint(np.clip(z, 0, 9))).max())
+    )
+    return nothing(
+        "Farthest off the triangles, in edges", off, "Look at rows of 0 and of nearly 1."
+    )
 
 
 def _placed(p: np.ndarray, faces: np.ndarray, k: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -210,7 +274,10 @@ def _by_area(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     return np.minimum(np.searchsorted(reached, u[:, 0] * reached[-1], side="right"), len(faces) - 1)
 
 
-@mistake("You pick all faces alike. Small faces then get as many points as large ones: weigh them by their areas.")
+@mistake(
+    "You pick all faces alike. Small faces then get as many points as large ones: weigh them by"
+    " their areas."
+)
 def faces_alike(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Picks by number."""
     k = np.minimum((u[:, 0] * len(faces)).astype(int), len(faces) - 1)
@@ -225,7 +292,9 @@ def without_the_root(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndar
     return _placed(p, faces, _by_area(p, faces, u), np.column_stack([1 - s, s * (1 - t), s * t]))
 
 
-@mistake("You divided three numbers by their sum. Such weights crowd in the middle of the triangle.")
+@mistake(
+    "You divided three numbers by their sum. Such weights crowd in the middle of the triangle."
+)
 def normalised(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Takes the numbers as weights."""
     whole = u.sum(axis=1, keepdims=True)
@@ -234,7 +303,8 @@ def normalised(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You filled the parallelogram on two edges: half of your points lie beyond the third. Fold them back, or take the root."
+    "You filled the parallelogram on two edges: half of your points lie beyond the third. Fold them"
+    " back, or take the root."
 )
 def parallelogram(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Does not fold."""
@@ -242,7 +312,10 @@ def parallelogram(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray
     return _placed(p, faces, _by_area(p, faces, u), np.column_stack([1 - s - t, s, t]))
 
 
-@mistake("You picked the faces by area and then took their middles: a point belongs anywhere in its face.")
+@mistake(
+    "You picked the faces by area and then took their middles: a point belongs anywhere in its"
+    " face."
+)
 def middles(p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> np.ndarray:
     """Only middles."""
     return p[faces].mean(axis=1)[_by_area(p, faces, u)]

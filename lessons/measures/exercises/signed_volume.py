@@ -1,5 +1,6 @@
-"""Write the volume inside a mesh: the sum of the signed tetrahedra between the origin of coordinates and all faces. The
-lesson adds up its faces with it, the near ones first, from wherever its origin was dragged to.
+"""Write the volume inside a mesh: the sum of the signed tetrahedra between the origin of
+coordinates and all faces. The lesson adds up its faces with it, the near ones first, from wherever
+its origin was dragged to.
 """
 
 import numpy as np
@@ -16,8 +17,17 @@ from lessons.measures.exercises import (
     relative_verdict,
     without_a_side,
 )
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry.measures import tetrahedra, volume_about
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.meshes.measures import tetrahedra, volume_about
 
 
 @contract(
@@ -31,16 +41,18 @@ from workbench.geometry.measures import tetrahedra, volume_about
 def signed_volume(p: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> float:
     """Return the sum of the signed tetrahedra between the origin of coordinates and all faces, m^3.
 
-    The tetrahedron of a face with corners a, b, c has the volume |a . (b x c)| / 6. It counts plus where the origin lies
-    behind the face, on the side from which a, b, c run clockwise, and minus where it lies before it.
+    The tetrahedron of a face with corners a, b, c has the volume |a . (b x c)| / 6. It counts plus
+    where the origin lies behind the face, on the side from which a, b, c run clockwise, and minus
+    where it lies before it.
 
     Args:
         p: Vertices, metres, one row each.
         faces: Three vertex numbers per triangle, counterclockwise seen from outside.
 
     Returns:
-        The sum: of a closed mesh its volume, negative where it is turned inside out. Of an open mesh it is the sum all the
-        same, about the origin (0, 0, 0), and 0 where there are no faces. The inputs stay as they are.
+        The sum: of a closed mesh its volume, negative where it is turned inside out. Of an open
+        mesh it is the sum all the same, about the origin (0, 0, 0), and 0 where there are no faces.
+        The inputs stay as they are.
     """
     return volume_about(p, faces, np.zeros(3))
 
@@ -73,7 +85,9 @@ def closed_meshes(candidate: Function) -> Verdict:
 def origin_outside(candidate: Function) -> Verdict:
     """Where the origin lies outside, what lies between it and the mesh cancels."""
     hint = "Faces that look towards the origin count minus."
-    return volume_verdict(candidate, blob(STUDENTS + 1, (3.0, -2.0, 1.0)), "A bent ring 3.7 m away", hint)
+    return volume_verdict(
+        candidate, blob(STUDENTS + 1, (3.0, -2.0, 1.0)), "A bent ring 3.7 m away", hint
+    )
 
 
 @check(1)
@@ -89,19 +103,26 @@ def inside_out(candidate: Function) -> Verdict:
     hint = "The sign of the sum tells which side is called outside: keep it."
     turned = faces[:, ::-1].copy()
     large = volume_verdict(candidate, (p, turned), "A bent ring inside out", hint)
-    return worst((large, volume_verdict(candidate, (0.02 * p, turned), "A small bent ring inside out", hint)))
+    return worst(
+        (large, volume_verdict(candidate, (0.02 * p, turned), "A small bent ring inside out", hint))
+    )
 
 
 @check(2, public=False)
 def open_meshes(candidate: Function) -> Verdict:
     """An open mesh gives the sum about the origin of coordinates."""
     mesh = without_a_side(*blob(GRADERS() + 1, (0.5, 1.0, 0.4)))
-    hint = "The tip of all tetrahedra is (0, 0, 0), not the middle of the vertices, and no hole is closed."
+    hint = (
+        "The tip of all tetrahedra is (0, 0, 0), not the middle of the vertices, and no hole is"
+        " closed."
+    )
     return worst(
         (
             volume_verdict(candidate, mesh, "A ring without its side", hint),
             volume_verdict(candidate, (mesh[0], mesh[1][:1]), "One triangle", hint),
-            volume_verdict(candidate, (mesh[0], mesh[1][:1, ::-1].copy()), "One triangle turned over", hint),
+            volume_verdict(
+                candidate, (mesh[0], mesh[1][:1, ::-1].copy()), "One triangle turned over", hint
+            ),
         )
     )
 
@@ -110,16 +131,23 @@ def open_meshes(candidate: Function) -> Verdict:
 def no_faces(candidate: Function) -> Verdict:
     """Without faces the sum is 0."""
     got = float(candidate(np.eye(3), np.empty((0, 3), dtype=int)))
-    return relative_verdict("Three vertices and no face", got, 0.0, VOLUME_HINT, good=1e-6, fair=1e-3, size=1.0)
+    return relative_verdict(
+        "Three vertices and no face", got, 0.0, VOLUME_HINT, good=1e-6, fair=1e-3, size=1.0
+    )
 
 
-@mistake("You added up absolute values. Faces that look towards the origin count minus: keep each sign.")
+@mistake(
+    "You added up absolute values. Faces that look towards the origin count minus: keep each sign."
+)
 def unsigned(p: np.ndarray, faces: np.ndarray) -> float:
     """Adds up what has to cancel."""
     return float(np.abs(tetrahedra(p, faces, np.zeros(3))).sum())
 
 
-@mistake("You took the absolute value of the sum. A mesh that is turned inside out has a negative volume.")
+@mistake(
+    "You took the absolute value of the sum. A mesh that is turned inside out has a negative"
+    " volume."
+)
 def size_only(p: np.ndarray, faces: np.ndarray) -> float:
     """Drops the sign at the end."""
     return abs(signed_volume(p, faces))
@@ -131,34 +159,44 @@ def a_third(p: np.ndarray, faces: np.ndarray) -> float:
     return 2 * signed_volume(p, faces)
 
 
-@mistake("Your sum is three times as large: half of a . (b x c) is no volume. A tetrahedron is a sixth of it.")
+@mistake(
+    "Your sum is three times as large: half of a . (b x c) is no volume. A tetrahedron is a sixth"
+    " of it."
+)
 def a_half(p: np.ndarray, faces: np.ndarray) -> float:
     """Divides by 2, as for areas."""
     return 3 * signed_volume(p, faces)
 
 
-@mistake("You left out the division by 6: a . (b x c) is the volume of a parallelepiped, six tetrahedra.")
+@mistake(
+    "You left out the division by 6: a . (b x c) is the volume of a parallelepiped, six tetrahedra."
+)
 def undivided(p: np.ndarray, faces: np.ndarray) -> float:
     """Does not divide."""
     return 6 * signed_volume(p, faces)
 
 
-@mistake("Your sign is the wrong way round: a . (b x c) is positive where the origin lies behind a face.")
+@mistake(
+    "Your sign is the wrong way round: a . (b x c) is positive where the origin lies behind a face."
+)
 def turned_round(p: np.ndarray, faces: np.ndarray) -> float:
     """Minus the sum."""
     return -signed_volume(p, faces)
 
 
 @mistake(
-    "Your tetrahedra have their tip in the middle of the vertices. Closed meshes do not mind; of an open one the contract"
-    " asks for the sum about (0, 0, 0)."
+    "Your tetrahedra have their tip in the middle of the vertices. Closed meshes do not mind; of an"
+    " open one the contract asks for the sum about (0, 0, 0)."
 )
 def about_the_middle(p: np.ndarray, faces: np.ndarray) -> float:
     """Moves the origin."""
     return volume_about(p, faces, p.mean(axis=0))
 
 
-@mistake("You returned the volume of the convex hull. It fills every dent and hole: add up the faces instead.")
+@mistake(
+    "You returned the volume of the convex hull. It fills every dent and hole: add up the faces"
+    " instead."
+)
 def convex_hull(p: np.ndarray, faces: np.ndarray) -> float:
     """Volume of the hull of the vertices."""
     import scipy

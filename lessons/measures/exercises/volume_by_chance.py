@@ -1,13 +1,23 @@
-"""Write what a share of hits tells: the volume, and how far off it is likely to be. The lesson throws points into a box
-and draws your interval around your estimate.
+"""Write what a share of hits tells: the volume, and how far off it is likely to be. The lesson
+throws points into a box and draws your interval around your estimate.
 """
 
 import numpy as np
 from jaxtyping import Bool
 
 from lessons.measures.exercises import GRADERS, STUDENTS, relative_verdict
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, refused, worst
-from workbench.geometry import sampling
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    refused,
+    worst,
+)
+from workbench.geometry.points import sampling
 
 
 @contract(
@@ -19,7 +29,8 @@ from workbench.geometry import sampling
     ),
 )
 def volume_by_chance(inside: Bool[np.ndarray, " n"], box_volume: float) -> tuple[float, float]:
-    """Return the volume that hits among random points of a box tell, and the standard error of that, both in m^3.
+    """Return the volume that hits among random points of a box tell, and the standard error of
+    that, both in m^3.
 
     Of n points a share lies inside; it is binomial, with the variance share (1 - share) / n.
 
@@ -28,7 +39,8 @@ def volume_by_chance(inside: Bool[np.ndarray, " n"], box_volume: float) -> tuple
         box_volume: The volume of the box, m^3.
 
     Returns:
-        The estimate and its standard error (one standard deviation of the estimate): (estimate, error).
+        The estimate and its standard error (one standard deviation of the estimate): (estimate,
+        error).
 
     Raises:
         ValueError: If there are no points.
@@ -52,8 +64,12 @@ def both(candidate: Function, inside: np.ndarray, box: float) -> Verdict:
     what = f"{int(inside.sum())} of {len(inside)} in {box:g} m³"
     return worst(
         (
-            relative_verdict(f"{what}, estimate", float(value), right[0], SHARE_HINT, good=0.01, fair=0.5),
-            relative_verdict(f"{what}, error", float(error), right[1], ERROR_HINT, good=1.0, fair=2.0),
+            relative_verdict(
+                f"{what}, estimate", float(value), right[0], SHARE_HINT, good=0.01, fair=0.5
+            ),
+            relative_verdict(
+                f"{what}, error", float(error), right[1], ERROR_HINT, good=1.0, fair=2.0
+            ),
         )
     )
 
@@ -66,7 +82,9 @@ def share_of_the_box(candidate: Function) -> Verdict:
         inside = hits(n, count, STUDENTS)
         value = float(candidate(inside, box)[0])
         what = f"{count} of {n} in {box:g} m³"
-        verdicts.append(relative_verdict(what, value, box * count / n, SHARE_HINT, good=0.01, fair=0.5))
+        verdicts.append(
+            relative_verdict(what, value, box * count / n, SHARE_HINT, good=0.01, fair=0.5)
+        )
     return worst(verdicts)
 
 
@@ -100,9 +118,15 @@ def no_hit_and_no_miss(candidate: Function) -> Verdict:
         value, error = candidate(inside, 4.0)
         what = "All throws hit" if right else "No throw hits"
         verdicts.append(
-            relative_verdict(f"{what}, estimate", float(value), right, SHARE_HINT, good=0.01, fair=0.5, size=4)
+            relative_verdict(
+                f"{what}, estimate", float(value), right, SHARE_HINT, good=0.01, fair=0.5, size=4
+            )
         )
-        verdicts.append(relative_verdict(f"{what}, error", float(error), 0.0, ERROR_HINT, good=0.01, fair=0.5, size=4))
+        verdicts.append(
+            relative_verdict(
+                f"{what}, error", float(error), 0.0, ERROR_HINT, good=0.01, fair=0.5, size=4
+            )
+        )
     return worst(verdicts)
 
 
@@ -118,42 +142,58 @@ def _share(inside: np.ndarray) -> float:
     return float(inside.mean())
 
 
-@mistake("Your error does not fall with the number of throws: divide share (1 - share) by n before you take the root.")
+@mistake(
+    "Your error does not fall with the number of throws: divide share (1 - share) by n before you"
+    " take the root."
+)
 def no_root_of_n(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """The deviation of one throw."""
     share = _share(inside)
     return box_volume * share, box_volume * (share * (1 - share)) ** 0.5
 
 
-@mistake("Your error is that of the share. The estimate is the box times the share, and so is its error.")
+@mistake(
+    "Your error is that of the share. The estimate is the box times the share, and so is its error."
+)
 def error_without_the_box(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """Forgets the box in the error."""
     share = _share(inside)
     return box_volume * share, (share * (1 - share) / len(inside)) ** 0.5
 
 
-@mistake("You returned the share of hits and its error, without a unit: multiply both by the volume of the box.")
+@mistake(
+    "You returned the share of hits and its error, without a unit: multiply both by the volume of"
+    " the box."
+)
 def share_alone(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """Forgets the box."""
     share = _share(inside)
     return share, (share * (1 - share) / len(inside)) ** 0.5
 
 
-@mistake("You returned a variance. The standard error is its root: box_volume * sqrt(share * (1 - share) / n).")
+@mistake(
+    "You returned a variance. The standard error is its root: box_volume * sqrt(share * (1 - share)"
+    " / n)."
+)
 def variance(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """Forgets the root."""
     share = _share(inside)
     return box_volume * share, box_volume**2 * share * (1 - share) / len(inside)
 
 
-@mistake("You returned the half width of a 95 % interval. The contract asks for one standard error, without 1.96.")
+@mistake(
+    "You returned the half width of a 95 % interval. The contract asks for one standard error,"
+    " without 1.96."
+)
 def interval(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """Multiplies by 1.96."""
     share = _share(inside)
     return box_volume * share, 1.96 * box_volume * (share * (1 - share) / len(inside)) ** 0.5
 
 
-@mistake("You divided by n outside the root: the error falls with the root of n, so n belongs under it.")
+@mistake(
+    "You divided by n outside the root: the error falls with the root of n, so n belongs under it."
+)
 def n_outside_the_root(inside: np.ndarray, box_volume: float) -> tuple[float, float]:
     """Divides by n, not by its root."""
     share = _share(inside)

@@ -2,4 +2,7 @@
 
 from workbench.exercise import HiddenSeed
 
-STUDENTS, GRADERS = 23, HiddenSeed(9140)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    23,
+    HiddenSeed(9140),
+)  # seeds of what a student sees run, and of what only a grader does

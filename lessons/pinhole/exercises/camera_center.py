@@ -1,5 +1,5 @@
-"""Write where a camera is in the world, given the motion from world to camera. The lesson's last step sends the rays
-back into the scene from there.
+"""Write where a camera is in the world, given the motion from world to camera. The lesson's last
+step sends the rays back into the scene from there.
 """
 
 from collections.abc import Iterator
@@ -23,23 +23,29 @@ from workbench.exercise import (
     partial,
     worst,
 )
-from workbench.geometry import cameras
+from workbench.geometry.cameras import pinhole as cameras
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
 
 @contract(
     slot="camera_center",
     examples=(
-        ("camera_center(np.array([[1.0, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 5], [0, 0, 0, 1]]))", "[-2, 0, -5]"),
-        ("camera_center(np.array([[0.0, -1, 0, 2], [1, 0, 0, 5], [0, 0, 1, 0], [0, 0, 0, 1]]))", "[-5, 2, 0]"),
+        (
+            "camera_center(np.array([[1.0, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 5], [0, 0, 0, 1]]))",
+            "[-2, 0, -5]",
+        ),
+        (
+            "camera_center(np.array([[0.0, -1, 0, 2], [1, 0, 0, 5], [0, 0, 1, 0], [0, 0, 0, 1]]))",
+            "[-5, 2, 0]",
+        ),
     ),
 )
 def camera_center(T_camera_world: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "3"]:
     """Return where the camera is in the world, metres.
 
     Args:
-        T_camera_world: The rigid motion that takes world points into the camera frame: p_camera = R p_world + t, metres.
-            It may be the identity.
+        T_camera_world: The rigid motion that takes world points into the camera frame: p_camera = R
+            p_world + t, metres. It may be the identity.
 
     Returns:
         The one world point that the motion takes to the camera's own origin, in a new array.
@@ -62,13 +68,22 @@ def some_cameras(seed: int, n: int = 5) -> Iterator[tuple[np.ndarray, np.ndarray
 def placed(got: np.ndarray, right: np.ndarray, name: str = "C") -> Verdict:
     """Judge a camera's place by the distance to the right one."""
     error = float(np.linalg.norm(got - right))
-    return band("Camera is off by", error, "m", good=1e-3, fair=2e-2, hint=beside(got, right, CENTER_HINT, name))
+    return band(
+        "Camera is off by",
+        error,
+        "m",
+        good=1e-3,
+        fair=2e-2,
+        hint=beside(got, right, CENTER_HINT, name),
+    )
 
 
 @check(2)
 def where_it_stands(candidate: Function) -> Verdict:
     """Cameras that were put at known places are found there."""
-    return worst(placed(candidate(T_camera_world), eye) for eye, T_camera_world in some_cameras(STUDENTS))
+    return worst(
+        placed(candidate(T_camera_world), eye) for eye, T_camera_world in some_cameras(STUDENTS)
+    )
 
 
 @check(2)
@@ -103,7 +118,9 @@ def moves_with_the_world(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def special_cameras(candidate: Function) -> Verdict:
-    """The identity, a camera that is not turned, half a turn, and one a kilometre away are found."""
+    """The identity, a camera that is not turned, half a turn, and one a kilometre away are
+    found.
+    """
     far = np.array([900.0, -300.0, 400.0])
     T_turned = motion(exp_so3(np.array([0.3, 1.0, -0.6])), far)
     cases = (np.eye(4), motion(np.eye(3), far), motion(np.diag([-1.0, -1.0, 1.0]), far), T_turned)
@@ -116,8 +133,8 @@ def special_cameras(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You returned t. That is where the world's origin is in the camera frame, not where the camera is in the "
-    "world: C = -R^T t."
+    "You returned t. That is where the world's origin is in the camera frame, not where the camera"
+    " is in the world: C = -R^T t."
 )
 def t_for_the_centre(T_camera_world: np.ndarray) -> np.ndarray:
     """Takes t for the centre."""
@@ -130,7 +147,10 @@ def minus_t_for_the_centre(T_camera_world: np.ndarray) -> np.ndarray:
     return -T_camera_world[:3, 3]
 
 
-@mistake("You returned -R t. R takes world axes to camera axes; t is in camera axes and must go back: use R^T.")
+@mistake(
+    "You returned -R t. R takes world axes to camera axes; t is in camera axes and must go back:"
+    " use R^T."
+)
 def turned_forwards(T_camera_world: np.ndarray) -> np.ndarray:
     """Returns -R t."""
     return -T_camera_world[:3, :3] @ T_camera_world[:3, 3]

@@ -1,19 +1,34 @@
-"""Write the lens: where radial and tangential distortion move ideal image points. The lesson bends the street's
-outlines with it; choose the presets barrel, pincushion and tangential to see it at work.
+"""Write the lens: where radial and tangential distortion move ideal image points. The lesson bends
+the street's outlines with it; choose the presets barrel, pincushion and tangential to see it at
+work.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.pinhole.exercises import GRADERS, STUDENTS
-from workbench.exercise import Function, Verdict, alternative, band, beside, check, contract, left_alone, mistake, worst
-from workbench.geometry import distortion
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    band,
+    beside,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.cameras import distortion
 
 
 @contract(
     slot="distort",
     examples=(
-        ("distort(np.array([[0.5, 0.0], [0.0, 0.0]]), -0.2, 0.0, 0.0, 0.0)", "[[0.475, 0], [0, 0]]"),
+        (
+            "distort(np.array([[0.5, 0.0], [0.0, 0.0]]), -0.2, 0.0, 0.0, 0.0)",
+            "[[0.475, 0], [0, 0]]",
+        ),
         ("distort(np.array([[0.5, 0.2]]), 0.0, 0.0, 0.01, 0.0)", "[[0.502, 0.2037]]"),
     ),
 )
@@ -28,8 +43,8 @@ def distort(
         y' = y (1 + k1 r^2 + k2 r^4) + p1 (r^2 + 2 y^2) + 2 p2 x y
 
     Args:
-        xy_camera: Ideal normalised coordinates (X/Z, Y/Z) in the camera frame, without unit: not pixels, and not yet
-            multiplied by K. One point per row; there may be none (n = 0).
+        xy_camera: Ideal normalised coordinates (X/Z, Y/Z) in the camera frame, without unit: not
+            pixels, and not yet multiplied by K. One point per row; there may be none (n = 0).
         k1: Radial coefficient of r^2; negative is barrel, positive pincushion distortion.
         k2: Radial coefficient of r^4.
         p1: Tangential coefficient that acts along y.
@@ -55,19 +70,34 @@ def some_rays(seed: int, n: int = 60) -> np.ndarray:
 def bent(got: np.ndarray, right: np.ndarray, hint: str = DISTORT_HINT) -> Verdict:
     """Judge normalised coordinates by the pixels by which a camera with f = 600 px would be off."""
     error = F * float(np.linalg.norm(got - right, axis=1).max(initial=0.0))
-    return band("Largest error at f = 600 px", error, "px", good=0.01, fair=1.0, hint=beside(got, right, hint))
+    return band(
+        "Largest error at f = 600 px",
+        error,
+        "px",
+        good=0.01,
+        fair=1.0,
+        hint=beside(got, right, hint),
+    )
 
 
 def _bent(candidate: Function, xy: np.ndarray, *lens: float) -> Verdict:
-    names = ", ".join(f"{name} = {k:g}" for name, k in zip(("k1", "k2", "p1", "p2"), lens, strict=True) if k)
-    return bent(candidate(xy, *lens), distortion.distort(xy, *lens), f"With {names or 'no lens'}. {DISTORT_HINT}")
+    names = ", ".join(
+        f"{name} = {k:g}" for name, k in zip(("k1", "k2", "p1", "p2"), lens, strict=True) if k
+    )
+    return bent(
+        candidate(xy, *lens),
+        distortion.distort(xy, *lens),
+        f"With {names or 'no lens'}. {DISTORT_HINT}",
+    )
 
 
 @check(1)
 def no_lens(candidate: Function) -> Verdict:
     """With all coefficients zero the points stay where they are, and the centre stays with any."""
     stays = candidate(np.zeros((1, 2)), -0.3, 0.1, 0.02, -0.01)
-    return worst([_bent(candidate, some_rays(STUDENTS), 0.0, 0.0, 0.0, 0.0), bent(stays, np.zeros((1, 2)))])
+    return worst(
+        [_bent(candidate, some_rays(STUDENTS), 0.0, 0.0, 0.0, 0.0), bent(stays, np.zeros((1, 2)))]
+    )
 
 
 @check(2)
@@ -81,7 +111,8 @@ def radial(candidate: Function) -> Verdict:
 def tangential(candidate: Function) -> Verdict:
     """Tangential terms: p1 and p2 act along the right axes."""
     return worst(
-        _bent(candidate, some_rays(STUDENTS), *lens) for lens in ((0.0, 0.0, 0.02, 0.0), (0.0, 0.0, 0.0, 0.02))
+        _bent(candidate, some_rays(STUDENTS), *lens)
+        for lens in ((0.0, 0.0, 0.02, 0.0), (0.0, 0.0, 0.0, 0.02))
     )
 
 
@@ -93,7 +124,9 @@ def rays_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def whole_lens(candidate: Function) -> Verdict:
-    """All four terms together are right, also at the rim of a wide picture, for one point, and for none at all."""
+    """All four terms together are right, also at the rim of a wide picture, for one point, and for
+    none at all.
+    """
     lenses = ((-0.28, 0.09, 0.012, -0.007), (0.15, -0.2, -0.02, 0.015))
     verdicts = [_bent(candidate, some_rays(GRADERS() + k), *lens) for k, lens in enumerate(lenses)]
     others = (2.5 * some_rays(GRADERS() + 4), some_rays(GRADERS() + 5, 1), np.empty((0, 2)))
@@ -119,14 +152,21 @@ def twice_the_lens(candidate: Function) -> Verdict:
     return worst([bent(once, right), bent(twice, 2 * right)])
 
 
-@mistake("You took p1 for p2. With p1 alone, x moves by 2 p1 x y and y by p1 (r^2 + 2 y^2): p1 acts along y.")
-def p1_and_p2_swapped(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float) -> np.ndarray:
+@mistake(
+    "You took p1 for p2. With p1 alone, x moves by 2 p1 x y and y by p1 (r^2 + 2 y^2): p1 acts"
+    " along y."
+)
+def p1_and_p2_swapped(
+    xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
+) -> np.ndarray:
     """Takes p1 for p2."""
     return distortion.distort(xy_camera, k1, k2, p2, p1)
 
 
 @mistake("Your radial factor is 1 + k1 r + k2 r^2. It has even powers only: 1 + k1 r^2 + k2 r^4.")
-def radius_not_squared(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float) -> np.ndarray:
+def radius_not_squared(
+    xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
+) -> np.ndarray:
     """Uses 1 + k1 r + k2 r^2."""
     r = np.linalg.norm(xy_camera, axis=1, keepdims=True)
     tangential = distortion.distort(xy_camera, 0.0, 0.0, p1, p2) - xy_camera
@@ -134,44 +174,61 @@ def radius_not_squared(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p
 
 
 @mistake("Your answer does not depend on p1 and p2: the tangential terms are missing.")
-def tangential_forgotten(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float) -> np.ndarray:
+def tangential_forgotten(
+    xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
+) -> np.ndarray:
     """Bends along the radius only."""
     return distortion.distort(xy_camera, k1, k2)
 
 
 @mistake(
-    "You divide by the radial factor, as if you took the lens off. `distort` goes from ideal to distorted "
-    "points: multiply."
+    "You divide by the radial factor, as if you took the lens off. `distort` goes from ideal to"
+    " distorted points: multiply."
 )
-def the_lens_taken_off(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float) -> np.ndarray:
+def the_lens_taken_off(
+    xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
+) -> np.ndarray:
     """Divides where it must multiply, as who takes the lens off would."""
     s = np.sum(xy_camera**2, axis=1, keepdims=True)
-    return (xy_camera - (distortion.distort(xy_camera, 0.0, 0.0, p1, p2) - xy_camera)) / (1 + k1 * s + k2 * s**2)
+    return (xy_camera - (distortion.distort(xy_camera, 0.0, 0.0, p1, p2) - xy_camera)) / (
+        1 + k1 * s + k2 * s**2
+    )
 
 
 @mistake(
-    "You compute the tangential terms from points that are bent already. All terms use the x, y and r of the "
-    "ideal point."
+    "You compute the tangential terms from points that are bent already. All terms use the x, y and"
+    " r of the ideal point."
 )
-def one_after_the_other(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float) -> np.ndarray:
+def one_after_the_other(
+    xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
+) -> np.ndarray:
     """Computes the tangential terms from points that the radial ones have moved."""
     return distortion.distort(distortion.distort(xy_camera, k1, k2), 0.0, 0.0, p1, p2)
 
 
-@mistake("You returned by how much the points move. Return where they are afterwards: add the points themselves.")
-def displacement_only(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float) -> np.ndarray:
+@mistake(
+    "You returned by how much the points move. Return where they are afterwards: add the points"
+    " themselves."
+)
+def displacement_only(
+    xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
+) -> np.ndarray:
     """Returns by how much, not to where."""
     return distortion.distort(xy_camera, k1, k2, p1, p2) - xy_camera
 
 
 @mistake("You multiply k2 by r^2 as you do k1. It belongs to r^4, the square of r^2.")
-def fourth_power_lost(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float) -> np.ndarray:
+def fourth_power_lost(
+    xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
+) -> np.ndarray:
     """Uses r^2 for k2 as well."""
     return distortion.distort(xy_camera, k1 + k2, 0.0, p1, p2)
 
 
 @alternative
-def distort_by_coordinates(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float) -> np.ndarray:
+def distort_by_coordinates(
+    xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
+) -> np.ndarray:
     """Writes x and y out, as OpenCV's documentation does."""
     x, y = xy_camera[:, 0], xy_camera[:, 1]
     r2 = x**2 + y**2
@@ -182,7 +239,9 @@ def distort_by_coordinates(xy_camera: np.ndarray, k1: float, k2: float, p1: floa
 
 
 @alternative
-def distort_in_the_complex_plane(xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float) -> np.ndarray:
+def distort_in_the_complex_plane(
+    xy_camera: np.ndarray, k1: float, k2: float, p1: float, p2: float
+) -> np.ndarray:
     """Uses z = x + iy and q = p2 + i p1: z g + 2 Re(conj(q) z) z + q |z|^2."""
     z, q = xy_camera[:, 0] + 1j * xy_camera[:, 1], p2 + 1j * p1
     s = (z * z.conj()).real

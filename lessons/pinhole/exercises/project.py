@@ -1,5 +1,5 @@
-"""Write the pinhole camera without a lens: from points in the world to pixels. The lesson lays your pixels in orange
-over the true photograph, so a mistake is seen where it is made.
+"""Write the pinhole camera without a lens: from points in the world to pixels. The lesson lays your
+pixels in orange over the true photograph, so a mistake is seen where it is made.
 """
 
 from collections.abc import Iterator
@@ -23,7 +23,7 @@ from workbench.exercise import (
     number,
     worst,
 )
-from workbench.geometry import cameras
+from workbench.geometry.cameras import pinhole as cameras
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
 
@@ -31,17 +31,25 @@ from workbench.geometry.motions import apply, exp_so3, inverse, motion
     slot="project",
     examples=(
         (
-            "project(np.array([[1.0, 0.5, 2]]), np.eye(4), np.array([[500.0, 0, 320], [0, 500, 240], [0, 0, 1]]))",
+            (
+                "project(np.array([[1.0, 0.5, 2]]), np.eye(4), np.array([[500.0, 0, 320], [0, 500,"
+                " 240], [0, 0, 1]]))"
+            ),
             "[[570, 365]]",
         ),
         (
-            "project(np.array([[1.0, 0, -2]]), np.eye(4), np.array([[500.0, 0, 320], [0, 500, 240], [0, 0, 1]]))",
+            (
+                "project(np.array([[1.0, 0, -2]]), np.eye(4), np.array([[500.0, 0, 320], [0, 500,"
+                " 240], [0, 0, 1]]))"
+            ),
             "[[nan, nan]]",
         ),
     ),
 )
 def project(
-    p_world: Float[np.ndarray, "n 3"], T_camera_world: Float[np.ndarray, "4 4"], K: Float[np.ndarray, "3 3"]
+    p_world: Float[np.ndarray, "n 3"],
+    T_camera_world: Float[np.ndarray, "4 4"],
+    K: Float[np.ndarray, "3 3"],
 ) -> Float[np.ndarray, "n 2"]:
     """Return the pixels (u, v) = (column, row) at which a pinhole camera sees the points.
 
@@ -53,8 +61,9 @@ def project(
         K: Intrinsics in pixels, [[fx, skew, cx], [0, fy, cy], [0, 0, 1]].
 
     Returns:
-        One row per point, in the same order, also outside the picture. A row is NaN where the point's depth Z in the
-        camera frame is zero or negative: the camera does not see what lies beside or behind it.
+        One row per point, in the same order, also outside the picture. A row is NaN where the
+        point's depth Z in the camera frame is zero or negative: the camera does not see what lies
+        beside or behind it.
     """
     return cameras.project(p_world, T_camera_world, K)
 
@@ -62,28 +71,47 @@ def project(
 PROJECT_HINT = "World to camera frame, divide by the depth Z, then K."
 
 
-def some_scenes(seed: int, n: int = 4, size: int = 40) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Yield points, a camera that looks at them from 4 to 7 m, and its K with a principal point off the middle."""
+def some_scenes(
+    seed: int, n: int = 4, size: int = 40
+) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Yield points, a camera that looks at them from 4 to 7 m, and its K with a principal point off
+    the middle.
+    """
     rng = np.random.default_rng(seed)
     for _ in range(n):
         eye = rng.normal(size=3)
-        T_camera_world = cameras.look_at(eye / np.linalg.norm(eye) * rng.uniform(4, 7), rng.uniform(-0.3, 0.3, 3))
+        T_camera_world = cameras.look_at(
+            eye / np.linalg.norm(eye) * rng.uniform(4, 7), rng.uniform(-0.3, 0.3, 3)
+        )
         K = cameras.intrinsics(rng.uniform(400, 900), rng.uniform(150, 250), rng.uniform(300, 400))
         yield rng.uniform(-1.5, 1.5, (size, 3)), T_camera_world, K
 
 
 def in_pixels(uv: np.ndarray, right: np.ndarray, hint: str) -> Verdict:
-    """Judge pixels by the largest distance to the right ones; a row that should be NaN and is not, or the reverse, fails."""
-    seen, given, unknown = np.isfinite(right).all(axis=1), np.isfinite(uv).all(axis=1), np.isnan(uv).all(axis=1)
+    """Judge pixels by the largest distance to the right ones; a row that should be NaN and is not,
+    or the reverse, fails.
+    """
+    seen, given, unknown = (
+        np.isfinite(right).all(axis=1),
+        np.isfinite(uv).all(axis=1),
+        np.isnan(uv).all(axis=1),
+    )
     if (lost := np.flatnonzero(seen & ~given)).size:
         k = lost[0]
         told = f"Row {k} is {against(uv[k], right[k])}. {hint}"
-        return fail(f"{lost.size} of {seen.sum()} points in front of the camera got no pixel. {told}")
+        return fail(
+            f"{lost.size} of {seen.sum()} points in front of the camera got no pixel. {told}"
+        )
     if (false := np.flatnonzero(~seen & ~unknown)).size:
-        said = f"{false.size} of {(~seen).sum()} points at or behind the camera got a row that is not NaN."
+        said = (
+            f"{false.size} of {(~seen).sum()} points at or behind the camera got a row that is not"
+            " NaN."
+        )
         return fail(f"{said} Row {false[0]} is {number(uv[false[0]])}, right is (nan, nan). {hint}")
     error = float(np.linalg.norm(uv[seen] - right[seen], axis=1).max(initial=0.0))
-    return band("Largest pixel error", error, "px", good=0.01, fair=1.0, hint=beside(uv, right, hint))
+    return band(
+        "Largest pixel error", error, "px", good=0.01, fair=1.0, hint=beside(uv, right, hint)
+    )
 
 
 @check(1)
@@ -97,13 +125,18 @@ def principal_point(candidate: Function) -> Verdict:
 @check(2)
 def right_pixels(candidate: Function) -> Verdict:
     """Points in front of cameras all around are seen at the right pixels."""
-    return worst(in_pixels(candidate(*scene), cameras.project(*scene), PROJECT_HINT) for scene in some_scenes(STUDENTS))
+    return worst(
+        in_pixels(candidate(*scene), cameras.project(*scene), PROJECT_HINT)
+        for scene in some_scenes(STUDENTS)
+    )
 
 
 @check(2)
 def not_behind(candidate: Function) -> Verdict:
     """Points at or behind the camera get NaN, and the others keep their rows."""
-    p = np.array([[0.5, 0.2, 3.0], [0.5, 0.2, -3.0], [1.0, 1.0, 0.0], [-0.4, 0.1, 0.01], [0.0, 0.0, 0.0]])
+    p = np.array(
+        [[0.5, 0.2, 3.0], [0.5, 0.2, -3.0], [1.0, 1.0, 0.0], [-0.4, 0.1, 0.01], [0.0, 0.0, 0.0]]
+    )
     K = cameras.intrinsics(500.0, 310.0, 245.0)
     hint = f"Two of these five have a positive depth. {PROJECT_HINT}"
     return in_pixels(candidate(p, np.eye(4), K), cameras.project(p, np.eye(4), K), hint)
@@ -113,15 +146,21 @@ def not_behind(candidate: Function) -> Verdict:
 def scene_is_left_alone(candidate: Function) -> Verdict:
     """Points, motion and K are not changed."""
     scene = next(some_scenes(STUDENTS + 1))
-    return left_alone(candidate, in_pixels(candidate(*scene), cameras.project(*scene), PROJECT_HINT))
+    return left_alone(
+        candidate, in_pixels(candidate(*scene), cameras.project(*scene), PROJECT_HINT)
+    )
 
 
 @check(2, public=False)
 def whole_k(candidate: Function) -> Verdict:
-    """All of K counts: two focal lengths, skew, and a principal point outside the picture, as after a crop."""
+    """All of K counts: two focal lengths, skew, and a principal point outside the picture, as after
+    a crop.
+    """
     verdicts = []
     for p_world, T_camera_world, _ in some_scenes(GRADERS()):
-        K = cameras.crop_intrinsics(cameras.intrinsics(600.0, 320.0, 240.0, fy=450.0, skew=35.0), 400.0, -90.0)
+        K = cameras.crop_intrinsics(
+            cameras.intrinsics(600.0, 320.0, 240.0, fy=450.0, skew=35.0), 400.0, -90.0
+        )
         right = cameras.project(p_world, T_camera_world, K)
         verdicts.append(in_pixels(candidate(p_world, T_camera_world, K), right, PROJECT_HINT))
     return worst(verdicts)
@@ -145,19 +184,31 @@ def moves_together(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def camera_amid_points(candidate: Function) -> Verdict:
-    """A camera amid its points, no point, a single one, all behind it, and one a hundredth of a millimetre before it."""
+    """A camera amid its points, no point, a single one, all behind it, and one a hundredth of a
+    millimetre before it.
+    """
     (p_world, T_camera_world, K), *_ = some_scenes(GRADERS() + 2, size=200)
     amid = motion(T_camera_world[:3, :3], np.array([0.1, -0.2, 0.3]))
     behind = motion(np.eye(3), np.array([0.0, 0.0, -50.0]))
-    beside_it = np.array([[1.0, 1.0, 0.0], [-2.0, 0.5, 0.0], [0.3, -0.1, 1e-3], [1e-6, -2e-6, 1e-5]])
+    beside_it = np.array(
+        [[1.0, 1.0, 0.0], [-2.0, 0.5, 0.0], [0.3, -0.1, 1e-3], [1e-6, -2e-6, 1e-5]]
+    )
     skewed = cameras.intrinsics(500.0, 310.0, 245.0, skew=20.0)
-    cases = [(p_world, amid, K), (p_world[:0], amid, K), (p_world, behind, K), (beside_it, np.eye(4), skewed)]
+    cases = [
+        (p_world, amid, K),
+        (p_world[:0], amid, K),
+        (p_world, behind, K),
+        (beside_it, np.eye(4), skewed),
+    ]
     cases.append((p_world[:1], T_camera_world, K))
-    return worst(in_pixels(candidate(*case), cameras.project(*case), PROJECT_HINT) for case in cases)
+    return worst(
+        in_pixels(candidate(*case), cameras.project(*case), PROJECT_HINT) for case in cases
+    )
 
 
 @mistake(
-    "You used the inverse of T_camera_world. It takes world points into the camera frame already: apply it as it is."
+    "You used the inverse of T_camera_world. It takes world points into the camera frame already:"
+    " apply it as it is."
 )
 def motion_inverted(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
     """Takes camera-to-world for world-to-camera."""
@@ -165,10 +216,12 @@ def motion_inverted(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarr
 
 
 @mistake(
-    "You divide by depths that are negative or zero. A point behind the camera then gets a pixel that looks "
-    "valid, upside down; its row must be NaN."
+    "You divide by depths that are negative or zero. A point behind the camera then gets a pixel"
+    " that looks valid, upside down; its row must be NaN."
 )
-def divides_behind_too(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
+def divides_behind_too(
+    p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
+) -> np.ndarray:
     """Divides by the depth whatever its sign."""
     x, y, w = K @ apply(T_camera_world, p_world).T
     return np.stack([x / w, y / w], axis=1)
@@ -180,7 +233,10 @@ def row_before_column(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.nda
     return cameras.project(p_world, T_camera_world, K)[:, ::-1].copy()
 
 
-@mistake("You did not divide by the depth Z. That is a parallel projection: far things do not get smaller.")
+@mistake(
+    "You did not divide by the depth Z. That is a parallel projection: far things do not get"
+    " smaller."
+)
 def never_divides(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
     """Leaves the depth out."""
     p_camera = apply(T_camera_world, p_world)
@@ -190,10 +246,12 @@ def never_divides(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
 
 
 @mistake(
-    "You divided by the distance from the camera. Depth is Z in the camera frame, not the length of the ray; "
-    "towards the border of the picture they differ."
+    "You divided by the distance from the camera. Depth is Z in the camera frame, not the length of"
+    " the ray; towards the border of the picture they differ."
 )
-def ray_length_for_depth(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
+def ray_length_for_depth(
+    p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
+) -> np.ndarray:
     """Divides by the distance from the camera."""
     p_camera = apply(T_camera_world, p_world)
     uv = p_camera[:, :2] / np.linalg.norm(p_camera, axis=1, keepdims=True) @ K[:2, :2].T + K[:2, 2]
@@ -201,27 +259,36 @@ def ray_length_for_depth(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.
     return uv
 
 
-@mistake("Your camera looks along -Z with +Y up, as OpenGL's does. Ours has +Z forward and +Y down (OpenCV).")
+@mistake(
+    "Your camera looks along -Z with +Y up, as OpenGL's does. Ours has +Z forward and +Y down"
+    " (OpenCV)."
+)
 def opengl_axes(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
     """Takes the camera to look along -Z with +Y up."""
     return cameras.project(p_world, cameras.OPENGL_FROM_OPENCV @ T_camera_world, K)
 
 
 @mistake("Your pixels are counted from the principal point. Add (cx, cy), the last column of K.")
-def principal_point_forgotten(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
+def principal_point_forgotten(
+    p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
+) -> np.ndarray:
     """Scales with the focal lengths only."""
     return cameras.project(p_world, T_camera_world, K) - K[:2, 2]
 
 
-@mistake("You read fx, fy, cx, cy out of K but not its skew K[0, 1]. Multiply with the whole matrix.")
+@mistake(
+    "You read fx, fy, cx, cy out of K but not its skew K[0, 1]. Multiply with the whole matrix."
+)
 def skew_forgotten(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
     """Reads fx, fy, cx and cy out of K, and no more."""
-    return cameras.project(p_world, T_camera_world, cameras.intrinsics(K[0, 0], K[0, 2], K[1, 2], fy=K[1, 1]))
+    return cameras.project(
+        p_world, T_camera_world, cameras.intrinsics(K[0, 0], K[0, 2], K[1, 2], fy=K[1, 1])
+    )
 
 
 @mistake(
-    "You left the points behind the camera out. One row for every point: theirs is NaN, so that rows still "
-    "belong together."
+    "You left the points behind the camera out. One row for every point: theirs is NaN, so that"
+    " rows still belong together."
 )
 def rows_dropped(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
     """Leaves the points behind the camera out of the answer."""
@@ -230,7 +297,9 @@ def rows_dropped(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray)
 
 
 @alternative
-def project_with_one_matrix(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
+def project_with_one_matrix(
+    p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
+) -> np.ndarray:
     """P = K [R | t] on homogeneous points."""
     P = K @ T_camera_world[:3]
     homogeneous = np.column_stack([p_world, np.ones(len(p_world))]) @ P.T
@@ -241,7 +310,9 @@ def project_with_one_matrix(p_world: np.ndarray, T_camera_world: np.ndarray, K: 
 
 
 @alternative
-def project_point_by_point(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray) -> np.ndarray:
+def project_point_by_point(
+    p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
+) -> np.ndarray:
     """Loops over the points."""
     pixels = []
     for p in p_world:

@@ -1,16 +1,27 @@
-"""Write the choice among possible poses: which one sees the points where they were seen? The lesson asks you where
-three points left up to four cameras, and where a plane left two.
+"""Write the choice among possible poses: which one sees the points where they were seen? The lesson
+asks you where three points left up to four cameras, and where a plane left two.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.pose.exercises import GRADERS, STUDENTS, a_view
-from workbench.algorithms import camera_search
-from workbench.exercise import Function, Verdict, alternative, check, contract, fail, full, left_alone, mistake, worst
-from workbench.geometry.camera_motions import reprojection_errors
+from workbench.algorithms.cameras import camera_search
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    fail,
+    full,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.cameras.camera_motions import reprojection_errors
+from workbench.geometry.cameras.three_points import p3p
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.geometry.three_points import p3p
 from workbench.numerals import brief
 
 
@@ -22,17 +33,24 @@ from workbench.numerals import brief
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
         (
-            "choose_pose(np.stack([np.diag([-1., 1, -1, 1]), np.eye(4)]), array([[0., 0, 2]]), array([[0., 0]]))",
+            (
+                "choose_pose(np.stack([np.diag([-1., 1, -1, 1]), np.eye(4)]), array([[0., 0, 2]]),"
+                " array([[0., 0]]))"
+            ),
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
     ),
 )
 def choose_pose(
-    candidates: Float[np.ndarray, "m 4 4"], p_world: Float[np.ndarray, "n 3"], xy: Float[np.ndarray, "n 2"]
+    candidates: Float[np.ndarray, "m 4 4"],
+    p_world: Float[np.ndarray, "n 3"],
+    xy: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "4 4"]:
-    """Return the candidate that has all points in front and sees them nearest to where they were seen.
+    """Return the candidate that has all points in front and sees them nearest to where they were
+    seen.
 
-    Nearest is by the root mean square, over all points, of the distances between (X/Z, Y/Z) of the camera and xy.
+    Nearest is by the root mean square, over all points, of the distances between (X/Z, Y/Z) of the
+    camera and xy.
 
     Args:
         candidates: One T_camera_world or more; p_camera = R p_world + t.
@@ -45,28 +63,52 @@ def choose_pose(
     return camera_search.choose_pose(candidates, p_world, xy)
 
 
-HINT = "Move the points into each camera, refuse it if a Z is not positive, divide by Z, and compare with xy."
+HINT = (
+    "Move the points into each camera, refuse it if a Z is not positive, divide by Z, and compare"
+    " with xy."
+)
 
 
 def judged(
-    candidate: Function, candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray, hint: str = HINT
+    candidate: Function,
+    candidates: np.ndarray,
+    p_world: np.ndarray,
+    xy: np.ndarray,
+    hint: str = HINT,
 ) -> Verdict:
     """Judge which candidate was chosen."""
-    got, right = candidate(candidates, p_world, xy), camera_search.choose_pose(candidates, p_world, xy)
+    got, right = (
+        candidate(candidates, p_world, xy),
+        camera_search.choose_pose(candidates, p_world, xy),
+    )
     if np.abs(got - right).max() < 1e-9:
         return full(f"The right one of {len(candidates)} poses was chosen.")
     errors = reprojection_errors(np.stack([got, right]), p_world, xy)
-    rms = [brief(one, 3) if np.isfinite(one) else "not finite" for one in np.sqrt(np.square(errors).mean(axis=1))]
+    rms = [
+        brief(one, 3) if np.isfinite(one) else "not finite"
+        for one in np.sqrt(np.square(errors).mean(axis=1))
+    ]
     known = np.abs(candidates - got).max(axis=(1, 2)) < 1e-9
     which = f"chose number {int(np.argmax(known))}" if known.any() else "returned something else"
     wanted = int(np.argmax(np.abs(candidates - right).max(axis=(1, 2)) < 1e-9))
     behind = int(np.count_nonzero(np.isinf(errors[0])))
-    why = f"{behind} of {len(p_world)} points are not in front of it" if behind else f"its error is {rms[0]}"
-    return fail(f"Of {len(candidates)} poses you {which}: {why}; right is number {wanted}, error {rms[1]}. {hint}")
+    why = (
+        f"{behind} of {len(p_world)} points are not in front of it"
+        if behind
+        else f"its error is {rms[0]}"
+    )
+    return fail(
+        f"Of {len(candidates)} poses you {which}: {why}; right is number {wanted}, error {rms[1]}."
+        f" {hint}"
+    )
 
 
-def several(seed: int, n: int = 8, sigma: float = 1e-3) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the solutions of the first three of n points, at least two, and all points with noise."""
+def several(
+    seed: int, n: int = 8, sigma: float = 1e-3
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the solutions of the first three of n points, at least two, and all points with
+    noise.
+    """
     rng = np.random.default_rng(seed)
     while True:
         _, p_world, xy = a_view(rng, n)
@@ -80,7 +122,9 @@ def several(seed: int, n: int = 8, sigma: float = 1e-3) -> tuple[np.ndarray, np.
 
 
 def with_twin(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return two poses of a plane that project alike, one of them with the plane behind, which comes first."""
+    """Return two poses of a plane that project alike, one of them with the plane behind, which
+    comes first.
+    """
     T, p_world, xy = a_view(np.random.default_rng(seed), 8, flat=True)
     p_mean = p_world.mean(axis=0)
     n = np.linalg.svd(p_world - p_mean)[2][2]
@@ -94,7 +138,9 @@ def with_twin(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def half_behind(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return a pose amid the points, which fits most of them, and one that is somewhat off and has all in front."""
+    """Return a pose amid the points, which fits most of them, and one that is somewhat off and has
+    all in front.
+    """
     T, p_world, _ = a_view(np.random.default_rng(seed), 12)
     amid, off = T.copy(), T.copy()
     amid[2, 3] -= 0.5 * (apply(T, p_world)[:, 2].min() + np.median(apply(T, p_world)[:, 2]))
@@ -104,16 +150,28 @@ def half_behind(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def told_apart(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return poses of which the least root mean square chooses another one than each of four sums like it."""
+    """Return poses of which the least root mean square chooses another one than each of four sums
+    like it.
+    """
     rng = np.random.default_rng(seed)
     while True:
         T, p_world, xy = a_view(rng, 7)
-        Ts = np.stack([motion(exp_so3(0.003 * rng.normal(size=3)), 0.02 * rng.normal(size=3)) @ T for _ in range(6)])
+        Ts = np.stack(
+            [
+                motion(exp_so3(0.003 * rng.normal(size=3)), 0.02 * rng.normal(size=3)) @ T
+                for _ in range(6)
+            ]
+        )
         xy = xy + 1e-3 * rng.standard_t(2, xy.shape)
         off = seen(Ts, p_world)[0] - xy
         away = np.linalg.norm(off, axis=2)
         rms = np.sqrt(np.square(away).mean(axis=1))
-        others = (away.mean(axis=1), np.median(away, axis=1), np.abs(off).sum(axis=(1, 2)), away.max(axis=1))
+        others = (
+            away.mean(axis=1),
+            np.median(away, axis=1),
+            np.abs(off).sum(axis=(1, 2)),
+            away.max(axis=1),
+        )
         first, second = np.sort(rms)[:2]
         if second > 1.02 * first and rms.argmin() not in [other.argmin() for other in others]:
             return Ts, p_world, xy
@@ -122,13 +180,18 @@ def told_apart(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 @check(3)
 def of_three_points(candidate: Function) -> Verdict:
     """Of the solutions of three points the one is chosen that fits eight."""
-    return worst(judged(candidate, *several(STUDENTS + k), "All points judge, not the three.") for k in range(8))
+    return worst(
+        judged(candidate, *several(STUDENTS + k), "All points judge, not the three.")
+        for k in range(8)
+    )
 
 
 @check(2)
 def a_twin_behind(candidate: Function) -> Verdict:
     """A pose that has the points behind it is refused, though it projects them exactly."""
-    return worst(judged(candidate, *with_twin(STUDENTS + 20 + k), "Mind the sign of Z.") for k in range(2))
+    return worst(
+        judged(candidate, *with_twin(STUDENTS + 20 + k), "Mind the sign of Z.") for k in range(2)
+    )
 
 
 @check(1)
@@ -140,7 +203,10 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 @check(2, public=False)
 def some_points_behind(candidate: Function) -> Verdict:
     """A pose amid the points is refused too."""
-    return worst(judged(candidate, *half_behind(GRADERS() + k), "All points have to be in front.") for k in range(2))
+    return worst(
+        judged(candidate, *half_behind(GRADERS() + k), "All points have to be in front.")
+        for k in range(2)
+    )
 
 
 @check(2, public=False)
@@ -150,29 +216,41 @@ def of_other_points(candidate: Function) -> Verdict:
     verdicts = [judged(candidate, *several(GRADERS() + 10 + k, 20, 3e-3)) for k in range(8)]
     many, p, seen_at = told_apart(GRADERS() + 31)
     nearest = camera_search.choose_pose(many, p, seen_at)
-    last = np.concatenate([many[np.abs(many - nearest).max(axis=(1, 2)) > 0], many + np.eye(4, k=3), nearest[None]])
+    last = np.concatenate(
+        [many[np.abs(many - nearest).max(axis=(1, 2)) > 0], many + np.eye(4, k=3), nearest[None]]
+    )
     others = ((one[:1], p_world, xy), (last, p, seen_at), (last, p[:1], seen_at[:1]))
     return worst([*verdicts, *(judged(candidate, *case) for case in others)])
 
 
 @check(1, public=False)
 def the_root_mean_square_decides(candidate: Function) -> Verdict:
-    """It is the root mean square that is least, not the mean, the median, the sum of |dx| + |dy| or the largest."""
+    """It is the root mean square that is least, not the mean, the median, the sum of |dx| + |dy| or
+    the largest.
+    """
     hint = "Square the distances, both coordinates of all points, and take their mean."
     return worst(judged(candidate, *told_apart(GRADERS() + 50 + k), hint) for k in range(3))
 
 
 @check(1, public=False)
 def of_small_things(candidate: Function) -> Verdict:
-    """Points some millimetres before the camera are in front too, and those beside it, at Z = 0, are not."""
+    """Points some millimetres before the camera are in front too, and those beside it, at Z = 0,
+    are not.
+    """
     Ts, p_world, xy = several(GRADERS() + 60)
-    near = Ts[np.argsort(np.abs(Ts - camera_search.choose_pose(Ts, p_world, xy)).sum(axis=(1, 2)))[::-1]]  # right: last
+    near = Ts[
+        np.argsort(np.abs(Ts - camera_search.choose_pose(Ts, p_world, xy)).sum(axis=(1, 2)))[::-1]
+    ]  # right: last
     verdicts = []
     for size in (5e-3, 1e-4):
         small = near.copy()
         small[:, :3, 3] *= size
-        verdicts.append(judged(candidate, small, size * p_world, xy, "Z > 0 is in front, however near."))
-    p = np.array([[0.0, 0.0, 0.0], [0.5, 0.25, 1.0], [-0.25, 0.5, 2.0]])  # the first is at Z = 0 for the first pose
+        verdicts.append(
+            judged(candidate, small, size * p_world, xy, "Z > 0 is in front, however near.")
+        )
+    p = np.array(
+        [[0.0, 0.0, 0.0], [0.5, 0.25, 1.0], [-0.25, 0.5, 2.0]]
+    )  # the first is at Z = 0 for the first pose
     Ts = np.stack([np.eye(4), np.eye(4)])
     Ts[1, :3, 3] = 0.5, 0.5, 1.0
     xy = np.array([[0.0, 0.0], [0.5, 0.25], [-0.125, 0.25]])
@@ -182,12 +260,18 @@ def of_small_things(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def none_in_front(candidate: Function) -> Verdict:
-    """Where none has all points in front, it is the first, however many there are and whatever the others see."""
+    """Where none has all points in front, it is the first, however many there are and whatever the
+    others see.
+    """
     Ts, p_world, xy = with_twin(GRADERS() + 40)
     behind = np.stack([Ts[0], np.diag([-1.0, 1.0, -1.0, 1.0]) @ Ts[1]])
     amid = half_behind(GRADERS() + 41)
-    none = np.diag([-1.0, 1.0, -1.0, 1.0]) @ amid[0][1]  # it sees all points turned round, behind it
-    more = np.stack([none, amid[0][0], none + np.eye(4, k=3)])  # none, most and none of the points in front
+    none = (
+        np.diag([-1.0, 1.0, -1.0, 1.0]) @ amid[0][1]
+    )  # it sees all points turned round, behind it
+    more = np.stack(
+        [none, amid[0][0], none + np.eye(4, k=3)]
+    )  # none, most and none of the points in front
     hint = "None is in front: return the first."
     cases = ((behind[::-1].copy(), p_world, xy), (more, *amid[1:]), (behind[:1], p_world, xy))
     return worst(judged(candidate, *case, hint) for case in cases)
@@ -200,7 +284,8 @@ def seen(Ts: np.ndarray, p_world: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 @mistake(
-    "You did not look at the depths: a pose with the points behind it can project them exactly. Refuse where a Z ≤ 0."
+    "You did not look at the depths: a pose with the points behind it can project them exactly."
+    " Refuse where a Z ≤ 0."
 )
 def without_depths(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Compares the errors alone."""
@@ -208,13 +293,19 @@ def without_depths(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) 
     return candidates[np.square(uv - xy).sum(axis=(1, 2)).argmin()]
 
 
-@mistake("You judged by the first three points alone. These fit all the candidates: it takes the others to choose.")
+@mistake(
+    "You judged by the first three points alone. These fit all the candidates: it takes the others"
+    " to choose."
+)
 def by_three(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Leaves out all points but three."""
     return camera_search.choose_pose(candidates, p_world[:3], xy[:3])
 
 
-@mistake("You judged by the last point alone. A single point may be seen well by a wrong pose: use all of them.")
+@mistake(
+    "You judged by the last point alone. A single point may be seen well by a wrong pose: use all"
+    " of them."
+)
 def by_the_last(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Leaves out all points but one."""
     return camera_search.choose_pose(candidates, p_world[-1:], xy[-1:])
@@ -226,7 +317,10 @@ def the_first(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np
     return candidates[0]
 
 
-@mistake("You counted the points in front, and did not compare the errors of those poses that have all in front.")
+@mistake(
+    "You counted the points in front, and did not compare the errors of those poses that have all"
+    " in front."
+)
 def most_in_front(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Takes the pose with most points in front."""
     _, z = seen(candidates, p_world)
@@ -240,7 +334,8 @@ def inverted(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.
 
 
 @mistake(
-    "You took the candidates for camera-to-world. They are T_camera_world: p_camera = R p_world + t, nothing inverted."
+    "You took the candidates for camera-to-world. They are T_camera_world: p_camera = R p_world +"
+    " t, nothing inverted."
 )
 def read_inverted(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Moves the points by the inverses."""
@@ -257,7 +352,8 @@ def the_worst(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np
 
 
 @mistake(
-    "You averaged the depths: their mean is positive though some points are behind. All of them have to be in front."
+    "You averaged the depths: their mean is positive though some points are behind. All of them"
+    " have to be in front."
 )
 def mean_depth(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Asks for a positive mean depth."""
@@ -266,7 +362,10 @@ def mean_depth(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> n
     return candidates[np.where(z.mean(axis=1) > 0, errors, np.inf).argmin()]
 
 
-@mistake("You refuse poses with the points in front and take those with the points behind. In front is where Z > 0.")
+@mistake(
+    "You refuse poses with the points in front and take those with the points behind. In front is"
+    " where Z > 0."
+)
 def only_behind(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Has the sign of the depth wrong."""
     uv, z = seen(candidates, p_world)
@@ -274,7 +373,10 @@ def only_behind(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> 
     return candidates[np.where((z < 0).all(axis=1), errors, np.inf).argmin()]
 
 
-@mistake("You compared X and Y in metres with xy, without the division by Z. Image coordinates are X/Z and Y/Z.")
+@mistake(
+    "You compared X and Y in metres with xy, without the division by Z. Image coordinates are X/Z"
+    " and Y/Z."
+)
 def without_division(candidates: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Forgets to divide."""
     p_camera = np.stack([apply(T, p_world) for T in candidates])

@@ -1,12 +1,13 @@
-"""Write the pose of a camera from the lengths of three rays. The lesson solves a quartic for the lengths and takes each
-possible camera from you: watch where yours stand, and whether they see the three points where they were seen.
+"""Write the pose of a camera from the lengths of three rays. The lesson solves a quartic for the
+lengths and takes each possible camera from you: watch where yours stand, and whether they see the
+three points where they were seen.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.pose.exercises import GRADERS, STUDENTS, a_view
-from workbench.algorithms import camera_search
+from workbench.algorithms.cameras import camera_search
 from workbench.exercise import (
     Function,
     Verdict,
@@ -18,9 +19,9 @@ from workbench.exercise import (
     motion_verdict,
     worst,
 )
-from workbench.geometry.alignment import align_rigid
+from workbench.geometry.cameras.three_points import motions_from_lengths, unit_rays
 from workbench.geometry.motions import apply, exp_so3, inverse, motion
-from workbench.geometry.three_points import motions_from_lengths, unit_rays
+from workbench.geometry.motions.alignment import align_rigid
 
 
 @contract(
@@ -38,15 +39,17 @@ from workbench.geometry.three_points import motions_from_lengths, unit_rays
     ),
 )
 def pose_from_distances(
-    p_world: Float[np.ndarray, "3 3"], rays: Float[np.ndarray, "3 3"], distances: Float[np.ndarray, "3"]
+    p_world: Float[np.ndarray, "3 3"],
+    rays: Float[np.ndarray, "3 3"],
+    distances: Float[np.ndarray, "3"],
 ) -> Float[np.ndarray, "4 4"]:
     """Return the T_camera_world that takes three points to the ends of their rays.
 
     Args:
         p_world: The points, one a row, metres; not on one line.
         rays: The unit vectors, in the camera's frame, on which they are seen, row by row.
-        distances: How far along its ray each point is, metres. They fit: the ends of the rays are as far apart as the
-            points are.
+        distances: How far along its ray each point is, metres. They fit: the ends of the rays are
+            as far apart as the points are.
 
     Returns:
         A rotation and a translation, 4x4, with determinant +1.
@@ -54,7 +57,10 @@ def pose_from_distances(
     return camera_search.pose_from_distances(p_world, rays, distances)
 
 
-HINT = "The ends of the rays are distances times rays. Find R, t with R p_world + t = ends, and det R = +1."
+HINT = (
+    "The ends of the rays are distances times rays. Find R, t with R p_world + t = ends, and det R"
+    " = +1."
+)
 
 
 def judged(candidate: Function, seeds: range, aside: float = 0.0) -> Verdict:
@@ -88,7 +94,9 @@ def inputs_are_left_alone(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def other_cameras(candidate: Function) -> Verdict:
-    """Cameras at other places are found too, half a turn away, with wide views, equal distances and small triangles."""
+    """Cameras at other places are found too, half a turn away, with wide views, equal distances and
+    small triangles.
+    """
     verdicts = [judged(candidate, range(GRADERS(), GRADERS() + 20))]
     wide = unit_rays(np.array([[9.0, 0.5], [-6.0, 7.0], [0.2, -8.0]]))
     ends = (wide * [[2.0], [3.0], [2.5]], 4.0 * wide, 0.004 * wide, wide * [[2.0], [3.0], [-2.5]])
@@ -114,7 +122,8 @@ def kabsch(p: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nda
 
 
 @mistake(
-    "Your camera is mirrored in about half of the cases. Three points are flat, so the SVD may reflect: fix det R = +1."
+    "Your camera is mirrored in about half of the cases. Three points are flat, so the SVD may"
+    " reflect: fix det R = +1."
 )
 def without_determinant(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Leaves the sign to chance."""
@@ -124,7 +133,8 @@ def without_determinant(p_world: np.ndarray, rays: np.ndarray, distances: np.nda
 
 
 @mistake(
-    "You returned camera-to-world, T_world_camera. Asked for is T_camera_world, which takes world points to the camera."
+    "You returned camera-to-world, T_world_camera. Asked for is T_camera_world, which takes world"
+    " points to the camera."
 )
 def inverted(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Aligns the other way round."""
@@ -132,23 +142,30 @@ def inverted(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np
 
 
 @mistake(
-    "You took the distances for depths Z. They are measured along the rays: the points are distances times unit rays."
+    "You took the distances for depths Z. They are measured along the rays: the points are"
+    " distances times unit rays."
 )
 def lengths_as_depths(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Divides the rays by their z."""
     return align_rigid(distances[:, None] * rays / rays[:, 2:], p_world)
 
 
-@mistake("You left the distances out: the rays' unit vectors are not yet the points. Multiply each by its distance.")
+@mistake(
+    "You left the distances out: the rays' unit vectors are not yet the points. Multiply each by"
+    " its distance."
+)
 def without_distances(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Aligns with the unit vectors."""
     return align_rigid(rays, p_world)
 
 
 @mistake(
-    "Your rotation is right, your translation is not: t = mean of the ends − R (mean of p_world), and you left out R."
+    "Your rotation is right, your translation is not: t = mean of the ends − R (mean of p_world),"
+    " and you left out R."
 )
-def translation_not_turned(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
+def translation_not_turned(
+    p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray
+) -> np.ndarray:
     """Subtracts the means as they are."""
     q = distances[:, None] * rays
     T = align_rigid(q, p_world)
@@ -156,7 +173,8 @@ def translation_not_turned(p_world: np.ndarray, rays: np.ndarray, distances: np.
 
 
 @mistake(
-    "Your rotation is the inverse of the right one, though the translation uses it as if it were not. Mind UVᵀ and VUᵀ."
+    "Your rotation is the inverse of the right one, though the translation uses it as if it were"
+    " not. Mind UVᵀ and VUᵀ."
 )
 def rotation_transposed(p_world: np.ndarray, rays: np.ndarray, distances: np.ndarray) -> np.ndarray:
     """Transposes the rotation, and puts the middle where it belongs."""

@@ -1,5 +1,6 @@
-"""Write one Gauss-Newton step on a camera's pose: the small motion that would lower the squared errors in the picture
-most, were they linear. The lesson goes downhill by your steps, and halves those that raise the error.
+"""Write one Gauss-Newton step on a camera's pose: the small motion that would lower the squared
+errors in the picture most, were they linear. The lesson goes downhill by your steps, and halves
+those that raise the error.
 """
 
 import numpy as np
@@ -20,7 +21,7 @@ from workbench.exercise import (
     number,
     worst,
 )
-from workbench.geometry.camera_motions import gauss_newton_step, linearised, refined
+from workbench.geometry.cameras.camera_motions import gauss_newton_step, linearised, refined
 from workbench.geometry.motions import apply, exp_so3, motion, skew
 
 
@@ -28,11 +29,17 @@ from workbench.geometry.motions import apply, exp_so3, motion, skew
     slot="pose_step",
     examples=(
         (
-            "pose_step(np.eye(4), np.eye(4)[:, :3] + [0, 0, 2], array([[.5, 0], [0, .5], [0, 0], [0, 0]]))",
+            (
+                "pose_step(np.eye(4), np.eye(4)[:, :3] + [0, 0, 2], array([[.5, 0], [0, .5], [0,"
+                " 0], [0, 0]]))"
+            ),
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
         (
-            "pose_step(np.eye(4) + np.eye(4, k=3), np.eye(4)[:, :3] + [0, 0, 2], array([[.5, 0], [0, .5], [0, 0], [0, 0]]))",
+            (
+                "pose_step(np.eye(4) + np.eye(4, k=3), np.eye(4)[:, :3] + [0, 0, 2], array([[.5,"
+                " 0], [0, .5], [0, 0], [0, 0]]))"
+            ),
             "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]",
         ),
     ),
@@ -42,9 +49,10 @@ def pose_step(
 ) -> Float[np.ndarray, "4 4"]:
     """Return the pose after one Gauss-Newton step on the squared reprojection errors.
 
-    With (X, Y, Z) = R p_world + t, a point is seen at (X/Z, Y/Z). A small motion, by v in metres and by the rotation
-    vector w in radians, both in the camera's frame, moves it by v + w × (X, Y, Z). Solve the linear least-squares
-    problem for v and w and compose that motion on the left of T. Steps about another point are right too, if they arrive.
+    With (X, Y, Z) = R p_world + t, a point is seen at (X/Z, Y/Z). A small motion, by v in metres
+    and by the rotation vector w in radians, both in the camera's frame, moves it by v + w × (X, Y,
+    Z). Solve the linear least-squares problem for v and w and compose that motion on the left of T.
+    Steps about another point are right too, if they arrive.
 
     Args:
         T: T_camera_world before the step.
@@ -57,13 +65,18 @@ def pose_step(
     return gauss_newton_step(T, p_world, xy)
 
 
-HINT = "Rows of the Jacobian: (1/Z, 0, −X/Z²) and (0, 1/Z, −Y/Z²), each times v + w × p_camera; residual: seen − xy."
+HINT = (
+    "Rows of the Jacobian: (1/Z, 0, −X/Z²) and (0, 1/Z, −Y/Z²), each times v + w × p_camera;"
+    " residual: seen − xy."
+)
 
 
 def a_start(
     seed: int, n: int = 12, *, aside: float = 0.0, degrees: float = 15.0, metres: float = 0.3
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.random.Generator]:
-    """Return the right T_camera_world, points, where they are seen, and a start that is off by so much."""
+    """Return the right T_camera_world, points, where they are seen, and a start that is off by so
+    much.
+    """
     rng = np.random.default_rng(seed)
     T_true, p_world, xy = a_view(rng, n, aside=aside)
     w, p_mean = rng.standard_normal(3), p_world.mean(axis=0)
@@ -78,7 +91,13 @@ def farthest(T: np.ndarray, T_right: np.ndarray, p: np.ndarray) -> float:
 
 
 def arrived(
-    candidate: Function, seed: int, *, steps: int = 6, sigma: float = 0.0, n: int = 12, aside: float = 0.0
+    candidate: Function,
+    seed: int,
+    *,
+    steps: int = 6,
+    sigma: float = 0.0,
+    n: int = 12,
+    aside: float = 0.0,
 ) -> Verdict:
     """Judge where some steps arrive from a start that is some 15 degrees and half a metre off."""
     T_true, p_world, xy, T, rng = a_start(seed, n, aside=aside)
@@ -87,15 +106,22 @@ def arrived(
     for _ in range(steps):
         T = candidate(T, p_world, xy)
         if not np.abs(T).max() < 1e9:
-            return fail(f"The steps run away: the largest number of T is {number(np.abs(T).max(), 2)}. {HINT}")
-        if not 0.5 < np.linalg.det(T[:3, :3]) < 2:  # all points on one, or behind each other: nothing to step from
+            return fail(
+                f"The steps run away: the largest number of T is {number(np.abs(T).max(), 2)}."
+                f" {HINT}"
+            )
+        if (
+            not 0.5 < np.linalg.det(T[:3, :3]) < 2
+        ):  # all points on one, or behind each other: nothing to step from
             return motion_verdict(T, right, f"That is what a step gave. {HINT}", p=p_world)
     return motion_verdict(T, right, f"T is the pose after {steps} steps. {HINT}", p=p_world)
 
 
 @check(3)
 def steps_arrive(candidate: Function) -> Verdict:
-    """Six steps from 15 degrees and half a metre away arrive within 0.1 degrees and a millimetre."""
+    """Six steps from 15 degrees and half a metre away arrive within 0.1 degrees and a
+    millimetre.
+    """
     return worst(arrived(candidate, STUDENTS + k) for k in range(3))
 
 
@@ -103,7 +129,9 @@ def steps_arrive(candidate: Function) -> Verdict:
 def at_the_right_pose(candidate: Function) -> Verdict:
     """At the right pose the step is none."""
     T, p_world, xy = a_view(np.random.default_rng(STUDENTS + 10), 10)
-    return motion_verdict(candidate(T, p_world, xy), T, f"All residuals are 0 here. {HINT}", p=p_world)
+    return motion_verdict(
+        candidate(T, p_world, xy), T, f"All residuals are 0 here. {HINT}", p=p_world
+    )
 
 
 @check(1)
@@ -125,7 +153,10 @@ def other_starts(candidate: Function) -> Verdict:
         [
             *(arrived(candidate, GRADERS() + 10 + k) for k in range(4)),
             arrived(candidate, GRADERS() + 22, n=5, steps=8),
-            *(from_nearby(candidate, GRADERS() + 23 + k, n=4 + 8 * k, flat=bool(k)) for k in range(2)),
+            *(
+                from_nearby(candidate, GRADERS() + 23 + k, n=4 + 8 * k, flat=bool(k))
+                for k in range(2)
+            ),
         ]
     )
 
@@ -148,21 +179,41 @@ def away_from_the_origin(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def each_call_is_one_step(candidate: Function) -> Verdict:
-    """From 1 degree and 2 cm away one step leaves 2 mm at most; from 15 degrees and 30 cm it cannot arrive."""
+    """From 1 degree and 2 cm away one step leaves 2 mm at most; from 15 degrees and 30 cm it cannot
+    arrive.
+    """
     verdicts = []
     for k in range(4):
-        T_true, p_world, xy, T, _ = a_start(GRADERS() + 40 + k, aside=2.0 * k, degrees=1.0, metres=0.02)
+        T_true, p_world, xy, T, _ = a_start(
+            GRADERS() + 40 + k, aside=2.0 * k, degrees=1.0, metres=0.02
+        )
         left = farthest(candidate(T, p_world, xy), T_true, p_world)
-        hint = "The small motion moves t too: it is composed on the left of all of T, (exp(w) R, exp(w) t + v)."
-        verdicts.append(band("One step from nearby leaves", left, "m, right is some tenths of a millimetre",
-                             good=2e-3, fair=1e-2, hint=hint))  # fmt: skip
+        hint = (
+            "The small motion moves t too: it is composed on the left of all of T, (exp(w) R,"
+            " exp(w) t + v)."
+        )
+        verdicts.append(
+            band(
+                "One step from nearby leaves",
+                left,
+                "m, right is some tenths of a millimetre",
+                good=2e-3,
+                fair=1e-2,
+                hint=hint,
+            )
+        )
     left = []
     for k in range(4):
         T_true, p_world, xy, T, _ = a_start(GRADERS() + 50 + k, aside=4.0)
         left.append(farthest(candidate(T, p_world, xy), T_true, p_world))
     if max(left) < 0.02:
-        said = f"One call from 15 degrees away leaves {number(max(left), 2)} m, right is some decimetres"
-        verdicts.append(fail(f"{said}. Return T after a single step: the lesson goes on from there."))
+        said = (
+            f"One call from 15 degrees away leaves {number(max(left), 2)} m, right is some"
+            " decimetres"
+        )
+        verdicts.append(
+            fail(f"{said}. Return T after a single step: the lesson goes on from there.")
+        )
     return worst(verdicts)
 
 
@@ -173,7 +224,9 @@ def small(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray, turned: float = 1.
     return motion(exp_so3(x[3:]), x[:3])
 
 
-@mistake("Your step goes uphill: its sign is wrong. Solve J x = −residual, with residual = seen − xy.")
+@mistake(
+    "Your step goes uphill: its sign is wrong. Solve J x = −residual, with residual = seen − xy."
+)
 def uphill(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Adds what should be subtracted."""
     residuals, J = linearised(T, p_world, xy)
@@ -182,14 +235,18 @@ def uphill(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your step is counted in the camera's frame, but composed on the right of T. Compose it on the left: step @ T."
+    "Your step is counted in the camera's frame, but composed on the right of T. Compose it on the"
+    " left: step @ T."
 )
 def composed_on_the_right(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Multiplies from the wrong side."""
     return T @ small(T, p_world, xy)
 
 
-@mistake("Your derivative leaves out −X/Z² and −Y/Z²: moving along the axis changes the picture too, by the division.")
+@mistake(
+    "Your derivative leaves out −X/Z² and −Y/Z²: moving along the axis changes the picture too, by"
+    " the division."
+)
 def without_division(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Differentiates X/Z as if Z were constant."""
     p = p_world @ T[:3, :3].T + T[:3, 3]
@@ -202,7 +259,9 @@ def without_division(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.n
     return motion(exp_so3(x[3:]), x[:3]) @ T
 
 
-@mistake("You left the rotation out: there are six unknowns, three of translation and three of rotation.")
+@mistake(
+    "You left the rotation out: there are six unknowns, three of translation and three of rotation."
+)
 def translation_only(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Solves for v alone."""
     residuals, J = linearised(T, p_world, xy)
@@ -211,7 +270,10 @@ def translation_only(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.n
     return moved
 
 
-@mistake("You turned by I + [w]×, which is no rotation: it stretches at every step. Turn by |w| about w (Rodrigues).")
+@mistake(
+    "You turned by I + [w]×, which is no rotation: it stretches at every step. Turn by |w| about w"
+    " (Rodrigues)."
+)
 def no_proper_rotation(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Takes the linear part for the rotation."""
     residuals, J = linearised(T, p_world, xy)
@@ -219,7 +281,10 @@ def no_proper_rotation(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np
     return motion(np.eye(3) + skew(x[3:]), x[:3]) @ T
 
 
-@mistake("Your rotation turns backwards: w × p is −[p]× w. Its columns in the Jacobian have the wrong sign.")
+@mistake(
+    "Your rotation turns backwards: w × p is −[p]× w. Its columns in the Jacobian have the wrong"
+    " sign."
+)
 def turned_backwards(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Uses p × w."""
     return small(T, p_world, xy, -1.0) @ T
@@ -232,7 +297,8 @@ def step_alone(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray
 
 
 @mistake(
-    "You went down the gradient, Jᵀ r. Gauss-Newton solves (JᵀJ) x = −Jᵀ r: the gradient alone does not know how far."
+    "You went down the gradient, Jᵀ r. Gauss-Newton solves (JᵀJ) x = −Jᵀ r: the gradient alone does"
+    " not know how far."
 )
 def gradient(T: np.ndarray, p_world: np.ndarray, xy: np.ndarray) -> np.ndarray:
     """Steps along the gradient."""

@@ -1,13 +1,13 @@
-"""Write the vote: how many points are within the inlier distance of a plane. With the score 'count' your number decides
-which sample is the best so far, and its share of all points how many samples are still needed. It is used where the
-model is a plane, as in the default run.
+"""Write the vote: how many points are within the inlier distance of a plane. With the score 'count'
+your number decides which sample is the best so far, and its share of all points how many samples
+are still needed. It is used where the model is a plane, as in the default run.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.ransac.exercises import GRADERS, STUDENTS
-from workbench.algorithms import scores
+from workbench.algorithms.robust import scores
 from workbench.exercise import (
     Function,
     Verdict,
@@ -28,24 +28,33 @@ from workbench.geometry.motions import exp_so3
     slot="count_inliers",
     examples=(
         (
-            "count_inliers(np.array([0.0, 0, 1, -2]), np.array([[5.0, 1, 2.1], [0, 0, 1.9], [0, 0, 0]]), 0.2)",
+            (
+                "count_inliers(np.array([0.0, 0, 1, -2]), np.array([[5.0, 1, 2.1], [0, 0, 1.9], [0,"
+                " 0, 0]]), 0.2)"
+            ),
             "2",
         ),
-        ("count_inliers(np.array([0.6, 0, 0.8, 0]), np.array([[1.0, 0, 0], [0, 9, 0.5]]), 0.5)", "1"),
+        (
+            "count_inliers(np.array([0.6, 0, 0.8, 0]), np.array([[1.0, 0, 0], [0, 9, 0.5]]), 0.5)",
+            "1",
+        ),
     ),
 )
-def count_inliers(plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float) -> int:
+def count_inliers(
+    plane: Float[np.ndarray, "4"], p: Float[np.ndarray, "n 3"], inlier_distance: float
+) -> int:
     """Return how many points are near a plane, on both its sides.
 
     Args:
-        plane: (a, b, c, d) with a unit normal n = (a, b, c), d in metres: n . p + d is a point's signed distance.
+        plane: (a, b, c, d) with a unit normal n = (a, b, c), d in metres: n . p + d is a point's
+            signed distance.
         p: The points, one per row, metres; there may be none (n = 0).
-        inlier_distance: How far from the plane an inlier may be, metres, measured at a right angle to it. A point exactly
-            this far is an inlier.
+        inlier_distance: How far from the plane an inlier may be, metres, measured at a right angle
+            to it. A point exactly this far is an inlier.
 
     Returns:
-        A whole number from 0 to n (an int). A point with a nan is near nothing, and nothing is near a plane of four nan,
-        which stands for a degenerate sample: these count 0.
+        A whole number from 0 to n (an int). A point with a nan is near nothing, and nothing is near
+        a plane of four nan, which stands for a degenerate sample: these count 0.
     """
     return scores.count_inliers(plane, p, inlier_distance)
 
@@ -62,7 +71,9 @@ def a_layer(rng: np.random.Generator, n: int = 240) -> tuple[np.ndarray, np.ndar
 
 
 def count_verdict(got: int, right: int, n: int, what: str, hint: str = COUNT_HINT) -> Verdict:
-    """Judge a count: all for the exact one, half where at most one point in a hundred is too many or too few."""
+    """Judge a count: all for the exact one, half where at most one point in a hundred is too many
+    or too few.
+    """
     if got == right:
         return full(f"{what}: {got} of {n} points are inliers.")
     said = f"{what}: yours is {got} of {n} points, right is {right}. {hint}"
@@ -89,7 +100,11 @@ def slanted_planes(candidate: Function) -> Verdict:
         plane, p, signed = a_layer(rng)
         for t in (0.02, 0.1):
             right = int((np.abs(signed) <= t).sum())
-            verdicts.append(count_verdict(candidate(plane, p, t), right, len(p), f"Within {t:g} m of a slanted plane"))
+            verdicts.append(
+                count_verdict(
+                    candidate(plane, p, t), right, len(p), f"Within {t:g} m of a slanted plane"
+                )
+            )
     return worst(verdicts)
 
 
@@ -98,12 +113,16 @@ def cloud_is_left_alone(candidate: Function) -> Verdict:
     """The plane and the points that come in are not changed."""
     plane, p, signed = a_layer(np.random.default_rng(STUDENTS + 30), 50)
     right = int((np.abs(signed) <= 0.12).sum())
-    return left_alone(candidate, count_verdict(candidate(plane, p, 0.12), right, 50, "Within 0.12 m"))
+    return left_alone(
+        candidate, count_verdict(candidate(plane, p, 0.12), right, 50, "Within 0.12 m")
+    )
 
 
 @check(2, public=False)
 def turned_over(candidate: Function) -> Verdict:
-    """The same plane with its normal turned over, and the points in another order, give the same count."""
+    """The same plane with its normal turned over, and the points in another order, give the same
+    count.
+    """
     rng = np.random.default_rng(GRADERS() + 40)
     plane, p, signed = a_layer(rng)
     right, other = int((np.abs(signed) <= 0.07).sum()), p[rng.permutation(len(p))]
@@ -111,7 +130,9 @@ def turned_over(candidate: Function) -> Verdict:
         (
             count_verdict(candidate(plane, p, 0.07), right, len(p), "Within 0.07 m"),
             count_verdict(candidate(-plane, p, 0.07), right, len(p), "The normal turned over"),
-            count_verdict(candidate(plane, other, 0.07), right, len(p), "The points in another order"),
+            count_verdict(
+                candidate(plane, other, 0.07), right, len(p), "The points in another order"
+            ),
         )
     )
 
@@ -126,19 +147,25 @@ def cloud_and_plane_moved(candidate: Function) -> Verdict:
         moved = np.append(R @ plane[:3], scale * (plane[3] - R @ plane[:3] @ t))
         got = candidate(moved, scale * (p @ R.T + t), scale * 0.05)
         right = int((np.abs(signed) <= 0.05).sum())
-        verdicts.append(count_verdict(got, right, len(p), f"Turned, moved, {scale:g} times as large"))
+        verdicts.append(
+            count_verdict(got, right, len(p), f"Turned, moved, {scale:g} times as large")
+        )
     return worst(verdicts)
 
 
 @check(1, public=False)
 def just_on_the_limit(candidate: Function) -> Verdict:
-    """A point exactly as far as the inlier distance is an inlier, on both sides, and on the plane where that is 0."""
+    """A point exactly as far as the inlier distance is an inlier, on both sides, and on the plane
+    where that is 0.
+    """
     heights = np.array([1.5, 0.5, 1.0, 1.75, 0.25, -2.0, -2.5])
     p = np.column_stack([np.arange(7.0), np.zeros(7), heights])
     hint = "Use <=, not <."
     plane = np.array([0.0, 0.0, 1.0, -1.0])
     limit = count_verdict(candidate(plane, p, 0.5), 3, 7, "Two exactly on the limit", hint)
-    return worst((limit, count_verdict(candidate(plane, p, 0.0), 1, 7, "Within 0 m, one on the plane", hint)))
+    return worst(
+        (limit, count_verdict(candidate(plane, p, 0.0), 1, 7, "Within 0 m, one on the plane", hint))
+    )
 
 
 @check(1, public=False)
@@ -150,12 +177,16 @@ def nothing_to_count(candidate: Function) -> Verdict:
     hint = f"{COUNT_HINT} That is never true of nan."
     verdicts = [
         count_verdict(candidate(plane, np.empty((0, 3)), 0.3), 0, 0, "No points"),
-        count_verdict(candidate(np.full(4, np.nan), p[1:], 0.3), 0, 19, "A plane of four nan", hint),
+        count_verdict(
+            candidate(np.full(4, np.nan), p[1:], 0.3), 0, 19, "A plane of four nan", hint
+        ),
     ]
     for unknown in (1, 0, 2, slice(None)):
         p[0] = near
         p[0, unknown] = np.nan
-        verdicts.append(count_verdict(candidate(plane, p, 0.3), right, 20, "One of them with a nan", hint))
+        verdicts.append(
+            count_verdict(candidate(plane, p, 0.3), right, 20, "One of them with a nan", hint)
+        )
     return worst(verdicts)
 
 
@@ -165,8 +196,8 @@ def signed(plane: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You compare the signed distance: every point on the far side of the normal is negative and counts, however "
-    "far it is. Take its absolute value."
+    "You compare the signed distance: every point on the far side of the normal is negative and"
+    " counts, however far it is. Take its absolute value."
 )
 def below_counts(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Compares the signed distance."""
@@ -174,8 +205,8 @@ def below_counts(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> in
 
 
 @mistake(
-    "You count the side of the normal only. The signed distance of a point just below the plane is negative: "
-    "take its absolute value."
+    "You count the side of the normal only. The signed distance of a point just below the plane is"
+    " negative: take its absolute value."
 )
 def above_only(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Leaves out the side from which the normal points away."""
@@ -183,33 +214,46 @@ def above_only(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     return int(((s >= 0) & (s <= inlier_distance)).sum())
 
 
-@mistake("You compare squared distances with the inlier distance: square metres with metres. Square both or neither.")
+@mistake(
+    "You compare squared distances with the inlier distance: square metres with metres. Square both"
+    " or neither."
+)
 def distance_squared(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Compares squared metres with metres."""
     return int((signed(plane, p) ** 2 <= inlier_distance).sum())
 
 
-@mistake("You square the inlier distance but not the distances: metres against square metres. Square both or neither.")
+@mistake(
+    "You square the inlier distance but not the distances: metres against square metres. Square"
+    " both or neither."
+)
 def limit_squared(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Compares metres with squared metres."""
     return int((np.abs(signed(plane, p)) <= inlier_distance**2).sum())
 
 
-@mistake("You halve the inlier distance. It is how far a point may be on either side: the layer is twice as thick.")
+@mistake(
+    "You halve the inlier distance. It is how far a point may be on either side: the layer is twice"
+    " as thick."
+)
 def limit_halved(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Takes the distance for the thickness of the layer."""
     return int((np.abs(signed(plane, p)) <= inlier_distance / 2).sum())
 
 
 @mistake(
-    "You left d out, so you count points near the parallel plane through the origin. The signed distance is n . p + d."
+    "You left d out, so you count points near the parallel plane through the origin. The signed"
+    " distance is n . p + d."
 )
 def offset_forgotten(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Lets the plane go through the origin."""
     return int((np.abs(p @ plane[:3]) <= inlier_distance).sum())
 
 
-@mistake("You subtract d: that is the plane on the other side of the origin. The signed distance is n . p + d.")
+@mistake(
+    "You subtract d: that is the plane on the other side of the origin. The signed distance is n ."
+    " p + d."
+)
 def offset_subtracted(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Takes d for the plane's distance along the normal."""
     return int((np.abs(p @ plane[:3] - plane[3]) <= inlier_distance).sum())
@@ -222,7 +266,8 @@ def outliers_counted(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -
 
 
 @mistake(
-    "All is right but for points exactly on the limit: an inlier may be as far as the inlier distance, so <= and not <."
+    "All is right but for points exactly on the limit: an inlier may be as far as the inlier"
+    " distance, so <= and not <."
 )
 def limit_left_out(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Compares with <."""
@@ -230,7 +275,8 @@ def limit_left_out(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> 
 
 
 @mistake(
-    "You measure straight up and down. The distance to a slanted plane is shorter, at a right angle to it: |n . p + d|."
+    "You measure straight up and down. The distance to a slanted plane is shorter, at a right angle"
+    " to it: |n . p + d|."
 )
 def along_the_height(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Measures straight up and down."""
@@ -238,8 +284,8 @@ def along_the_height(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -
 
 
 @mistake(
-    "You measure to one point of the plane, the one nearest to the origin. Only what is along the normal "
-    "counts: |n . p + d|."
+    "You measure to one point of the plane, the one nearest to the origin. Only what is along the"
+    " normal counts: |n . p + d|."
 )
 def to_the_foot(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Measures to the plane's point nearest to the origin."""
@@ -247,7 +293,8 @@ def to_the_foot(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int
 
 
 @mistake(
-    "You divide by the length of (a, b, c, d). The length that matters is that of the normal (a, b, c), and it is 1."
+    "You divide by the length of (a, b, c, d). The length that matters is that of the normal (a, b,"
+    " c), and it is 1."
 )
 def divided_by_all_four(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Divides by the length of (a, b, c, d)."""
@@ -255,8 +302,9 @@ def divided_by_all_four(plane: np.ndarray, p: np.ndarray, inlier_distance: float
 
 
 @mistake(
-    "All is right but nan, which you count as near. A comparison with nan is always false: count where <= is true, do "
-    "not subtract the far points from all, and do not put a number in the place of nan."
+    "All is right but nan, which you count as near. A comparison with nan is always false: count"
+    " where <= is true, do not subtract the far points from all, and do not put a number in the"
+    " place of nan."
 )
 def nan_is_near(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
     """Counts whatever is not far, nan as well."""
@@ -269,7 +317,10 @@ def share_returned(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> 
     return float((np.abs(signed(plane, p)) <= inlier_distance).sum() / max(len(p), 1))
 
 
-@mistake("You return which points are inliers, one true or false each. Return how many there are: a whole number.")
+@mistake(
+    "You return which points are inliers, one true or false each. Return how many there are: a"
+    " whole number."
+)
 def mask_returned(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> np.ndarray:
     """Returns which points are inliers."""
     return np.abs(signed(plane, p)) <= inlier_distance
@@ -287,7 +338,9 @@ def count_one_by_one(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -
 
 
 @alternative
-def count_in_homogeneous_coordinates(plane: np.ndarray, p: np.ndarray, inlier_distance: float) -> int:
+def count_in_homogeneous_coordinates(
+    plane: np.ndarray, p: np.ndarray, inlier_distance: float
+) -> int:
     """Appends ones, squares both sides, and divides by the normal's length though it is 1."""
     p_h = np.column_stack([p, np.ones(len(p))])
     squares = (p_h @ plane) ** 2 / (plane[:3] @ plane[:3])

@@ -1,6 +1,6 @@
-"""Write the rule that ends the search: how many samples until one of them is probably free of outliers. The lesson asks
-it after every new best, with the share of inliers of the best so far, for planes and all other models, and stops
-when so many are drawn.
+"""Write the rule that ends the search: how many samples until one of them is probably free of
+outliers. The lesson asks it after every new best, with the share of inliers of the best so far, for
+planes and all other models, and stops when so many are drawn.
 """
 
 import math
@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from lessons.ransac.exercises import GRADERS
-from workbench.algorithms import ransac
+from workbench.algorithms.robust import ransac
 from workbench.exercise import (
     Function,
     Verdict,
@@ -35,10 +35,12 @@ from workbench.exercise.sandbox import StudentError
     ),
 )
 def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) -> float:
-    """Return how many samples must be drawn to draw, with this confidence, at least one that holds no outlier.
+    """Return how many samples must be drawn to draw, with this confidence, at least one that holds
+    no outlier.
 
-    It is the smallest whole number N, at least 1, for which N samples all hold an outlier with a probability of at most
-    1 - confidence. Points are drawn independently: each is an inlier with probability inlier_ratio.
+    It is the smallest whole number N, at least 1, for which N samples all hold an outlier with a
+    probability of at most 1 - confidence. Points are drawn independently: each is an inlier with
+    probability inlier_ratio.
 
     Args:
         inlier_ratio: The share w of inliers among all points, from 0 to 1.
@@ -46,9 +48,10 @@ def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) 
         confidence: Strictly between 0 and 1, such as 0.99.
 
     Returns:
-        The number as an int or a float without a fraction. Where all points are inliers it is 1. Where none is, it is
-        inf (np.inf). Also where only one sample in 1e18 is clean it is right to six digits: 1 - x loses those of so small
-        an x, and np.log1p(-x), which is log(1 - x), keeps them.
+        The number as an int or a float without a fraction. Where all points are inliers it is 1.
+        Where none is, it is inf (np.inf). Also where only one sample in 1e18 is clean it is right
+        to six digits: 1 - x loses those of so small an x, and np.log1p(-x), which is log(1 - x),
+        keeps them.
     """
     return float(ransac.iterations_needed(inlier_ratio, sample_size, confidence))
 
@@ -56,7 +59,9 @@ def iterations_needed(inlier_ratio: float, sample_size: int, confidence: float) 
 NEEDED_HINT = "One sample is clean with probability w^s; N are all spoilt with (1 - w^s)^N."
 
 
-def needed_verdict(candidate: Function, w: float, s: int, confidence: float, hint: str = NEEDED_HINT) -> Verdict:
+def needed_verdict(
+    candidate: Function, w: float, s: int, confidence: float, hint: str = NEEDED_HINT
+) -> Verdict:
     """Judge a number of samples: all for the smallest that is enough, half where it is one off."""
     got, right = float(candidate(w, s, confidence)), iterations_needed(w, s, confidence)
     case = f"{100 * w:g} % inliers, {s} in a sample, {100 * confidence:g} % confidence"
@@ -69,15 +74,22 @@ def needed_verdict(candidate: Function, w: float, s: int, confidence: float, hin
         spoilt, allowed = np.exp(got * np.log1p(-(w**s))), 1.0 - confidence
         if spoilt > 1.01 * allowed:
             said += (
-                f" After yours all are spoilt in {100 * spoilt:.3g} % of the runs, {100 * allowed:.3g} % is allowed."
+                f" After yours all are spoilt in {100 * spoilt:.3g} % of the runs,"
+                f" {100 * allowed:.3g} % is allowed."
             )
     return partial(0.5, f"{said} Round up.") if abs(got - right) <= 1.0 else fail(f"{said} {hint}")
 
 
 def a_case(rng: np.random.Generator) -> tuple[float, int, float]:
-    """Return an inlier ratio, a sample size and a confidence for which no rounding decides the answer."""
+    """Return an inlier ratio, a sample size and a confidence for which no rounding decides the
+    answer.
+    """
     while True:
-        w, s, confidence = round(rng.uniform(0.2, 0.9), 3), int(rng.integers(2, 8)), round(rng.uniform(0.6, 0.999), 3)
+        w, s, confidence = (
+            round(rng.uniform(0.2, 0.9), 3),
+            int(rng.integers(2, 8)),
+            round(rng.uniform(0.6, 0.999), 3),
+        )
         exact = np.log1p(-confidence) / np.log1p(-(w**s))
         if exact > 2.0 and 0.05 < exact % 1.0 < 0.95:
             return w, s, confidence
@@ -99,15 +111,29 @@ def larger_samples(candidate: Function) -> Verdict:
 def no_outliers(candidate: Function) -> Verdict:
     """Where all points are inliers one sample is enough."""
     hint = "Each sample is clean: log(1 - w^s) is -inf here, so answer before you divide."
-    return worst(needed_verdict(candidate, 1.0, s, confidence, hint) for s, confidence in ((3, 0.99), (7, 0.6)))
+    return worst(
+        needed_verdict(candidate, 1.0, s, confidence, hint)
+        for s, confidence in ((3, 0.99), (7, 0.6))
+    )
 
 
 @check(3, public=False)
 def the_smallest_that_is_enough(candidate: Function) -> Verdict:
-    """N samples are all spoilt in at most the share of runs that the confidence leaves, N - 1 in more."""
+    """N samples are all spoilt in at most the share of runs that the confidence leaves, N - 1 in
+    more.
+    """
     rng = np.random.default_rng(GRADERS() + 70)
-    exact = [(0.5, 1, 1 - 0.5**n) for n in (1, 2, 4, 8)]  # n samples are just enough, and logarithms say so exactly
-    exact += [(0.9, 1, 0.5), (0.99, 2, 0.9999), (0.999, 8, 0.999), (0.3, 3, 0.05), (0.002, 1, 0.99), (0.6, 4, 0.999999)]
+    exact = [
+        (0.5, 1, 1 - 0.5**n) for n in (1, 2, 4, 8)
+    ]  # n samples are just enough, and logarithms say so exactly
+    exact += [
+        (0.9, 1, 0.5),
+        (0.99, 2, 0.9999),
+        (0.999, 8, 0.999),
+        (0.3, 3, 0.05),
+        (0.002, 1, 0.99),
+        (0.6, 4, 0.999999),
+    ]
     hint = f"Just enough is enough. {NEEDED_HINT}"
     boundary = [needed_verdict(candidate, *case, hint) for case in exact]
     return worst([*(needed_verdict(candidate, *a_case(rng)) for _ in range(8)), *boundary])
@@ -116,14 +142,22 @@ def the_smallest_that_is_enough(candidate: Function) -> Verdict:
 @check(2, public=False)
 def more_confidence(candidate: Function) -> Verdict:
     """Each further nine of confidence, 90, 99 and 99.9 %, asks for as many samples again."""
-    hint = "Halving 1 - confidence adds the same number of samples each time. Is it log(1 - confidence)?"
-    return worst(needed_verdict(candidate, 0.4, 4, confidence, hint) for confidence in (0.6, 0.9, 0.99, 0.999))
+    hint = (
+        "Halving 1 - confidence adds the same number of samples each time. Is it log(1 -"
+        " confidence)?"
+    )
+    return worst(
+        needed_verdict(candidate, 0.4, 4, confidence, hint)
+        for confidence in (0.6, 0.9, 0.99, 0.999)
+    )
 
 
 @check(1, public=False)
 def no_inliers(candidate: Function) -> Verdict:
     """Where no point is an inlier no number is enough: inf."""
-    return worst(needed_verdict(candidate, 0.0, s, 0.99, "w^s is 0: answer np.inf then.") for s in (3, 4, 1))
+    return worst(
+        needed_verdict(candidate, 0.0, s, 0.99, "w^s is 0: answer np.inf then.") for s in (3, 4, 1)
+    )
 
 
 @check(1, public=False)
@@ -146,15 +180,18 @@ def rounded_up(value: float) -> float:
     return max(1.0, float(np.ceil(value)))
 
 
-@mistake("You use w itself. A sample is clean only if all of its points are inliers: that has probability w^s.")
+@mistake(
+    "You use w itself. A sample is clean only if all of its points are inliers: that has"
+    " probability w^s."
+)
 def sample_size_forgotten(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Uses w for w^s."""
     return rounded_up(np.log1p(-confidence) / np.log1p(-inlier_ratio))
 
 
 @mistake(
-    "You take the share of outliers for that of inliers: your numbers fall where there are more outliers. A "
-    "clean sample has probability w^s."
+    "You take the share of outliers for that of inliers: your numbers fall where there are more"
+    " outliers. A clean sample has probability w^s."
 )
 def outliers_for_inliers(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Uses 1 - w for w."""
@@ -162,8 +199,8 @@ def outliers_for_inliers(inlier_ratio: float, sample_size: int, confidence: floa
 
 
 @mistake(
-    "You call a sample spoilt when all of its points are outliers, (1 - w)^s. One is enough: spoilt is whatever "
-    "is not clean, 1 - w^s."
+    "You call a sample spoilt when all of its points are outliers, (1 - w)^s. One is enough: spoilt"
+    " is whatever is not clean, 1 - w^s."
 )
 def all_outliers(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Calls a sample spoilt only if all of its points are outliers."""
@@ -171,14 +208,18 @@ def all_outliers(inlier_ratio: float, sample_size: int, confidence: float) -> fl
 
 
 @mistake(
-    "You divide by log(w^s), the chance of a clean sample. It is the spoilt ones that must not go on: log(1 - w^s)."
+    "You divide by log(w^s), the chance of a clean sample. It is the spoilt ones that must not go"
+    " on: log(1 - w^s)."
 )
 def clean_for_spoilt(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Forgets the 1 - in the denominator."""
     return rounded_up(np.log1p(-confidence) / np.log(inlier_ratio**sample_size))
 
 
-@mistake("You take log(confidence). What may go wrong is the rest: all samples are spoilt with at most 1 - confidence.")
+@mistake(
+    "You take log(confidence). What may go wrong is the rest: all samples are spoilt with at most 1"
+    " - confidence."
+)
 def confidence_for_its_rest(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Forgets the 1 - in the numerator."""
     return rounded_up(np.log(confidence) / np.log1p(-(inlier_ratio**sample_size)))
@@ -191,8 +232,8 @@ def turned_upside_down(inlier_ratio: float, sample_size: int, confidence: float)
 
 
 @mistake(
-    "You return 1 / w^s: so long a clean sample takes on average. In about a third of all runs there is none by "
-    "then; the confidence asks for more."
+    "You return 1 / w^s: so long a clean sample takes on average. In about a third of all runs"
+    " there is none by then; the confidence asks for more."
 )
 def on_average(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Waits as long as a clean sample takes on average."""
@@ -217,14 +258,20 @@ def not_rounded(inlier_ratio: float, sample_size: int, confidence: float) -> flo
     return max(1.0, float(np.log1p(-confidence) / np.log1p(-(inlier_ratio**sample_size))))
 
 
-@mistake("Where all points are inliers you return 0, from a division by log(0). One sample must be drawn: answer 1.")
+@mistake(
+    "Where all points are inliers you return 0, from a division by log(0). One sample must be"
+    " drawn: answer 1."
+)
 def none_where_all_are_inliers(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Divides by log(0), which gives no sample at all."""
     clean = np.float64(inlier_ratio) ** sample_size
     return float(np.ceil(np.log1p(-confidence) / np.log1p(-clean)))
 
 
-@mistake("Where no point is an inlier you divide by log(1) = 0. No number of samples is enough then: return np.inf.")
+@mistake(
+    "Where no point is an inlier you divide by log(1) = 0. No number of samples is enough then:"
+    " return np.inf."
+)
 def no_inlier_not_seen(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Divides by log(1)."""
     clean = inlier_ratio**sample_size
@@ -232,7 +279,8 @@ def no_inlier_not_seen(inlier_ratio: float, sample_size: int, confidence: float)
 
 
 @mistake(
-    "All is right until w^s is below 10⁻¹⁶: then 1 - w^s is 1 to the computer, and its log is 0. Use np.log1p(-w^s)."
+    "All is right until w^s is below 10⁻¹⁶: then 1 - w^s is 1 to the computer, and its log is 0."
+    " Use np.log1p(-w^s)."
 )
 def digits_lost(inlier_ratio: float, sample_size: int, confidence: float) -> float:
     """Subtracts a tiny number from 1."""

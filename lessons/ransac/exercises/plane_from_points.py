@@ -1,6 +1,6 @@
-"""Write the guess: the plane through a sample of three points. The lesson draws it in purple for every sample and
-counts who is near it. It is used where the model is a plane, as in the default run; the preset 'Three points on one
-line' shows what becomes of a sample that has none.
+"""Write the guess: the plane through a sample of three points. The lesson draws it in purple for
+every sample and counts who is near it. It is used where the model is a plane, as in the default
+run; the preset 'Three points on one line' shows what becomes of a sample that has none.
 """
 
 import math
@@ -25,8 +25,8 @@ from workbench.exercise import (
     partial,
     worst,
 )
-from workbench.geometry import lines_planes
 from workbench.geometry.motions import exp_so3
+from workbench.geometry.shapes import lines_planes
 
 NO_UNIT = 1e-5  # how far a normal's length may be from 1: rounding, also of single precision
 
@@ -36,20 +36,25 @@ NO_UNIT = 1e-5  # how far a normal's length may be from 1: rounding, also of sin
     either=np.negative,
     examples=(
         ("plane_from_points(np.array([[0.0, 0, 2], [1, 0, 2], [0, 1, 2]]))", "[0, 0, 1, -2]"),
-        ("plane_from_points(np.array([[0.0, 0, 0], [1, 1, 1], [3, 3, 3]]))", "[nan, nan, nan, nan]"),
+        (
+            "plane_from_points(np.array([[0.0, 0, 0], [1, 1, 1], [3, 3, 3]]))",
+            "[nan, nan, nan, nan]",
+        ),
     ),
 )
 def plane_from_points(p: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"]:
     """Return the plane through three points.
 
     Args:
-        p: The three points, one per row, metres. Any place, any size: sides of a micrometre or of a kilometre.
+        p: The three points, one per row, metres. Any place, any size: sides of a micrometre or of a
+            kilometre.
 
     Returns:
-        (a, b, c, d) with a unit normal n = (a, b, c) and d in metres, so that n . p + d is a point's signed distance and 0
-        for the three. Either side may be the normal's: (a, b, c, d) and (-a, -b, -c, -d) are the same plane.
-        Points on one line, or coinciding, have many planes: return four nan, do not raise. They count as such where
-        the cross product of two sides is shorter than a billionth of the squared longest side: rounding leaves less.
+        (a, b, c, d) with a unit normal n = (a, b, c) and d in metres, so that n . p + d is a
+        point's signed distance and 0 for the three. Either side may be the normal's: (a, b, c, d)
+        and (-a, -b, -c, -d) are the same plane. Points on one line, or coinciding, have many
+        planes: return four nan, do not raise. They count as such where the cross product of two
+        sides is shorter than a billionth of the squared longest side: rounding leaves less.
     """
     return lines_planes.plane_from_points(p)
 
@@ -60,7 +65,10 @@ NORMAL_HINT = "The normal is at right angles to the sides, such as p[1] - p[0] a
 OFFSET_HINT = "n . p + d is 0 at each of the points."
 
 
-NAN_HINT = "How small an area counts as none depends on the sides: compare it with the squared longest one."
+NAN_HINT = (
+    "How small an area counts as none depends on the sides: compare it with the squared longest"
+    " one."
+)
 
 
 def a_triangle(rng: np.random.Generator, size: float = 1.0) -> np.ndarray:
@@ -71,7 +79,8 @@ def a_triangle(rng: np.random.Generator, size: float = 1.0) -> np.ndarray:
 
 
 def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) -> Verdict:
-    """Judge a plane by its unit normal, up to sign, in degrees, and by its distance to points of the right one, in metres.
+    """Judge a plane by its unit normal, up to sign, in degrees, and by its distance to points of
+    the right one, in metres.
 
     Args:
         got: The answer.
@@ -83,19 +92,36 @@ def plane_verdict(got: np.ndarray, right: np.ndarray, p: np.ndarray, what: str) 
         return fail(f"{what}: yours is {against(got, right)}. {NAN_HINT}")
     length, size = float(np.linalg.norm(got[:3])), float(np.ptp(p, axis=0).max())
     if abs(length - 1.0) > NO_UNIT:
-        said = f"The length of your normal is {against(length, 1.0)}: distances come out as many times as large."
+        said = (
+            f"The length of your normal is {against(length, 1.0)}: distances come out as many times"
+            " as large."
+        )
         return fail(f"{what}: {said}")
-    degrees = float(np.degrees(np.arctan2(np.linalg.norm(np.cross(got[:3], right[:3])), abs(got[:3] @ right[:3]))))
+    degrees = float(
+        np.degrees(
+            np.arctan2(np.linalg.norm(np.cross(got[:3], right[:3])), abs(got[:3] @ right[:3]))
+        )
+    )
     away = float(np.abs(p @ got[:3] + got[3]).max())
     side = np.where(got[:3] @ right[:3] < 0, -right, right)
     told = f"Yours is {against(got, side)} or its negative."
     turned = band(
-        f"{what}: normal off by", round(degrees, 9), "degrees", good=0.01, fair=1.0, hint=f"{told} {NORMAL_HINT}"
+        f"{what}: normal off by",
+        round(degrees, 9),
+        "degrees",
+        good=0.01,
+        fair=1.0,
+        hint=f"{told} {NORMAL_HINT}",
     )
     unit = 10.0 ** round(np.log10(size))
     away = away if away > 1e-9 * unit else 0.0  # rounding is not worth reading
     moved = band(
-        f"{what}: plane off the points by", away, "m", good=1e-6 * unit, fair=1e-2 * unit, hint=f"{told} {OFFSET_HINT}"
+        f"{what}: plane off the points by",
+        away,
+        "m",
+        good=1e-6 * unit,
+        fair=1e-2 * unit,
+        hint=f"{told} {OFFSET_HINT}",
     )
     return worst((turned, moved))
 
@@ -147,7 +173,9 @@ def points_on_a_line(candidate: Function) -> Verdict:
 @check(1)
 def points_are_left_alone(candidate: Function) -> Verdict:
     """The points that come in are not changed."""
-    return left_alone(candidate, found(candidate, a_triangle(np.random.default_rng(STUDENTS + 1)), "A triangle"))
+    return left_alone(
+        candidate, found(candidate, a_triangle(np.random.default_rng(STUDENTS + 1)), "A triangle")
+    )
 
 
 @check(2, public=False)
@@ -176,9 +204,14 @@ def upright_and_through_the_origin(candidate: Function) -> Verdict:
     corner = a_triangle(rng)
     corner[0] = 0.0
     verdicts = [plane_verdict(candidate(wall), np.array([0.8, -0.6, 0.0, -1.0]), wall, "Wall")]
-    for p, what in ((through, "A plane through the origin"), (corner, "The origin is one of the points")):
+    for p, what in (
+        (through, "A plane through the origin"),
+        (corner, "The origin is one of the points"),
+    ):
         verdicts.append(found(candidate, p, what))
-    for k in range(12):  # the planes of the axes, run round either way: two entries of the normal are 0
+    for k in range(
+        12
+    ):  # the planes of the axes, run round either way: two entries of the normal are 0
         level = np.column_stack([rng.normal(size=(3, 2)), np.zeros(3)])[:, np.roll([0, 1, 2], k)]
         verdicts.append(found(candidate, level, f"The plane of two axes, number {k}"))
     return worst(verdicts)
@@ -186,32 +219,52 @@ def upright_and_through_the_origin(candidate: Function) -> Verdict:
 
 @check(2, public=False)
 def small_large_and_far(candidate: Function) -> Verdict:
-    """Sides of a micrometre and of a kilometre, and triangles a kilometre away, have a plane too."""
+    """Sides of a micrometre and of a kilometre, and triangles a kilometre away, have a plane
+    too.
+    """
     rng = np.random.default_rng(GRADERS() + 20)
-    verdicts = [found(candidate, a_triangle(rng, size), f"Sides of {size:g} m") for size in (1e-3, 1e-6, 1e3)]
+    verdicts = [
+        found(candidate, a_triangle(rng, size), f"Sides of {size:g} m")
+        for size in (1e-3, 1e-6, 1e3)
+    ]
     far = a_triangle(rng) + np.array([800.0, -600.0, 50.0])
     thin = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.5, 1e-4, 1.0]])
     verdicts.append(found(candidate, far, "1 km away"))
-    for size, name in (([1.0, 1.0, 1.0], "1 m"), ([1e-3, 1e-3, 1.0], "1 mm"), ([1e-6, 1e-6, 1e-6], "1 µm")):
-        verdicts.append(found(candidate, thin * size, f"{name} long and a ten-thousandth of that high"))
+    for size, name in (
+        ([1.0, 1.0, 1.0], "1 m"),
+        ([1e-3, 1e-3, 1.0], "1 mm"),
+        ([1e-6, 1e-6, 1e-6], "1 µm"),
+    ):
+        verdicts.append(
+            found(candidate, thin * size, f"{name} long and a ten-thousandth of that high")
+        )
     return worst(verdicts)
 
 
 @check(2, public=False)
 def nearly_on_a_line(candidate: Function) -> Verdict:
-    """Points on one line but for rounding give four nan, near and a kilometre apart; thirty times the bound is a plane."""
+    """Points on one line but for rounding give four nan, near and a kilometre apart; thirty times
+    the bound is a plane.
+    """
     rng, verdicts = np.random.default_rng(GRADERS() + 30), []
     for size in (1.0, 1e3, 1e-3):
         direction, start = rng.normal(size=(2, 3))
         p = size * (start + np.outer([0.1, 0.7, -0.9], direction))
         verdicts.append(no_plane(candidate(p), f"On one line but for rounding, {size:g} m in size"))
-    for k, size in enumerate((1e3, 1e-3, 1e3, 1e-3, 1e3, 1e-3)):  # long along each axis, and high along the next one
+    for k, size in enumerate(
+        (1e3, 1e-3, 1e3, 1e-3, 1e3, 1e-3)
+    ):  # long along each axis, and high along the next one
         p = np.zeros((3, 3))
         p[0, k % 3], p[1, k % 3] = size, 0.5 * size
         for share in (3e-8, 3e-11):  # of the squared longest side
             p[1, (k + 1) % 3] = share * size
-            what = f"{size:g} m long, the cross product {share / 1e-9:g} billionths of the squared longest side"
-            verdicts.append(found(candidate, p, what) if share > 1e-9 else no_plane(candidate(p), what))
+            what = (
+                f"{size:g} m long, the cross product {share / 1e-9:g} billionths of the squared"
+                " longest side"
+            )
+            verdicts.append(
+                found(candidate, p, what) if share > 1e-9 else no_plane(candidate(p), what)
+            )
     return worst(verdicts)
 
 
@@ -240,8 +293,8 @@ def through(normal: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your plane is right but its normal is not of length 1. Then |n . p + d| is no distance: it comes out "
-    "multiplied by the normal's length, and so do the votes."
+    "Your plane is right but its normal is not of length 1. Then |n . p + d| is no distance: it"
+    " comes out multiplied by the normal's length, and so do the votes."
 )
 def not_normalised(p: np.ndarray) -> np.ndarray:
     """Leaves the normal as long as the cross product."""
@@ -249,8 +302,8 @@ def not_normalised(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You divided by the length of (a, b, c, d). Only the normal (a, b, c) gets length 1: d is a distance and "
-    "may be anything."
+    "You divided by the length of (a, b, c, d). Only the normal (a, b, c) gets length 1: d is a"
+    " distance and may be anything."
 )
 def all_four_normalised(p: np.ndarray) -> np.ndarray:
     """Divides a, b, c and d by the length of all four."""
@@ -258,7 +311,8 @@ def all_four_normalised(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You normalised the normal but not d. Compute d = -n . p from the unit normal, or divide both by the same length."
+    "You normalised the normal but not d. Compute d = -n . p from the unit normal, or divide both"
+    " by the same length."
 )
 def d_left_long(p: np.ndarray) -> np.ndarray:
     """Normalises the normal after d was computed with the long one."""
@@ -266,16 +320,19 @@ def d_left_long(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your d has the wrong sign: n . p + d = 0 at each point, so d = -n . p. Your plane is on the other side of "
-    "the origin."
+    "Your d has the wrong sign: n . p + d = 0 at each point, so d = -n . p. Your plane is on the"
+    " other side of the origin."
 )
 def sign_of_d(p: np.ndarray) -> np.ndarray:
     """Takes n . p for d."""
-    return NO_PLANE if on_one_line(p) else np.append(unit(area_normal(p)), unit(area_normal(p)) @ p[0])
+    return (
+        NO_PLANE if on_one_line(p) else np.append(unit(area_normal(p)), unit(area_normal(p)) @ p[0])
+    )
 
 
 @mistake(
-    "Your normal is right, and your d is 0: that plane goes through the origin and not through the points. d = -n . p."
+    "Your normal is right, and your d is 0: that plane goes through the origin and not through the"
+    " points. d = -n . p."
 )
 def d_forgotten(p: np.ndarray) -> np.ndarray:
     """Lets every plane go through the origin."""
@@ -283,8 +340,8 @@ def d_forgotten(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You took the cross product of points. It needs two sides, such as p[1] - p[0] and p[2] - p[0]: differences "
-    "do not care where the origin is."
+    "You took the cross product of points. It needs two sides, such as p[1] - p[0] and p[2] - p[0]:"
+    " differences do not care where the origin is."
 )
 def points_for_sides(p: np.ndarray) -> np.ndarray:
     """Multiplies two points instead of two sides."""
@@ -292,16 +349,19 @@ def points_for_sides(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Your normal is a direction in the plane. Of the SVD of the centred points the last row, with the smallest "
-    "singular value, is at a right angle to them."
+    "Your normal is a direction in the plane. Of the SVD of the centred points the last row, with"
+    " the smallest singular value, is at a right angle to them."
 )
 def side_for_normal(p: np.ndarray) -> np.ndarray:
-    """Takes a direction in the plane, the first row of the SVD, for the one at a right angle to it, the last."""
+    """Takes a direction in the plane, the first row of the SVD, for the one at a right angle to it,
+    the last.
+    """
     return NO_PLANE if on_one_line(p) else through(np.linalg.svd(p - p.mean(0))[2][0], p.mean(0))
 
 
 @mistake(
-    "You solved z = a x + b y + c. A wall has no such equation. Take the cross product of two sides, which knows no up."
+    "You solved z = a x + b y + c. A wall has no such equation. Take the cross product of two"
+    " sides, which knows no up."
 )
 def height_over_the_floor(p: np.ndarray) -> np.ndarray:
     """Solves z = a x + b y + c, which no wall satisfies."""
@@ -312,8 +372,8 @@ def height_over_the_floor(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You solved a x + b y + c z = -1, that is d = 1 before normalising. A plane through the origin has d = 0 "
-    "and no such equation."
+    "You solved a x + b y + c z = -1, that is d = 1 before normalising. A plane through the origin"
+    " has d = 0 and no such equation."
 )
 def d_set_to_one(p: np.ndarray) -> np.ndarray:
     """Solves a x + b y + c z = -1, which no plane through the origin satisfies."""
@@ -324,8 +384,8 @@ def d_set_to_one(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "Points on one line get a plane that rounding chose. Return four nan where the cross product is tiny beside "
-    "the squared longest side."
+    "Points on one line get a plane that rounding chose. Return four nan where the cross product is"
+    " tiny beside the squared longest side."
 )
 def line_not_seen(p: np.ndarray) -> np.ndarray:
     """Divides by whatever area there is."""
@@ -333,17 +393,19 @@ def line_not_seen(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You compare the cross product with a fixed number, so small triangles are refused, or long lines let "
-    "through. Compare it with the squared longest side."
+    "You compare the cross product with a fixed number, so small triangles are refused, or long"
+    " lines let through. Compare it with the squared longest side."
 )
 def fixed_smallest_area(p: np.ndarray) -> np.ndarray:
     """Compares the cross product with a fixed number."""
-    return NO_PLANE if np.linalg.norm(area_normal(p)) < 1e-5 else through(unit(area_normal(p)), p[0])
+    return (
+        NO_PLANE if np.linalg.norm(area_normal(p)) < 1e-5 else through(unit(area_normal(p)), p[0])
+    )
 
 
 @mistake(
-    "You raise an error where the points are on one line. In RANSAC that happens by chance: return four nan, "
-    "and the sample is passed over."
+    "You raise an error where the points are on one line. In RANSAC that happens by chance: return"
+    " four nan, and the sample is passed over."
 )
 def line_refused(p: np.ndarray) -> np.ndarray:
     """Raises where nan is asked for."""
@@ -353,8 +415,8 @@ def line_refused(p: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You return zeros where the points are on one line. With n = 0 and d = 0 all points are at distance 0: such "
-    "a plane wins every vote. Return four nan."
+    "You return zeros where the points are on one line. With n = 0 and d = 0 all points are at"
+    " distance 0: such a plane wins every vote. Return four nan."
 )
 def line_given_zeros(p: np.ndarray) -> np.ndarray:
     """Returns a plane of zeros where nan is asked for."""
@@ -377,7 +439,9 @@ def plane_by_minors(p: np.ndarray) -> np.ndarray:
 
 @alternative
 def plane_by_svd(p: np.ndarray) -> np.ndarray:
-    """Finds the direction in which the centred points do not extend; its largest entry is positive."""
+    """Finds the direction in which the centred points do not extend; its largest entry is
+    positive.
+    """
     centre = p.mean(axis=0)
     _, s, Vt = np.linalg.svd(p - centre)
     if s[1] <= 1e-9 * s[0]:

@@ -1,4 +1,6 @@
-"""The exercises of this lesson: the distance to a box, a Bézier patch, and where a field changes sign."""
+"""The exercises of this lesson: the distance to a box, a Bézier patch, and where a field changes
+sign.
+"""
 
 from collections.abc import Callable
 
@@ -6,13 +8,23 @@ import numpy as np
 
 from workbench.exercise import HiddenSeed, Verdict, fail, full, partial
 
-STUDENTS, GRADERS = 61, HiddenSeed(5179)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    61,
+    HiddenSeed(5179),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 def rows_verdict(
-    got: np.ndarray, right: np.ndarray, what: Callable[[int], str], hint: str, *, good: float = 1e-6, fair: float = 1e-3
+    got: np.ndarray,
+    right: np.ndarray,
+    what: Callable[[int], str],
+    hint: str,
+    *,
+    good: float = 1e-6,
+    fair: float = 1e-3,
 ) -> Verdict:
-    """Judge numbers or points row by row, by the one that is farthest off, m, and say what came and what is right.
+    """Judge numbers or points row by row, by the one that is farthest off, m, and say what came and
+    what is right.
 
     Args:
         got: The answer.

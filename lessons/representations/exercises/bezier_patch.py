@@ -1,13 +1,22 @@
-"""Write what evaluates a bicubic Bézier patch. The lesson makes a torus of 16 patches with it, polynomial or with weights:
-see the presets 'A torus of Bézier patches' and 'With weights'.
+"""Write what evaluates a bicubic Bézier patch. The lesson makes a torus of 16 patches with it,
+polynomial or with weights: see the presets 'A torus of Bézier patches' and 'With weights'.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.representations.exercises import GRADERS, STUDENTS, rows_verdict, written
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import bezier
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.shapes import bezier
 
 FLAT = "np.mgrid[0.0:4, 0.0:4, 0.0:1].reshape(3, 4, 4).transpose(1, 2, 0)"
 
@@ -21,11 +30,13 @@ FLAT = "np.mgrid[0.0:4, 0.0:4, 0.0:1].reshape(3, 4, 4).transpose(1, 2, 0)"
         ("bezier_patch(np.ones((4, 4, 3)), np.array([[0.2, 0.7]]))", "[[1, 1, 1]]"),
     ),
 )
-def bezier_patch(control: Float[np.ndarray, "4 4 3"], uv: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "n 3"]:
+def bezier_patch(
+    control: Float[np.ndarray, "4 4 3"], uv: Float[np.ndarray, "n 2"]
+) -> Float[np.ndarray, "n 3"]:
     """Return points of a bicubic patch: the sum over i and j of B_i(u) B_j(v) control[i, j].
 
-    B_k(t) = binomial(3, k) t^k (1 - t)^(3 - k), so that the patch begins in control[0, 0] at u = v = 0, and ends in
-    control[3, 0] along u and in control[0, 3] along v.
+    B_k(t) = binomial(3, k) t^k (1 - t)^(3 - k), so that the patch begins in control[0, 0] at u = v
+    = 0, and ends in control[3, 0] along u and in control[0, 3] along v.
 
     Args:
         control: The control net, metres: the first index goes along u, the second along v.
@@ -37,19 +48,28 @@ def bezier_patch(control: Float[np.ndarray, "4 4 3"], uv: Float[np.ndarray, "n 2
     return bezier.bezier_patch(control, uv)
 
 
-HINT = "Weights B_i(u) B_j(v) with B = (1−t)³, 3t(1−t)², 3t²(1−t), t³; they add up to 1. The first index goes along u."
+HINT = (
+    "Weights B_i(u) B_j(v) with B = (1−t)³, 3t(1−t)², 3t²(1−t), t³; they add up to 1. The first"
+    " index goes along u."
+)
 
 
 def a_net(rng: np.random.Generator) -> np.ndarray:
     """Return a bent net without any symmetry."""
     i, j = np.meshgrid(np.arange(4.0), np.arange(4.0), indexing="ij")
-    return np.stack([i, 1.5 * j, 0.3 * i * j - 0.2 * i**2], axis=-1) + rng.uniform(-0.4, 0.4, (4, 4, 3))
+    return np.stack([i, 1.5 * j, 0.3 * i * j - 0.2 * i**2], axis=-1) + rng.uniform(
+        -0.4, 0.4, (4, 4, 3)
+    )
 
 
-def verdict(candidate: Function, control: np.ndarray, uv: np.ndarray, where: str, hint: str = HINT) -> Verdict:
+def verdict(
+    candidate: Function, control: np.ndarray, uv: np.ndarray, where: str, hint: str = HINT
+) -> Verdict:
     """Judge points of one patch."""
     right = bezier.bezier_patch(control, uv)
-    return rows_verdict(candidate(control, uv), right, lambda k: f"{where}, at u, v = {written(uv[k])}", hint)
+    return rows_verdict(
+        candidate(control, uv), right, lambda k: f"{where}, at u, v = {written(uv[k])}", hint
+    )
 
 
 @check(2)
@@ -64,14 +84,18 @@ def corners_of_a_patch(candidate: Function) -> Verdict:
     """At its corners the patch is at the corners of the net."""
     rng = np.random.default_rng(STUDENTS + 1)
     hint = "At u = 1, v = 0 the patch is at control[3, 0]; every other weight is 0 there."
-    return verdict(candidate, a_net(rng), np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]]), "At a corner", hint)
+    return verdict(
+        candidate, a_net(rng), np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]]), "At a corner", hint
+    )
 
 
 @check(1)
 def inputs_are_left_alone(candidate: Function) -> Verdict:
     """Net and places are not changed."""
     rng = np.random.default_rng(STUDENTS + 2)
-    return left_alone(candidate, verdict(candidate, a_net(rng), rng.random((9, 2)), "On a bent patch"))
+    return left_alone(
+        candidate, verdict(candidate, a_net(rng), rng.random((9, 2)), "On a bent patch")
+    )
 
 
 @check(2, public=False)
@@ -86,16 +110,23 @@ def other_patches(candidate: Function) -> Verdict:
 def a_patch_of_a_torus(candidate: Function) -> Verdict:
     """The patches of the lesson's torus lie within 0.3 mm of it."""
     control = bezier.torus_patches(0.6, 0.25, rational=False)[5, ..., :3]
-    return verdict(candidate, control, np.random.default_rng(GRADERS() + 1).random((20, 2)), "On the torus")
+    return verdict(
+        candidate, control, np.random.default_rng(GRADERS() + 1).random((20, 2)), "On the torus"
+    )
 
 
 @check(1, public=False)
 def none_and_edges(candidate: Function) -> Verdict:
-    """No places give no points, one gives one; along each edge only the four control points of that edge count."""
+    """No places give no points, one gives one; along each edge only the four control points of that
+    edge count.
+    """
     rng = np.random.default_rng(GRADERS() + 2)
     if len(candidate(a_net(rng), np.empty((0, 2)))):
         return rows_verdict(np.ones(1), np.zeros(1), lambda k: "No places came in, points", HINT)
-    edge, end = np.column_stack([np.zeros(8), rng.random(8)]), np.column_stack([np.ones(8), rng.random(8)])
+    edge, end = (
+        np.column_stack([np.zeros(8), rng.random(8)]),
+        np.column_stack([np.ones(8), rng.random(8)]),
+    )
     edges = (edge, edge[:, ::-1].copy(), end, end[:, ::-1].copy())
     found = [verdict(candidate, a_net(rng), uv, "Along an edge") for uv in edges]
     return worst([verdict(candidate, a_net(rng), edge[:1] + 0.3, "A single place"), *found])
@@ -112,7 +143,10 @@ def swapped(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     return bezier.bezier_patch(control.transpose(1, 0, 2), uv)
 
 
-@mistake("You left out the binomials 1, 3, 3, 1: your weights do not add up to 1, and in the middle the patch sinks.")
+@mistake(
+    "You left out the binomials 1, 3, 3, 1: your weights do not add up to 1, and in the middle the"
+    " patch sinks."
+)
 def without_binomials(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Only powers."""
     k = np.arange(4)
@@ -139,7 +173,10 @@ def one_parameter(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     return bezier.bezier_patch(control, uv[:, [0, 0]])
 
 
-@mistake("Your binomials are 1, 2, 2, 1. Those of degree 3 are 1, 3, 3, 1, so that the weights add up to 1.")
+@mistake(
+    "Your binomials are 1, 2, 2, 1. Those of degree 3 are 1, 3, 3, 1, so that the weights add up"
+    " to 1."
+)
 def wrong_binomials(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Twice for three times."""
     k, times = np.arange(4), np.array([1, 2, 2, 1])
@@ -147,13 +184,20 @@ def wrong_binomials(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     return summed(control, bu, bv)
 
 
-@mistake("You pass through all control points. A Bézier patch passes through the corners, the others only pull.")
+@mistake(
+    "You pass through all control points. A Bézier patch passes through the corners, the others"
+    " only pull."
+)
 def through_all(control: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Lagrange's interpolation."""
     at = np.arange(4) / 3
     bu, bv = (
         np.stack(
-            [np.prod([(t - at[j]) / (at[i] - at[j]) for j in range(4) if j != i], axis=0) for i in range(4)], axis=1
+            [
+                np.prod([(t - at[j]) / (at[i] - at[j]) for j in range(4) if j != i], axis=0)
+                for i in range(4)
+            ],
+            axis=1,
         )
         for t in uv.T
     )

@@ -1,13 +1,23 @@
-"""Write the signed distance to a box: negative inside. The lesson stores boxes and a plate with it, as a grid of distances,
-an octree or a network: see the presets 'Sharp edges' and 'The smaller of two distances'.
+"""Write the signed distance to a box: negative inside. The lesson stores boxes and a plate with it,
+as a grid of distances, an octree or a network: see the presets 'Sharp edges' and 'The smaller of
+two distances'.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.representations.exercises import GRADERS, STUDENTS, rows_verdict, written
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
-from workbench.geometry import signed_distances
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
+from workbench.geometry.fields import signed_distances
 
 
 @contract(
@@ -18,10 +28,14 @@ from workbench.geometry import signed_distances
         ("box_sdf(np.array([[0.0, 0, 0], [0, 0, 0.9]]), np.array([1.0, 2, 1]))", "[-1, -0.1]"),
     ),
 )
-def box_sdf(p: Float[np.ndarray, "n 3"], half_size: Float[np.ndarray, "3"]) -> Float[np.ndarray, " n"]:
-    """Return how far points are from the surface of a box about the origin, its edges along the axes: negative inside.
+def box_sdf(
+    p: Float[np.ndarray, "n 3"], half_size: Float[np.ndarray, "3"]
+) -> Float[np.ndarray, " n"]:
+    """Return how far points are from the surface of a box about the origin, its edges along the
+    axes: negative inside.
 
-    Outside, the nearest point of the box is on a face, on an edge or at a corner. Inside, the nearest face decides.
+    Outside, the nearest point of the box is on a face, on an edge or at a corner. Inside, the
+    nearest face decides.
 
     Args:
         p: Points, metres, one row each.
@@ -36,16 +50,23 @@ def box_sdf(p: Float[np.ndarray, "n 3"], half_size: Float[np.ndarray, "3"]) -> F
 HINT = "With d = |p| − half_size: outside it is the length of max(d, 0), inside the largest d."
 
 
-def verdict(candidate: Function, p: np.ndarray, half: np.ndarray, where: str, hint: str = HINT) -> Verdict:
+def verdict(
+    candidate: Function, p: np.ndarray, half: np.ndarray, where: str, hint: str = HINT
+) -> Verdict:
     """Judge the distances of points to one box."""
     right = signed_distances.box_sdf(p, half)
     return rows_verdict(
-        candidate(p, half), right, lambda k: f"{where}, at {written(p[k])} of a box {written(half)}", hint
+        candidate(p, half),
+        right,
+        lambda k: f"{where}, at {written(p[k])} of a box {written(half)}",
+        hint,
     )
 
 
 def outside(half: np.ndarray, beyond: int, rng: np.random.Generator, n: int = 12) -> np.ndarray:
-    """Return points that lie beyond the box along so many axes: before a face, an edge or a corner."""
+    """Return points that lie beyond the box along so many axes: before a face, an edge or a
+    corner.
+    """
     p = rng.uniform(-0.9, 0.9, (n, 3)) * half
     for row in p:
         axes = rng.permutation(3)[:beyond]
@@ -85,14 +106,18 @@ def other_boxes(candidate: Function) -> Verdict:
     verdicts = []
     for half in ([0.1, 2.0, 0.4], [0.6, 0.6, 0.01], [30.0, 20.0, 50.0], [1.0, 1.0, 1.0]):
         box = np.array(half)
-        p = np.concatenate([outside(box, k, rng, 8) for k in (1, 2, 3)] + [rng.uniform(-1, 1, (8, 3)) * box])
+        p = np.concatenate(
+            [outside(box, k, rng, 8) for k in (1, 2, 3)] + [rng.uniform(-1, 1, (8, 3)) * box]
+        )
         verdicts.append(verdict(candidate, p, box, "Another box"))
     return worst(verdicts)
 
 
 @check(1, public=False)
 def on_the_surface(candidate: Function) -> Verdict:
-    """On faces, edges and corners it is 0, a millimetre off it is one, and in the middle minus the smallest half edge."""
+    """On faces, edges and corners it is 0, a millimetre off it is one, and in the middle minus the
+    smallest half edge.
+    """
     box = np.array([0.7, 0.2, 0.4])
     signs = np.stack(np.meshgrid(*[[-1, 0, 1]] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     p = np.concatenate([signs * box, signs * (box + 1e-3), signs * (box - 1e-3)])
@@ -108,7 +133,8 @@ def none_or_one(candidate: Function) -> Verdict:
 
 
 @mistake(
-    "You left out the inside: your distance is 0 there. Add the largest of |p| − half_size where all are negative."
+    "You left out the inside: your distance is 0 there. Add the largest of |p| − half_size where"
+    " all are negative."
 )
 def nothing_inside(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Only the outside."""
@@ -116,8 +142,8 @@ def nothing_inside(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You take the largest coordinate outside as well. Before edges and corners the distance is the length of all that is"
-    " beyond."
+    "You take the largest coordinate outside as well. Before edges and corners the distance is the"
+    " length of all that is beyond."
 )
 def largest_outside(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Chebyshev everywhere."""
@@ -137,14 +163,18 @@ def turned_round(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You take half_size for the whole edge, so that your box is half as large. It reaches from −half_size to half_size."
+    "You take half_size for the whole edge, so that your box is half as large. It reaches from"
+    " −half_size to half_size."
 )
 def halved_again(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Halves what is half."""
     return signed_distances.box_sdf(p, half_size / 2)
 
 
-@mistake("You left out the absolute value of p: only the side of positive coordinates is right. The box is symmetric.")
+@mistake(
+    "You left out the absolute value of p: only the side of positive coordinates is right. The box"
+    " is symmetric."
+)
 def one_side(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Forgets the other side."""
     d = p - half_size
@@ -152,7 +182,8 @@ def one_side(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
 
 
 @mistake(
-    "You add up what is beyond along the axes. The distance is the length of that vector, not the sum of its parts."
+    "You add up what is beyond along the axes. The distance is the length of that vector, not the"
+    " sum of its parts."
 )
 def added_up(p: np.ndarray, half_size: np.ndarray) -> np.ndarray:
     """Manhattan outside."""

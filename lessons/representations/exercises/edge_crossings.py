@@ -1,12 +1,22 @@
-"""Write what places the vertices of marching cubes: where the field is zero on an edge, given its values at both ends. The
-lesson's surfaces from grids of distances, and from networks, have their vertices from it.
+"""Write what places the vertices of marching cubes: where the field is zero on an edge, given its
+values at both ends. The lesson's surfaces from grids of distances, and from networks, have their
+vertices from it.
 """
 
 import numpy as np
 from jaxtyping import Float
 
 from lessons.representations.exercises import GRADERS, STUDENTS, rows_verdict, written
-from workbench.exercise import Function, Verdict, alternative, check, contract, left_alone, mistake, worst
+from workbench.exercise import (
+    Function,
+    Verdict,
+    alternative,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    worst,
+)
 from workbench.geometry import level_sets
 
 ENDS = "np.array([[0.0, 0, 0]]), np.array([[4.0, 0, 0]])"
@@ -31,7 +41,8 @@ def edge_crossings(
         p_a: One end of each edge, metres.
         p_b: The other end, metres.
         f_a: The field at `p_a`.
-        f_b: The field at `p_b`, never of the same sign; either may be the positive one, and one of both may be 0.
+        f_b: The field at `p_b`, never of the same sign; either may be the positive one, and one of
+            both may be 0.
 
     Returns:
         One point per edge, metres, between its ends. The inputs stay as they are.
@@ -50,13 +61,18 @@ def edges(rng: np.random.Generator, n: int = 20, size: float = 1.0) -> tuple[np.
     return p_a, p_b, sign * rng.uniform(0.05, 1, n), -sign * rng.uniform(0.05, 1, n)
 
 
-def verdict(candidate: Function, given: tuple[np.ndarray, ...], where: str, hint: str = HINT) -> Verdict:
+def verdict(
+    candidate: Function, given: tuple[np.ndarray, ...], where: str, hint: str = HINT
+) -> Verdict:
     """Judge the places on some edges."""
     p_a, p_b, f_a, f_b = given
     right = level_sets.edge_crossings(*given)
 
     def what(k: int) -> str:
-        return f"{where}, from {written(p_a[k])} with {written(f_a[k])} to {written(p_b[k])} with {written(f_b[k])}"
+        return (
+            f"{where}, from {written(p_a[k])} with {written(f_a[k])} to {written(p_b[k])} with"
+            f" {written(f_b[k])}"
+        )
 
     return rows_verdict(candidate(*given), right, what, hint)
 
@@ -82,7 +98,9 @@ def edges_of_a_grid(candidate: Function) -> Verdict:
 @check(1)
 def inputs_are_left_alone(candidate: Function) -> Verdict:
     """Ends and values are not changed."""
-    return left_alone(candidate, verdict(candidate, edges(np.random.default_rng(STUDENTS + 2)), "On an edge"))
+    return left_alone(
+        candidate, verdict(candidate, edges(np.random.default_rng(STUDENTS + 2)), "On an edge")
+    )
 
 
 @check(2, public=False)
@@ -92,20 +110,29 @@ def other_edges(candidate: Function) -> Verdict:
     verdicts = []
     for size, factor in ((50.0, 1.0), (0.02, 1.0), (1.0, 1e-4), (1.0, 1e4)):
         p_a, p_b, f_a, f_b = edges(rng, 20, size)
-        verdicts.append(verdict(candidate, (p_a, p_b, factor * f_a, factor * f_b), "On another edge"))
+        verdicts.append(
+            verdict(candidate, (p_a, p_b, factor * f_a, factor * f_b), "On another edge")
+        )
     return worst(verdicts)
 
 
 @check(1, public=False)
 def zero_at_an_end(candidate: Function) -> Verdict:
-    """Where the field is zero at an end, the place is that end; where it is nearly zero, the place is near it."""
+    """Where the field is zero at an end, the place is that end; where it is nearly zero, the place
+    is near it.
+    """
     rng = np.random.default_rng(GRADERS() + 1)
     p_a, p_b, f_a, f_b = edges(rng, 8)
     f_a, f_b = np.where(np.arange(8) < 4, 0.0, f_a), np.where(np.arange(8) < 4, f_b, 0.0)
     zero = verdict(candidate, (p_a, p_b, f_a, f_b), "With a zero at an end")
     p_a, p_b, f_a, f_b = edges(rng, 8)
-    f_a, f_b = np.where(np.arange(8) < 4, 2e-5 * f_a, f_a), np.where(np.arange(8) < 4, f_b, 2e-5 * f_b)
-    return worst((zero, verdict(candidate, (50 * p_a, 50 * p_b, f_a, f_b), "With nearly a zero at an end")))
+    f_a, f_b = (
+        np.where(np.arange(8) < 4, 2e-5 * f_a, f_a),
+        np.where(np.arange(8) < 4, f_b, 2e-5 * f_b),
+    )
+    return worst(
+        (zero, verdict(candidate, (50 * p_a, 50 * p_b, f_a, f_b), "With nearly a zero at an end"))
+    )
 
 
 @check(1, public=False)
@@ -122,27 +149,39 @@ def at(p_a: np.ndarray, p_b: np.ndarray, t: np.ndarray) -> np.ndarray:
     return p_a + t[:, None] * (p_b - p_a)
 
 
-@mistake("You return the middle of each edge, whatever the values: that is what bits would give. Use f_a and f_b.")
+@mistake(
+    "You return the middle of each edge, whatever the values: that is what bits would give. Use f_a"
+    " and f_b."
+)
 def middles(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
     """Ignores the values."""
     return (p_a + p_b) / 2
 
 
-@mistake("Your weights are swapped: the place lies near the end whose value is small, yours near the other.")
+@mistake(
+    "Your weights are swapped: the place lies near the end whose value is small, yours near the"
+    " other."
+)
 def swapped(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
     """Measures from the wrong end."""
     return at(p_b, p_a, f_a / (f_a - f_b))
 
 
-@mistake("You divide by f_a + f_b, which has no meaning for values of different sign: divide by f_a − f_b.")
-def divided_by_the_sum(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
+@mistake(
+    "You divide by f_a + f_b, which has no meaning for values of different sign: divide by f_a −"
+    " f_b."
+)
+def divided_by_the_sum(
+    p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray
+) -> np.ndarray:
     """Leaves the edge."""
     total = f_a + f_b
     return at(p_a, p_b, f_a / np.where(total == 0, 1.0, total))
 
 
 @mistake(
-    "You walk |f_a| metres along the edge. The surface may cross it at a slant: only the share of both values tells."
+    "You walk |f_a| metres along the edge. The surface may cross it at a slant: only the share of"
+    " both values tells."
 )
 def walked(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
     """Takes the value for a way."""
@@ -156,14 +195,19 @@ def outwards(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray)
     return at(p_a, p_b, f_a / (f_b - f_a))
 
 
-@mistake("You weigh with the squares of the values. The field is linear along the edge: take them as they are.")
+@mistake(
+    "You weigh with the squares of the values. The field is linear along the edge: take them as"
+    " they are."
+)
 def squared(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
     """Squares."""
     return at(p_a, p_b, f_a**2 / (f_a**2 + f_b**2))
 
 
 @mistake("You return t itself or t (b − a): the way from a. Add a, for the place.")
-def without_the_start(p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray) -> np.ndarray:
+def without_the_start(
+    p_a: np.ndarray, p_b: np.ndarray, f_a: np.ndarray, f_b: np.ndarray
+) -> np.ndarray:
     """Forgets where the edge begins."""
     return at(0 * p_a, p_b - p_a, f_a / (f_a - f_b))
 

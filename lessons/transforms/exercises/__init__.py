@@ -7,7 +7,10 @@ import numpy as np
 from workbench.exercise import HiddenSeed
 from workbench.geometry.motions import exp_so3, motion
 
-STUDENTS, GRADERS = 11, HiddenSeed(7310)  # seeds of what a student sees run, and of what only a grader does
+STUDENTS, GRADERS = (
+    11,
+    HiddenSeed(7310),
+)  # seeds of what a student sees run, and of what only a grader does
 
 
 def some_motions(seed: int, n: int = 5) -> Iterator[np.ndarray]:

@@ -1,5 +1,5 @@
-"""Write the rotation that three Euler angles stand for, in all 24 orders. The lesson turns the body by it, one angle
-after the other.
+"""Write the rotation that three Euler angles stand for, in all 24 orders. The lesson turns the body
+by it, one angle after the other.
 """
 
 import numpy as np
@@ -21,16 +21,22 @@ from workbench.exercise import (
     rotation_verdict,
     worst,
 )
-from workbench.geometry import rotations
-from workbench.geometry.rotations import EULER_ORDERS, rotation_about
+from workbench.geometry.motions import rotations
+from workbench.geometry.motions.rotations import EULER_ORDERS, rotation_about
 
 
 @contract(
     slot="euler_to_matrix",
     forbid=("scipy.spatial.transform",),
     examples=(
-        ('euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "xyz")', "[[0, 0, 1], [1, 0, 0], [0, 1, 0]]"),
-        ('euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "XYZ")', "[[0, -1, 0], [0, 0, -1], [1, 0, 0]]"),
+        (
+            'euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "xyz")',
+            "[[0, 0, 1], [1, 0, 0], [0, 1, 0]]",
+        ),
+        (
+            'euler_to_matrix(np.array([np.pi / 2, 0.0, np.pi / 2]), "XYZ")',
+            "[[0, -1, 0], [0, 0, -1], [1, 0, 0]]",
+        ),
     ),
 )
 def euler_to_matrix(angles: Float[np.ndarray, "3"], order: str) -> Float[np.ndarray, "3 3"]:
@@ -39,17 +45,18 @@ def euler_to_matrix(angles: Float[np.ndarray, "3"], order: str) -> Float[np.ndar
     R turns vectors actively, v_turned = R @ v. Each turn follows the right-hand rule.
 
     Args:
-        angles: Radians, one for each letter, in the order of the letters: the first letter's turn is made first.
-        order: Three letters. Lower case turns about the fixed axes of the world, so that "xyz" with angles (a, b, c) is
-            Rz(c) @ Ry(b) @ Rx(a). Upper case turns about the body's own axes, which the earlier turns have carried
-            along: "XYZ" is Rx(a) @ Ry(b) @ Rz(c).
+        angles: Radians, one for each letter, in the order of the letters: the first letter's turn
+            is made first.
+        order: Three letters. Lower case turns about the fixed axes of the world, so that "xyz" with
+            angles (a, b, c) is Rz(c) @ Ry(b) @ Rx(a). Upper case turns about the body's own axes,
+            which the earlier turns have carried along: "XYZ" is Rx(a) @ Ry(b) @ Rz(c).
 
     Returns:
         R, also in gimbal lock, where it is as good a rotation as any.
 
     Raises:
-        ValueError: If the order is none of the 24: three letters of x, y and z in one case, no letter twice in a row
-            ("xyx" is one, "xxy" and "xYz" are none).
+        ValueError: If the order is none of the 24: three letters of x, y and z in one case, no
+            letter twice in a row ("xyx" is one, "xxy" and "xYz" are none).
     """
     if order not in EULER_ORDERS:
         raise ValueError(f"{order!r} is none of the 24 orders")
@@ -74,7 +81,9 @@ def _ordered(candidate: Function, angles: np.ndarray, order: str) -> Verdict:
 def one_turn(candidate: Function) -> Verdict:
     """A single turn is about the axis of its letter, by the right angle."""
     one = np.radians(40.0) * np.eye(3)
-    return worst(_ordered(candidate, one[k], order) for order in ("xyz", "ZYX", "yzx") for k in range(3))
+    return worst(
+        _ordered(candidate, one[k], order) for order in ("xyz", "ZYX", "yzx") for k in range(3)
+    )
 
 
 @check(2)
@@ -92,7 +101,10 @@ def carried_axes(candidate: Function) -> Verdict:
 @check(2, public=False)
 def all_orders(candidate: Function) -> Verdict:
     """All 24 orders give the right rotation."""
-    verdicts = {order: _ordered(candidate, some_angles(GRADERS() + k), order) for k, order in enumerate(EULER_ORDERS)}
+    verdicts = {
+        order: _ordered(candidate, some_angles(GRADERS() + k), order)
+        for k, order in enumerate(EULER_ORDERS)
+    }
     right = [order for order, verdict in verdicts.items() if verdict.share == 1.0]
     if len(right) == len(verdicts):
         return full("24 of 24 orders are right.")
@@ -102,11 +114,18 @@ def all_orders(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def gimbal_lock(candidate: Function) -> Verdict:
-    """At a pitch of 90 degrees only the sum of the first and the third angle counts; more than half a turn is a turn too."""
+    """At a pitch of 90 degrees only the sum of the first and the third angle counts; more than half
+    a turn is a turn too.
+    """
     a, c, more = 0.4, -0.9, 0.7
     R, other = (candidate(np.array([a + d, np.pi / 2, c - d]), "XYZ") for d in (0.0, more))
     right = rotations.euler_to_matrix(np.array([a, np.pi / 2, c]), "XYZ")
-    others = (("xyz", [a, -np.pi / 2, c]), ("ZXZ", [a, 0.0, c]), ("zyz", [a, np.pi, c]), ("XYZ", [4.0, -5.0, 7.5]))
+    others = (
+        ("xyz", [a, -np.pi / 2, c]),
+        ("ZXZ", [a, 0.0, c]),
+        ("zyz", [a, np.pi, c]),
+        ("XYZ", [4.0, -5.0, 7.5]),
+    )
     locked = [_ordered(candidate, np.array(angles), order) for order, angles in others]
     return worst([*(rotation_verdict(got, right, EULER_HINT) for got in (R, other)), *locked])
 
@@ -116,13 +135,17 @@ def unknown_orders(candidate: Function) -> Verdict:
     """Orders that are none of the 24 are refused, and the angles are left alone."""
     kept = left_alone(candidate, _ordered(candidate, some_angles(GRADERS()), "zyx"))
     none = ("xxy", "xYz", "zyy", "xyZ", "xYZ", "xyzx")
-    asked = (refused(candidate, some_angles(GRADERS()), order, what=f'The order "{order}"') for order in none)
+    asked = (
+        refused(candidate, some_angles(GRADERS()), order, what=f'The order "{order}"')
+        for order in none
+    )
     return worst([*asked, kept])
 
 
 @mistake(
-    "Your product is the wrong way round: you turn about the body's own axes for lower case, and about fixed "
-    "ones for upper case. “xyz” is Rz Ry Rx: each new turn about a fixed axis is multiplied on the left."
+    "Your product is the wrong way round: you turn about the body's own axes for lower case, and"
+    " about fixed ones for upper case. “xyz” is Rz Ry Rx: each new turn about a fixed axis is"
+    " multiplied on the left."
 )
 def product_turned_round(angles: np.ndarray, order: str) -> np.ndarray:
     """Lower and upper case swapped."""
@@ -130,23 +153,26 @@ def product_turned_round(angles: np.ndarray, order: str) -> np.ndarray:
 
 
 @mistake(
-    "You always turn about fixed axes. Upper case means the body's own axes, which earlier turns have carried "
-    "along: “XYZ” is Rx Ry Rz."
+    "You always turn about fixed axes. Upper case means the body's own axes, which earlier turns"
+    " have carried along: “XYZ” is Rx Ry Rz."
 )
 def case_ignored(angles: np.ndarray, order: str) -> np.ndarray:
     """Always about fixed axes."""
     return rotations.euler_to_matrix(angles, order.lower())  # type: ignore[arg-type]
 
 
-@mistake("You always turn about the body's own axes. Lower case means the fixed axes of the world: “xyz” is Rz Ry Rx.")
+@mistake(
+    "You always turn about the body's own axes. Lower case means the fixed axes of the world: “xyz”"
+    " is Rz Ry Rx."
+)
 def always_carried(angles: np.ndarray, order: str) -> np.ndarray:
     """Always about the body's own axes."""
     return rotations.euler_to_matrix(angles, order.upper())  # type: ignore[arg-type]
 
 
 @mistake(
-    "Each of your three turns is the transpose of the right one: it turns clockwise. About z, the right-hand "
-    "rule takes x to y."
+    "Each of your three turns is the transpose of the right one: it turns clockwise. About z, the"
+    " right-hand rule takes x to y."
 )
 def clockwise(angles: np.ndarray, order: str) -> np.ndarray:
     """Every elementary turn transposed."""
@@ -160,12 +186,15 @@ def degrees_taken(angles: np.ndarray, order: str) -> np.ndarray:
 
 
 @mistake(
-    "You read the angles as those about x, y and z. They come in the order of the letters: in “zyx” the first "
-    "one is about z."
+    "You read the angles as those about x, y and z. They come in the order of the letters: in “zyx”"
+    " the first one is about z."
 )
 def angles_of_axes(angles: np.ndarray, order: str) -> np.ndarray:
     """Reads the angles as those about x, y and z, whatever the order of the letters."""
-    return rotations.euler_to_matrix(np.array([angles["xyz".index(letter)] for letter in order.lower()]), order)  # type: ignore[arg-type]
+    return rotations.euler_to_matrix(
+        np.array([angles["xyz".index(letter)] for letter in order.lower()]),
+        order,  # type: ignore[arg-type]
+    )
 
 
 @mistake("You always turn about x, y, z. Read the letters: “zxz” begins with z.")
@@ -175,12 +204,15 @@ def order_ignored(angles: np.ndarray, order: str) -> np.ndarray:
 
 
 @mistake(
-    "All is right but that you accept any letters. Two equal letters in a row, other letters or mixed cases are "
-    "none of the 24 orders: raise a ValueError."
+    "All is right but that you accept any letters. Two equal letters in a row, other letters or"
+    " mixed cases are none of the 24 orders: raise a ValueError."
 )
 def any_order_taken(angles: np.ndarray, order: str) -> np.ndarray:
     """Multiplies whatever letters come."""
-    first, second, third = (rotation_about(a, v) for a, v in zip(order.lower(), angles, strict=False))  # type: ignore[arg-type]
+    first, second, third = (
+        rotation_about(a, v)  # type: ignore[arg-type]
+        for a, v in zip(order.lower(), angles, strict=False)
+    )
     return first @ second @ third if order.isupper() else third @ second @ first
 
 
@@ -202,14 +234,23 @@ def euler_in_loops(angles: np.ndarray, order: str) -> np.ndarray:
 @alternative
 def euler_by_quaternions(angles: np.ndarray, order: str) -> np.ndarray:
     """The product of three quaternions, each as a 4x4 matrix."""
-    if len(order) != 3 or set(order.lower()) - set("xyz") or order.lower()[1] in (order.lower()[0], order.lower()[2]):
+    if (
+        len(order) != 3
+        or set(order.lower()) - set("xyz")
+        or order.lower()[1] in (order.lower()[0], order.lower()[2])
+    ):
         raise ValueError(order)
     if order != order.lower() and order != order.upper():
         raise ValueError(order)
     q = np.array([1.0, 0.0, 0.0, 0.0])
     pairs = list(zip(order.lower(), angles, strict=True))
-    for letter, angle in pairs if order.isupper() else pairs[::-1]:  # on the right, in the order of the product
-        w, (x, y, z) = np.cos(angle / 2), np.sin(angle / 2) * np.array([letter == "x", letter == "y", letter == "z"])
+    for letter, angle in (
+        pairs if order.isupper() else pairs[::-1]
+    ):  # on the right, in the order of the product
+        w, (x, y, z) = (
+            np.cos(angle / 2),
+            np.sin(angle / 2) * np.array([letter == "x", letter == "y", letter == "z"]),
+        )
         q = np.array([[w, -x, -y, -z], [x, w, z, -y], [y, -z, w, x], [z, y, -x, w]]) @ q
     w, v = q[0], q[1:]
     K = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])

@@ -1,5 +1,5 @@
-"""Write the inverse of a rigid motion. The lesson takes the body back with it at the last step: with the right inverse
-it stands on its ghost again, with (R^T, -t) it does not.
+"""Write the inverse of a rigid motion. The lesson takes the body back with it at the last step:
+with the right inverse it stands on its ghost again, with (R^T, -t) it does not.
 """
 
 import numpy as np
@@ -36,11 +36,13 @@ from workbench.geometry.motions import exp_so3, inverse, motion
 def invert_rigid(T_a_b: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "4 4"]:
     """Return the motion T_b_a that takes points back from frame a to frame b.
 
-    With T_a_b = (R, t) a point goes p_a = R p_b + t, metres. The inverse undoes that for every point.
+    With T_a_b = (R, t) a point goes p_a = R p_b + t, metres. The inverse undoes that for every
+    point.
 
     Args:
-        T_a_b: A rigid motion: rotation R in the upper left 3x3, translation t (metres) in the last column, and
-            (0, 0, 0, 1) as last row. It may be the identity. Nobody gives you a motion that scales or shears.
+        T_a_b: A rigid motion: rotation R in the upper left 3x3, translation t (metres) in the last
+            column, and (0, 0, 0, 1) as last row. It may be the identity. Nobody gives you a motion
+            that scales or shears.
 
     Returns:
         T_b_a, again a rigid motion, in a new array: the input stays as it is.
@@ -60,7 +62,13 @@ INVERT_HINT = "Solve p_a = R p_b + t for p_b."
 def there_and_back(candidate: Function) -> Verdict:
     """A point that goes from b to a and back is where it was."""
     return worst(
-        motion_verdict(candidate(T) @ T, np.eye(4), INVERT_HINT, p=some_points(STUDENTS), name="(T_b_a @ T_a_b)")
+        motion_verdict(
+            candidate(T) @ T,
+            np.eye(4),
+            INVERT_HINT,
+            p=some_points(STUDENTS),
+            name="(T_b_a @ T_a_b)",
+        )
         for T in some_motions(STUDENTS)
     )
 
@@ -68,7 +76,9 @@ def there_and_back(candidate: Function) -> Verdict:
 @check(1)
 def twice_is_nothing(candidate: Function) -> Verdict:
     """The inverse of the inverse is the motion itself."""
-    return worst(motion_verdict(candidate(candidate(T)), T, INVERT_HINT) for T in some_motions(STUDENTS + 1))
+    return worst(
+        motion_verdict(candidate(candidate(T)), T, INVERT_HINT) for T in some_motions(STUDENTS + 1)
+    )
 
 
 @check(1)
@@ -84,13 +94,18 @@ def products_turn_round(candidate: Function) -> Verdict:
     verdicts = []
     for T_a_b, T_b_c in zip(some_motions(GRADERS()), some_motions(GRADERS() + 1), strict=True):
         T_c_a = candidate(T_b_c) @ candidate(T_a_b)
-        verdicts += [motion_verdict(candidate(T_a_b @ T_b_c), T_c_a, INVERT_HINT), _right(T_a_b, candidate(T_a_b))]
+        verdicts += [
+            motion_verdict(candidate(T_a_b @ T_b_c), T_c_a, INVERT_HINT),
+            _right(T_a_b, candidate(T_a_b)),
+        ]
     return worst(verdicts)
 
 
 @check(2, public=False)
 def special_motions(candidate: Function) -> Verdict:
-    """The identity, a pure translation, half a turn, a motion a kilometre long and a very small one are inverted."""
+    """The identity, a pure translation, half a turn, a motion a kilometre long and a very small one
+    are inverted.
+    """
     far = np.array([800.0, -500.0, 300.0])
     cases = (np.eye(4), motion(np.eye(3), far), motion(np.diag([-1.0, 1.0, -1.0]), far))
     turns = (motion(exp_so3(np.array(w)), far) for w in ([0.0, 0.0, 1.0], [0.0, 0.01, 0.0]))
@@ -99,36 +114,51 @@ def special_motions(candidate: Function) -> Verdict:
 
 
 def _right(T: np.ndarray, T_back: np.ndarray) -> Verdict:
-    return motion_verdict(T_back @ T, np.eye(4), INVERT_HINT, p=some_points(GRADERS()), name="(T_b_a @ T_a_b)")
+    return motion_verdict(
+        T_back @ T, np.eye(4), INVERT_HINT, p=some_points(GRADERS()), name="(T_b_a @ T_a_b)"
+    )
 
 
-@mistake("You returned (R^T, -t). The translation is undone in frame a, but R^T turns it first: it must be -R^T t.")
+@mistake(
+    "You returned (R^T, -t). The translation is undone in frame a, but R^T turns it first: it must"
+    " be -R^T t."
+)
 def negated_translation(T_a_b: np.ndarray) -> np.ndarray:
     """(R^T, -t)."""
     return motion(T_a_b[:3, :3].T, -T_a_b[:3, 3])
 
 
 @mistake(
-    "You returned (R, -t): the translation is negated, but the rotation still turns from b to a. Its inverse is R^T."
+    "You returned (R, -t): the translation is negated, but the rotation still turns from b to a."
+    " Its inverse is R^T."
 )
 def rotation_kept(T_a_b: np.ndarray) -> np.ndarray:
     """(R, -t)."""
     return motion(T_a_b[:3, :3], -T_a_b[:3, 3])
 
 
-@mistake("Your rotation is R^T, but your translation is -R t. The inverse has -R^T t: solve p_a = R p_b + t for p_b.")
+@mistake(
+    "Your rotation is R^T, but your translation is -R t. The inverse has -R^T t: solve p_a = R p_b"
+    " + t for p_b."
+)
 def translation_turned_forwards(T_a_b: np.ndarray) -> np.ndarray:
     """(R^T, -R t)."""
     return motion(T_a_b[:3, :3].T, -T_a_b[:3, :3] @ T_a_b[:3, 3])
 
 
-@mistake("Your translation is R^T t; it has the wrong sign. Solve p_a = R p_b + t for p_b: p_b = R^T p_a - R^T t.")
+@mistake(
+    "Your translation is R^T t; it has the wrong sign. Solve p_a = R p_b + t for p_b: p_b = R^T p_a"
+    " - R^T t."
+)
 def sign_forgotten(T_a_b: np.ndarray) -> np.ndarray:
     """(R^T, R^T t)."""
     return motion(T_a_b[:3, :3].T, T_a_b[:3, :3].T @ T_a_b[:3, 3])
 
 
-@mistake("You transposed the whole 4×4, so that t lies in the last row. Only its 3×3 rotation is orthogonal.")
+@mistake(
+    "You transposed the whole 4×4, so that t lies in the last row. Only its 3×3 rotation is"
+    " orthogonal."
+)
 def all_transposed(T_a_b: np.ndarray) -> np.ndarray:
     """The transpose of the 4x4."""
     return T_a_b.T.copy()

@@ -1,5 +1,6 @@
-"""Write Rodrigues' formula: the rotation by an angle about an axis. Set the lesson's knob half to 'move between two
-poses' and it turns the body from one pose to the other about one axis, at constant speed.
+"""Write Rodrigues' formula: the rotation by an angle about an axis. Set the lesson's knob half to
+'move between two poses' and it turns the body from one pose to the other about one axis, at
+constant speed.
 """
 
 from collections.abc import Iterator
@@ -23,8 +24,7 @@ from workbench.exercise import (
     rotation_verdict,
     worst,
 )
-from workbench.geometry import rotations
-from workbench.geometry.motions import exp_so3, skew
+from workbench.geometry.motions import exp_so3, rotations, skew
 
 
 @contract(
@@ -42,11 +42,13 @@ from workbench.geometry.motions import exp_so3, skew
         ),
     ),
 )
-def rotation_from_axis_angle(axis: Float[np.ndarray, "3"], angle: float) -> Float[np.ndarray, "3 3"]:
+def rotation_from_axis_angle(
+    axis: Float[np.ndarray, "3"], angle: float
+) -> Float[np.ndarray, "3 3"]:
     """Return the rotation matrix R that turns by an angle about an axis through the origin.
 
-    R turns vectors actively, v_turned = R @ v, counter-clockwise where the axis points at you (right-hand rule): a
-    quarter turn about z takes x to y.
+    R turns vectors actively, v_turned = R @ v, counter-clockwise where the axis points at you
+    (right-hand rule): a quarter turn about z takes x to y.
 
     Args:
         axis: Direction of the axis. Its length has no meaning and need not be 1; it is not zero.
@@ -61,7 +63,10 @@ def rotation_from_axis_angle(axis: Float[np.ndarray, "3"], angle: float) -> Floa
     return rotations.rotation_from_axis_angle(axis, float(angle))
 
 
-TURN_HINT = "What lies along the axis stays, what lies across it turns; the length of the axis must not matter."
+TURN_HINT = (
+    "What lies along the axis stays, what lies across it turns; the length of the axis must not"
+    " matter."
+)
 
 
 def some_turns(seed: int, n: int = 6) -> Iterator[tuple[np.ndarray, float]]:
@@ -84,7 +89,9 @@ def quarter_turn(candidate: Function) -> Verdict:
 def any_axis(candidate: Function) -> Verdict:
     """About axes in all directions and of all lengths, R turns by the right angle."""
     return worst(
-        rotation_verdict(candidate(axis, angle), rotations.rotation_from_axis_angle(axis, angle), TURN_HINT)
+        rotation_verdict(
+            candidate(axis, angle), rotations.rotation_from_axis_angle(axis, angle), TURN_HINT
+        )
         for axis, angle in some_turns(STUDENTS)
     )
 
@@ -110,15 +117,25 @@ def turned_axis(candidate: Function) -> Verdict:
 
 @check(1, public=False)
 def special_angles(candidate: Function) -> Verdict:
-    """No turn, half a turn and turns and turns either way are rotations, and an angle of 1e-6 is not lost."""
+    """No turn, half a turn and turns and turns either way are rotations, and an angle of 1e-6 is
+    not lost.
+    """
     axis = np.array([0.3, -0.4, 1.2])
     verdicts = [
-        rotation_verdict(candidate(axis, v), rotations.rotation_from_axis_angle(axis, v), f"Angle {v:.3g}. {TURN_HINT}")
+        rotation_verdict(
+            candidate(axis, v),
+            rotations.rotation_from_axis_angle(axis, v),
+            f"Angle {v:.3g}. {TURN_HINT}",
+        )
         for v in (0.0, np.pi, -np.pi, 7.5, -8.0, 20.0, -100.0)
     ]
     tiny = degrees_between(candidate(axis, 1e-6), np.eye(3)) / np.degrees(1e-6)
-    said = f"By 0.000001 radians yours turns by {number(1e-6 * tiny)}, right is 0.000001. {TURN_HINT}"
-    kept = band("Relative error of a tiny angle", abs(tiny - 1.0), "", good=1e-3, fair=1e-1, hint=said)
+    said = (
+        f"By 0.000001 radians yours turns by {number(1e-6 * tiny)}, right is 0.000001. {TURN_HINT}"
+    )
+    kept = band(
+        "Relative error of a tiny angle", abs(tiny - 1.0), "", good=1e-3, fair=1e-1, hint=said
+    )
     return worst([*verdicts, kept])
 
 
@@ -129,13 +146,15 @@ def zero_axis(candidate: Function) -> Verdict:
     for length in (1e-6, 1e3):
         axis = length * np.array([0.48, -0.6, 0.64])
         right = rotations.rotation_from_axis_angle(axis, 0.5)
-        verdicts.append(rotation_verdict(candidate(axis, 0.5), right, f"An axis {length:g} long. {TURN_HINT}"))
+        verdicts.append(
+            rotation_verdict(candidate(axis, 0.5), right, f"An axis {length:g} long. {TURN_HINT}")
+        )
     return worst(verdicts)
 
 
 @mistake(
-    "Your R is the transpose of the right one: it turns clockwise. Look along the axis towards you: a positive "
-    "angle turns counter-clockwise (right-hand rule)."
+    "Your R is the transpose of the right one: it turns clockwise. Look along the axis towards you:"
+    " a positive angle turns counter-clockwise (right-hand rule)."
 )
 def clockwise(axis: np.ndarray, angle: float) -> np.ndarray:
     """R^T."""
@@ -148,26 +167,38 @@ def degrees_taken(axis: np.ndarray, angle: float) -> np.ndarray:
     return rotations.rotation_from_axis_angle(axis, np.radians(angle))
 
 
-@mistake("Your formula uses the axis as it comes; it holds for a unit axis only. Divide by its length first.")
+@mistake(
+    "Your formula uses the axis as it comes; it holds for a unit axis only. Divide by its length"
+    " first."
+)
 def axis_not_of_unit_length(axis: np.ndarray, angle: float) -> np.ndarray:
     """Rodrigues' formula with the axis as it comes."""
     W = skew(axis)
     return np.eye(3) + np.sin(angle) * W + (1 - np.cos(angle)) * W @ W
 
 
-@mistake("You returned I + sin(angle) K. That holds for small angles; the term (1 - cos(angle)) K K is missing.")
+@mistake(
+    "You returned I + sin(angle) K. That holds for small angles; the term (1 - cos(angle)) K K is"
+    " missing."
+)
 def square_forgotten(axis: np.ndarray, angle: float) -> np.ndarray:
     """I + sin(angle) K, the formula for small angles."""
     return np.eye(3) + np.sin(angle) * skew(axis / np.linalg.norm(axis))
 
 
-@mistake("You returned cos(angle) I + sin(angle) K. The part along the axis must stay: add (1 - cos(angle)) a a^T.")
+@mistake(
+    "You returned cos(angle) I + sin(angle) K. The part along the axis must stay: add (1 -"
+    " cos(angle)) a a^T."
+)
 def projection_forgotten(axis: np.ndarray, angle: float) -> np.ndarray:
     """cos(angle) I + sin(angle) K, without (1 - cos) a a^T."""
     return np.cos(angle) * np.eye(3) + np.sin(angle) * skew(axis / np.linalg.norm(axis))
 
 
-@mistake("All is right but the axis of length zero, by which you divide: it names no direction. Raise a ValueError.")
+@mistake(
+    "All is right but the axis of length zero, by which you divide: it names no direction. Raise a"
+    " ValueError."
+)
 def zero_axis_divides(axis: np.ndarray, angle: float) -> np.ndarray:
     """Divides by a length of zero."""
     W = skew(axis / np.linalg.norm(axis))
@@ -175,8 +206,8 @@ def zero_axis_divides(axis: np.ndarray, angle: float) -> np.ndarray:
 
 
 @mistake(
-    "All is right but the axis of length zero, for which you return the identity. The contract asks for a "
-    "ValueError: an answer made up hides the error of whoever calls you."
+    "All is right but the axis of length zero, for which you return the identity. The contract asks"
+    " for a ValueError: an answer made up hides the error of whoever calls you."
 )
 def zero_axis_is_the_identity(axis: np.ndarray, angle: float) -> np.ndarray:
     """Makes an answer up."""
@@ -207,5 +238,8 @@ def turn_column_by_column(axis: np.ndarray, angle: float) -> np.ndarray:
     if not length > 0:
         raise ValueError("a zero axis")
     n = axis / length
-    turned = [v * np.cos(angle) + np.cross(n, v) * np.sin(angle) + n * (n @ v) * (1 - np.cos(angle)) for v in np.eye(3)]
+    turned = [
+        v * np.cos(angle) + np.cross(n, v) * np.sin(angle) + n * (n @ v) * (1 - np.cos(angle))
+        for v in np.eye(3)
+    ]
     return np.array(turned).T

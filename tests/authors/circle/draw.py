@@ -9,8 +9,12 @@ from .state import TRUE, State
 
 def draw(state: State) -> Scene:
     """Show the points, the true circle and the fitted one, and how far they are apart."""
-    kind = f"Gauss-Newton step {state.k}" if state.k else f"The algebraic fit of {len(state.p)} points"
-    said = f"{kind} gives radius {state.circle[2]:.3f} m, {1000 * state.error:.1f} mm from the truth"
+    kind = (
+        f"Gauss-Newton step {state.k}" if state.k else f"The algebraic fit of {len(state.p)} points"
+    )
+    said = (
+        f"{kind} gives radius {state.circle[2]:.3f} m, {1000 * state.error:.1f} mm from the truth"
+    )
     return {
         "points": Points(in_space(state.p), "target", 0.015, name="measured points"),
         "truth": Segments(outline(TRUE), "truth", name="true circle"),

@@ -1,7 +1,8 @@
 """A circle through points that are not quite on it.
 
-What it teaches: the fit that one linear system solves is not the one that makes the distances smallest; on a short arc it
-gives circles that are far too small, and a few Gauss-Newton steps mend that.
+What it teaches: the fit that one linear system solves is not the one that makes the distances
+smallest; on a short arc it gives circles that are far too small, and a few Gauss-Newton steps mend
+that.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,11 +21,15 @@ from .state import TRUE, Params, State
 
 @traced
 def refine(p: np.ndarray, circle: np.ndarray) -> Iterator[State]:
-    """Yield the circle, and circles whose squared distances to the points get smaller: Gauss-Newton."""
+    """Yield the circle, and circles whose squared distances to the points get smaller:
+    Gauss-Newton.
+    """
     yield State(0, p, circle)
     for k in range(1, 40):
         r = np.linalg.norm(p - circle[:2], axis=1)
-        J = np.column_stack([(circle[:2] - p) / r[:, None], -np.ones(len(p))])  # how each distance changes
+        J = np.column_stack(
+            [(circle[:2] - p) / r[:, None], -np.ones(len(p))]
+        )  # how each distance changes
         step = np.linalg.lstsq(J, circle[2] - r, rcond=None)[0]
         circle = circle + step
         yield State(k, p, circle)
@@ -32,7 +37,9 @@ def refine(p: np.ndarray, circle: np.ndarray) -> Iterator[State]:
             return
 
 
-def run(params: Params, *, fit_circle: Callable[[np.ndarray], np.ndarray] = fit_circle) -> Iterator[State]:
+def run(
+    params: Params, *, fit_circle: Callable[[np.ndarray], np.ndarray] = fit_circle
+) -> Iterator[State]:
     """Yield the algebraic circle through measured points, and its refinements."""
     rng = np.random.default_rng(params.seed)
     angles = np.radians(params.arc) * (np.arange(params.points) / params.points - 0.5)
@@ -44,7 +51,9 @@ def run(params: Params, *, fit_circle: Callable[[np.ndarray], np.ndarray] = fit_
 lesson = Lesson(
     name="circle",
     title="A circle through points",
-    summary="One linear system gives a circle, but not the nearest one: watch it grow on a short arc.",
+    summary=(
+        "One linear system gives a circle, but not the nearest one: watch it grow on a short arc."
+    ),
     page=Path(__file__).with_name("page.md"),
     params=Params,
     run=run,

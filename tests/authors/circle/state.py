@@ -29,7 +29,11 @@ class State:
     @property
     def rms(self) -> float:
         """The root mean square of the points' distances to the circle, metres."""
-        return float(np.sqrt(((np.linalg.norm(self.p - self.circle[:2], axis=1) - self.circle[2]) ** 2).mean()))
+        return float(
+            np.sqrt(
+                ((np.linalg.norm(self.p - self.circle[:2], axis=1) - self.circle[2]) ** 2).mean()
+            )
+        )
 
     @property
     def error(self) -> float:

@@ -37,7 +37,9 @@ def right_add_at(p, faces):
 
 
 def right_bincount(p, faces):
-    return full_turn(p, faces) - np.bincount(faces.ravel(), angles(p, faces).ravel(), minlength=len(p))
+    return full_turn(p, faces) - np.bincount(
+        faces.ravel(), angles(p, faces).ravel(), minlength=len(p)
+    )
 
 
 def right_loops(p, faces):
@@ -98,7 +100,9 @@ def right_einsum(p, faces):
     for k in range(3):
         u, v = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
         dot = np.einsum("ij,ij->i", u, v)
-        cross = np.sqrt(np.maximum(np.einsum("ij,ij->i", u, u) * np.einsum("ij,ij->i", v, v) - dot**2, 0))
+        cross = np.sqrt(
+            np.maximum(np.einsum("ij,ij->i", u, u) * np.einsum("ij,ij->i", v, v) - dot**2, 0)
+        )
         np.subtract.at(out, faces[:, k], np.arctan2(cross, dot))
     return out
 
@@ -143,7 +147,10 @@ def wrong_arccos_not_clipped(p, faces):
     out = full_turn(p, faces)
     with np.errstate(invalid="ignore"):
         for k in range(3):
-            u, v = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
+            u, v = (
+                p[faces[:, (k + 1) % 3]] - p[faces[:, k]],
+                p[faces[:, (k + 2) % 3]] - p[faces[:, k]],
+            )
             c = (u * v).sum(1) / (np.sqrt((u**2).sum(1)) * np.sqrt((v**2).sum(1)))
             np.subtract.at(out, faces[:, k], np.arccos(c))
     return out
@@ -159,7 +166,9 @@ def wrong_half_turn_everywhere(p, faces):
 
 def wrong_border_by_few_faces(p, faces):
     few = np.bincount(faces.ravel(), minlength=len(p)) <= 4
-    return np.where(few, np.pi, 2 * np.pi) - np.bincount(faces.ravel(), angles(p, faces).ravel(), minlength=len(p))
+    return np.where(few, np.pi, 2 * np.pi) - np.bincount(
+        faces.ravel(), angles(p, faces).ravel(), minlength=len(p)
+    )
 
 
 def wrong_border_is_nan(p, faces):
@@ -188,7 +197,11 @@ def wrong_arcsin(p, faces):
     out = full_turn(p, faces)
     for k in range(3):
         u, v = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
-        s = np.linalg.norm(np.cross(u, v), axis=1) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)
+        s = (
+            np.linalg.norm(np.cross(u, v), axis=1)
+            / np.linalg.norm(u, axis=1)
+            / np.linalg.norm(v, axis=1)
+        )
         np.subtract.at(out, faces[:, k], np.arcsin(np.clip(s, 0, 1)))
     return out
 

@@ -29,7 +29,9 @@ def right_loops(control, uv):
     for n, (u, v) in enumerate(uv):
         for i in range(4):
             for j in range(4):
-                weight = comb(3, i) * u**i * (1 - u) ** (3 - i) * comb(3, j) * v**j * (1 - v) ** (3 - j)
+                weight = (
+                    comb(3, i) * u**i * (1 - u) ** (3 - i) * comb(3, j) * v**j * (1 - v) ** (3 - j)
+                )
                 answer[n] += weight * control[i, j]
     return answer
 
@@ -130,7 +132,10 @@ def wrong_pascal(control, uv):
 
 def wrong_lagrange(control, uv):
     at = np.linspace(0, 1, 4)
-    weights = [np.stack([np.prod([(t - b) / (a - b) for b in at if b != a], axis=0) for a in at], axis=1) for t in uv.T]
+    weights = [
+        np.stack([np.prod([(t - b) / (a - b) for b in at if b != a], axis=0) for a in at], axis=1)
+        for t in uv.T
+    ]
     return np.einsum("ni,nj,ijk->nk", *weights, control)
 
 
@@ -180,7 +185,10 @@ def wrong_piecewise(control, uv):
 
 def wrong_b_spline(control, uv):
     U, V = (
-        np.stack([(1 - t) ** 3, 3 * t**3 - 6 * t**2 + 4, -3 * t**3 + 3 * t**2 + 3 * t + 1, t**3], axis=1) / 6
+        np.stack(
+            [(1 - t) ** 3, 3 * t**3 - 6 * t**2 + 4, -3 * t**3 + 3 * t**2 + 3 * t + 1, t**3], axis=1
+        )
+        / 6
         for t in uv.T
     )
     return np.einsum("ni,nj,ijk->nk", U, V, control)

@@ -136,7 +136,9 @@ def wrong_squared(p, half_size):
 def wrong_norm_inside(p, half_size):
     d = np.abs(p) - half_size
     inside = (d < 0).all(axis=1)
-    return np.where(inside, -1, 1) * np.linalg.norm(np.where(inside[:, None], d, np.maximum(d, 0)), axis=1)
+    return np.where(inside, -1, 1) * np.linalg.norm(
+        np.where(inside[:, None], d, np.maximum(d, 0)), axis=1
+    )
 
 
 def wrong_sphere(p, half_size):
@@ -174,4 +176,6 @@ def wrong_cube(p, half_size):
 
 
 def wrong_nearest_corner(p, half_size):
-    return np.linalg.norm(np.abs(p) - half_size, axis=1) * np.where((np.abs(p) < half_size).all(axis=1), -1, 1)
+    return np.linalg.norm(np.abs(p) - half_size, axis=1) * np.where(
+        (np.abs(p) < half_size).all(axis=1), -1, 1
+    )

@@ -97,7 +97,9 @@ def right_single_precision_after_subtracting(p_a, p_b):
 
 def right_map(p_a, p_b):
     refuse(p_a, p_b)
-    return sum(np.mean([((q - x) ** 2).sum(1).min() for x in p]) for p, q in ((p_a, p_b), (p_b, p_a)))
+    return sum(
+        np.mean([((q - x) ** 2).sum(1).min() for x in p]) for p, q in ((p_a, p_b), (p_b, p_a))
+    )
 
 
 class Cloud:
@@ -179,7 +181,9 @@ def wrong_both_empty_is_zero(p_a, p_b):
 
 
 def wrong_single_precision(p_a, p_b):
-    return float(side(p_a.astype(np.float32), p_b.astype(np.float32)) + side(*map(np.float32, (p_b, p_a))))
+    return float(
+        side(p_a.astype(np.float32), p_b.astype(np.float32)) + side(*map(np.float32, (p_b, p_a)))
+    )
 
 
 def wrong_equal_counts_only(p_a, p_b):

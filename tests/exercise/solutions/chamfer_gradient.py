@@ -83,7 +83,10 @@ def right_group_by_group(p, q):
     rows = []
     for i in range(len(p)):
         mine = q[nearest_p == i]
-        rows.append(2 / len(p) * (p[i] - q[D[i].argmin()]) + 2 / len(q) * (len(mine) * p[i] - mine.sum(axis=0)))
+        rows.append(
+            2 / len(p) * (p[i] - q[D[i].argmin()])
+            + 2 / len(q) * (len(mine) * p[i] - mine.sum(axis=0))
+        )
     return np.array(rows)
 
 

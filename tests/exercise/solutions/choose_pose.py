@@ -51,7 +51,9 @@ def right_homogeneous(candidates, p_world, xy):
 def right_min_with_key(candidates, p_world, xy):
     def cost(T):
         x, y, z = T[:3, :3] @ p_world.T + T[:3, 3:]
-        return np.inf if z.min() <= 0 else np.mean((x / z - xy[:, 0]) ** 2 + (y / z - xy[:, 1]) ** 2)
+        return (
+            np.inf if z.min() <= 0 else np.mean((x / z - xy[:, 0]) ** 2 + (y / z - xy[:, 1]) ** 2)
+        )
 
     return min(candidates, key=cost)
 
@@ -103,7 +105,9 @@ def right_large_number_for_behind(candidates, p_world, xy):
 def right_masked(candidates, p_world, xy):
     p = candidates[:, :3, :3] @ p_world.T + candidates[:, :3, 3:]
     z = p[:, 2]
-    e = np.ma.masked_array(np.square(p[:, :2] / z[:, None] - xy.T).mean((1, 2)), mask=(z <= 0).any(axis=1))
+    e = np.ma.masked_array(
+        np.square(p[:, :2] / z[:, None] - xy.T).mean((1, 2)), mask=(z <= 0).any(axis=1)
+    )
     return candidates[0] if e.mask.all() else candidates[int(e.argmin())]
 
 
@@ -134,7 +138,10 @@ def wrong_inverse(candidates, p_world, xy):
 
 
 def wrong_read_inverted(candidates, p_world, xy):
-    k = [np.allclose(T, right_loop(np.linalg.inv(candidates), p_world, xy)) for T in np.linalg.inv(candidates)]
+    k = [
+        np.allclose(T, right_loop(np.linalg.inv(candidates), p_world, xy))
+        for T in np.linalg.inv(candidates)
+    ]
     return candidates[int(np.argmax(k))]
 
 

@@ -58,7 +58,9 @@ def right_complex(circle, p):
 def right_tiny_floor(circle, p):
     v = p - circle[:2]
     d = np.maximum(np.linalg.norm(v, axis=1), 1e-12)
-    return np.linalg.norm(v, axis=1) - circle[2], np.column_stack([-v / d[:, None], -np.ones(len(p))])
+    return np.linalg.norm(v, axis=1) - circle[2], np.column_stack(
+        [-v / d[:, None], -np.ones(len(p))]
+    )
 
 
 def right_angles(circle, p):
@@ -91,7 +93,9 @@ def right_rows(circle, p):
 
 def wrong_algebraic(circle, p):
     v = p - circle[:2]
-    return (v**2).sum(1) - circle[2] ** 2, np.column_stack([-2 * v, np.full(len(p), -2 * circle[2])])
+    return (v**2).sum(1) - circle[2] ** 2, np.column_stack(
+        [-2 * v, np.full(len(p), -2 * circle[2])]
+    )
 
 
 def wrong_sign_of_J(circle, p):
@@ -154,7 +158,9 @@ def wrong_radius_first(circle, p):
 
 def wrong_divided_by_radius(circle, p):
     v = p - circle[:2]
-    return np.linalg.norm(v, axis=1) - circle[2], np.column_stack([-v / circle[2], -np.ones(len(p))])
+    return np.linalg.norm(v, axis=1) - circle[2], np.column_stack(
+        [-v / circle[2], -np.ones(len(p))]
+    )
 
 
 def wrong_relative(circle, p):

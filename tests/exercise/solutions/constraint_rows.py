@@ -138,7 +138,9 @@ def wrong_v22_first(H):
 
 def wrong_no_symmetry(H):
     def w(a, b):
-        return np.array([a[0] * b[0], a[0] * b[1], a[1] * b[1], a[0] * b[2], a[1] * b[2], a[2] * b[2]])
+        return np.array(
+            [a[0] * b[0], a[0] * b[1], a[1] * b[1], a[0] * b[2], a[1] * b[2], a[2] * b[2]]
+        )
 
     return np.array([w(H[:, 0], H[:, 1]), w(H[:, 0], H[:, 0]) - w(H[:, 1], H[:, 1])])
 

@@ -69,7 +69,9 @@ def right_recursive(plane, p, inlier_distance):
     if len(p) == 1:
         return int(abs(p[0] @ plane[:3] + plane[3]) <= inlier_distance)
     m = len(p) // 2
-    return right_recursive(plane, p[:m], inlier_distance) + right_recursive(plane, p[m:], inlier_distance)
+    return right_recursive(plane, p[:m], inlier_distance) + right_recursive(
+        plane, p[m:], inlier_distance
+    )
 
 
 def right_unsigned(plane, p, inlier_distance):

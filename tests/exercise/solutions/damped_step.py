@@ -103,7 +103,9 @@ def wrong_squared(residuals, jacobian, damping):
 
 def wrong_root(residuals, jacobian, damping):
     A = jacobian.T @ jacobian
-    return np.linalg.solve(A + damping * np.diag(np.linalg.norm(jacobian, axis=0)), -jacobian.T @ residuals)
+    return np.linalg.solve(
+        A + damping * np.diag(np.linalg.norm(jacobian, axis=0)), -jacobian.T @ residuals
+    )
 
 
 def wrong_everywhere(residuals, jacobian, damping):
@@ -139,7 +141,9 @@ def wrong_largest(residuals, jacobian, damping):
 
 def wrong_trace(residuals, jacobian, damping):
     A = jacobian.T @ jacobian
-    return np.linalg.solve(A + damping * np.trace(A) / len(A) * np.eye(len(A)), -jacobian.T @ residuals)
+    return np.linalg.solve(
+        A + damping * np.trace(A) / len(A) * np.eye(len(A)), -jacobian.T @ residuals
+    )
 
 
 def wrong_root_of_damping(residuals, jacobian, damping):
@@ -186,4 +190,6 @@ def wrong_no_step_is_unknown(residuals, jacobian, damping):
 
 def wrong_diagonal_up_to_ten_thousand(residuals, jacobian, damping):
     A = jacobian.T @ jacobian
-    return np.linalg.solve(A + damping * np.diag(np.minimum(np.diag(A), 1e4)), -jacobian.T @ residuals)
+    return np.linalg.solve(
+        A + damping * np.diag(np.minimum(np.diag(A), 1e4)), -jacobian.T @ residuals
+    )

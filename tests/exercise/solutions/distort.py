@@ -14,7 +14,13 @@ def right_columns(xy, k1, k2, p1, p2):
     x, y = xy.T
     r2 = x * x + y * y
     g = 1 + k1 * r2 + k2 * r2 * r2
-    return np.stack([x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x * x), y * g + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y], 1)
+    return np.stack(
+        [
+            x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
+            y * g + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y,
+        ],
+        1,
+    )
 
 
 def right_loop(xy, k1, k2, p1, p2):
@@ -37,7 +43,10 @@ def right_hypot(xy, k1, k2, p1, p2):
     r = np.hypot(x, y)
     radial = 1 + k1 * r**2 + k2 * r**4
     return np.column_stack(
-        (x * radial + 2 * p1 * x * y + p2 * (r**2 + 2 * x**2), y * radial + p1 * (r**2 + 2 * y**2) + 2 * p2 * x * y)
+        (
+            x * radial + 2 * p1 * x * y + p2 * (r**2 + 2 * x**2),
+            y * radial + p1 * (r**2 + 2 * y**2) + 2 * p2 * x * y,
+        )
     )
 
 
@@ -63,7 +72,12 @@ def right_einsum(xy, k1, k2, p1, p2):
     r2 = np.einsum("ij,ij->i", xy, xy)
     g = np.polyval([k2, k1, 1.0], r2)
     cross = np.einsum("i,i->i", xy[:, 0], xy[:, 1])
-    add = np.array([2 * p1 * cross + p2 * (r2 + 2 * xy[:, 0] ** 2), p1 * (r2 + 2 * xy[:, 1] ** 2) + 2 * p2 * cross]).T
+    add = np.array(
+        [
+            2 * p1 * cross + p2 * (r2 + 2 * xy[:, 0] ** 2),
+            p1 * (r2 + 2 * xy[:, 1] ** 2) + 2 * p2 * cross,
+        ]
+    ).T
     return np.einsum("i,ij->ij", g, xy) + add
 
 
@@ -80,7 +94,12 @@ def right_helpers(xy, k1, k2, p1, p2):
 
     x, y = np.hsplit(xy, 2)
     r2 = x**2 + y**2
-    return np.hstack([x * radial(r2) + tangential(x, y, p1, p2, r2), y * radial(r2) + tangential(y, x, p2, p1, r2)])
+    return np.hstack(
+        [
+            x * radial(r2) + tangential(x, y, p1, p2, r2),
+            y * radial(r2) + tangential(y, x, p2, p1, r2),
+        ]
+    )
 
 
 def right_rows_of_a_list(xy, k1, k2, p1, p2):
@@ -111,7 +130,13 @@ def wrong_k2_times_r2(xy, k1, k2, p1, p2):
     x, y = xy.T
     r2 = x**2 + y**2
     g = 1 + (k1 + k2) * r2
-    return np.stack([x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x**2), y * g + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y], 1)
+    return np.stack(
+        [
+            x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x**2),
+            y * g + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y,
+        ],
+        1,
+    )
 
 
 def wrong_r_not_squared(xy, k1, k2, p1, p2):
@@ -119,7 +144,11 @@ def wrong_r_not_squared(xy, k1, k2, p1, p2):
     r = np.sqrt(x**2 + y**2)
     g = 1 + k1 * r + k2 * r**2
     return np.stack(
-        [x * g + 2 * p1 * x * y + p2 * (r**2 + 2 * x**2), y * g + p1 * (r**2 + 2 * y**2) + 2 * p2 * x * y], 1
+        [
+            x * g + 2 * p1 * x * y + p2 * (r**2 + 2 * x**2),
+            y * g + p1 * (r**2 + 2 * y**2) + 2 * p2 * x * y,
+        ],
+        1,
     )
 
 
@@ -142,28 +171,44 @@ def wrong_sixth_power(xy, k1, k2, p1, p2):
     x, y = xy.T
     r2 = x**2 + y**2
     g = 1 + k1 * r2 + k2 * r2**3
-    return np.stack([x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x**2), y * g + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y], 1)
+    return np.stack(
+        [
+            x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x**2),
+            y * g + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y,
+        ],
+        1,
+    )
 
 
 def wrong_one_forgotten(xy, k1, k2, p1, p2):
     x, y = xy.T
     r2 = x**2 + y**2
     g = k1 * r2 + k2 * r2**2
-    return np.stack([x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x**2), y * g + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y], 1)
+    return np.stack(
+        [
+            x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x**2),
+            y * g + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y,
+        ],
+        1,
+    )
 
 
 def wrong_two_forgotten_in_cross_terms(xy, k1, k2, p1, p2):
     x, y = xy.T
     r2 = x**2 + y**2
     g = 1 + k1 * r2 + k2 * r2**2
-    return np.stack([x * g + p1 * x * y + p2 * (r2 + 2 * x**2), y * g + p1 * (r2 + 2 * y**2) + p2 * x * y], 1)
+    return np.stack(
+        [x * g + p1 * x * y + p2 * (r2 + 2 * x**2), y * g + p1 * (r2 + 2 * y**2) + p2 * x * y], 1
+    )
 
 
 def wrong_squares_without_the_two(xy, k1, k2, p1, p2):
     x, y = xy.T
     r2 = x**2 + y**2
     g = 1 + k1 * r2 + k2 * r2**2
-    return np.stack([x * g + 2 * p1 * x * y + p2 * (r2 + x**2), y * g + p1 * (r2 + y**2) + 2 * p2 * x * y], 1)
+    return np.stack(
+        [x * g + 2 * p1 * x * y + p2 * (r2 + x**2), y * g + p1 * (r2 + y**2) + 2 * p2 * x * y], 1
+    )
 
 
 def wrong_sign_of_k1(xy, k1, k2, p1, p2):
@@ -174,7 +219,13 @@ def wrong_radius_of_the_whole_cloud(xy, k1, k2, p1, p2):
     x, y = xy.T
     r2 = np.sum(xy**2)
     g = 1 + k1 * r2 + k2 * r2**2
-    return np.stack([x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x**2), y * g + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y], 1)
+    return np.stack(
+        [
+            x * g + 2 * p1 * x * y + p2 * (r2 + 2 * x**2),
+            y * g + p1 * (r2 + 2 * y**2) + 2 * p2 * x * y,
+        ],
+        1,
+    )
 
 
 def wrong_transposed(xy, k1, k2, p1, p2):

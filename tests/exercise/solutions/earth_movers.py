@@ -65,7 +65,12 @@ def right_linear_programme(p_a, p_b):
 
     refuse(p_a, p_b)
     n, m = len(p_a), len(p_b)
-    A = np.vstack([kron(eye_array(n), np.ones((1, m))).toarray(), kron(np.ones((1, n)), eye_array(m)).toarray()])
+    A = np.vstack(
+        [
+            kron(eye_array(n), np.ones((1, m))).toarray(),
+            kron(np.ones((1, n)), eye_array(m)).toarray(),
+        ]
+    )
     b = np.concatenate([np.full(n, 1 / n), np.full(m, 1 / m)])
     return max(linprog(distances(p_a, p_b).ravel(), A_eq=A, b_eq=b, method="highs").fun, 0.0)
 

@@ -118,9 +118,13 @@ def right_solved_by_qr(a, b):
 def right_coordinates_and_matrix_apart(a, b):
     if len(a) < 8:
         raise ValueError("fewer than 8")
-    (ma, sa), (mb, sb) = ((p.mean(0), np.sqrt(2) / np.linalg.norm(p - p.mean(0), axis=1).mean()) for p in (a, b))
+    (ma, sa), (mb, sb) = (
+        (p.mean(0), np.sqrt(2) / np.linalg.norm(p - p.mean(0), axis=1).mean()) for p in (a, b)
+    )
     F = two(null(h((a - ma) * sa), h((b - mb) * sb)))
-    back = [np.array([[s, 0, -s * m[0]], [0, s, -s * m[1]], [0, 0, 1]]) for m, s in ((ma, sa), (mb, sb))]
+    back = [
+        np.array([[s, 0, -s * m[0]], [0, s, -s * m[1]], [0, 0, 1]]) for m, s in ((ma, sa), (mb, sb))
+    ]
     return back[1].T @ F @ back[0]
 
 

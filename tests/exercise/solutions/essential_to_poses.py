@@ -90,7 +90,9 @@ def right_lists(E):
 
 def right_horn(E):
     E = E / np.sqrt(0.5 * np.trace(E @ E.T))
-    c = np.stack([np.cross(E[:, 0], E[:, 1]), np.cross(E[:, 1], E[:, 2]), np.cross(E[:, 2], E[:, 0])])
+    c = np.stack(
+        [np.cross(E[:, 0], E[:, 1]), np.cross(E[:, 1], E[:, 2]), np.cross(E[:, 2], E[:, 0])]
+    )
     t = c[np.argmax(np.linalg.norm(c, axis=1))]
     t = t / np.linalg.norm(t)
     cofactors = np.stack([np.cross(E[1], E[2]), np.cross(E[2], E[0]), np.cross(E[0], E[1])])

@@ -68,14 +68,19 @@ def right_reduce(angles, order):
     from functools import reduce
 
     refuse(order)
-    return reduce(np.matmul, turns(angles, order) if order.isupper() else reversed(turns(angles, order)))
+    return reduce(
+        np.matmul, turns(angles, order) if order.isupper() else reversed(turns(angles, order))
+    )
 
 
 def right_lists(angles, order):
     refuse(order)
 
     def times(A, B):
-        return [[sum(float(A[i][k]) * float(B[k][j]) for k in range(3)) for j in range(3)] for i in range(3)]
+        return [
+            [sum(float(A[i][k]) * float(B[k][j]) for k in range(3)) for j in range(3)]
+            for i in range(3)
+        ]
 
     A, B, C = turns(angles, order)
     return times(times(C, B), A) if order == order.lower() else times(times(A, B), C)
@@ -85,8 +90,15 @@ def right_columns_turned(angles, order):
     refuse(order)
     axes = np.eye(3)
     for letter, a in zip(order, angles):
-        n = axes[:, "xyz".index(letter.lower())] if order.isupper() else np.eye(3)["xyz".index(letter)]
-        turned = [v * np.cos(a) + np.cross(n, v) * np.sin(a) + n * (n @ v) * (1 - np.cos(a)) for v in axes.T]
+        n = (
+            axes[:, "xyz".index(letter.lower())]
+            if order.isupper()
+            else np.eye(3)["xyz".index(letter)]
+        )
+        turned = [
+            v * np.cos(a) + np.cross(n, v) * np.sin(a) + n * (n @ v) * (1 - np.cos(a))
+            for v in axes.T
+        ]
         axes = np.array(turned).T
     return axes
 
@@ -98,7 +110,11 @@ def right_complex_exponential(angles, order):
     generators = {l: np.cross(np.eye(3), np.eye(3)[i]) for i, l in enumerate("xyz")}
     R = np.eye(3)
     for letter, a in zip(order.lower(), angles):
-        R = expm(a * generators[letter]) @ R if order.islower() else R @ expm(a * generators[letter])
+        R = (
+            expm(a * generators[letter]) @ R
+            if order.islower()
+            else R @ expm(a * generators[letter])
+        )
     return R
 
 
@@ -171,7 +187,9 @@ def wrong_mixed_case_accepted(angles, order):
 
 def wrong_sign_of_y(angles, order):
     refuse(order)
-    A, B, C = (Ry(-a) if letter == "y" else TURNS[letter](a) for letter, a in zip(order.lower(), angles))
+    A, B, C = (
+        Ry(-a) if letter == "y" else TURNS[letter](a) for letter, a in zip(order.lower(), angles)
+    )
     return C @ B @ A if order.islower() else A @ B @ C
 
 
@@ -256,7 +274,11 @@ def wrong_small_angles(angles, order):
 
 
 def wrong_end_not_compared(angles, order):
-    if len(order) != 3 or not (order.islower() or order.isupper()) or set(order.lower()) - set("xyz"):
+    if (
+        len(order) != 3
+        or not (order.islower() or order.isupper())
+        or set(order.lower()) - set("xyz")
+    ):
         raise ValueError(order)
     if order[0] == order[1]:
         raise ValueError(order)
@@ -264,7 +286,11 @@ def wrong_end_not_compared(angles, order):
 
 
 def wrong_only_three_letters_read(angles, order):
-    if not (order.islower() or order.isupper()) or set(order.lower()) - set("xyz") or len(order) < 3:
+    if (
+        not (order.islower() or order.isupper())
+        or set(order.lower()) - set("xyz")
+        or len(order) < 3
+    ):
         raise ValueError(order)
     if order[0] == order[1] or order[1] == order[2]:
         raise ValueError(order)
@@ -273,7 +299,12 @@ def wrong_only_three_letters_read(angles, order):
 
 def wrong_case_of_the_first_two(angles, order):
     low = order.lower()
-    if len(low) != 3 or set(low) - set("xyz") or low[1] in (low[0], low[2]) or order[0].islower() != order[1].islower():
+    if (
+        len(low) != 3
+        or set(low) - set("xyz")
+        or low[1] in (low[0], low[2])
+        or order[0].islower() != order[1].islower()
+    ):
         raise ValueError(order)
     return product(angles, order)
 

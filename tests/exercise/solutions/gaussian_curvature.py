@@ -19,7 +19,9 @@ def corners(p, faces):
 
 
 def double_areas(p, faces):
-    return np.linalg.norm(np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]]), axis=1)
+    return np.linalg.norm(
+        np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]]), axis=1
+    )
 
 
 def angle_sums(p, faces):
@@ -76,7 +78,9 @@ def right_loops(p, faces):
                 area[f[k]] += A / 2 if ang[k] > np.pi / 2 else A / 4
             else:
                 u, v = P[(k + 1) % 3] - P[k], P[(k + 2) % 3] - P[k]
-                area[f[k]] += float(u @ u / np.tan(ang[(k + 2) % 3]) + v @ v / np.tan(ang[(k + 1) % 3])) / 8
+                area[f[k]] += (
+                    float(u @ u / np.tan(ang[(k + 2) % 3]) + v @ v / np.tan(ang[(k + 1) % 3])) / 8
+                )
     edge_of = {i for edge, n in count.items() if n == 1 for i in edge}
     return [float("nan") if i in edge_of else d / a for i, (d, a) in enumerate(zip(defect, area))]
 
@@ -184,7 +188,9 @@ def wrong_voronoi_everywhere(p, faces):
     dots = np.array([(u * v).sum(1) for _, u, v in corners(p, faces)])
     with np.errstate(all="ignore"):
         for k, (i, u, v) in enumerate(corners(p, faces)):
-            part = ((u**2).sum(1) * dots[(k + 2) % 3] + (v**2).sum(1) * dots[(k + 1) % 3]) / double / 8
+            part = (
+                ((u**2).sum(1) * dots[(k + 2) % 3] + (v**2).sum(1) * dots[(k + 1) % 3]) / double / 8
+            )
             np.add.at(area, i, part)
     return divided(p, faces, 2 * np.pi - angle_sums(p, faces), area)
 

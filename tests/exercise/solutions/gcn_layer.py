@@ -214,7 +214,11 @@ def wrong_weights_transposed(adjacency, features, weights):
 
 
 def wrong_one_node_has_nothing(adjacency, features, weights):
-    return right_broadcast(adjacency, features, weights) if len(adjacency) > 1 else np.zeros((1, weights.shape[1]))
+    return (
+        right_broadcast(adjacency, features, weights)
+        if len(adjacency) > 1
+        else np.zeros((1, weights.shape[1]))
+    )
 
 
 def wrong_weak_edges_are_none(adjacency, features, weights):

@@ -30,7 +30,10 @@ def right_haversine(a, b, radius):
 def right_haversine_atan2(a, b, radius):
     lat1, lon1 = np.deg2rad(a).T
     lat2, lon2 = np.deg2rad(b).T
-    h = np.sin((lat2 - lat1) / 2) ** 2 + np.cos(lat1) * np.cos(lat2) * np.sin((lon2 - lon1) / 2) ** 2
+    h = (
+        np.sin((lat2 - lat1) / 2) ** 2
+        + np.cos(lat1) * np.cos(lat2) * np.sin((lon2 - lon1) / 2) ** 2
+    )
     h = np.clip(h, 0, 1)
     return 2 * radius * np.arctan2(np.sqrt(h), np.sqrt(1 - h))
 
@@ -82,7 +85,10 @@ def right_two_ways(a, b, radius):
 def right_versine(a, b, radius):
     p, q, d = np.radians(a[:, 0]), np.radians(b[:, 0]), np.radians(b[:, 1] - a[:, 1])
     hav = (1 - np.cos(p - q)) / 2
-    hav = np.where(np.abs(p - q) < 0.1, np.sin((p - q) / 2) ** 2, hav) + np.cos(p) * np.cos(q) * np.sin(d / 2) ** 2
+    hav = (
+        np.where(np.abs(p - q) < 0.1, np.sin((p - q) / 2) ** 2, hav)
+        + np.cos(p) * np.cos(q) * np.sin(d / 2) ** 2
+    )
     return radius * 2 * np.arcsin(np.sqrt(np.clip(hav, 0, 1)))
 
 
@@ -130,14 +136,20 @@ def wrong_cosine_of_the_first(a, b, radius):
 def wrong_no_radians(a, b, radius):
     lat1, lon1 = a.T
     lat2, lon2 = b.T
-    h = np.sin((lat2 - lat1) / 2) ** 2 + np.cos(lat1) * np.cos(lat2) * np.sin((lon2 - lon1) / 2) ** 2
+    h = (
+        np.sin((lat2 - lat1) / 2) ** 2
+        + np.cos(lat1) * np.cos(lat2) * np.sin((lon2 - lon1) / 2) ** 2
+    )
     return 2 * radius * np.arcsin(np.sqrt(np.clip(h, 0, 1)))
 
 
 def wrong_swapped(a, b, radius):
     lon1, lat1 = np.radians(a).T
     lon2, lat2 = np.radians(b).T
-    h = np.sin((lat2 - lat1) / 2) ** 2 + np.cos(lat1) * np.cos(lat2) * np.sin((lon2 - lon1) / 2) ** 2
+    h = (
+        np.sin((lat2 - lat1) / 2) ** 2
+        + np.cos(lat1) * np.cos(lat2) * np.sin((lon2 - lon1) / 2) ** 2
+    )
     return 2 * radius * np.arcsin(np.sqrt(np.clip(h, 0, 1)))
 
 

@@ -72,7 +72,11 @@ def right_padded_by_hand(image):
     s = [[p[i : i + h, j : j + w] for j in range(3)] for i in range(3)]
     gu = ((s[0][2] + 2 * s[1][2] + s[2][2]) - (s[0][0] + 2 * s[1][0] + s[2][0])) / 8
     gv = ((s[2][0] + 2 * s[2][1] + s[2][2]) - (s[0][0] + 2 * s[0][1] + s[0][2])) / 8
-    A, B, C = ndi.gaussian_filter(gu * gu, 1.5), ndi.gaussian_filter(gu * gv, 1.5), ndi.gaussian_filter(gv * gv, 1.5)
+    A, B, C = (
+        ndi.gaussian_filter(gu * gu, 1.5),
+        ndi.gaussian_filter(gu * gv, 1.5),
+        ndi.gaussian_filter(gv * gv, 1.5),
+    )
     return A * C - B * B - K * (A + C) ** 2
 
 
@@ -181,7 +185,9 @@ def wrong_numpy_gradient(image):
 
 
 def wrong_gaussian_derivative(image):
-    return _answer(ndi.gaussian_filter(image, 1.0, order=(0, 1)), ndi.gaussian_filter(image, 1.0, order=(1, 0)))
+    return _answer(
+        ndi.gaussian_filter(image, 1.0, order=(0, 1)), ndi.gaussian_filter(image, 1.0, order=(1, 0))
+    )
 
 
 def wrong_prewitt(image):

@@ -58,7 +58,9 @@ def right_minimum_with_warning(residuals, corner):
 
 def right_piece_by_piece(residuals, corner):
     return np.piecewise(
-        residuals, [residuals < -corner, residuals > corner], [lambda r: -corner / r, lambda r: corner / r, 1.0]
+        residuals,
+        [residuals < -corner, residuals > corner],
+        [lambda r: -corner / r, lambda r: corner / r, 1.0],
     )
 
 
@@ -174,7 +176,9 @@ def wrong_lower_corner_is_outside(residuals, corner):
 
 
 def wrong_nearly_zero_weighs_nothing(residuals, corner):
-    return np.where((residuals != 0) & (np.abs(residuals) < 1e-8), 0.0, right_maximum(residuals, corner))
+    return np.where(
+        (residuals != 0) & (np.abs(residuals) < 1e-8), 0.0, right_maximum(residuals, corner)
+    )
 
 
 def wrong_a_hundredth_at_least(residuals, corner):

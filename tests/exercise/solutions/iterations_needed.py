@@ -32,14 +32,18 @@ def right_log_of_confidence_by_log(inlier_ratio, sample_size, confidence):
         return float("inf")
     if inlier_ratio == 1:
         return 1.0
-    return max(np.ceil(np.log(1 - confidence) / np.log1p(-math.pow(inlier_ratio, sample_size))), 1.0)
+    return max(
+        np.ceil(np.log(1 - confidence) / np.log1p(-math.pow(inlier_ratio, sample_size))), 1.0
+    )
 
 
 def right_log2(inlier_ratio, sample_size, confidence):
     if inlier_ratio in (0, 1):
         return 1 if inlier_ratio else math.inf
     clean = inlier_ratio**sample_size
-    return max(1, math.ceil((math.log1p(-confidence) / math.log(2)) / (math.log1p(-clean) / math.log(2))))
+    return max(
+        1, math.ceil((math.log1p(-confidence) / math.log(2)) / (math.log1p(-clean) / math.log(2)))
+    )
 
 
 def right_expm1(inlier_ratio, sample_size, confidence):
@@ -48,7 +52,9 @@ def right_expm1(inlier_ratio, sample_size, confidence):
     log_clean = sample_size * math.log(inlier_ratio)
     if log_clean == 0:
         return 1
-    spoilt = math.log(-math.expm1(log_clean)) if log_clean > -1 else math.log1p(-math.exp(log_clean))
+    spoilt = (
+        math.log(-math.expm1(log_clean)) if log_clean > -1 else math.log1p(-math.exp(log_clean))
+    )
     return int(max(1, math.ceil(math.log(1 - confidence) / spoilt)))
 
 
@@ -72,7 +78,11 @@ def right_product_of_the_sample(inlier_ratio, sample_size, confidence):
         clean *= inlier_ratio
     if clean == 0.0:
         return math.inf
-    return 1 if clean == 1.0 else float(max(1, -(-(math.log1p(-confidence) / math.log1p(-clean)) // 1)))
+    return (
+        1
+        if clean == 1.0
+        else float(max(1, -(-(math.log1p(-confidence) / math.log1p(-clean)) // 1)))
+    )
 
 
 def right_try(inlier_ratio, sample_size, confidence):
@@ -165,19 +175,25 @@ def wrong_ceil_and_one_more(inlier_ratio, sample_size, confidence):
 def wrong_ratio_in_percent(inlier_ratio, sample_size, confidence):
     if inlier_ratio in (0, 1):
         return 1 if inlier_ratio else math.inf
-    return max(1, math.ceil(math.log1p(-confidence) / math.log1p(-((inlier_ratio / 100) ** sample_size))))
+    return max(
+        1, math.ceil(math.log1p(-confidence) / math.log1p(-((inlier_ratio / 100) ** sample_size)))
+    )
 
 
 def wrong_power_turned_round(inlier_ratio, sample_size, confidence):
     if inlier_ratio in (0, 1):
         return 1 if inlier_ratio else math.inf
-    return max(1, math.ceil(math.log1p(-confidence) / math.log(abs(1 - sample_size**inlier_ratio) + 1e-9)))
+    return max(
+        1, math.ceil(math.log1p(-confidence) / math.log(abs(1 - sample_size**inlier_ratio) + 1e-9))
+    )
 
 
 def wrong_times_the_sample_size(inlier_ratio, sample_size, confidence):
     if inlier_ratio in (0, 1):
         return 1 if inlier_ratio else math.inf
-    return max(1, math.ceil(math.log1p(-confidence) / math.log1p(-min(inlier_ratio / sample_size, 0.999))))
+    return max(
+        1, math.ceil(math.log1p(-confidence) / math.log1p(-min(inlier_ratio / sample_size, 0.999)))
+    )
 
 
 def wrong_no_inliers_capped(inlier_ratio, sample_size, confidence):

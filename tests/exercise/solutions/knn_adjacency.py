@@ -39,7 +39,9 @@ def right_loops(p, k):
     n = len(p)
     A = np.zeros((n, n))
     for i in range(n):
-        others = sorted((j for j in range(n) if j != i), key=lambda j: float(np.sum((p[i] - p[j]) ** 2)))
+        others = sorted(
+            (j for j in range(n) if j != i), key=lambda j: float(np.sum((p[i] - p[j]) ** 2))
+        )
         for j in others[:k]:
             A[i][j] = 1
             A[j][i] = 1

@@ -176,4 +176,8 @@ def wrong_weights_up_to_a_thousand(adjacency):
 
 
 def wrong_identity_without_edges(adjacency):
-    return right_diag_minus(adjacency) if adjacency.any() or len(adjacency) == 1 else np.eye(len(adjacency))
+    return (
+        right_diag_minus(adjacency)
+        if adjacency.any() or len(adjacency) == 1
+        else np.eye(len(adjacency))
+    )

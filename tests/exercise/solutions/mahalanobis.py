@@ -32,7 +32,9 @@ def right_solve(p, mean, covariance):
 def right_cholesky(p, mean, covariance):
     from scipy.linalg import solve_triangular
 
-    return np.linalg.norm(solve_triangular(np.linalg.cholesky(covariance), (p - mean).T, lower=True), axis=0)
+    return np.linalg.norm(
+        solve_triangular(np.linalg.cholesky(covariance), (p - mean).T, lower=True), axis=0
+    )
 
 
 def right_svd(p, mean, covariance):

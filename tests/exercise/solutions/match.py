@@ -38,7 +38,10 @@ def right_two_loops(p_target, p_source):
 
 
 def right_min_with_key(p_target, p_source):
-    return [min(range(len(p_target)), key=lambda j: float(np.sum((p_target[j] - s) ** 2))) for s in p_source]
+    return [
+        min(range(len(p_target)), key=lambda j: float(np.sum((p_target[j] - s) ** 2)))
+        for s in p_source
+    ]
 
 
 def right_einsum(p_target, p_source):
@@ -71,7 +74,8 @@ def right_recursive_halves(p_target, p_source):
         return right_matrix(p_target, p_source)
     half = len(p_source) // 2
     return np.append(
-        right_recursive_halves(p_target, p_source[:half]), right_recursive_halves(p_target, p_source[half:])
+        right_recursive_halves(p_target, p_source[:half]),
+        right_recursive_halves(p_target, p_source[half:]),
     )
 
 
@@ -184,7 +188,10 @@ def wrong_stops_at_the_first_improvement(p_target, p_source):
 
 def wrong_misses_the_last_target(p_target, p_source):
     refuse(p_target)
-    return [min(range(max(len(p_target) - 1, 1)), key=lambda j: np.linalg.norm(p_target[j] - s)) for s in p_source]
+    return [
+        min(range(max(len(p_target) - 1, 1)), key=lambda j: np.linalg.norm(p_target[j] - s))
+        for s in p_source
+    ]
 
 
 def wrong_signed_sum(p_target, p_source):

@@ -29,12 +29,16 @@ def border(count, faces):
 
 def areas(p, faces):
     area = np.zeros(len(p))
-    double = np.linalg.norm(np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]]), axis=1)
+    double = np.linalg.norm(
+        np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]]), axis=1
+    )
     cot = np.array([c for _, _, c in opposite(p, faces)])
     obtuse = (cot < 0).any(axis=0)
     for k in range(3):
         i, j, l = faces[:, k], faces[:, (k + 1) % 3], faces[:, (k + 2) % 3]
-        voronoi = ((p[j] - p[i]) ** 2).sum(1) * cot[(k + 2) % 3] + ((p[l] - p[i]) ** 2).sum(1) * cot[(k + 1) % 3]
+        voronoi = ((p[j] - p[i]) ** 2).sum(1) * cot[(k + 2) % 3] + ((p[l] - p[i]) ** 2).sum(
+            1
+        ) * cot[(k + 1) % 3]
         share = np.where(cot[k] < 0, double / 4, double / 8)
         np.add.at(area, i, np.where(obtuse, share, voronoi / 8))
     return area
@@ -64,7 +68,9 @@ def right_sparse_laplacian(p, faces):
 
     i, j, c = (np.concatenate(part) for part in zip(*opposite(p, faces)))
     W = coo_array((np.r_[c, c], (np.r_[i, j], np.r_[j, i])), shape=(len(p), len(p))).tocsr()
-    return finished(p, faces, np.asarray(W.sum(axis=1)).reshape(-1, 1) * p - W @ p, 2 * areas(p, faces))
+    return finished(
+        p, faces, np.asarray(W.sum(axis=1)).reshape(-1, 1) * p - W @ p, 2 * areas(p, faces)
+    )
 
 
 def right_loops(p, faces):
@@ -84,7 +90,9 @@ def right_area_gradient(p, faces):
     n = np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
     n /= np.linalg.norm(n, axis=1, keepdims=True)
     for k in range(3):
-        np.add.at(total, faces[:, k], np.cross(n, p[faces[:, (k + 2) % 3]] - p[faces[:, (k + 1) % 3]]))
+        np.add.at(
+            total, faces[:, k], np.cross(n, p[faces[:, (k + 2) % 3]] - p[faces[:, (k + 1) % 3]])
+        )
     return finished(p, faces, total, 2 * areas(p, faces))
 
 
@@ -136,7 +144,9 @@ class Mesh:
 
     @property
     def normals(self):
-        return finished(self.p, self.faces, pulls(self.p, self.faces), 2 * areas(self.p, self.faces))
+        return finished(
+            self.p, self.faces, pulls(self.p, self.faces), 2 * areas(self.p, self.faces)
+        )
 
 
 def right_class(p, faces):
@@ -159,7 +169,9 @@ def wrong_not_halved(p, faces):
 
 
 def thirds(p, faces):
-    double = np.linalg.norm(np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]]), axis=1)
+    double = np.linalg.norm(
+        np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]]), axis=1
+    )
     return np.bincount(faces.ravel(), np.repeat(double / 6, 3), len(p))
 
 

@@ -155,7 +155,9 @@ def wrong_solver_zero(lines_a, lines_b):
 def wrong_least_squares(lines_a, lines_b):
     out = np.ones(lines_a.shape)
     for i, (a, b) in enumerate(zip(lines_a, lines_b, strict=True)):
-        out[i, :2] = np.linalg.lstsq(np.array([a[:2], b[:2]]), -np.array([a[2], b[2]]), rcond=None)[0]
+        out[i, :2] = np.linalg.lstsq(np.array([a[:2], b[:2]]), -np.array([a[2], b[2]]), rcond=None)[
+            0
+        ]
     return out
 
 

@@ -70,7 +70,9 @@ def right_dictionary(a, b, ratio):
             forward[i] = j
     for j, y in enumerate(b):
         backward[j] = int(np.sqrt(np.sum((a - y) ** 2, axis=1)).argmin())
-    return np.array([forward[i] if i in forward and backward[forward[i]] == i else -1 for i in range(len(a))])
+    return np.array(
+        [forward[i] if i in forward and backward[forward[i]] == i else -1 for i in range(len(a))]
+    )
 
 
 def right_boolean_matrix(a, b, ratio):

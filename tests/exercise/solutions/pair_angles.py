@@ -110,12 +110,17 @@ def right_recursive(p_i, n_i, p_j, n_j):
         w = np.cross(n_i, v)
         return np.column_stack([np.arctan2(dot(w, n_j), dot(n_i, n_j)), dot(v, n_j), dot(n_i, d)])
     s = swap[:, None]
-    return right_recursive(np.where(s, p_j, p_i), np.where(s, n_j, n_i), np.where(s, p_i, p_j), np.where(s, n_i, n_j))
+    return right_recursive(
+        np.where(s, p_j, p_i), np.where(s, n_j, n_i), np.where(s, p_i, p_j), np.where(s, n_i, n_j)
+    )
 
 
 def right_angles_to_the_line(p_i, n_i, p_j, n_j):
     d = unit(p_j - p_i)
-    to_i, to_j = np.arccos(np.clip(abs(dot(n_i, d)), 0, 1)), np.arccos(np.clip(abs(dot(n_j, d)), 0, 1))
+    to_i, to_j = (
+        np.arccos(np.clip(abs(dot(n_i, d)), 0, 1)),
+        np.arccos(np.clip(abs(dot(n_j, d)), 0, 1)),
+    )
     second = to_j < to_i
     out = np.empty((len(d), 3))
     for chosen, u, n, line in ((~second, n_i, n_j, d), (second, n_j, n_i, -d)):

@@ -89,7 +89,12 @@ def right_digitized(p, faces, u):
     k = np.clip(np.digitize(u[:, 0], edges / edges[-1]) - 1, 0, len(faces) - 1)
     s, t = u[:, 1] ** 0.5, u[:, 2]
     return np.stack(
-        [(1 - s) * p[faces[k, 0], x] + s * (1 - t) * p[faces[k, 1], x] + s * t * p[faces[k, 2], x] for x in range(3)],
+        [
+            (1 - s) * p[faces[k, 0], x]
+            + s * (1 - t) * p[faces[k, 1], x]
+            + s * t * p[faces[k, 2], x]
+            for x in range(3)
+        ],
         axis=1,
     )
 

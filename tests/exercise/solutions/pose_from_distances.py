@@ -84,7 +84,9 @@ def right_horn(p_world, rays, distances):
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
-    return np.block([[R, (q.mean(0) - R @ p_world.mean(0))[:, None]], [np.zeros((1, 3)), np.ones((1, 1))]])
+    return np.block(
+        [[R, (q.mean(0) - R @ p_world.mean(0))[:, None]], [np.zeros((1, 3)), np.ones((1, 1))]]
+    )
 
 
 def right_inverse_of_the_inverse(p_world, rays, distances):

@@ -73,7 +73,9 @@ def right_scipy_rotation(K, H):
     from scipy.spatial.transform import Rotation
 
     r1, r2, t = parts(K, H)
-    return four(Rotation.from_matrix(nearest(np.column_stack([r1, r2, np.cross(r1, r2)]))).as_matrix(), t)
+    return four(
+        Rotation.from_matrix(nearest(np.column_stack([r1, r2, np.cross(r1, r2)]))).as_matrix(), t
+    )
 
 
 def right_bisectors(K, H):

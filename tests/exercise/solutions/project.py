@@ -61,7 +61,9 @@ def right_einsum(p_world, T, K):
 def right_nan_depths(p_world, T, K):
     X = in_camera(p_world, T)
     z = np.where(X[:, 2] > 0, X[:, 2], np.nan)
-    return np.column_stack([(K[0, 0] * X[:, 0] + K[0, 1] * X[:, 1]) / z + K[0, 2], K[1, 1] * X[:, 1] / z + K[1, 2]])
+    return np.column_stack(
+        [(K[0, 0] * X[:, 0] + K[0, 1] * X[:, 1]) / z + K[0, 2], K[1, 1] * X[:, 1] / z + K[1, 2]]
+    )
 
 
 def right_column_points(p_world, T, K):

@@ -140,7 +140,11 @@ def wrong_in_place(residuals):
 
 
 def wrong_rounded_to_a_thousandth_pixel(residuals):
-    return np.ceil(right_plain(residuals) * 1e9) / 1e9 if len(residuals) > 3 else np.round(right_plain(residuals), 7)
+    return (
+        np.ceil(right_plain(residuals) * 1e9) / 1e9
+        if len(residuals) > 3
+        else np.round(right_plain(residuals), 7)
+    )
 
 
 def wrong_far_ones_left_out(residuals):

@@ -41,13 +41,25 @@ def right_slices(left, right, max_disparity, window):
 def right_convolution_of_ones(left, right, max_disparity, window):
     from scipy.ndimage import correlate
 
-    return volume(left, right, max_disparity, window, lambda a, n: correlate(a, np.ones((n, n)), mode="nearest"))
+    return volume(
+        left,
+        right,
+        max_disparity,
+        window,
+        lambda a, n: correlate(a, np.ones((n, n)), mode="nearest"),
+    )
 
 
 def right_uniform_filter(left, right, max_disparity, window):
     from scipy.ndimage import uniform_filter
 
-    return volume(left, right, max_disparity, window, lambda a, n: n * n * uniform_filter(a, n, mode="nearest"))
+    return volume(
+        left,
+        right,
+        max_disparity,
+        window,
+        lambda a, n: n * n * uniform_filter(a, n, mode="nearest"),
+    )
 
 
 def right_separable(left, right, max_disparity, window):
@@ -152,13 +164,17 @@ def wrong_uint8_differences(left, right, max_disparity, window):
 def wrong_mean_filter(left, right, max_disparity, window):
     from scipy.ndimage import uniform_filter
 
-    return volume(left, right, max_disparity, window, lambda a, n: uniform_filter(a, n, mode="nearest"))
+    return volume(
+        left, right, max_disparity, window, lambda a, n: uniform_filter(a, n, mode="nearest")
+    )
 
 
 def wrong_roll(left, right, max_disparity, window):
     refuse(left, right, max_disparity, window)
     a, b = left.astype(float), right.astype(float)
-    return np.stack([box(np.abs(a - np.roll(b, d, axis=1)), window) for d in range(max_disparity + 1)])
+    return np.stack(
+        [box(np.abs(a - np.roll(b, d, axis=1)), window) for d in range(max_disparity + 1)]
+    )
 
 
 def wrong_ssd(left, right, max_disparity, window):
@@ -174,7 +190,13 @@ def wrong_mirrored_border(left, right, max_disparity, window):
 
 
 def wrong_border_is_infinite(left, right, max_disparity, window):
-    return volume(left, right, max_disparity, window, lambda a, n: box(a, n, mode="constant", constant_values=np.inf))
+    return volume(
+        left,
+        right,
+        max_disparity,
+        window,
+        lambda a, n: box(a, n, mode="constant", constant_values=np.inf),
+    )
 
 
 def wrong_border_is_nan(left, right, max_disparity, window):
@@ -230,7 +252,9 @@ def wrong_centre_counted_twice(left, right, max_disparity, window):
 def wrong_largest_for_sum(left, right, max_disparity, window):
     from scipy.ndimage import maximum_filter
 
-    return volume(left, right, max_disparity, window, lambda a, n: maximum_filter(a, n, mode="nearest"))
+    return volume(
+        left, right, max_disparity, window, lambda a, n: maximum_filter(a, n, mode="nearest")
+    )
 
 
 def wrong_absolute_of_the_sum(left, right, max_disparity, window):

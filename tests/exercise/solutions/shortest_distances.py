@@ -157,7 +157,12 @@ def wrong_one_round(edges, lengths, count, source):
 
 
 def wrong_prim(edges, lengths, count, source):
-    beside, d, done, heap = _beside(edges, lengths, count), [np.inf] * count, set(), [(0.0, source, 0.0)]
+    beside, d, done, heap = (
+        _beside(edges, lengths, count),
+        [np.inf] * count,
+        set(),
+        [(0.0, source, 0.0)],
+    )
     while heap:
         _, u, way = heapq.heappop(heap)
         if u not in done:
@@ -204,7 +209,12 @@ def wrong_squared(edges, lengths, count, source):
 
 
 def wrong_done_when_pushed(edges, lengths, count, source):
-    beside, d, done, heap = _beside(edges, lengths, count), [np.inf] * count, {source}, [(0.0, source)]
+    beside, d, done, heap = (
+        _beside(edges, lengths, count),
+        [np.inf] * count,
+        {source},
+        [(0.0, source)],
+    )
     d[source] = 0.0
     while heap:
         way, u = heapq.heappop(heap)

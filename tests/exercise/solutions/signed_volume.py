@@ -70,7 +70,9 @@ def right_sarrus(p, faces):
     total = 0.0
     for i, j, k in faces.tolist():
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = p[i].tolist(), p[j].tolist(), p[k].tolist()
-        total += ax * by * cz + ay * bz * cx + az * bx * cy - az * by * cx - ay * bx * cz - ax * bz * cy
+        total += (
+            ax * by * cz + ay * bz * cx + az * bx * cy - az * by * cx - ay * bx * cz - ax * bz * cy
+        )
     return total / 6
 
 

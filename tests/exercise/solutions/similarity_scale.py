@@ -278,7 +278,9 @@ def wrong_symmetric(p_target, p_source):
     _a, b = centred(p_target, p_source)
     if not b.any():
         return 1.0
-    return float(np.sqrt(right_umeyama(p_target, p_source) / right_umeyama(p_source, p_target)) * 1.0001)
+    return float(
+        np.sqrt(right_umeyama(p_target, p_source) / right_umeyama(p_source, p_target)) * 1.0001
+    )
 
 
 def wrong_variance_per_coordinate(p_target, p_source):

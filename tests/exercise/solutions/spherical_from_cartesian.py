@@ -78,7 +78,8 @@ def right_half_angle(p):
     rho = np.hypot(x, y)
     r = np.hypot(rho, z)
     polar = 2 * np.arctan2(
-        np.sqrt(np.maximum(rho**2 / np.where(r + z > 0, r + z, 1), 0)), np.sqrt(np.maximum(r + z, 0))
+        np.sqrt(np.maximum(rho**2 / np.where(r + z > 0, r + z, 1), 0)),
+        np.sqrt(np.maximum(r + z, 0)),
     )
     polar = np.where((z < 0), np.pi - np.arctan2(rho, -z), polar)
     return np.stack([r, polar, np.arctan2(y, x)], -1)
@@ -102,14 +103,20 @@ def right_einsum(p):
     p = p + 0.0
     squares = np.einsum("ij,ij->i", p, p)
     flat = np.einsum("ij,ij->i", p[:, :2], p[:, :2])
-    return np.array([np.sqrt(squares), np.arctan2(np.sqrt(flat), p[:, 2]), np.arctan2(p[:, 1], p[:, 0])]).T
+    return np.array(
+        [np.sqrt(squares), np.arctan2(np.sqrt(flat), p[:, 2]), np.arctan2(p[:, 1], p[:, 0])]
+    ).T
 
 
 def right_apply(p):
     p = p + 0.0
 
     def one(q):
-        return [np.sqrt((q**2).sum()), np.arctan2(np.sqrt(q[0] ** 2 + q[1] ** 2), q[2]), np.arctan2(q[1], q[0])]
+        return [
+            np.sqrt((q**2).sum()),
+            np.arctan2(np.sqrt(q[0] ** 2 + q[1] ** 2), q[2]),
+            np.arctan2(q[1], q[0]),
+        ]
 
     return np.apply_along_axis(one, 1, p)
 
@@ -119,7 +126,9 @@ def right_apply(p):
 
 def wrong_atan(p):
     x, y, z = p.T
-    return np.stack([np.linalg.norm(p, axis=1), np.arctan2(np.hypot(x, y), z), np.arctan(y / x)], axis=1)
+    return np.stack(
+        [np.linalg.norm(p, axis=1), np.arctan2(np.hypot(x, y), z), np.arctan(y / x)], axis=1
+    )
 
 
 def wrong_atan_silent(p):
@@ -132,7 +141,9 @@ def wrong_atan_silent(p):
 def wrong_atan_where(p):
     out = right_plain(p)
     for i, (x, y, _) in enumerate(p):
-        out[i, 2] = math.atan(y / x) if x != 0 else (math.pi / 2 if y > 0 else -math.pi / 2 if y < 0 else 0)
+        out[i, 2] = (
+            math.atan(y / x) if x != 0 else (math.pi / 2 if y > 0 else -math.pi / 2 if y < 0 else 0)
+        )
     return out
 
 
@@ -170,12 +181,16 @@ def wrong_arctan_of_polar(p):
 
 def wrong_arcsin(p):
     r = np.linalg.norm(p, axis=1)
-    return np.stack([r, np.arcsin(np.hypot(p[:, 0], p[:, 1]) / r), np.arctan2(p[:, 1], p[:, 0])], axis=1)
+    return np.stack(
+        [r, np.arcsin(np.hypot(p[:, 0], p[:, 1]) / r), np.arctan2(p[:, 1], p[:, 0])], axis=1
+    )
 
 
 def wrong_elevation(p):
     x, y, z = p.T
-    return np.stack([np.linalg.norm(p, axis=1), np.arctan2(z, np.hypot(x, y)), np.arctan2(y, x)], axis=1)
+    return np.stack(
+        [np.linalg.norm(p, axis=1), np.arctan2(z, np.hypot(x, y)), np.arctan2(y, x)], axis=1
+    )
 
 
 def wrong_elevation_by_half_pi(p):
@@ -191,7 +206,9 @@ def wrong_mathematics(p):
 
 def wrong_matlab(p):
     x, y, z = p.T
-    return np.stack([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y)), np.linalg.norm(p, axis=1)], axis=1)
+    return np.stack(
+        [np.arctan2(y, x), np.arctan2(z, np.hypot(x, y)), np.linalg.norm(p, axis=1)], axis=1
+    )
 
 
 def wrong_degrees(p):

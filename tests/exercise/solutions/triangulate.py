@@ -40,7 +40,15 @@ def right_eigh(P, Q, a, b):
 
 
 def right_batched(P, Q, a, b):
-    A = np.stack([a[:, :1] * P[2] - P[0], a[:, 1:] * P[2] - P[1], b[:, :1] * Q[2] - Q[0], b[:, 1:] * Q[2] - Q[1]], 1)
+    A = np.stack(
+        [
+            a[:, :1] * P[2] - P[0],
+            a[:, 1:] * P[2] - P[1],
+            b[:, :1] * Q[2] - Q[0],
+            b[:, 1:] * Q[2] - Q[1],
+        ],
+        1,
+    )
     X = np.linalg.svd(A)[2][:, 3]
     return X[:, :3] / X[:, 3:]
 
@@ -109,7 +117,9 @@ def right_stacked_by_camera(P, Q, a, b):
 
 
 def wrong_no_division(P, Q, a, b):
-    return np.array([np.linalg.svd(np.array(rows(P, p) + rows(Q, q)))[2][-1][:3] for p, q in zip(a, b)])
+    return np.array(
+        [np.linalg.svd(np.array(rows(P, p) + rows(Q, q)))[2][-1][:3] for p, q in zip(a, b)]
+    )
 
 
 def wrong_rows_and_columns(P, Q, a, b):

@@ -35,7 +35,9 @@ def right_std(inside, box_volume):
 def right_sample_std(inside, box_volume):
     if inside.size == 0:
         raise ValueError("throw at least one point")
-    return inside.mean() * box_volume, box_volume * inside.astype(float).std(ddof=1) / math.sqrt(inside.size)
+    return inside.mean() * box_volume, box_volume * inside.astype(float).std(ddof=1) / math.sqrt(
+        inside.size
+    )
 
 
 def right_counts(inside, box_volume):
@@ -54,7 +56,9 @@ def right_scipy_sem(inside, box_volume):
     if len(inside) == 0:
         raise ValueError("empty")
     values = np.where(inside, box_volume, 0.0)
-    return values.mean(), np.sqrt(((values - values.mean()) ** 2).sum() / (len(values) - 1) / len(values))
+    return values.mean(), np.sqrt(
+        ((values - values.mean()) ** 2).sum() / (len(values) - 1) / len(values)
+    )
 
 
 def right_pure_python(inside, box_volume):

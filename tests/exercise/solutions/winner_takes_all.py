@@ -53,7 +53,9 @@ def right_sorted(cost):
 
 
 def right_moved_axis(cost):
-    return np.moveaxis(cost, 0, -1).reshape(-1, cost.shape[0]).argmin(axis=1).reshape(cost.shape[1:])
+    return (
+        np.moveaxis(cost, 0, -1).reshape(-1, cost.shape[0]).argmin(axis=1).reshape(cost.shape[1:])
+    )
 
 
 def right_apply_along_axis(cost):

@@ -1,29 +1,27 @@
 """Runs worth seeing, and questions to answer before looking."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from workbench.lesson import Choice, Preset, Question
+from workbench.lesson import Choice, Preset, Question, States
+from workbench.numerals import length
 
-from .state import Params, State
+from .draw import WEIGHTS, error_of
+from .inputs import Fixes, Input, expected_error
 
-EQUAL = Params(weights="equal")
-STRAY = Params(outliers=2)
+STRAY = Input(weight=0.25, strays=2)
 
-PRESETS: tuple[Preset[Params], ...] = (
+PRESETS = (
     Preset(
         name="weighted",
         title="Weights by variance",
-        line="The bad sensor hardly counts, and the error stays near a centimetre.",
-        params=Params(),
+        line="A fix of the bad sensor counts a quarter: no other weight does better on average.",
+        params=Input(weight=0.25),
     ),
     Preset(
-        name="equal",
-        title="Equal weights",
-        line="The same fixes, but the bad sensor decides: the error is several times as large.",
-        params=EQUAL,
-        step=0,
+        name="ignored",
+        title="The bad sensor left out",
+        line="Every second fix counts nothing, as if it had not been made.",
+        params=Input(weight=0.0),
     ),
     Preset(
         name="stray",
@@ -36,44 +34,68 @@ PRESETS: tuple[Preset[Params], ...] = (
 )
 
 
-def equal_error(states: Sequence[State]) -> float:
-    """Return the error at the end, millimetres."""
-    return 1000 * states[-1].error
+def best_weight(states: States[Input, Fixes, object]) -> float:
+    """Return the weight at which the expected error is smallest."""
+    return float(WEIGHTS[np.argmin(expected_error(states.params, WEIGHTS))])
 
 
-def equal_reason(states: Sequence[State]) -> str:
-    """Say what came out, and what the formula of the page says."""
-    rms = 1000 * np.sqrt(3 * 15 * (0.02**2 + 0.2**2)) / 30  # three coordinates, 15 fixes by each sensor
-    return f"It is {equal_error(states):.0f} mm; over all noise the formula says {rms:.0f} mm (RMS)."
+def why_best(states: States[Input, Fixes, object]) -> str:
+    """Say what the best weight is, and why."""
+    ratio = states.params.bad / states.params.good
+    return (
+        f"It is {best_weight(states):.2f}. The bad sensor errs {ratio:.0f} times as much, so its "
+        f"variance is {ratio**2:.0f} times as large: a fix counts one over that."
+    )
 
 
-def drop(states: Sequence[State]) -> str:
+def what_became(states: States) -> float:
+    """Return the index of the choice that describes where the strays left the estimate."""
+    error = error_of(states[-1])
+    return 0 if error < 0.03 else 1 if error < 0.4 else 2
+
+
+def why_it_moved(states: States) -> str:
     """Say what the strays did to the estimate."""
-    before, after = (1000 * states[k].error for k in (-5, -1))
-    return f"Before them the error was {before:.0f} mm, at the end it is {after:.0f} mm."
+    before, after = (length(error_of(states[k]), 2) for k in (-5, -1))
+    return f"Before them the error was {before}, at the end it is {after}."
 
 
-QUESTIONS: tuple[Question[Params, State], ...] = (
+QUESTIONS = (
     Question(
-        name="how-far",
-        text="15 fixes have σ = 2 cm, 15 have σ = 20 cm in each coordinate. All count the same. How far off is the mean?",
-        answer=equal_error,
-        why=equal_reason,
-        params=EQUAL,
-        unit="mm",
-        tolerance=25.0,
-        wrong=((150.0, 400.0, "One fix of the bad sensor is that far off. The mean of many is nearer."),),
+        name="best-weight",
+        text="The bad sensor errs twice as much. How much should its fix count?",
+        answer=best_weight,
+        why=why_best,
+        params=Input(weight=0.25),
+        tolerance=0.05,
+        low=0.0,
+        high=1.0,
+        stride=0.01,
+        mark="Expected error",
+        start=-1,
+        wrong=(
+            (0.0, 0.1, "That throws half of the fixes away, and each of them says something."),
+            (0.4, 0.6, "Twice the error, half the weight: but errors add up as squares."),
+            (0.9, 1.0, "Then the noise of the bad sensor comes in with full weight."),
+        ),
     ),
     Question(
         name="what-becomes",
-        text="Two of 30 fixes are of another beacon, 85 cm away. The weights do not know. What becomes of the estimate?",
+        text="Two of the last fixes are of another beacon, 85 cm away. What happens?",
         choices=(
-            Choice("hardly moves", why="It would if strays counted less. Their weight is that of a good fix."),
-            "moves by some 10 cm",
-            Choice("jumps to the other beacon", why="Two fixes would have to outweigh all the others for that."),
+            Choice(
+                "The estimate hardly moves",
+                why="It would if strays counted less. They count like any good fix.",
+            ),
+            "The estimate moves by some 10 cm",
+            Choice(
+                "The estimate jumps to the other beacon",
+                why="Two fixes would have to outweigh all the others for that.",
+            ),
         ),
-        answer=lambda states: 1 if 0.03 < states[-1].error < 0.4 else 0 if states[-1].error <= 0.03 else 2,
-        why=drop,
+        answer=what_became,
+        why=why_it_moved,
         params=STRAY,
+        start=-5,
     ),
 )

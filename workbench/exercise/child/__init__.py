@@ -1,1 +1,1 @@
-"""What runs in a student's process: all of ours that is in its sight, and nothing that knows an answer."""
+"""What runs in a student's process: all of ours in its sight; none of it knows an answer."""

@@ -1,9 +1,9 @@
-"""What a student's process takes from itself before the student's code runs; the kernel gives none of it back.
+"""What a student's process takes from itself for good before the student's code runs.
 
-Limits bound memory, processor time, files and processes. Where the grader asks for them, a filter of system calls
-(`syscalls`) and, in place of a sandbox around the process, Landlock: files outside a list cannot be opened; or another
-user, to whom the grader's files are closed.
-It imports nothing of ours but its neighbours.
+Limits bound memory, processor time, files and processes. Where the grader asks for them, a filter
+of system calls (`syscalls`) and, in place of a sandbox around the process, Landlock: files outside
+a list cannot be opened; or another user, to whom the grader's files are closed. It imports nothing
+of ours but its neighbours.
 """
 
 import ctypes
@@ -25,7 +25,8 @@ ASK_VERSION, PATH_BENEATH = 1, 1
 CAPABILITIES = 0x20080522  # the version of what capset takes
 EXECUTE, READ_FILE, READ_DIR = 1 << 0, 1 << 2, 1 << 3
 HANDLED = {
-    # from this version of Landlock on: what is denied wherever no rule gives it, of files, of ports, of other processes
+    # from this version of Landlock on: what is denied wherever no rule gives it, of files, of
+    # ports, of other processes
     1: ((1 << 13) - 1,),
     2: ((1 << 14) - 1,),  # links and names across folders
     3: ((1 << 15) - 1,),  # truncating
@@ -38,8 +39,8 @@ HANDLED = {
 def shut(settings: dict[str, Any]) -> None:
     """Bound this process for good, as its settings say.
 
-    They are `megabytes`, `cpu`, `filter`, and one of `landlock`, paths to read, and `user`, to whom the folders in `closed`
-    are closed.
+    They are `megabytes`, `cpu`, `filter`, and one of `landlock`, paths to read, and `user`, to whom
+    the folders in `closed` are closed.
 
     Raises:
         OSError: If the kernel does not take it, or the folders are open.
@@ -66,7 +67,8 @@ def shut(settings: dict[str, Any]) -> None:
     _prctl(PR_SET_NO_NEW_PRIVS, 1)
     if settings["landlock"] is not None:
         _landlock(settings["landlock"])
-    _checked(_libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24)))  # of an administrator's powers, none
+    # of an administrator's powers, none
+    _checked(_libc().capset(struct.pack("=Ii", CAPABILITIES, 0), bytes(24)))
     machine = platform.machine()
     if machine in syscalls.MACHINES:
         lines = syscalls.program(machine, writes=settings["writes"])
@@ -102,7 +104,9 @@ def _become(user: int, closed: Iterable[str]) -> None:
 
 def _prctl(what: int, *arguments: Any) -> None:
     given = [*arguments, 0, 0, 0, 0][:4]
-    _checked(_libc().prctl(what, *(n if isinstance(n, bytes) else ctypes.c_ulong(n) for n in given)))
+    _checked(
+        _libc().prctl(what, *(n if isinstance(n, bytes) else ctypes.c_ulong(n) for n in given))
+    )
 
 
 def _call(number: int, *arguments: Any) -> int:

@@ -1,8 +1,8 @@
 """The student's side of the pipe: started as `python -I -S -B child.py SETTINGS`, never imported.
 
-It bounds itself (`lockdown`), then loads the student's source and answers calls. It holds no expected answer, check or seed:
-those stay with the grader. What the student's code does to this process it does to itself: what comes out of the pipe is
-read as bytes of somebody else.
+It bounds itself (`lockdown`), then loads the student's source and answers calls. It holds no
+expected answer, check or seed: those stay with the grader. What the student's code does to this
+process it does to itself: what comes out of the pipe is read as bytes of somebody else.
 """
 
 import io
@@ -19,7 +19,7 @@ Message = dict[str, Any]
 
 
 class Allowed:
-    """Imports the installed packages that may be used; says of ours, which hold the solutions, why they may not.
+    """Imports the packages that may be used, by the folder of each; refuses ours with a reason.
 
     Args:
         places: By package, the folder that holds its folder.
@@ -36,7 +36,7 @@ class Allowed:
 
 
 class Beside:
-    """Imports the modules that were handed in beside the student's file.
+    """Imports the modules, text by name, that were handed in beside the student's file.
 
     Args:
         sources: Their text by name.
@@ -60,7 +60,7 @@ class Beside:
 
 
 class Kept(io.RawIOBase):
-    """Writes the first bytes and drops the rest without a word: who prints too much loses the output, not the mark.
+    """Writes the first `most` bytes and drops the rest: who prints too much loses the output only.
 
     Args:
         most: How many bytes are kept.
@@ -100,7 +100,10 @@ def main() -> None:
     pack, unpack, sizes = wire.pack, wire.unpack, wire.lengths
     sys.argv[1:] = []
     sys.stdout = sys.stderr = io.TextIOWrapper(
-        io.BufferedWriter(Kept(settings["output"])), "utf-8", "backslashreplace", line_buffering=True
+        io.BufferedWriter(Kept(settings["output"])),
+        "utf-8",
+        "backslashreplace",
+        line_buffering=True,
     )
     lockdown.shut(settings)
 
@@ -128,7 +131,9 @@ def main() -> None:
         reply: Message = {"nonce": request["nonce"]}
         try:
             if request["do"] == "load":
-                function = load(request["source"], request["file"], request["name"], dict(request["modules"]))
+                function = load(
+                    request["source"], request["file"], request["name"], dict(request["modules"])
+                )
             elif request["do"] == "call":
                 value = function(*request["args"], **dict(request["options"]))  # type: ignore[misc]
                 reply |= {"value": value, "changed": pack(request) != start + header + payload}
@@ -162,7 +167,7 @@ def flush() -> None:
 
 
 def told(error: BaseException, file: str) -> Message:
-    """Return what the grader is told of an exception: its names, its text, and the student's line."""
+    """Return what the grader is told of an exception: names, text, the student's line."""
     names = [kind.__name__ for kind in type(error).__mro__[:12]]
     return {"error": names[0], "errors": names, "message": _said(error), "line": _line(error, file)}
 
@@ -177,7 +182,11 @@ def _said(error: BaseException) -> str:
 def _line(error: BaseException, file: str) -> int:
     if isinstance(error, SyntaxError) and error.filename == file:
         return error.lineno or 0
-    lines = [frame.lineno or 0 for frame in traceback.extract_tb(error.__traceback__) if frame.filename == file]
+    lines = [
+        frame.lineno or 0
+        for frame in traceback.extract_tb(error.__traceback__)
+        if frame.filename == file
+    ]
     return lines[-1] if lines else 0
 
 

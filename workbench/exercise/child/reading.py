@@ -1,7 +1,8 @@
-"""Reads what was handed in, in a process of its own with limits: started as `python -I -S -B reading.py`, never imported.
+"""Reads what was handed in, in a process with limits: `python -I -S -B reading.py`, never imported.
 
-Nothing of a hand-in is run here. But to read one costs what its author wants it to cost: a name of 400,000 parts keeps
-Python's parser busy for minutes. Requests and replies are lines of JSON. It imports nothing of ours.
+Nothing of a hand-in is run here. But to read one costs what its author wants it to cost: a name of
+400,000 parts keeps Python's parser busy for minutes. Requests and replies are lines of JSON. It
+imports nothing of ours.
 """
 
 import ast
@@ -22,8 +23,9 @@ MOST_IMPORTS = 200
 MARK = re.compile(r"^[^\w\n]{0,20}Exercise (\w{1,100}), lesson \w", re.MULTILINE)
 """The first line of a starter: it says which exercise a file is handed in for."""
 NOT_PARSED = (SyntaxError, ValueError, RecursionError)
-"""What Python's parser says of what is no Python: also of NUL bytes, and of what is nested too deep. What takes too much
-memory ends this process."""
+"""What Python's parser says of what is no Python: also of NUL bytes, and of what is nested too
+deep. What takes too much memory ends this process.
+"""
 
 
 class UnreadableError(Exception):
@@ -47,12 +49,14 @@ def main() -> None:
 
 
 def read(file: str, content: bytes) -> dict[str, Any]:
-    """Return what is in a file: its text, what it says that it is for, what it defines and imports, or why it is no Python.
+    """Return what is in a file: text, what it is for, defines and imports, or why it is no Python.
 
     Raises:
         UnreadableError: If it is no text, or a notebook that is none.
     """
-    source = of_notebook(file, content) if file.lower().endswith(".ipynb") else decoded(file, content)
+    source = (
+        of_notebook(file, content) if file.lower().endswith(".ipynb") else decoded(file, content)
+    )
     found: dict[str, Any] = {"source": source, "said": list(dict.fromkeys(MARK.findall(source)))}
     try:
         tree = ast.parse(source)
@@ -78,8 +82,14 @@ def decoded(file: str, content: bytes) -> str:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(content).readline)
         return io.TextIOWrapper(io.BytesIO(content), encoding).read()
     except (SyntaxError, LookupError, ValueError) as error:
-        said = "not UTF-8" if isinstance(error, UnicodeDecodeError) or "utf-8" in str(error) else str(error)
-        raise UnreadableError(f"{file}: cannot be read as text ({said}): save it as UTF-8") from None
+        said = (
+            "not UTF-8"
+            if isinstance(error, UnicodeDecodeError) or "utf-8" in str(error)
+            else str(error)
+        )
+        raise UnreadableError(
+            f"{file}: cannot be read as text ({said}): save it as UTF-8"
+        ) from None
 
 
 def imported(tree: ast.Module) -> Iterator[str]:
@@ -99,7 +109,12 @@ def names(body: list[ast.stmt]) -> Iterator[str]:
             continue
         if isinstance(node, (ast.Assign, ast.AnnAssign)):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            yield from (name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name))
+            yield from (
+                name.id
+                for target in targets
+                for name in ast.walk(target)
+                if isinstance(name, ast.Name)
+            )
         elif isinstance(node, (ast.Import, ast.ImportFrom)):
             yield from (alias.asname or alias.name for alias in node.names)
         for inner in ("body", "orelse", "finalbody"):
@@ -108,28 +123,40 @@ def names(body: list[ast.stmt]) -> Iterator[str]:
             yield from names(handler.body)
 
 
-# what of other modules is used, and where -----------------------------------------------------------------------------
+# what of other modules is used, and where ---------------------------------------------------------
 
 
 DEFINITIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 
 
 def parts(tree: ast.Module) -> Iterator[dict[str, Any]]:
-    """Yield of each statement what it gives a value, which names it reads, and which modules it uses, in which line.
+    """Yield of each statement what it binds, which names it reads, and modules with lines.
 
-    A module is told by its whole path, however it came by a shorter name: `import scipy as sp` and `sp.spatial.distance` use
-    scipy.spatial.distance, and so do `from scipy import spatial`, and a text that is handed to `import_module`.
+    A module is told by its whole path, however it came by a shorter name: `import scipy as sp` and
+    `sp.spatial.distance` use scipy.spatial.distance, and so do `from scipy import spatial`, and a
+    text that is handed to `import_module`.
     """
     known = dict[str, str]()  # by the name in this file, the path that it stands for
-    nodes = [node for node in ast.walk(tree) if isinstance(node, (ast.Import, ast.ImportFrom, ast.Assign))]
+    nodes = [
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, (ast.Import, ast.ImportFrom, ast.Assign))
+    ]
     for node in sorted(nodes, key=lambda node: node.lineno):
         if isinstance(node, ast.Assign):
             path = path_of(node.value, known)
-            known |= {} if path is None else {one.id: path for one in node.targets if isinstance(one, ast.Name)}
+            known |= (
+                {}
+                if path is None
+                else {one.id: path for one in node.targets if isinstance(one, ast.Name)}
+            )
         else:
             known |= dict(bound(node))
     for statement in tree.body:
-        defines, imports = isinstance(statement, DEFINITIONS), isinstance(statement, (ast.Import, ast.ImportFrom))
+        defines, imports = (
+            isinstance(statement, DEFINITIONS),
+            isinstance(statement, (ast.Import, ast.ImportFrom)),
+        )
         read = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
         yield {
             "binds": sorted(set(names([statement]))),
@@ -154,7 +181,7 @@ def bound(node: ast.Import | ast.ImportFrom) -> Iterator[tuple[str, str]]:
 
 
 def used(statement: ast.stmt, known: dict[str, str]) -> Iterator[tuple[str, int]]:
-    """Yield the paths of modules and of what is in them that a statement uses, each with its line."""
+    """Yield paths of modules, and of what is in them, that a statement uses, with lines."""
     for node in ast.walk(statement):
         if isinstance(node, ast.Import):
             yield from ((alias.name, node.lineno) for alias in node.names)
@@ -167,7 +194,7 @@ def used(statement: ast.stmt, known: dict[str, str]) -> Iterator[tuple[str, int]
 
 
 def path_of(node: ast.expr, known: dict[str, str]) -> str | None:
-    """Return the path that an expression stands for, where it is one of a module: a name, an attribute, or a call for it."""
+    """Return the path of a module that an expression stands for: a name, an attribute, a call."""
     behind = list[str]()
     while isinstance(node, ast.Attribute):
         behind.append(node.attr)
@@ -192,7 +219,7 @@ def _called_for(call: ast.Call, known: dict[str, str]) -> str | None:
 
 
 def text_of(node: ast.expr) -> str | None:
-    """Return the text that an expression is, also where it is put together of pieces; None where it is none."""
+    """Return the text that an expression is, also put together of pieces; or None."""
     if isinstance(node, ast.Constant):
         return node.value if isinstance(node.value, str) else None
     pieces = list[str | None]()
@@ -205,7 +232,7 @@ def text_of(node: ast.expr) -> str | None:
     return None if None in pieces else "".join(reversed([piece or "" for piece in pieces]))
 
 
-# notebooks ------------------------------------------------------------------------------------------------------------
+# notebooks ----------------------------------------------------------------------------------------
 
 DEFINING = (ast.Import, ast.ImportFrom, ast.FunctionDef, ast.ClassDef)
 TAGS = {"exercise", "solution", "workbench"}
@@ -213,23 +240,35 @@ TAGS = {"exercise", "solution", "workbench"}
 
 
 def of_notebook(file: str, content: bytes) -> str:
-    """Return the imports, definitions and constants of the code cells, each in its line of all cells joined.
+    """Return imports, definitions and constants of code cells, each in its line of all.
 
-    What else is in the cells was written to be looked at. Of several definitions the last counts, a tagged one first.
+    What else is in the cells was written to be looked at. Of several definitions the last counts, a
+    tagged one first.
 
     Raises:
         UnreadableError: If it is no notebook.
     """
     try:
-        cells = [cell for cell in json.loads(content.decode("utf-8-sig"))["cells"] if cell["cell_type"] == "code"]
+        cells = [
+            cell
+            for cell in json.loads(content.decode("utf-8-sig"))["cells"]
+            if cell["cell_type"] == "code"
+        ]
         texts = ["".join(cell["source"]) for cell in cells]
         tagged = [bool(TAGS & set(cell.get("metadata", {}).get("tags", []))) for cell in cells]
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise UnreadableError(f"{file}: not a notebook") from None
-    ordered = [text for is_tagged in (False, True) for text, tag in zip(texts, tagged, strict=True) if tag is is_tagged]
+    ordered = [
+        text
+        for is_tagged in (False, True)
+        for text, tag in zip(texts, tagged, strict=True)
+        if tag is is_tagged
+    ]
     kept: list[str] = []
     for text in ordered:
-        lines = ["" if line.lstrip().startswith(("%", "!", "?")) else line for line in text.splitlines()]
+        lines = [
+            "" if line.lstrip().startswith(("%", "!", "?")) else line for line in text.splitlines()
+        ]
         try:
             body = ast.parse("\n".join(lines)).body
         except NOT_PARSED:
@@ -245,14 +284,25 @@ def of_notebook(file: str, content: bytes) -> str:
 
 
 def is_constant(node: ast.stmt) -> bool:
-    """Whether a statement gives a name a value that is made without running anything of the student's."""
+    """Whether a statement binds a name without running anything of the student's."""
     if not isinstance(node, (ast.Assign, ast.AnnAssign)) or node.value is None:
         return False
     calls = [call.func for call in ast.walk(node.value) if isinstance(call, ast.Call)]
-    made = {"array", "eye", "zeros", "ones", "diag", "radians", "deg2rad", "sqrt", "finfo", "float64"}
-    return all(isinstance(call, ast.Attribute) and call.attr in made for call in calls) or isinstance(
-        node.value, ast.Lambda
-    )
+    made = {
+        "array",
+        "eye",
+        "zeros",
+        "ones",
+        "diag",
+        "radians",
+        "deg2rad",
+        "sqrt",
+        "finfo",
+        "float64",
+    }
+    return all(
+        isinstance(call, ast.Attribute) and call.attr in made for call in calls
+    ) or isinstance(node.value, ast.Lambda)
 
 
 if __name__ == "__main__":

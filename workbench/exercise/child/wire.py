@@ -1,7 +1,8 @@
-"""Values as plain bytes, for the pipe between the grader and a student's process: nothing is unpickled on either side.
+"""Values as plain bytes, for the pipe to a student's process: nothing is unpickled.
 
-A message is 8 bytes of lengths (header, payload), a JSON header that describes the value, and the payload: the raw
-bytes of all arrays, in order. Used by both processes, so it imports nothing of ours.
+A message is 8 bytes of lengths (header, payload), a JSON header that describes the value, and the
+payload: the raw bytes of all arrays, in order. Used by both processes, so it imports nothing of
+ours.
 """
 
 import json
@@ -22,16 +23,20 @@ class WireError(ValueError):
 
 
 def pack(message: dict[str, Any]) -> bytes:
-    """Return the bytes of a message: a dict whose values are None, bools, numbers, text, arrays, or lists of these.
+    """Return the bytes of a message: a dict of None, bools, numbers, text, arrays, lists of these.
 
     Raises:
         WireError: If a value is of another kind; says which.
     """
     blobs: list[bytes] = []
-    header = json.dumps({key: _describe(value, blobs, 0) for key, value in message.items()}).encode()
+    header = json.dumps(
+        {key: _describe(value, blobs, 0) for key, value in message.items()}
+    ).encode()
     payload = b"".join(blobs)
     if len(payload) > MOST_BYTES or len(header) > MOST_HEADER:
-        raise WireError(f"{len(payload) >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have")
+        raise WireError(
+            f"{len(payload) >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have"
+        )
     return struct.pack("<QQ", len(header), len(payload)) + header + payload
 
 
@@ -77,7 +82,9 @@ def _describe(value: Any, blobs: list[bytes], depth: int) -> Any:
         return {"f": value.hex()}  # JSON has no NaN
     if isinstance(value, (np.ndarray, np.generic)):
         if value.nbytes > MOST_BYTES:
-            raise WireError(f"{value.nbytes >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have")
+            raise WireError(
+                f"{value.nbytes >> 20} MB is more than the {MOST_BYTES >> 20} MB a result may have"
+            )
         array = np.array(value, copy=True, subok=False)  # a subclass leaves its own ideas behind
         if array.dtype == np.longdouble:
             array = array.astype(np.float64)
@@ -87,7 +94,8 @@ def _describe(value: Any, blobs: list[bytes], depth: int) -> Any:
         blobs.append(array.tobytes())
         return {"a": array.dtype.str, "s": list(array.shape)}
     if isinstance(value, (list, tuple)):
-        if value and {float, np.float64}.issuperset(map(type, value)):  # a row of numbers is one part
+        # a row of numbers is one part
+        if value and {float, np.float64}.issuperset(map(type, value)):
             blobs.append(np.array(value, "<f8").tobytes())
             return {"n": len(value)}
         return {"l": [_describe(item, blobs, depth + 1) for item in value]}

@@ -1,7 +1,9 @@
-"""Runs a student's function in a process of its own that the kernel shuts in; what comes back is plain values or a reason.
+"""Runs a student's function in a process of its own that the kernel shuts in; what comes back is
+plain values or a reason.
 
-`walls` says what shuts a process in on this machine, `bubblewrap` and `python` how, `pipe` carries the messages, `student`
-is the function as the grader calls it. What runs on the other side is in `workbench.exercise.child`.
+`walls` says what shuts a process in on this machine, `bubblewrap` and `python` how, `pipe` carries
+the messages, `student` is the function as the grader calls it. What runs on the other side is in
+`workbench.exercise.child`.
 """
 
 from workbench.exercise.sandbox.budget import CallBudget

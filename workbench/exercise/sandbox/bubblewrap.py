@@ -1,4 +1,4 @@
-"""A student's process under bubblewrap: namespaces of its own, and a file system that holds Python and nothing else."""
+"""A student's process under bubblewrap: own namespaces, files of Python and nothing else."""
 
 import functools
 import os
@@ -19,7 +19,14 @@ def program() -> str | None:
 
 def arguments(python: Python) -> list[str]:
     """Return the command that shuts in what follows it; nothing of ours is in sight but `child`."""
-    command = [program() or "bwrap", "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
+    command = [
+        program() or "bwrap",
+        "--unshare-all",
+        "--die-with-parent",
+        "--new-session",
+        "--cap-drop",
+        "ALL",
+    ]
     command += ["--uid", "65534", "--gid", "65534", "--hostname", "student"]
     for tree in python.trees:
         command += ["--ro-bind", tree, tree]
@@ -28,7 +35,11 @@ def arguments(python: Python) -> list[str]:
     sealed = ["/", *python.masked]
     for folder in python.masked:
         command += ["--tmpfs", folder]
-    for path in (python.executable, *python.packages, *(file for file in FILES if os.path.exists(file))):
+    for path in (
+        python.executable,
+        *python.packages,
+        *(file for file in FILES if os.path.exists(file)),
+    ):
         command += ["--ro-bind", path, path]
     command += ["--ro-bind", str(CHILD_FILES), CHILD]
     for device in DEVICES:
@@ -44,9 +55,11 @@ def arguments(python: Python) -> list[str]:
 
 @functools.cache
 def _knows_sizes() -> bool:
-    """Whether a folder's size can be bounded; an older bubblewrap gives a folder that nobody can write to."""
+    """Whether a folder's size can be bounded; in an older bubblewrap nobody can write to it."""
     try:
-        said = subprocess.run([program() or "bwrap", "--help"], capture_output=True, timeout=SECONDS, check=False)
+        said = subprocess.run(
+            [program() or "bwrap", "--help"], capture_output=True, timeout=SECONDS, check=False
+        )
     except (OSError, subprocess.SubprocessError):
         return False
     return b"--size" in said.stdout

@@ -1,4 +1,4 @@
-"""How long a student's function is waited for: an endless loop costs its limit three times, not once for every check."""
+"""How long a student's function is waited for: an endless loop costs its limit three times."""
 
 REFUSED_AFTER = 3
 CALLS = 20
@@ -6,13 +6,10 @@ CALLS = 20
 
 
 class CallBudget:
-    """The time that calls of one function may take together.
+    """The time that calls of one function may take together, each `seconds` at most.
 
-    Each may take the limit that its student was promised. After three that were late or ended their process, or when all of
-    them took twenty times the limit, no call is made any more.
-
-    Args:
-        seconds: The longest one call may take.
+    After three that were late or ended their process, or when all of them took twenty times the
+    limit, no call is made any more.
     """
 
     def __init__(self, seconds: float):

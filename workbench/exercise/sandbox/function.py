@@ -25,27 +25,27 @@ LOAD_SECONDS = 10.0
 
 
 class StudentError(InputError):
-    """The student's function gave no result; the message says what happened and where in the student's file.
+    """The student's function gave no result; the message says what happened and where.
 
     Args:
-        message: One line for the student.
         kind: `raised`, `timeout`, `died`, `result` (what came back is no value) or `load`.
         error: The name of the exception that was raised, if one was.
         line: The student's own line, 0 where it is not known.
         errors: The names of the exception's class and of the classes it is one of.
     """
 
-    def __init__(self, message: str, kind: str, error: str = "", line: int = 0, errors: tuple[str, ...] = ()):
+    def __init__(
+        self, message: str, kind: str, error: str = "", line: int = 0, errors: tuple[str, ...] = ()
+    ):
         super().__init__(message)
         self.kind, self.error, self.line, self.errors = kind, error, line, errors or (error,)
 
 
 class SandboxedFunction:
-    """A student's function, callable; every call crosses to a process of its own, which is started when it is needed.
+    """A student's function; every call crosses to a process of its own, started when it is needed.
 
     Args:
         given: The student's file, or what was read of it.
-        name: The function's name in it.
         seconds: The longest one call may take, wall time; the process is killed then.
         megabytes: Address space of the process.
         wall: What shuts it in; the best of this machine by default.
@@ -81,14 +81,18 @@ class SandboxedFunction:
         """Return what the student's function returns for these arguments, as plain values.
 
         Raises:
-            StudentError: If it raised, took too long, ended its process, or returned what is no value.
+            StudentError: If it raised, took too long, ended its process, or returned no value.
         """
         with self._lock:
             if self._budget is not None and self._budget.over:
-                raise StudentError(f"{self.name} was not called: {self._budget.over}", self._budget.kind)
+                raise StudentError(
+                    f"{self.name} was not called: {self._budget.over}", self._budget.kind
+                )
             if self._process is None or self._process.poll() is not None:
                 self.start()
-            reply = self._called({"do": "call", "args": list(args), "options": list(options.items())})
+            reply = self._called(
+                {"do": "call", "args": list(args), "options": list(options.items())}
+            )
             self.changed_inputs = reply.get("changed") is True
             return reply.get("value")
 
@@ -135,23 +139,30 @@ class SandboxedFunction:
             if folder != "/":
                 os.rmdir(
                     folder
-                )  # the process stays in it: a folder that is no more takes no files, and none stays behind
+                )  # the process stays in it: a folder that is no more takes no files, and none stays behind  # noqa: E501
         if self._closed:  # by another thread just now: nobody would end the process
             self.close()
         self._must_be_open()
         self._ask({"do": "start"}, START_SECONDS)
         modules = [list(pair) for pair in self.submission.modules.items()]
-        self._ask({"do": "load", "source": self.source, "name": self.name, "modules": modules}, LOAD_SECONDS)
+        self._ask(
+            {"do": "load", "source": self.source, "name": self.name, "modules": modules},
+            LOAD_SECONDS,
+        )
 
     def printed(self, most: int = 8000) -> str:
         """Return the beginning of what the student's code printed."""
         try:
-            return "" if self._printed is None else os.pread(self._printed.fileno(), most, 0).decode("utf-8", "replace")
+            return (
+                ""
+                if self._printed is None
+                else os.pread(self._printed.fileno(), most, 0).decode("utf-8", "replace")
+            )
         except (ValueError, AttributeError):  # another thread closed it just now
             return ""
 
     def close(self) -> None:
-        """End the process and everything it started; nothing of it is left, and a run that goes on cannot start it again."""
+        """End the process and all it started; a run that goes on cannot restart it."""
         self._closed = True
         self._end()
         if self._printed is not None:
@@ -188,10 +199,14 @@ class SandboxedFunction:
         assert self._pipe is not None
         nonce = secrets.token_hex(8)
         try:
-            reply = self._pipe.ask(request | {"nonce": nonce, "file": self.submission.file}, seconds, self._lost)
+            reply = self._pipe.ask(
+                request | {"nonce": nonce, "file": self.submission.file}, seconds, self._lost
+            )
         except WireError as error:
             self._end()
-            raise StudentError(f"{self.name}: what came back is no result ({error})", "result") from None
+            raise StudentError(
+                f"{self.name}: what came back is no result ({error})", "result"
+            ) from None
         except TimeoutError:
             self._end()
             raise self._too_long(request["do"], seconds) from None
@@ -199,26 +214,36 @@ class SandboxedFunction:
             raise self._gone(request["do"]) from None
         if reply.get("nonce") != nonce:
             self._end()
-            raise StudentError(f"{self.name}: something else than the result was written to the grader", "result")
+            raise StudentError(
+                f"{self.name}: something else than the result was written to the grader", "result"
+            )
         if "error" in reply:
             raise self._raised(reply, loading=request["do"] == "load")
         return reply
 
     def _lost(self) -> float:
-        """Return how long the student's process has waited for a processor: a busy machine is not the function's fault."""
+        """Return how long the process has waited for a processor: not its fault."""
         return 0.0 if self._process is None else waited(self._process.pid)
 
     def _raised(self, reply: dict[str, Any], loading: bool) -> StudentError:
-        error, said, line = str(reply["error"])[:80], str(reply.get("message", ""))[:500], reply.get("line")
+        error, said, line = (
+            str(reply["error"])[:80],
+            str(reply.get("message", ""))[:500],
+            reply.get("line"),
+        )
         names = reply.get("errors")
         errors = tuple(str(name)[:80] for name in names[:12]) if isinstance(names, list) else ()
         line = line if isinstance(line, int) and not isinstance(line, bool) else 0
         where = f"{self.submission.file}, line {line}: " if line else f"{self.submission.file}: "
         if loading:
             self._end()
-            return StudentError(f"{where}the file does not load: {error}: {said}", "load", error, line)
+            return StudentError(
+                f"{where}the file does not load: {error}: {said}", "load", error, line
+            )
         if error == "WireError":
-            return StudentError(f"{where}{self.name} returned what is no result: {said}", "result", "", line)
+            return StudentError(
+                f"{where}{self.name} returned what is no result: {said}", "result", "", line
+            )
         if error == "NotImplementedError":
             return StudentError(f"{where}{self.name} is not written yet", "raised", error, line)
         said = f"{where}{self.name} raised {error}" + (f": {said}" if said else "")
@@ -226,21 +251,30 @@ class SandboxedFunction:
 
     def _too_long(self, doing: str, seconds: float) -> StudentError:
         if doing == "start":
-            return StudentError(f"Python did not start within {seconds:g} s: is this machine too busy?", "died")
+            return StudentError(
+                f"Python did not start within {seconds:g} s: is this machine too busy?", "died"
+            )
         what = self.name if doing == "call" else f"{self.submission.file}: loading the file"
         return StudentError(
-            f"{what} took more than {seconds:g} s, the limit, and was stopped: an endless loop, or too slow?", "timeout"
+            f"{what} took more than {seconds:g} s, the limit, and was stopped: an endless loop, or"
+            " too slow?",
+            "timeout",
         )
 
     def _gone(self, doing: str) -> StudentError:
         process = self._process
         if process is not None:
             with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(2.0)  # its pipe is closed: it is about to end, and its exit code tells why
+                # its pipe is closed: it is about to end, and its exit code tells why
+                process.wait(2.0)
         code = self._end()
         if doing == "start":
-            return StudentError(f"Python did not start: {self.printed().strip()[-200:] or f'exit code {code}'}", "died")
-        number = None if code is None else -code if code < 0 else code - 128  # bubblewrap says 128 and the signal
+            return StudentError(
+                f"Python did not start: {self.printed().strip()[-200:] or f'exit code {code}'}",
+                "died",
+            )
+        # bubblewrap says 128 and the signal
+        number = None if code is None else -code if code < 0 else code - 128
         how = f"ended (exit code {code}): does it call exit, or crash a library?"
         if number in (signal.SIGKILL, signal.SIGXCPU):
             how = "was killed: too much memory, or processor time?"

@@ -1,6 +1,7 @@
-"""What shuts a student's process in on this machine: bubblewrap, else Landlock, else nothing but limits.
+"""What shuts a student's process in here: bubblewrap, else Landlock, else limits alone.
 
-Whether a wall holds here is tried, not looked up: a program may be installed and not be allowed to do its work.
+Whether a wall holds here is tried, not looked up: a program may be installed and not be allowed to
+do its work.
 """
 
 import functools
@@ -16,7 +17,7 @@ from typing import IO
 
 from workbench.errors import InputError
 from workbench.exercise.sandbox import bubblewrap, python
-from workbench.threads import as_here
+from workbench.machinery.threads import as_here
 
 START_SECONDS = 30.0
 """How long Python and numpy may take to start."""
@@ -32,8 +33,8 @@ class Wall:
     """What stands between a student's process and this machine.
 
     Attributes:
-        name: `bubblewrap`, `landlock`, `user` (another one, to whom what matters is closed), or `none`: limits only, so that
-            marks are not safe.
+        name: `bubblewrap`, `landlock`, `user` (to whom what matters is closed), or `none`: limits
+            only, so that marks are not safe.
         why: Where it is `none`, why there is nothing better; one line.
     """
 
@@ -46,31 +47,44 @@ class Wall:
         return self.name != "none"
 
     def start(
-        self, *, pipe_in: int, pipe_out: int, printed: IO[bytes], folder: str, megabytes: int, cpu_seconds: int
+        self,
+        *,
+        pipe_in: int,
+        pipe_out: int,
+        printed: IO[bytes],
+        folder: str,
+        megabytes: int,
+        cpu_seconds: int,
     ) -> subprocess.Popen:
         """Start a student's process; it dies with this one wherever the wall holds.
 
-        Args:
-            pipe_in: Where it reads, a descriptor.
-            pipe_out: Where it answers.
-            printed: Where what it prints goes.
-            folder: Where it works, if it has no folder of its own.
-            megabytes: Most address space.
-            cpu_seconds: Most processor time.
+        It reads and answers at two descriptors, and works in `folder` if it has none of its own.
         """
         files = python.here()
         boxed = self.name == "bubblewrap"
         settings = {
-            "in": pipe_in, "out": pipe_out, "packages": files.places, "megabytes": megabytes, "cpu": cpu_seconds,
-            "output": OUTPUT_BYTES, "filter": self.holds, "writes": boxed,
+            "in": pipe_in,
+            "out": pipe_out,
+            "packages": files.places,
+            "megabytes": megabytes,
+            "cpu": cpu_seconds,
+            "output": OUTPUT_BYTES,
+            "filter": self.holds,
+            "writes": boxed,
             "grader": None if boxed else os.getpid(),  # it has parents of its own
             "landlock": list(files.listed()) if self.name == "landlock" else None,
-            "user": NOBODY if self.name == "user" else None, "closed": python.ours(),
-        }  # fmt: skip
+            "user": NOBODY if self.name == "user" else None,
+            "closed": python.ours(),
+        }
         child = f"{bubblewrap.CHILD}/main.py" if boxed else str(python.CHILD_FILES / "main.py")
         quiet = ["-W", "ignore::RuntimeWarning"]  # numpy's are not what the student printed
-        environment = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": bubblewrap.FOLDER if boxed else folder}
-        environment |= as_here()  # so that a mistake which hangs on the last bit is known for what it is
+        environment = {
+            "PATH": "/usr/bin:/bin",
+            "LANG": "C.UTF-8",
+            "HOME": bubblewrap.FOLDER if boxed else folder,
+        }
+        # so that a mistake which hangs on the last bit is known for what it is
+        environment |= as_here()
         command = [files.executable, "-I", "-S", "-B", "-u", *quiet, child, json.dumps(settings)]
         if boxed:
             known = [word for pair in environment.items() for word in ("--setenv", *pair)]
@@ -94,9 +108,8 @@ class Wall:
 def best(*, alone: bool = False) -> Wall:
     """Return the best wall of this machine.
 
-    Args:
-        alone: Whether the machine is a container for this one submission, closed to others but root: then another user is
-            a wall too. Elsewhere it could read what other students handed in.
+    If it is a container for this one submission `alone`, closed to others but root, another user is
+    a wall too. Elsewhere it could read what other students handed in.
     """
     troubles = []
     for name in NAMES[:3] if alone else NAMES[:2]:
@@ -129,19 +142,26 @@ def _without(name: str) -> str:
         return f"{name} needs Linux"
     if name == "bubblewrap" and not bubblewrap.program():
         return "bubblewrap is not installed (apt install bubblewrap)"
-    return "another user needs to be started by root" if name == "user" and os.geteuid() != 0 else ""
+    return (
+        "another user needs to be started by root" if name == "user" and os.geteuid() != 0 else ""
+    )
 
 
 @functools.cache
 def _tried(wall: Wall) -> str:
-    """Return why a process cannot be shut in by a wall here; nothing where it can: it starts, and ends with its pipe."""
+    """Return why a process cannot be shut in by a wall here; nothing where it can."""
     pipe_in, other = os.pipe()
     os.close(other)
     pipe_out = os.open(os.devnull, os.O_WRONLY)
     with anonymous() as said:
         try:
             process = wall.start(
-                pipe_in=pipe_in, pipe_out=pipe_out, printed=said, folder="/", megabytes=2048, cpu_seconds=60
+                pipe_in=pipe_in,
+                pipe_out=pipe_out,
+                printed=said,
+                folder="/",
+                megabytes=2048,
+                cpu_seconds=60,
             )
             try:
                 code = process.wait(START_SECONDS)
@@ -155,12 +175,14 @@ def _tried(wall: Wall) -> str:
             os.close(pipe_in)
             os.close(pipe_out)
         said.seek(0)
-        lines = said.read(1 << 16).decode("utf-8", "replace").strip().splitlines() or [f"exit code {code}"]
+        lines = said.read(1 << 16).decode("utf-8", "replace").strip().splitlines() or [
+            f"exit code {code}"
+        ]
     return "" if code == 0 else f"{wall.name} cannot do its work here ({lines[-1][:200]})"
 
 
 def anonymous() -> IO[bytes]:
-    """Return a file without a name, so that nothing can stay behind: in memory where there is such a thing."""
+    """Return a file without a name, in memory where that is possible: nothing stays behind."""
     if hasattr(os, "memfd_create"):
         return os.fdopen(os.memfd_create("printed", os.MFD_CLOEXEC), "w+b", buffering=0)
     import tempfile
@@ -169,7 +191,7 @@ def anonymous() -> IO[bytes]:
 
 
 def _from_a_lasting_thread(start: Callable[[], subprocess.Popen]) -> subprocess.Popen:
-    """Start a process from a thread that lives as long as this process: the kernel ends it with the thread it came from."""
+    """Start a process from a lasting thread: the kernel ends it with its thread."""
     if threading.current_thread() is threading.main_thread():
         return start()
     return _thread(os.getpid()).submit(start).result()

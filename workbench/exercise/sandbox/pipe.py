@@ -1,4 +1,4 @@
-"""Messages to a student's process and back, each within its time; whatever comes is read as bytes of somebody else."""
+"""Messages to a student's process and back, each in its time, read as foreign bytes."""
 
 import os
 import select
@@ -16,12 +16,21 @@ class _Deadline:
     """Moves on by what a process waits for a processor."""
 
     def __init__(self, seconds: float, lost: Callable[[], float]):
-        self._seconds, self._lost, self._began, self._before = seconds, lost, time.monotonic(), lost()
+        self._seconds, self._lost, self._began, self._before = (
+            seconds,
+            lost,
+            time.monotonic(),
+            lost(),
+        )
 
     def left(self) -> float:
         """Return the seconds that are left."""
         left = self._seconds - (time.monotonic() - self._began)
-        return left if left > 0 else left + min(self._lost() - self._before, (MOST_TIMES - 1) * self._seconds)
+        return (
+            left
+            if left > 0
+            else left + min(self._lost() - self._before, (MOST_TIMES - 1) * self._seconds)
+        )
 
 
 class Pipe:
@@ -48,13 +57,13 @@ class Pipe:
         os.close(self._to)
         os.close(self._from)
 
-    def ask(self, message: dict[str, Any], seconds: float, lost: Callable[[], float] = lambda: 0.0) -> dict[str, Any]:
-        """Send a message and return the answer.
+    def ask(
+        self, message: dict[str, Any], seconds: float, lost: Callable[[], float] = lambda: 0.0
+    ) -> dict[str, Any]:
+        """Send a message and return the answer, waited for `seconds`.
 
-        Args:
-            message: What is sent.
-            seconds: How long the answer may take.
-            lost: Tells how long the process has waited for a processor so far, seconds: that is not its own time.
+        What `lost` says, the seconds that the process has waited for a processor, is not its own
+        time.
 
         Raises:
             WireError: If what came is no message.

@@ -1,4 +1,4 @@
-"""What a student's process needs of this machine: the interpreter, its library, the system's libraries, numpy and scipy."""
+"""What a student's process needs of this machine: interpreter, libraries, numpy, scipy."""
 
 import functools
 import importlib.util
@@ -27,7 +27,7 @@ class Python:
         trees: Folders to read.
         links: Links that stand for some of these folders, and where they lead.
         masked: Folders in the trees of which nothing is seen.
-        packages: The folders of what may be imported, with the libraries that wheels keep beside them.
+        packages: The folders of what may be imported, and of wheels' libraries.
     """
 
     executable: str
@@ -39,7 +39,11 @@ class Python:
     @property
     def places(self) -> dict[str, str]:
         """Where each allowed package is: the folder that holds its folder."""
-        return {os.path.basename(path): os.path.dirname(path) for path in self.packages if not path.endswith(".libs")}
+        return {
+            os.path.basename(path): os.path.dirname(path)
+            for path in self.packages
+            if not path.endswith(".libs")
+        }
 
     def listed(self) -> Iterator[str]:
         """Yield what the trees hold without what is masked: for Landlock, which can only add."""
@@ -61,11 +65,20 @@ def here() -> Python:
     for prefix in {sys.base_prefix, sys.base_exec_prefix} - {"/usr"}:
         wanted += [os.path.join(prefix, name) for name in ("lib", "lib64")]
     trees = sorted({path for path in wanted if os.path.isdir(path)})
-    trees = [path for path in trees if not any(_inside(path, other) for other in trees if other != path)]
+    trees = [
+        path for path in trees if not any(_inside(path, other) for other in trees if other != path)
+    ]
     masked = [path for path in ours() if any(_inside(path, tree) for tree in trees)]
     for tree in trees:
-        masked += [str(path) for name in OTHERS for depth in ("*", ".") for path in Path(tree).glob(f"{depth}/{name}")]
-    packages = [path for name in ALLOWED for folder in _folder(name) for path in _with_libraries(folder)]
+        masked += [
+            str(path)
+            for name in OTHERS
+            for depth in ("*", ".")
+            for path in Path(tree).glob(f"{depth}/{name}")
+        ]
+    packages = [
+        path for name in ALLOWED for folder in _folder(name) for path in _with_libraries(folder)
+    ]
     return Python(
         executable=executable,
         trees=tuple(trees),
@@ -81,7 +94,7 @@ def ours() -> list[str]:
 
 
 def _libraries(folder: str) -> str:
-    """Return where in a system's folder the shared libraries are; on Debian and its like one folder of many."""
+    """Return where a system's folder has shared libraries; on Debian one folder of many."""
     narrower = os.path.join(folder, getattr(sys.implementation, "_multiarch", ""))
     return narrower if os.path.isdir(narrower) else folder
 

@@ -45,7 +45,9 @@ const article = {
   },
 
   // what came of a prediction; it stays answered in this browser
-  answered({ question, given, right, truth, why, reply, trouble }) {
+  answered(answer) {
+    page.tell("answered", answer);
+    const { question, given, right, truth, why, reply, trouble } = answer;
     const form = $(`form.question[data-question="${CSS.escape(question)}"]`);
     if (!form) return;
     if (trouble) return void ($("output", form).textContent = trouble);

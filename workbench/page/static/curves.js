@@ -27,6 +27,22 @@ function plot({ title, xLabel, yLabel, curves, x: across, y: up }, marks, upto =
   return box;
 }
 
+const ROLES = { target: "#0072b2", source: "#e69f00", correspondence: "#999999", truth: "#009e73",
+  wrong: "#d55e00", highlight: "#cc79a7", neutral: "#6e7681", other: "#56b4e9" };
+
+// a story's large chart as curves; bands lie along its lower edge
+function flattened(run, { title, x_label: xLabel, y_label: yLabel, x, y, ...parts }) {
+  const line = (one) => (typeof one === "number" ? run.things[one] : one);
+  const made = (one, kind, dashed) => ({ ...one, kind: dashed ? "pinned" : kind, marks: [],
+    color: ROLES[one.color] ?? one.color, y: one.y.map((v) => (v > y.high ? null : v)) });
+  const lines = parts.whole.map(line).filter(Boolean), seconds = parts.seconds.map(line).filter(Boolean);
+  const bands = parts.bands.map((one) => ({ ...one, x: [one.low, one.high], y: [y.low, y.low] }));
+  const marks = parts.marks.map((one) => ({ ...one, x: [one.x], y: [one.y] }));
+  return { title, xLabel, yLabel, x, y, curves: [...bands.map((one) => made(one, "line")),
+    ...lines.map((one) => made(one, "line")), ...seconds.map((one) => made(one, "line", true)),
+    ...marks.map((one) => made(one, "dots"))] };
+}
+
 // the same chart without words, as small as a thumb
 function sparkline({ curves, x: across, y: up }, marks, upto = Infinity) {
   const px = (x) => 2 + ((x - across.low) / (across.high - across.low)) * 116;

@@ -15,7 +15,8 @@ const feed = window.feed = { // viser's client in the frame looks for it
   wanted: new Map(),   // name -> node
   made: 0,             // how many nodes got a name of their own
   gliding: 0,          // the frame request of what glides
-  stage: null,         // {light, camera} of the scene that is open
+  stage: null,         // {light, camera, own: the camera it came with} of the scene that is open
+  led: null,           // the camera where somebody else leads it
   keeps: NARROWEST,    // width by height of what stays in view
   watching: null,      // tells of another size of the frame
   picks: false,        // whether clicks are heard
@@ -53,10 +54,19 @@ const feed = window.feed = { // viser's client in the frame looks for it
 
   // a scene opens: its light, and its camera unless it is the one that was there, which a person may have turned since
   open(told) {
-    const before = this.stage, isNew = JSON.stringify(before?.camera) !== JSON.stringify(told.camera);
-    this.stage = told;
+    const before = this.stage, camera = this.led ?? told.camera;
+    const isNew = JSON.stringify(before?.camera) !== JSON.stringify(camera);
+    this.stage = { ...told, camera, own: told.camera };
     this.send(told.light);
     if (isNew) this.aim(!before);
+  },
+
+  // takes the camera from the scenes and puts it somewhere; null gives it back where it is
+  lead(camera) {
+    this.led = camera;
+    if (!camera || !this.stage) return;
+    this.stage.camera = camera;
+    this.aim();
   },
 
   // puts the camera where the scene wants it

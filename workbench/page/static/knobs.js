@@ -104,7 +104,7 @@ const knobs = {
     $("summary", this.idle).textContent = `${count} more ${count === 1 ? "has" : "have"} no effect here`;
   },
 
-  box: (knob) => $(`[data-knob="${CSS.escape(knob.name)}"]`),
+  box: (knob) => $(`.knob[data-knob="${CSS.escape(knob.name)}"]`),
 
   // greys a knob out that has no effect under what the others say, and says why
   ground(knob, params) {
@@ -116,7 +116,9 @@ const knobs = {
       if (wanted[0] === null) return `no file of your own is open as ${label}`;
       return `${label} is ${wanted.map((value) => value === true ? "on" : value === false ? "off" : value).join(" or ")}`;
     };
-    box.disabled = missing.length > 0;
-    $(".why", box).textContent = missing.length ? `Has an effect only where ${missing.map(said).join(" and ")}.` : "";
+    const idle = !missing.length && (page.run?.idle ?? []).includes(knob.name);
+    box.disabled = missing.length > 0 || idle;
+    $(".why", box).textContent = idle ? "Has no effect in this run."
+      : missing.length ? `Has an effect only where ${missing.map(said).join(" and ")}.` : "";
   },
 };

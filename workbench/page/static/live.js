@@ -5,6 +5,7 @@ const source = {
   socket: null, waiting: [], given: {},
   wire: new Wire(),
   seen: null,  // {run, k}: of which step the scene is
+  drawn: null,  // {run, k, nodes} of a step that has come and is not shown
   tells: {},  // what is told -> function: what the other parts of the page hear
 
   start() {
@@ -37,10 +38,19 @@ const source = {
 
   // a step's scene, in bytes
   drew(bytes) {
-    const head = this.wire.read(bytes), { run, k } = head, by = this.seen?.run === run ? k - this.seen.k : 0;
+    const head = this.wire.read(bytes), { run, k } = head;
     if (head.stage) feed.open(head.stage);
+    this.drawn = { run, k, nodes: this.wire.nodes(head.nodes) };
+    if (page.face === "bench" || storyStage.awaits(k)) this.flush();
+  },
+
+  // shows what was drawn last; a story lets a step pass that is only on the way to the one it wants
+  flush() {
+    if (!this.drawn) return;
+    const { run, k, nodes } = this.drawn, by = this.seen?.run === run ? k - this.seen.k : 0;
+    this.drawn = null;
     this.seen = { run, k };
-    sceneView.step(this.wire.nodes(head.nodes), by);
+    sceneView.step(nodes, by);
   },
 
   send(message) {
@@ -49,7 +59,10 @@ const source = {
     else this.waiting.push(text);
   },
 
-  open(name, step) { this.send({ verb: "run", run: name, step }); },
+  // a step may be named by the run's own end, which the page finds when it is known
+  open(name, step) {
+    this.send({ verb: "run", run: name, step: /^stop./.test(step) ? -1 : step });
+  },
   seek(k) { this.send({ verb: "seek", k }); },
   change(values) { this.send({ verb: "change", values }); },
   reset() {
@@ -70,8 +83,9 @@ const source = {
     const address = `files/${document.body.dataset.token}/${encodeURIComponent(field)}?name=${encodeURIComponent(file.name)}`;
     return fetch(address, { method: "POST", body: file });
   },
-  predict(question, given) {
+  predict(question, given, { stay = false } = {}) {
     this.given[question] = given;
-    this.send({ verb: "predict", question, given });
+    this.send({ verb: "predict", question, given, stay });
   },
+  followed() { this.send({ verb: "open", query: location.search, lesson: LESSON.name }); },
 };

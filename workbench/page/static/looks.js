@@ -97,6 +97,15 @@ function picture(props, opacity, later) {
 
 const pathOf = (name) => (name.startsWith("/scene/") ? name.slice(7) : null);  // of a node, with · for /; of the stage none
 
+// nodes without those at some paths, or under them
+function without(nodes, paths) {
+  const bases = paths.map((path) => path.replaceAll("/", "·"));
+  return new Map([...nodes].filter(([name]) => {
+    const at = pathOf(name)?.replace(/\/.*/, "");
+    return !bases.some((base) => at === base || at?.startsWith(`${base}·`));
+  }));
+}
+
 // nodes of which those at a path, or under it, stand out, because somebody reads of them
 function lit(nodes, path) {
   const base = path.replaceAll("/", "·"), meant = new Set();

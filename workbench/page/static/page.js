@@ -5,6 +5,11 @@ const page = {
   run: null,  // {id, name, steps, things, series, charts, known, finished, played, seen, pinned}
   k: 0,
   ending: false,  // whether the end of the run is wanted, and not yet known
+  face: document.body.dataset.face ?? "bench",  // which of the two faces is seen: story or bench
+  listeners: [],  // parts of the page that hear told(run), came(run, k, step, things), drawn(), ...
+
+  // tells all that listen to it
+  tell(verb, ...what) { for (const one of this.listeners) one[verb]?.(...what); },
 
   // whether this lesson has what a tool is for
   can: (tool) => tool !== "move" || LESSON.knobs.some((knob) => knob.by === "gizmo"),
@@ -23,6 +28,15 @@ const page = {
     const run = this.run, at = k < 0 ? this.known() + k : Math.min(k, Math.max(0, this.known() - 1));
     source.seek(k < 0 || k >= this.known() ? k : at);
     if (run && run.steps[at] && (k >= 0 || run.finished)) this.see(at);
+  },
+
+  // the index of a step of a run: "stop" is its own end, "stop-1" the step before, a negative number
+  // counts from the end of all; undefined while it is not known
+  stepOf(run, step) {
+    if (typeof step === "number" && step >= 0) return step;
+    const last = run.finished ? run.known - 1 : undefined, own = String(step).startsWith("stop");
+    const from = own ? run.end ?? last : last, back = own ? Number(String(step).slice(4)) : step + 1;
+    return from === undefined ? undefined : Math.max(0, from + back);
   },
 
   // goes to the end of the run itself, as soon as it is known; from there to that of what other starts lead to
@@ -45,6 +59,7 @@ const page = {
     if (data.params) knobs.show(data);
     $("#pin").setAttribute("aria-pressed", String(Boolean(this.run.pinned)));
     this.draw();
+    this.tell("told", this.run);
   },
 
   // a step that has come
@@ -52,7 +67,8 @@ const page = {
     if (!this.run || this.run.id !== id) return;
     Object.assign(this.run.things, things);
     this.run.steps[k] = step;
-    this.see(k);
+    if (this.face === "bench" || storyStage.awaits(k)) this.see(k);
+    this.tell("came", this.run, k, step, things);
   },
 
   see(k) {
@@ -73,8 +89,9 @@ const page = {
     if (!step) return;
     this.say(step.caption, step.tone);
     stage.legend(this.run.things[step.legend] ?? "");
-    panels.show();
+    if (this.face === "bench") panels.show();
     text.show();
+    this.tell("drawn");
   },
 
   say(text, tone) {
@@ -86,7 +103,7 @@ const page = {
 
   // the address is the place: a reload or a shared link comes back to it
   remember() {
-    if (transport.playing || !this.run || !this.run.query) return;
+    if (this.face === "story" || transport.playing || !this.run || !this.run.query) return;
     history.replaceState(null, "", `${this.run.query}&step=${this.k}${this.others()}`);
   },
 
@@ -119,7 +136,11 @@ document.addEventListener("DOMContentLoaded", () => {
   knobs.start();
   for (const part of [exercise, thisRun, labels, handles]) part.start();
   for (const button of $$("[data-act]")) button.addEventListener("click", () => transport.act(button.dataset.act));
-  $("#step").addEventListener("input", (event) => { transport.pause(); page.seek(Number(event.target.value)); });
+  $("#step").addEventListener("input", ({ target }) => {
+    if (page.face === "story") return story.step(Number(target.value));
+    transport.pause();
+    page.seek(Number(target.value));
+  });
   document.addEventListener("keydown", (event) => keys.pressed(event));
   const dark = () => document.documentElement.dataset.theme === "dark";
   const wanted = kept.get("dark") ?? matchMedia("(prefers-color-scheme: dark)").matches;
@@ -136,6 +157,7 @@ document.addEventListener("DOMContentLoaded", () => {
   };
   $("#pin").onclick = keys.others.i;
   if (!$("#set").hidden) keys.others.s = () => knobs.toggle();
+  if (typeof story !== "undefined") story.start();
   source.start();
   page.theme(wanted);
 });

@@ -65,6 +65,11 @@ const panels = {
       const title = $("strong", made)?.textContent ?? "Table";
       return { key: `table ${title}`, telling: title === LESSON.telling, title, small: `<span class="sign">▤</span>`, whole: () => made };
     }
+    if (thing.kind === "plot") {
+      const data = flattened(page.run, thing);
+      return { key: `plot ${thing.name}`, telling: thing.title === LESSON.telling, title: thing.title,
+        small: sparkline(data, []), whole: () => plot(data, []) };
+    }
     if (thing.kind === "curves") {
       const marks = thing.curves.flatMap((c) => c.marks);
       return { key: `curves ${thing.title}`, telling: thing.title.startsWith(LESSON.telling || "-"), title: thing.title, small: sparkline(thing, marks), whole: () => plot(thing, marks) };

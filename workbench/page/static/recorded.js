@@ -12,7 +12,7 @@ const source = {
   start() {
     shelf.client().then((client) => stage.put({ srcdoc: client }), (error) => page.say(error.message, "wrong"));
     addEventListener("hashchange", () => this.followed());
-    this.followed() || this.open(RECORDED.open, null);
+    this.followed() || page.face === "story" || this.open(RECORDED.open, null);
   },
 
   // opens what the address names; false where it names nothing that is here
@@ -20,6 +20,10 @@ const source = {
     const { run, step } = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
     if (run === undefined) return false;
     const name = Object.hasOwn(RECORDED.aliases, run) ? RECORDED.aliases[run] : run;
+    if (!Object.hasOwn(RECORDED.files, name) && Object.hasOwn(RECORDED.moved ?? {}, run)) {
+      location.replace(RECORDED.moved[run] + (step === undefined ? "" : `&step=${step}`));
+      return true;
+    }
     if (!Object.hasOwn(RECORDED.files, name)) {
       page.say(`This page has no run named ${run.slice(0, 40)}.`, "wrong");
       return false;
@@ -49,9 +53,10 @@ const source = {
   },
 
   told(run, data, step) {
-    const { steps, things, series, charts, command, recording, end } = data;
-    const known = steps.length, at = Math.max(0, Math.min(known - 1, step < 0 ? known + step : step));
-    const told = { name: run, title: RECORDED.titles[run], steps, things, series, charts, known, finished: true, command, recording, end };
+    const { steps, things, series, charts, command, recording, end, places, idle } = data;
+    const known = steps.length;
+    const at = Math.min(known - 1, page.stepOf({ known, end, finished: true }, step));
+    const told = { name: run, title: RECORDED.titles[run], steps, things, series, charts, known, finished: true, command, recording, end, places, idle };
     page.told({ ...told, id: run, query: location.protocol === "about:" ? "" : `#run=${run}`, pinned: sceneView.series() });
     sweeps.show(run);
     page.see(at);
@@ -87,12 +92,12 @@ const source = {
   theme(dark) { feed.theme(dark); },
   reset() { if (Object.hasOwn(RECORDED.files, "default")) this.open("default", null); },
 
-  predict(question, given) {
+  predict(question, given, { stay = false } = {}) {
     const text = atob(RECORDED.answers[question]);
     const { truth, right, why, replies, run, step } = JSON.parse(new TextDecoder().decode(Uint8Array.from(text, (c) => c.charCodeAt(0))));
     const good = given !== null && (typeof right === "string" ? given === right : Math.abs(given - right[0]) <= right[1]);
     const known = Array.isArray(replies) ? replies.find(([low, high]) => low <= given && given <= high)?.[2] : replies[given];
     article.answered({ question, given, right: good, truth, why, reply: good || given === null ? "" : known });
-    this.open(run, step);
+    if (!stay) this.open(run, step);
   },
 };

@@ -4,19 +4,24 @@
 const sceneView = {
   nodes: null,   // of the step
   path: "",      // what stands out, because somebody reads of it
+  hide: [],      // paths of what is left out
+  swift: false,  // whether what moves is put there without gliding
   pinned: null,  // {nodes, run} of the step that stands behind
 
   // shows a step; `by` is how many steps it follows what is shown, 0 where it does not
   step(nodes, by) {
     this.nodes = nodes;
     const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.again({ glide: Math.abs(by) === 1 && !still && !this.path, next: by === 1 });
+    const far = page.face === "story" ? 2 : 1;
+    const glide = by !== 0 && Math.abs(by) <= far && !still && !this.path && !this.swift;
+    this.again({ glide, next: by === 1 });
     stage.arrived();
   },
 
   again(how) {
     if (!this.nodes) return;
-    const seen = this.path ? lit(this.nodes, this.path) : this.nodes;
+    const kept = this.hide.length ? without(this.nodes, this.hide) : this.nodes;
+    const seen = this.path ? lit(kept, this.path) : kept;
     feed.show(handles.with(this.pinned ? withGhosts(seen, this.pinned.nodes) : seen), how);
   },
 

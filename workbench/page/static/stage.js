@@ -1,6 +1,8 @@
 // The scene: viser's client in a frame, whatever home feeds it, with its own panels hidden.
 "use strict";
 
+const OURS = new Set(["w", "s", "b"]);  // keys with which viser's client would move the camera
+
 const stage = {
   frame: null,
 
@@ -20,8 +22,11 @@ const stage = {
       textContent: ".mantine-Paper-root, .mantine-Notifications-root, .mantine-Notification-root { display: none !important }",
     }));
     inside.addEventListener("keydown", (event) => {
-      if (!event.key.startsWith("Arrow") && !event.target.closest("input")) keys.pressed(event);
-    });
+      if (event.key.startsWith("Arrow") || event.target.closest("input")) return;
+      keys.pressed(event);
+      if (OURS.has(event.key.toLowerCase())) event.stopImmediatePropagation();  // not the scene's
+    }, { capture: true });
+    page.tell("tidied", inside);
   },
 
   // a scene is on its way; and the one that was is there

@@ -14,6 +14,7 @@ const transport = {
 
   act(verb) {
     if (!page.run) return;
+    if (page.face === "story") return story.act(verb);
     if (verb === "play") return this.playing ? this.pause() : this.play();
     this.pause();
     if (verb === "last") return page.end();
@@ -68,19 +69,24 @@ const keys = {
 
   // what every key does, as rows of a table; those of what this home cannot do are not in it
   told() {
+    if (page.face === "story") return keys.table(story.keys());
     const rows = [["N, →", "next step"], ["P, ←", "step back"], ["K, space", "play or pause"], ["Home, End", "first step, end of the run"],
       ["T", "light or dark"], ["Esc", "close what is enlarged"], ["?", "these keys"]];
     if (source.reset) rows.push(["R", "back to the default run"], ["I", "keep this run behind the next, or let it go"]);
     if (this.others.h) rows.push(["H", "handles in the scene"]);
     if (this.others.s) rows.push(["S", "knobs"]);
-    return element("table", {}, ...rows.concat(this.more).map(([key, what]) => element("tr", {}, element("th", { textContent: key }), element("td", { textContent: what }))));
+    return keys.table(rows.concat(this.more));
   },
+
+  table: (rows) => element("table", {}, ...rows.map(([key, what]) =>
+    element("tr", {}, element("th", { textContent: key }), element("td", { textContent: what })))),
 
   pressed(event) {
     const typing = event.target.closest("input:not(#step), select, textarea, pre");
     const chosen = event.key === " " && event.target.closest("button, a, summary");
     if (typing || chosen || event.ctrlKey || event.metaKey || event.altKey) return;
     const letter = event.key.length === 1, digit = letter && /^(?:Digit|Numpad)(\d)$/.exec(event.code);
+    if (page.face === "story") return story.key(event);
     const verb = this.verbs[letter ? event.key.toLowerCase() : event.key]; // with Caps Lock too
     const other = digit ? this.numbered[(Number(digit[1]) || 10) - 1 + (event.shiftKey ? 10 : 0)] : this.others[event.key.toLowerCase()];
     if (!verb && !other) return;

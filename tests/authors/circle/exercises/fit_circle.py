@@ -1,8 +1,20 @@
-"""Write the algebraic fit of a circle: x² + y² = 2ax + 2by + c is linear in a, b and c. The lesson refines your circle."""
+"""Write the algebraic fit of a circle: x² + y² = 2ax + 2by + c is linear in a, b and c. The lesson
+refines your circle.
+"""
 
 import numpy as np
 
-from workbench.exercise import alternative, band, beside, check, contract, left_alone, mistake, refused, worst
+from workbench.exercise import (
+    alternative,
+    band,
+    beside,
+    check,
+    contract,
+    left_alone,
+    mistake,
+    refused,
+    worst,
+)
 
 CIRCLE = np.array([2.0, -1.0, 0.5])
 HINT = "Solve [2x 2y 1] (a, b, c) = x² + y²; then r² = c + a² + b²."
@@ -17,7 +29,9 @@ def on_circle(circle: np.ndarray, degrees: float = 300.0, noise: float = 0.0) ->
 def judged(candidate, p):
     got, right = candidate(p), fit_circle(p)
     off = 1000 * float(np.abs(got - right).max())
-    return band("Largest error of x, y or r", off, "mm", good=0.01, fair=1.0, hint=beside(got, right, HINT))
+    return band(
+        "Largest error of x, y or r", off, "mm", good=0.01, fair=1.0, hint=beside(got, right, HINT)
+    )
 
 
 @contract(
@@ -28,7 +42,8 @@ def judged(candidate, p):
     ),
 )
 def fit_circle(p: np.ndarray) -> np.ndarray:
-    """Return the circle x, y, r, metres, that solves x² + y² = 2ax + 2by + c best for the points, one row (x, y) each.
+    """Return the circle x, y, r, metres, that solves x² + y² = 2ax + 2by + c best for the points,
+    one row (x, y) each.
 
     Raises:
         ValueError: If the points, or all but one, coincide or lie on one line.
@@ -55,7 +70,9 @@ def points_are_left_alone(candidate):
 @check(2, public=False)
 def points_with_noise(candidate):
     """Points with noise on arcs give the least-squares solution of the linear system."""
-    return worst(judged(candidate, on_circle(CIRCLE, degrees, 0.02)) for degrees in (40.0, 120.0, 350.0))
+    return worst(
+        judged(candidate, on_circle(CIRCLE, degrees, 0.02)) for degrees in (40.0, 120.0, 350.0)
+    )
 
 
 @check(1, public=False)
@@ -65,7 +82,8 @@ def points_on_a_line(candidate):
 
 
 @mistake(
-    "You took the mean of the points for the centre. It lies inside the arc: solve the linear system for the centre."
+    "You took the mean of the points for the centre. It lies inside the arc: solve the linear"
+    " system for the centre."
 )
 def mean_for_centre(p: np.ndarray) -> np.ndarray:
     return np.array([*p.mean(axis=0), np.linalg.norm(p - p.mean(axis=0), axis=1).mean()])
@@ -76,7 +94,10 @@ def squared_radius(p: np.ndarray) -> np.ndarray:
     return fit_circle(p) ** np.array([1, 1, 2])
 
 
-@mistake("Your centre is twice as far out as it should be: the unknowns are a and b, and the columns are 2x and 2y.")
+@mistake(
+    "Your centre is twice as far out as it should be: the unknowns are a and b, and the columns are"
+    " 2x and 2y."
+)
 def doubled_centre(p: np.ndarray) -> np.ndarray:
     return fit_circle(p) * np.array([2, 2, 1])
 

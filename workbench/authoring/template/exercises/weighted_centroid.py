@@ -1,5 +1,5 @@
-"""Write the mean of points that do not count the same: the point from which the weighted squared distances are smallest.
-The lesson takes your answer for the place of the beacon.
+"""Write the mean of points that do not count the same: the point from which the weighted squared
+distances are smallest. The lesson takes your answer for the place of the beacon.
 """
 
 import numpy as np
@@ -31,7 +31,9 @@ def judged(candidate: Function, p: np.ndarray, w: np.ndarray) -> Verdict:
     """Judge an answer by its distance to the right one."""
     got, right = candidate(p, w), weighted_centroid(p, w)
     off = 1000 * float(np.linalg.norm(got - right))
-    return band("Distance to the centroid", off, "mm", good=0.001, fair=0.1, hint=beside(got, right, HINT))
+    return band(
+        "Distance to the centroid", off, "mm", good=0.001, fair=0.1, hint=beside(got, right, HINT)
+    )
 
 
 @contract(
@@ -81,19 +83,26 @@ def no_weight_at_all(candidate: Function) -> Verdict:
     return refused(candidate, np.ones((4, 3)), np.zeros(4), what="Four points of weight 0")
 
 
-@mistake("You took the plain mean: every point counts the same there. Multiply each row by its weight first.")
+@mistake(
+    "You took the plain mean: every point counts the same there. Multiply each row by its weight"
+    " first."
+)
 def weights_ignored(p: np.ndarray, w: np.ndarray) -> np.ndarray:
     """Takes the mean of the rows."""
     return p.mean(axis=0)
 
 
-@mistake("You divided the weighted sum by the number of points. Divide it by the sum of the weights.")
+@mistake(
+    "You divided the weighted sum by the number of points. Divide it by the sum of the weights."
+)
 def divided_by_the_count(p: np.ndarray, w: np.ndarray) -> np.ndarray:
     """Divides by n."""
     return w @ p / len(p)
 
 
-@mistake("Your weights are squared. The weight itself is one over the variance already: use it as it is.")
+@mistake(
+    "Your weights are squared. The weight itself is one over the variance already: use it as it is."
+)
 def weights_squared(p: np.ndarray, w: np.ndarray) -> np.ndarray:
     """Squares what is a square already."""
     return w**2 @ p / (w**2).sum()

@@ -1,0 +1,1 @@
+"""The lesson on the frame that a cloud carries."""

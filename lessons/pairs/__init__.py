@@ -1,0 +1,1 @@
+"""Pairs of points, and the motion that fits them best."""

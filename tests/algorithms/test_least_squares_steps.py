@@ -1,0 +1,17 @@
+"""Many damped steps at once are Marquardt's, each of its own system."""
+
+import numpy as np
+
+from workbench.algorithms.least_squares.descent import _damped_steps
+
+
+def test_each_step_solves_the_system_with_its_diagonal_raised():
+    rng = np.random.default_rng(0)
+    J, r = rng.normal(size=(5, 12, 3)) * [1.0, 50.0, 0.01], rng.normal(size=(5, 12))
+    dampings = np.array([0.0, 1e-3, 0.1, 1.0, 30.0])
+    for found, one, residual, damping in zip(
+        _damped_steps(r, J, dampings), J, r, dampings, strict=True
+    ):
+        normal = one.T @ one
+        damped = normal + damping * np.diag(np.diag(normal))
+        np.testing.assert_allclose(found, -np.linalg.solve(damped, one.T @ residual), rtol=1e-8)

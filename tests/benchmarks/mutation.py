@@ -1,0 +1,359 @@
+"""How many small changes of our own code its tests notice.
+
+    python -m tests.benchmarks.mutation workbench/geometry            # 100 mutants, by --seed
+    python -m tests.benchmarks.mutation workbench/run/timeline.py workbench/run/session.py --mutants
+    50 python -m tests.benchmarks.mutation workbench --again FILE        # what survived, by FILE
+    python -m tests.benchmarks.mutation --named "framing.module: number: 0.01"
+
+A mutant is a module with one change (`mutants`). It is killed when its own tests fail, or take far
+longer than before. Of these, the tests run that come to the changed line, shortest first, up to a
+bound of time; where none does (code of child processes), the shortest of all. The project is
+copied, so that child processes meet the mutant too and nobody's files change. Each mutant runs in
+a fork of a process that has imported numpy, scipy and pytest. `equivalent.txt` names, with
+reasons, the mutants that nobody could tell from the original; these do not count.
+"""
+
+import argparse
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import traceback
+from collections import Counter
+from dataclasses import asdict
+from pathlib import Path
+from typing import NoReturn
+
+from workbench.machinery.threads import ONE_EACH
+
+os.environ |= ONE_EACH  # before numpy is imported; forks inherit it
+
+import pytest
+
+from tests.benchmarks.mutants import ROOT, Mutant, mutants, own_tests, parses
+
+EQUIVALENT = Path(__file__).with_name("equivalent.txt")
+IMPORTED = (
+    "numpy",
+    "scipy.spatial",
+    "scipy.sparse",
+    "scipy.sparse.linalg",
+    "scipy.optimize",
+    "scipy.stats",
+    "scipy.ndimage",
+    "hypothesis",
+    "beartype",
+    "jaxtyping",
+)
+TESTED_FOR = 60.0
+"""Seconds that the tests of one mutant took without the change, at most: the shortest are taken."""
+BASELINE_FOR = 900.0
+"""Seconds until a file of tests is given up."""
+
+
+def main() -> int:
+    """Draw mutants, test them, print what survived and the rates."""
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.mutation")
+    parser.add_argument(
+        "paths", nargs="*", type=Path, help="modules or folders of them, one sample for all of them"
+    )
+    parser.add_argument("--mutants", type=int, default=100, help="how many are drawn")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument(
+        "--again", type=Path, metavar="FILE", help="test what survived in that file of results"
+    )
+    parser.add_argument("--named", nargs="+", metavar="NAME", help="test all whose name begins so")
+    parser.add_argument(
+        "--write",
+        type=Path,
+        metavar="FILE",
+        help="a line of JSON per mutant; what it has is not redone",
+    )
+    given = parser.parse_args()
+    drawn = _drawn(given)
+    known = _read(given.write)
+    results = {one.name: known[one.name] for one in drawn if one.name in known}
+    with tempfile.TemporaryDirectory(prefix="mutation-") as name:
+        house = House(Path(name))
+        for mutant in drawn:
+            if mutant.name not in results:
+                results[mutant.name] = house.tested(mutant)
+                print(
+                    results[mutant.name]["fate"],
+                    mutant.module,
+                    mutant.line,
+                    mutant.name,
+                    flush=True,
+                )
+                if given.write:
+                    with given.write.open("a", encoding="utf-8") as file:
+                        file.write(json.dumps(results[mutant.name], ensure_ascii=False) + "\n")
+    print(report(results))
+    return 0
+
+
+def _drawn(given: argparse.Namespace) -> list[Mutant]:
+    files = [file for path in given.paths or [Path("workbench")] for file in _modules(ROOT / path)]
+    everything = [
+        mutant
+        for file in sorted(files, key=lambda file: (file.stem, file))
+        for mutant in mutants(file)
+    ]
+    if given.named:
+        return [
+            one for one in everything if one.name.startswith(tuple(given.named)) and parses(one)
+        ]
+    if given.again:
+        survivors = {
+            name for name, result in _read(given.again).items() if result["fate"] == "survived"
+        }
+        return [one for one in everything if one.name in survivors and parses(one)]
+    random.Random(given.seed).shuffle(everything)
+    taken = dict[str, Mutant]()
+    for mutant in everything:
+        if len(taken) == given.mutants:
+            break
+        if parses(mutant):
+            taken.setdefault(mutant.name, mutant)
+    return sorted(taken.values())
+
+
+def _modules(path: Path) -> list[Path]:
+    return (
+        [path]
+        if path.is_file()
+        else [file for file in path.rglob("*.py") if file.name != "__init__.py"]
+    )
+
+
+def _read(path: Path | None) -> dict[str, dict]:
+    if path is None or not path.exists():
+        return {}
+    return {
+        one["name"]: one for one in map(json.loads, path.read_text(encoding="utf-8").splitlines())
+    }
+
+
+def equivalents() -> set[str]:
+    """Return the names of the mutants that are equivalent."""
+    if not EQUIVALENT.exists():
+        return set()
+    lines = EQUIVALENT.read_text(encoding="utf-8").splitlines()
+    return {line for line in lines if line and not line.startswith("#")}
+
+
+def report(results: dict[str, dict]) -> str:
+    """Return how many died, by operator, and which survived."""
+    same = equivalents()
+    counted = {name: one for name, one in results.items() if name not in same}
+    survived = [one for one in counted.values() if one["fate"] == "survived"]
+    operators, ends = (
+        Counter(one["operator"] for one in counted.values()),
+        Counter(one["operator"] for one in survived),
+    )
+    killed = len(counted) - len(survived)
+    lines = [f"{killed} of {len(counted)} killed ({100 * killed / max(len(counted), 1):.0f} %)"]
+    lines += [f"{len(results) - len(counted)} equivalent, not counted"]
+    lines += [
+        f"  {operator}: {count - ends[operator]} of {count}"
+        for operator, count in sorted(operators.items())
+    ]
+    return "\n".join(
+        [
+            *lines,
+            "survived:",
+            *(f"  {one['module']}:{one['line']} {one['name']}" for one in survived),
+        ]
+    )
+
+
+# running tests ------------------------------------------------------------------------------------
+
+
+class House:
+    """A copy of the project in which modules are changed and tests run."""
+
+    def __init__(self, folder: Path) -> None:
+        self.root = folder / "project"
+        listed = subprocess.run(
+            ["git", "ls-files", "-co", "--exclude-standard"],
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+        )
+        for name in listed.stdout.splitlines():
+            if (ROOT / name).is_file():
+                (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(ROOT / name, self.root / name)
+        if (ROOT.parent / "shared").exists():
+            (folder / "shared").symlink_to(ROOT.parent / "shared")
+        os.environ |= {
+            "PYTHONPATH": str(self.root),
+            "HYPOTHESIS_STORAGE_DIRECTORY": str(folder / "examples"),
+        }
+        for name in IMPORTED:
+            __import__(name)
+        self.folder, self.runs, self.known = folder, 0, dict[str, list[dict]]()
+
+    def tested(self, mutant: Mutant) -> dict:
+        """Return a mutant's fate: killed, survived, or too long."""
+        changed = set(range(mutant.line, mutant.last + 1))
+        tests, wanted = list[dict](), list[dict]()
+        for files in own_tests(ROOT / mutant.module):
+            if not wanted:
+                tests += [one for file in files for one in self.baseline(file)]
+                wanted = [
+                    one for one in tests if changed & set(one["lines"].get(mutant.module, []))
+                ]
+        covered = bool(wanted)
+        chosen, seconds = [], 0.0
+        for one in sorted(wanted or tests, key=lambda one: one["seconds"]):
+            if seconds + one["seconds"] <= TESTED_FOR or not chosen:
+                chosen.append(one["test"])
+                seconds += one["seconds"]
+        began, path = time.monotonic(), self.root / mutant.module
+        was = path.stat()
+        before = path.read_bytes()
+        path.write_text(mutant.source(), encoding="utf-8")
+        self.runs += 1
+        os.utime(path, (was.st_atime, was.st_mtime + 10 * self.runs))  # no older bytecode fits
+        try:
+            end = self.run(chosen, 20 + 5 * seconds) if chosen else 0
+        finally:
+            path.write_bytes(before)
+            os.utime(path, (was.st_atime, was.st_mtime))
+            for file in path.parent.glob(f"__pycache__/{path.stem}.*"):
+                file.unlink(missing_ok=True)
+        return asdict(mutant) | {
+            "name": mutant.name,
+            "fate": "survived" if end == 0 else "too long" if end is None else "killed",
+            "covered": covered,
+            "tests": len(chosen),
+            "took": round(time.monotonic() - began, 1),
+        }
+
+    def baseline(self, file: str) -> list[dict]:
+        """Return the tests of a file that pass, with their seconds and our lines they come to."""
+        if file not in self.known:
+            lines = self.folder / f"{len(self.known)}.json"
+            self.run([file], BASELINE_FOR, Lines(self.root, lines))
+            found = json.loads(lines.read_text()) if lines.exists() else []
+            self.known[file] = [one for one in found if one["passed"]]
+            if not found:
+                print((self.folder / "said.txt").read_text()[-2000:], flush=True)
+            print(f"# {file}: {len(self.known[file])} of {len(found)} tests pass", flush=True)
+        return self.known[file]
+
+    def run(self, tests: list[str], seconds: float, *plugins: object) -> int | None:
+        """Run tests in a fork; return pytest's exit code, or None where they took too long."""
+        sys.stdout.flush()
+        child = os.fork()
+        if child == 0:
+            self._child(tests, plugins)
+        until = time.monotonic() + seconds
+        while time.monotonic() < until:
+            ended, status = os.waitpid(child, os.WNOHANG)
+            if ended:
+                return os.waitstatus_to_exitcode(status)
+            time.sleep(0.02)
+        os.killpg(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        return None
+
+    def _child(self, tests: list[str], plugins: tuple[object, ...]) -> NoReturn:
+        code = 3
+        try:
+            os.setsid()
+            os.chdir(self.root)
+            sys.path[:0] = [str(self.root)]
+            for name in [
+                name
+                for name in sys.modules
+                if name.split(".")[0] in {"tests", "workbench", "lessons"}
+            ]:
+                del sys.modules[name]
+            nothing = os.open(self.folder / "said.txt", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+            os.dup2(nothing, 1)
+            os.dup2(nothing, 2)
+            options = [
+                "-q",
+                "-n0",
+                "-W",
+                "ignore::pytest.PytestAssertRewriteWarning",
+                "-p",
+                "no:cacheprovider",
+                "--hypothesis-seed=0",
+                *([] if plugins else ["-x"]),
+            ]
+            code = int(pytest.main([*options, *tests], plugins=list(plugins)))
+        except BaseException:
+            traceback.print_exc()
+        finally:
+            sys.stderr.flush()
+            os._exit(code)
+
+
+class Lines:
+    """A plugin that notes to which lines of ours each test comes."""
+
+    def __init__(self, root: Path, file: Path) -> None:
+        self.root, self.file, self.tests = f"{root}/workbench/", file, dict[str, dict]()
+        self.common, self.at = dict[str, set[int]](), dict[str, set[int]]()
+        self.skip = len(str(root)) + 1
+
+    def pytest_configure(self) -> None:
+        self.at = self.common
+        self._listen()
+
+    def _listen(self) -> None:
+        sys.settrace(self._called)
+        threading.settrace(self._called)
+
+    def _called(self, frame, event, arg):
+        name = frame.f_code.co_filename
+        if not name.startswith(self.root):
+            return None
+        seen = self.at.setdefault(name[self.skip :], set())
+        seen.add(frame.f_lineno)
+
+        def of_line(frame, event, arg):
+            if event == "line":
+                seen.add(frame.f_lineno)
+            return of_line
+
+        return of_line
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_protocol(self, item, nextitem):
+        self.at = {}
+        self._listen()  # hypothesis takes the tracer away
+        began = time.monotonic()
+        self.tests[item.nodeid] = {"test": item.nodeid, "passed": True}
+        result = yield
+        self.tests[item.nodeid] |= {"seconds": time.monotonic() - began, "lines": self.at}
+        self.at = self.common
+        return result
+
+    def pytest_runtest_logreport(self, report) -> None:
+        if not report.passed:
+            self.tests[report.nodeid]["passed"] = False
+
+    def pytest_sessionfinish(self) -> None:
+        sys.settrace(None)
+        for one in self.tests.values():
+            lines = one.get("lines", {})
+            one["lines"] = {
+                name: sorted(lines.get(name, set()) | self.common.get(name, set()))
+                for name in lines | self.common
+            }
+        self.file.write_text(json.dumps(list(self.tests.values())))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

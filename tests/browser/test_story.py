@@ -1,0 +1,159 @@
+"""The story in a real browser: what is read stands on the stage, and the hand can take it."""
+
+import pytest
+
+from tests.browser.homes import barriers
+from tests.browser.story_walks import HELPERS, rests, walk
+
+pytestmark = pytest.mark.browser
+STANDS = (
+    "page.run?.finished && storyStage.arrived === null && storyStage.is(page.run, storyStage.place)"
+)
+
+
+@pytest.fixture
+def told(visit):
+    """told(hash, **how): the story of pairs, open in a window, with its first picture."""
+
+    def opened(place: str = "", **how):
+        me = visit(f"?lesson=pairs{place}", **how)
+        me.page.wait_for_function(STANDS)
+        me.page.evaluate(HELPERS)
+        return me
+
+    return opened
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_stage_and_words_are_never_apart(told, seed):
+    walk(told().page, seed, acts=14)
+
+
+def test_an_address_opens_its_scene_and_back_goes_back(told):
+    page = told("#mirror").page
+    rests(page, "at the mirror")
+    assert page.evaluate("story.scene.id") == "mirror"
+    page.keyboard.press("]")
+    page.wait_for_function("story.scene.id === 'scale' && location.hash === '#scale'")
+    page.go_back()
+    page.wait_for_function("story.scene.id === 'mirror'")
+    rests(page, "back at the mirror")
+
+
+def test_an_address_with_a_param_opens_the_workbench_and_w_the_story(visit):
+    me = visit("?lesson=pairs&preset=mirrored&step=2")
+    me.page.wait_for_function("page.run && page.k === 2")
+    assert me.page.evaluate("page.face") == "bench"
+    assert me.page.locator("#article").is_visible()
+    me.page.keyboard.press("w")
+    me.page.wait_for_function("page.face === 'story'")
+    assert me.page.evaluate("[page.run.name, page.k, story.hand, story.scene.id]") == [
+        "mirrored",
+        2,
+        True,
+        "mirror",
+    ]
+    assert me.page.locator("#back").is_visible()
+
+
+def test_the_workbench_opens_on_the_same_run_and_step_without_a_reload(told):
+    page = told().page
+    page.evaluate("window.same = true")
+    page.keyboard.press("n")
+    rests(page, "a step on")
+    run, k = page.evaluate("[page.run.id, page.k]")
+    page.keyboard.press("w")
+    page.wait_for_function("page.face === 'bench' && location.search.includes('step=')")
+    assert page.evaluate("[page.run.id, page.k, window.same]") == [run, k, True]
+    page.keyboard.press("n")
+    page.wait_for_function(f"page.k === {k + 1}")
+    page.go_back()
+    page.wait_for_function("page.face === 'story'")
+
+
+def test_a_number_is_a_slider_whose_step_is_seen(told):
+    page = told().page
+    number = page.locator("#story .num").first
+    before = number.inner_text()
+    number.focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("story.hand && page.k === 41")
+    assert number.get_attribute("aria-valuetext") == number.inner_text() != before
+    page.keyboard.press("End")
+    page.wait_for_function("page.k === page.known() - 1")
+    page.keyboard.press("b")
+    page.wait_for_function("!story.hand && page.k === 40")
+
+
+def test_a_dragged_number_shows_its_step_at_once(told):
+    page = told().page
+    box = page.locator("#story .num").first.bounding_box()
+    page.mouse.move(box["x"] + 20, box["y"] + 10)
+    page.mouse.down()
+    for k in range(1, 31):
+        page.mouse.move(box["x"] + 20 + 3 * k, box["y"] + 10)
+    page.mouse.up()
+    page.wait_for_function("page.k === 70")
+    seen = page.evaluate("storyChart.seen.get(storyStage.place.chart)")
+    assert len(seen) == 1  # a quick hand leaves no holes in what has been visited
+    assert page.locator("#story-chart path.whole").count() == 1
+
+
+def test_the_chart_is_dragged_as_the_number_is(told):
+    page = told().page
+    box = page.locator("#story-chart").bounding_box()
+    page.mouse.move(box["x"] + 100, box["y"] + 60)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] - 16, box["y"] + 60)
+    page.mouse.up()
+    page.wait_for_function("story.hand && page.k >= page.known() - 2")
+
+
+def test_a_question_is_asked_played_and_answered_and_stays_so(told):
+    page = told().page
+    form = page.locator("#story .ask").first
+    later = page.locator("#story .scene").first.locator(".later").first
+    assert not later.is_visible()
+    assert form.locator(".go").is_disabled()
+    form.locator("input").last.check()
+    form.locator(".go").click()
+    form.locator(".reply:not(:empty)").wait_for()
+    assert form.locator("label.right").count() == 1
+    assert later.is_visible()
+    said = form.locator(".reply").inner_text()
+    page.reload()
+    page.wait_for_function(STANDS)
+    assert form.locator(".reply").inner_text() == said
+    assert later.is_visible()
+
+
+def test_a_pick_says_on_the_stage_what_it_is_and_b_gives_it_back(told):
+    page = told("#mirror").page
+    page.locator("#mirror .pick").first.click()
+    page.wait_for_function("story.hand && $('#plate b').textContent")
+    assert (
+        page.locator("#plate b")
+        .inner_text()
+        .startswith(page.locator("#mirror .what-if h3").first.inner_text())
+    )
+    assert page.locator("#mirror .pick[aria-pressed=true]").count() == 1
+    page.keyboard.press("b")
+    page.wait_for_function("!story.hand && !$('#plate b').textContent")
+    assert page.locator("#mirror .pick[aria-pressed=true]").count() == 0
+
+
+def test_nothing_is_wider_than_a_phone_and_the_stage_stays_in_view(told):
+    page = told(width=390, height=844).page
+    for _ in range(page.evaluate("story.scenes.length")):
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        stage = page.locator("#side").bounding_box()
+        assert (stage["y"], round(stage["height"])) == (0, round(0.52 * 844))
+        page.keyboard.press("]")
+        rests(page, "on a phone")
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_nobody_is_kept_out(told, dark):
+    me = told()
+    me.page.evaluate("dark => page.theme(dark)", dark)
+    assert barriers(me.page.main_frame) == []

@@ -1,9 +1,0 @@
-"""Which sentences would tell the answers of the questions in the alignment lesson, as patterns; case does not matter."""
-
-GIVEAWAYS = {
-    "predict-rotations": (r"\b(8|eight) rotations", r"after (8|eight)\b", r"Rotation 8"),
-    "predict-frames": (r"\b(4|four) (right-handed )?frames", r"(4|four) of (the )?(8|eight)"),
-    "predict-signs": (r"\b(a quarter|one in four)\b", r"no better than chance", r"2\d % come home", r"of four frames"),
-    "predict-negated": (r"0\.7\d m",),
-    "predict-product": (r"product (is|of)[^.]*0\.9", r"there and back[^.]*(less|below)"),
-}

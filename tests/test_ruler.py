@@ -1,0 +1,67 @@
+"""The ruler: what is to become less, counted in the source. A ceiling may only fall."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDERS = ("workbench", "lessons", "tests")
+MOST_LINES = 400
+MOST_POSITIONAL = 3
+
+
+def unlike(node: ast.AST) -> bool:
+    """Whether a statement gives several names values of several expressions: `a, b = f(), g()`."""
+    if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Tuple):
+        return False
+    return any(isinstance(target, ast.Tuple) for target in node.targets)
+
+
+def nested(node: ast.AST) -> bool:
+    """Whether an inline `if` holds another one."""
+    inner = ast.walk(node) if isinstance(node, ast.IfExp) else ()
+    return any(isinstance(part, ast.IfExp) and part is not node for part in inner)
+
+
+def many_positional(node: ast.AST) -> bool:
+    """Whether a function takes more than three arguments by position, `self` aside."""
+    if not isinstance(node, ast.FunctionDef):
+        return False
+    names = [argument.arg for argument in (*node.args.posonlyargs, *node.args.args)]
+    return len([name for name in names if name not in ("self", "cls")]) > MOST_POSITIONAL
+
+
+def counted(folder: str) -> dict[str, int]:
+    """How often each of them stands in a folder, and how many files are too long."""
+    rules = {"unlike": unlike, "nested": nested, "positional": many_positional}
+    found = dict.fromkeys((*rules, "long files"), 0)
+    for path in (ROOT / folder).rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        found["long files"] += text.count("\n") > MOST_LINES
+        for node in ast.walk(ast.parse(text)):
+            for name, rule in rules.items():
+                found[name] += rule(node)
+    return found
+
+
+CEILINGS: dict[str, dict[str, int]] = {
+    "workbench": {"unlike": 704, "nested": 25, "positional": 125, "long files": 4},
+    "lessons": {"unlike": 830, "nested": 43, "positional": 231, "long files": 8},
+    "tests": {"unlike": 1152, "nested": 22, "positional": 374, "long files": 23},
+}
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_what_the_ruler_counts_only_falls(folder):
+    over = {name: n for name, n in counted(folder).items() if n > CEILINGS[folder][name]}
+    assert over == {}, "more than before: the ceiling falls, and is never raised"
+
+
+def test_the_ruler_sees_what_it_counts():
+    assert unlike(ast.parse("a, b = f(), g()").body[0])
+    assert not unlike(ast.parse("a, b = f()").body[0])
+    assert nested(ast.parse("a if b else c if d else e", mode="eval").body)
+    assert not nested(ast.parse("a if b else c", mode="eval").body)
+    assert many_positional(ast.parse("def f(a, b, c, d): ...").body[0])
+    assert not many_positional(ast.parse("def f(self, a, b, c, *, d): ...").body[0])

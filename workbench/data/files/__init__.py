@@ -1,0 +1,48 @@
+"""Readers of people's files: each is read or refused in one clear line.
+
+- `reading`: clouds, meshes, images and known poses.
+- `formats`: points of ply, pcd, obj and text files.
+- `arrays`: npy and npz files; nothing in them is run or unpacks without bound.
+- `intrinsics`, `matches`, `edge_lists`: numbers in text files.
+- `rims`: the rim of something bright and round, found from a pixel inside.
+"""
+
+from workbench.data.files.reading import (
+    IMAGES,
+    MOST_OF_POSES,
+    NO_VERTEX,
+    finite,
+    lost_rows,
+    number_rows,
+    opened_image,
+    read_cloud,
+    read_image,
+    read_mesh,
+    read_pose,
+    read_voxels,
+    shipped,
+    shipped_image,
+    stamp,
+    text_rows,
+    word_rows,
+)
+
+__all__ = [
+    "IMAGES",
+    "MOST_OF_POSES",
+    "NO_VERTEX",
+    "finite",
+    "lost_rows",
+    "number_rows",
+    "opened_image",
+    "read_cloud",
+    "read_image",
+    "read_mesh",
+    "read_pose",
+    "read_voxels",
+    "shipped",
+    "shipped_image",
+    "stamp",
+    "text_rows",
+    "word_rows",
+]

@@ -1,0 +1,171 @@
+"""Rectified pairs: made ones with known disparities, the Middlebury motorcycle, people's."""
+
+import functools
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool, Float, Int, UInt8
+
+from workbench.data.files import read_image, shipped, shipped_image
+from workbench.data.files.arrays import read_arrays
+from workbench.data.views.stereo_scenes import SCENES, look, rays
+from workbench.errors import InputError
+from workbench.geometry.cameras.stereo import StereoCamera
+
+MOST_PIXELS = 16_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class StereoPair:
+    """Two RGB pictures of which rows correspond, and what is known of them.
+
+    Attributes:
+        disparity: The true one of left pixels, NaN where unknown; None without truth.
+        visible: Which left pixels the right camera sees too; None where it is not known.
+    """
+
+    left: UInt8[np.ndarray, "h w 3"]
+    right: UInt8[np.ndarray, "h w 3"]
+    camera: StereoCamera
+    disparity: Float[np.ndarray, "h w"] | None = None
+    visible: Bool[np.ndarray, "h w"] | None = None
+
+
+def grey(picture: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w"]:
+    """Return the brightness of an RGB picture, 0 .. 255 (weights of ITU-R BT.601)."""
+    return picture @ np.array([0.299, 0.587, 0.114])
+
+
+def synthetic_pair(
+    scene: str,
+    camera: StereoCamera,
+    size: tuple[int, int],
+    *,
+    noise: float,
+    rng: np.random.Generator,
+) -> StereoPair:
+    """Take two pictures of a scene in `SCENES`, with exact disparities.
+
+    Each picture has its own noise, in grey levels of 255. A left pixel is visible in the right
+    picture when its point lies inside that and nothing stands nearer on the way to it.
+    """
+    things = SCENES[scene](rng, 1.0 / camera.f)
+    w, h = size
+    u, v = np.meshgrid(np.arange(w, dtype=float), np.arange(h, dtype=float))
+    p_right = np.array([camera.baseline, 0.0, 0.0])
+    depth, left = look(things, np.zeros(3), rays(u, v, camera.f, camera.cx, camera.cy))
+    _, right = look(things, p_right, rays(u, v, camera.f, camera.cx + camera.doffs, camera.cy))
+    d = camera.f * camera.baseline / depth  # without doffs
+    behind, _ = look(things, p_right, rays(u - d, v, camera.f, camera.cx, camera.cy))
+    partner = u - (d - camera.doffs)
+    visible = (
+        (partner >= 0)
+        & (partner <= w - 1)
+        & ((behind >= depth * (1 - 1e-9)) | np.isinf(depth) & np.isinf(behind))
+    )
+    left, right = (
+        _exposed(picture + rng.normal(0.0, noise, picture.shape)) for picture in (left, right)
+    )
+    return StereoPair(left, right, camera, d - camera.doffs, visible)
+
+
+@functools.lru_cache(maxsize=1)
+def motorcycle_pair() -> StereoPair:
+    """Return the Middlebury 2014 motorcycle of scikit-image, 741 x 500 pixels, true to 0.1 px.
+
+    Reference: Scharstein et al., High-resolution stereo datasets with subpixel-accurate ground
+    truth, GCPR 2014.
+    """
+    left, right = (shipped_image(f"motorcycle_{side}.png") for side in ("left", "right"))
+    disparity = read_arrays(shipped("motorcycle_disp.npz").read_bytes(), "motorcycle_disp.npz")[
+        "arr_0"
+    ]
+    camera = StereoCamera(f=994.978, cx=311.193, cy=254.877, baseline=0.193001, doffs=31.086)
+    d = np.where(np.isfinite(disparity), disparity, np.nan).astype(float)
+    return StereoPair(left, right, camera, d, in_both(d))
+
+
+def read_pair(left: Path, right: Path, f: float, baseline: float, doffs: float = 0.0) -> StereoPair:
+    """Return a rectified pair from two image files; grey ones become RGB.
+
+    Args:
+        f: Focal length, pixels of these files.
+        baseline: Metres.
+        doffs: cx_right - cx_left, pixels; the left principal point is taken to be in the middle.
+
+    Raises:
+        InputError: If a file is missing, no image, too large, or the two differ in size.
+    """
+    one, two = _rgb(left), _rgb(right)
+    if one.shape != two.shape:
+        raise InputError(
+            f"the two pictures of a rectified pair have the same size: {Path(left).name} is"
+            f" {one.shape[1]} x {one.shape[0]} pixels, {Path(right).name} {two.shape[1]} x"
+            f" {two.shape[0]}"
+        )
+    h, w = one.shape[:2]
+    return StereoPair(one, two, StereoCamera(f, (w - 1) / 2, (h - 1) / 2, baseline, doffs))
+
+
+def shrunk(pair: StereoPair, k: int) -> StereoPair:
+    """Return the pair with every block of k x k pixels averaged; f, doffs and disparities too.
+
+    What is left over at the right and lower border is cut off. A block's true disparity is that of
+    the pixel in its middle: the mean over an edge would be the depth of nothing.
+
+    Raises:
+        InputError: If the pictures are smaller than one block.
+    """
+    h, w = (side // k for side in pair.left.shape[:2])
+    if min(h, w) < 1:
+        raise InputError(
+            f"pictures of {pair.left.shape[1]} x {pair.left.shape[0]} pixels cannot shrink {k}"
+            " times"
+        )
+    left, right = (
+        np.rint(
+            picture[: h * k, : w * k].reshape(h, k, w, k, 3).mean(axis=(1, 3), dtype=np.float32)
+        ).astype(np.uint8)
+        for picture in (pair.left, pair.right)
+    )
+    middle = (slice(k // 2, h * k, k), slice(k // 2, w * k, k))
+    return replace(
+        pair,
+        left=left,
+        right=right,
+        camera=pair.camera.shrunk(k),
+        disparity=None if pair.disparity is None else pair.disparity[middle] / k,
+        visible=None if pair.visible is None else pair.visible[middle],
+    )
+
+
+def in_both(disparity: Float[np.ndarray, "h w"], tolerance: float = 1.0) -> Bool[np.ndarray, "h w"]:
+    """Say which left pixels both cameras see, judged from the true left disparities alone.
+
+    Of all left pixels that land on one right pixel, those within `tolerance` pixels of the largest
+    disparity are seen; none that land outside, and none that are unknown.
+    """
+    h, w = disparity.shape
+    known = np.isfinite(disparity)
+    partner = np.rint(np.arange(w) - np.where(known, disparity, 0)).astype(np.int64)
+    inside = known & (partner >= 0) & (partner < w)
+    cell: Int[np.ndarray, "h w"] = np.arange(h)[:, None] * w + np.clip(partner, 0, w - 1)
+    nearest = np.full(h * w, -np.inf)
+    np.maximum.at(nearest, cell[inside], disparity[inside])
+    return inside & (np.where(known, disparity, -np.inf) >= nearest[cell] - tolerance)
+
+
+def _rgb(path: Path) -> UInt8[np.ndarray, "h w 3"]:
+    picture = read_image(path)
+    h, w = picture.shape[:2]
+    if h * w > MOST_PIXELS:
+        raise InputError(
+            f"{Path(path).name}: {w} x {h} pixels; a pair may have at most {MOST_PIXELS:,} each:"
+            " make it smaller first"
+        )
+    return picture if picture.ndim == 3 else np.repeat(picture[:, :, None], 3, axis=2)
+
+
+def _exposed(picture: Float[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
+    return np.rint(np.clip(picture, 0, 255)).astype(np.uint8)

@@ -1,0 +1,7 @@
+"""Clouds of points: normals, samples, and how far two of them are apart.
+
+- `normals`: normals by the least spread of each point's neighbours.
+- `sampling`: points and lines drawn by chance, volumes by hits, areas by crossings.
+- `shape_distances`: distances between two clouds by nearest points.
+- `metrics`: distances between points, the scatter for Mahalanobis, rms.
+"""

@@ -1,0 +1,118 @@
+"""Normals of a point cloud: the direction of least spread of each point's neighbours.
+
+Reference: Hoppe, DeRose, Duchamp, McDonald and Stuetzle, Surface reconstruction from unorganized
+points, 1992, section 3.2.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+import scipy
+from jaxtyping import Bool, Float
+
+CHUNK = 4096
+LINE = 0.2
+
+
+def point_normals(
+    p: Float[np.ndarray, "n 3"],
+    k: int = 16,
+    viewpoint: Float[np.ndarray, "3"] | None = None,
+    *,
+    spread: bool = False,
+) -> Float[np.ndarray, "n 3"]:
+    """Return one unit normal per point, by principal components of its k nearest, itself included.
+
+    Normals face the viewpoint, or away from the mean. With `spread` those of points whose
+    neighbours lie along a line (`on_a_line`) are 0, unless all are. Hoppe et al. 1992, 3.2.
+
+    Raises:
+        ValueError: If there are fewer than 3 points, k is below 3, or a coordinate is not finite.
+    """
+    if len(p) < 3 or k < 3:
+        raise ValueError(f"normals need at least 3 points and 3 neighbours, not {len(p)} and {k}")
+    if not np.isfinite(p).all():
+        raise ValueError("a point is not finite; drop such points first")
+    normals, line = np.empty_like(p, dtype=float), np.zeros(len(p), bool)
+    for rows, covariances in _neighbourhoods(p, k):
+        normals[rows] = _least_directions(covariances)
+        if spread:
+            line[rows] = on_a_line(covariances)
+    outwards = p - p.mean(axis=0) if viewpoint is None else viewpoint - p
+    normals = np.where(np.einsum("ij,ij->i", normals, outwards)[:, None] < 0, -normals, normals)
+    return normals * (line if line.all() else ~line)[:, None] if spread else normals
+
+
+def on_a_line(covariances: Float[np.ndarray, "6 n"]) -> Bool[np.ndarray, "n"]:
+    """Return of neighbourhoods whether their points lie along a line: a normal means nothing then.
+
+    The second variance is at most a fifth of the largest then, as on one ring of a lidar scan. Rows
+    are xx, yy, zz, xy, xz, yz, up to a factor.
+    """
+    xx, yy, zz, xy, xz, yz = covariances
+    variances = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).T)
+    return variances[:, 1] <= LINE * variances[:, 2]
+
+
+def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
+    """Return lambda_0 / (lambda_0 + lambda_1 + lambda_2) of the covariance: 0 flat, at most 1/3.
+
+    Reference: Pauly, Gross and Kobbelt, Efficient simplification of point-sampled surfaces, 2002,
+    4.
+    """
+    values = np.linalg.eigvalsh(np.cov(p.T))
+    return float(values[0] / values.sum()) if values.sum() > 0 else 0.0
+
+
+def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield rows of p and the covariances of their k nearest points, in chunks for the cache."""
+    tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
+    k = min(k, len(p))
+    # In tree order, so that consecutive queries touch the same leaves
+    for start in range(0, len(p), CHUNK):
+        rows = tree.indices[start : start + CHUNK]
+        neighbours = np.asarray(tree.query(p[rows], k=k, workers=-1)[1])
+        yield rows, _covariances(p, rows, neighbours)
+
+
+def _covariances(p: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
+    """Return xx, yy, zz, xy, xz, yz of each neighbourhood, about the point itself first."""
+    x, y, z = (p[neighbours] - p[rows][:, None]).transpose(2, 0, 1)
+    x, y, z = (v - v.mean(1, keepdims=True) for v in (x, y, z))
+    pairs = ((x, x), (y, y), (z, z), (x, y), (x, z), (y, z))
+    return np.stack([np.einsum("ij,ij->i", a, b) for a, b in pairs])
+
+
+def _least_directions(c: np.ndarray) -> np.ndarray:
+    """Return the eigenvectors of least eigenvalue of symmetric 3x3 matrices, six entries each.
+
+    By the smallest root of the characteristic polynomial and the longest cross product of two rows
+    of C - root I. Where that is short (two small eigenvalues nearly equal), `eigh` decides.
+    """
+    size = np.maximum(c[:3].sum(axis=0), np.finfo(float).tiny)
+    a, b, d, e, f, g = c / size
+    third = (a + b + d) / 3.0
+    a, b, d = a - third, b - third, d - third
+    radius = np.sqrt(
+        np.maximum((a * a + b * b + d * d + 2.0 * (e * e + f * f + g * g)) / 6.0, 1e-60)
+    )
+    half_det = (a * (b * d - g * g) - e * (e * d - f * g) + f * (e * g - b * f)) / (2.0 * radius**3)
+    root = 2.0 * radius * np.cos(np.arccos(np.clip(half_det, -1.0, 1.0)) / 3.0 + 2.0 * np.pi / 3.0)
+    a, b, d = a - root, b - root, d - root
+    products = np.stack(  # rows (a e f), (e b g), (f g d) crossed in pairs
+        [
+            np.stack([e * g - f * b, f * e - a * g, a * b - e * e]),
+            np.stack([e * d - f * g, f * f - a * d, a * g - e * f]),
+            np.stack([b * d - g * g, g * f - e * d, e * g - b * f]),
+        ]
+    )
+    lengths = np.einsum("ijk,ijk->ik", products, products)
+    best = lengths.argmax(axis=0)
+    columns = np.arange(c.shape[1])
+    longest = np.sqrt(lengths[best, columns])
+    vectors = (products[best, :, columns].T / np.maximum(longest, 1e-300)).T
+    unsure = longest < 1e-5
+    if unsure.any():
+        matrices = c[:, unsure][[0, 3, 4, 3, 1, 5, 4, 5, 2]].T.reshape(-1, 3, 3)
+        vectors[unsure] = np.linalg.eigh(matrices)[1][:, :, 0]
+    return vectors

@@ -1,0 +1,3 @@
+"""The version of this workbench."""
+
+__version__ = "0.1.0"

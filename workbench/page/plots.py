@@ -1,0 +1,135 @@
+"""The large chart of a story as plain data: a whole curve, marks that move, second curves,
+bands; its axes laid out.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, replace
+from typing import Any
+
+import numpy as np
+
+from workbench.page.charts import number as digits
+from workbench.page.charts import slug
+from workbench.scene import Chart, Curve
+from workbench.words.axis import Axis, axis, number, ticks, value_axis
+
+HEADROOM = 0.12
+"""How much room stays above what a chart shows from near, as a share of its height: a second
+curve is seen to rise.
+"""
+TICKS = 5
+"""At most so many ticks stand at the y axis."""
+DEGREES = (15.0, 30.0, 45.0, 60.0, 90.0, 180.0)
+"""Steps between the ticks of angles, where those of ten would look odd."""
+
+
+def plot_of(parts: Sequence[Curve], keep: Callable[[dict[str, Any]], int]) -> dict[str, Any]:
+    """Return the large chart of a step.
+
+    Args:
+        parts: What `draw` made with the verbs of one Chart.
+        keep: Keeps a curve that may come again with another step, and returns its number.
+    """
+    chart = parts[0].plot
+    assert chart is not None, "the verbs of a Chart name it"
+    by_part: dict[str, list[Curve]] = {part: [] for part in ("whole", "second", "mark", "band")}
+    for curve in parts:
+        by_part[curve.part].append(curve)
+    label = (
+        f"{chart.title} ({'°' if chart.unit == 'deg' else chart.unit})"
+        if chart.unit
+        else chart.title
+    )
+    return {
+        "kind": "plot",
+        "name": slug(chart.title),
+        "title": chart.title,
+        "x_label": chart.x_label,
+        "y_label": label,
+        "unit": chart.unit,
+        "x": asdict(x_axis(chart, parts, chart.x_range)),
+        "y": asdict(y_axis(chart, by_part, None)),
+        "near": None if chart.near is None else _near(chart, parts, by_part),
+        "whole": [keep(_line(curve)) for curve in by_part["whole"]],
+        "seconds": [keep(_line(curve)) for curve in by_part["second"]],
+        "marks": [_mark(curve) for curve in by_part["mark"]],
+        "bands": [
+            {
+                "name": one.name,
+                "color": one.color,
+                "low": digits(one.x[0]),
+                "high": digits(one.x[1]),
+            }
+            for one in by_part["band"]
+        ],
+    }
+
+
+def _near(chart: Chart, parts: Sequence[Curve], by_part: dict[str, list[Curve]]) -> dict[str, Any]:
+    return {
+        "x": asdict(x_axis(chart, parts, chart.near)),
+        "y": asdict(y_axis(chart, by_part, chart.near)),
+    }
+
+
+def x_axis(chart: Chart, parts: Sequence[Curve], ends: tuple[float, float] | None) -> Axis:
+    """Return the x axis between two ends, or around all that is drawn; its words have the unit
+    behind them.
+    """
+    if ends is None:
+        x = np.concatenate([curve.x for curve in parts])
+        ends = float(x.min()), float(x.max())
+    found = axis(*ends)
+    if chart.x_unit in ("deg", "°"):
+        return _of_degrees(found)
+    unit = f" {chart.x_unit}" if chart.x_unit else ""
+    return replace(found, words=tuple(f"{word}{unit}" for word in found.words))
+
+
+def _of_degrees(found: Axis) -> Axis:
+    span = found.high - found.low
+    places = ticks(found.low, found.high)
+    if span > 60.0:
+        step = next((step for step in DEGREES if span / step <= 5.0), 180.0)
+        places = np.arange(np.ceil(found.low / step), np.floor(found.high / step) + 1) * step
+    return replace(
+        found, ticks=tuple(places.tolist()), words=tuple(f"{number(x)}°" for x in places)
+    )
+
+
+def y_axis(chart: Chart, by_part: dict[str, list[Curve]], near: tuple[float, float] | None) -> Axis:
+    """Return the y axis of the whole curve and the marks, of those within two ends of x where
+    they are given.
+    """
+    if chart.y_range is not None and near is None:
+        return axis(*chart.y_range, TICKS)
+    shown = [*by_part["whole"], *by_part["mark"]] or by_part["second"]
+    low, high = near or (-np.inf, np.inf)
+    values = [one.y[(one.x >= low) & (one.x <= high)].astype(float) for one in shown]
+    if near is None:
+        return value_axis(values, most=TICKS)
+    known = np.concatenate([np.zeros(0), *(one[np.isfinite(one)] for one in values)])
+    if not len(known):
+        return value_axis(values, most=TICKS)
+    room = HEADROOM * (float(known.max() - known.min()) or 1.0)
+    return axis(float(known.min()) - room, float(known.max()) + room, TICKS)
+
+
+def _line(curve: Curve) -> dict[str, Any]:
+    order = np.argsort(curve.x, kind="stable")
+    return {
+        "kind": "line",
+        "name": curve.name,
+        "color": curve.color,
+        "x": [digits(value) for value in curve.x[order]],
+        "y": [digits(value) for value in curve.y[order]],
+    }
+
+
+def _mark(curve: Curve) -> dict[str, Any]:
+    place = {"x": digits(curve.x[0]), "y": digits(curve.y[0])}
+    return (
+        {"name": curve.name, "color": curve.color}
+        | place
+        | {"knob": curve.knob, "steps": curve.steps}
+    )
