@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from lessons.ransac.state import Subject
+from lessons.ransac.rows import Subject
 from workbench.geometry.clipping import clip_lines, plane_in_box, segments_inside
 from workbench.geometry.polylines import circle, rectangle, segments, sphere_rings
 from workbench.geometry.two_views.epipolar import epipolar_lines
