@@ -5,17 +5,15 @@ asked.
 import numpy as np
 
 from lessons.ransac.captions import SearchLook, caption
-from lessons.ransac.flat import BAND, chances
+from lessons.ransac.flat import SIZES, chances
 from lessons.ransac.rows import Subject
 from lessons.ransac.search import METHODS, SHARES, errors_by_outliers
-from lessons.ransac.shapes import frames, outline, slab
+from lessons.ransac.shapes import MM, band, frames, marked, outline
 from workbench.geometry.clipping import plane_in_box
 from workbench.geometry.motions import R_UPRIGHT, motion
 from workbench.geometry.polylines import between, fan
-from workbench.numerals import brief
 from workbench.scene import (
     Chart,
-    Classes,
     Color,
     Curve,
     Label,
@@ -28,9 +26,8 @@ from workbench.scene import (
     Segments,
 )
 
-MM = 1000.0
-MOST_LINES, EPIPOLAR_ROWS = 150, 8
-SAMPLES, VOTERS = Chart("Samples"), Chart("Votes of both")
+MOST_LINES = 150  # matches
+VOTERS = Chart("Votes of both")
 BY_SHARE = Chart(
     "Error and share of outliers",
     "share of the points that belong to nothing",
@@ -38,6 +35,7 @@ BY_SHARE = Chart(
     x_range=(0.0, 0.7),
     y_range=(0.0, 350.0),
 )
+IMAGES = ("first image", "second image")
 COLORS: dict[str, Role] = {"RANSAC": "source", "least squares": "other", "Huber": "highlight"}
 
 
@@ -55,28 +53,20 @@ def draw(look: SearchLook) -> Scene:
 
 
 def _rows(look: SearchLook) -> dict[str, Primitive]:
-    """Draw all rows, coloured by their votes on the fit in question: the trial, or else the
-    best.
-    """
+    """Draw all rows, coloured by their votes on the fit in question: the trial, or the best."""
     subject, now = look.subject, look.now
     fit = now.trial if now.phase in ("inliers", "best", "refit") else None
     fit = now.best if now.phase == "stop" else fit
-    radius = _radius(subject)
-    color: Color = "neutral"
-    if fit is not None:
-        against = ~fit.inliers
-        color = Classes.marking(against, "neutral", "votes against", others=("target", "votes for"))
-    two = len(subject.shown) == 2
-    names = ("first image", "second image") if two else (subject.noun,)
-    scene: dict[str, Primitive] = {
-        path: Points(p, color, radius, name=name)
-        for path, p, name in zip(("points", "points in second"), subject.shown, names, strict=False)
-    }
-    if look.params.who_is_right and subject.is_inlier is not None:
-        for k, p in enumerate(subject.shown):
-            halo = Points(p[subject.is_inlier], "truth", 2.2 * radius, opacity=0.3)
+    color: Color = "neutral" if fit is None else marked(fit.inliers)
+    scene: dict[str, Primitive] = {}
+    for k, p in enumerate(subject.shown):
+        path = ("points", "points in second")[k]
+        name = IMAGES[k] if subject.sizes else "points"
+        scene[path] = Points(p, color, _radius(subject), name=name)
+        if look.params.who_is_right and subject.is_inlier is not None:
+            halo = Points(p[subject.is_inlier], "truth", 2.2 * _radius(subject), opacity=0.3)
             scene[f"who is right/{k}"] = halo
-    if two:
+    if subject.sizes:
         rows = np.zeros(0, np.intp)
         if fit is not None:
             rows = np.flatnonzero(fit.inliers)[:: 1 + fit.count // MOST_LINES]
@@ -87,8 +77,8 @@ def _rows(look: SearchLook) -> dict[str, Primitive]:
 
 
 def _radius(subject: Subject) -> float:
-    size = 0.22 if subject.sizes else 0.32
-    return float(np.clip(size / np.sqrt(len(subject.p)), 0.004, 0.016))
+    size = 0.22 if subject.sizes else 0.4
+    return float(np.clip(size / np.sqrt(len(subject.p)), 0.004, 0.02))
 
 
 def _sample(look: SearchLook) -> dict[str, Primitive]:
@@ -104,65 +94,42 @@ def _sample(look: SearchLook) -> dict[str, Primitive]:
 
 
 def _models(look: SearchLook) -> dict[str, Primitive]:
-    """Draw the model under test and the best so far, one with its slab, and at the end the
-    others.
-    """
+    """Draw the model under test or the best so far with its band, and at the end the others."""
     subject, now = look.subject, look.now
     over = now.phase in ("refit", "stop")
     scene: dict[str, Primitive] = {}
     if subject.truth is not None and (over or look.params.who_is_right):
-        scene |= _model(subject, "truth", subject.truth, "truth", 3.0, "truth")
+        scene["truth"] = Segments(outline(subject, subject.truth), "truth", 3.0, name="truth")
     if over and not subject.sizes:
         for name, estimate in (subject.rivals or {}).items():
-            scene |= _model(subject, f"rival/{name}", estimate, COLORS[name], 2.0, name)
+            ends = outline(subject, estimate)
+            scene[f"rival/{name}"] = Segments(ends, COLORS[name], 2.0, name=name)
     tested = now.estimate if now.phase in ("model", "inliers") else None
     if now.best is not None:
-        opacity = 0.0 if tested is not None else 0.35 if over or now.phase == "best" else 0.15
-        best = now.best.estimate
-        scene |= _model(subject, "best", best, "source", 3.0, "best so far", opacity)
-        scene |= _slab(subject, best, "source")
+        ends = outline(subject, now.best.estimate)
+        scene["best"] = Segments(ends, "source", 3.0, name="best so far")
     if tested is not None:
         name = f"{subject.model.name} of the sample"
-        scene |= _model(subject, "trial", tested, "highlight", 2.5, name, 0.3)
-        scene |= _slab(subject, tested, "highlight")
-    return scene
+        scene["trial"] = Segments(outline(subject, tested), "highlight", 2.5, name=name)
+        scene |= band(subject, tested, "highlight", reach=subject.limit)
+        return scene | _surface(subject, "trial", tested, "highlight", opacity=0.3)
+    if now.best is None:
+        return scene
+    scene |= band(subject, now.best.estimate, "source", reach=subject.limit)
+    opacity = 0.35 if over or now.phase == "best" else 0.15
+    return scene | _surface(subject, "best", now.best.estimate, "source", opacity=opacity)
 
 
-def _slab(subject: Subject, estimate: np.ndarray, color: Role) -> dict[str, Primitive]:
-    """Draw where a point is near enough to vote."""
-    edges, band = slab(subject, estimate, subject.limit)
-    if not len(edges):
-        return {}
-    scene: dict[str, Primitive] = {"slab": Segments(edges, color, 1.5)}
-    if len(band):
-        scene["slab/band"] = Mesh(band, BAND, color, opacity=0.25, flat=True)
-    at = edges.reshape(-1, 3)
-    name = f"± {brief(MM * subject.limit)} mm"
-    scene["slab name"] = Label(name, at[np.argmax(at @ [1.0, -0.6, -0.4])], color)
-    return scene
-
-
-def _model(
-    subject: Subject,
-    path: str,
-    estimate: np.ndarray,
-    color: Role,
-    width: float,
-    name: str,
-    opacity: float = 0.0,
+def _surface(
+    subject: Subject, path: str, estimate: np.ndarray, color: Role, *, opacity: float
 ) -> dict[str, Primitive]:
-    """Draw the outline of a model, and of a plane its surface too where it has an opacity."""
-    rows = np.arange(0, len(subject.p), max(1, len(subject.p) // EPIPOLAR_ROWS))
-    if subject.is_inlier is not None:
-        rows = np.flatnonzero(subject.is_inlier)
-    ends = outline(subject, estimate, rows[:EPIPOLAR_ROWS])
-    scene: dict[str, Primitive] = {path: Segments(ends, color, width, name=name)}
-    if subject.model.name == "plane" and opacity > 0.0:
-        corners = plane_in_box(estimate, subject.low, subject.high)
-        if len(corners):
-            p, faces = subject.places[0](corners), fan(len(corners))
-            scene[f"{path}/surface"] = Mesh(p, faces, color, opacity=opacity, flat=True)
-    return scene
+    if subject.model.name != "plane":
+        return {}
+    corners = plane_in_box(estimate, subject.low, subject.high)
+    if not len(corners):
+        return {}
+    p = subject.places[0](corners)
+    return {f"{path}/surface": Mesh(p, fan(len(corners)), color, opacity=opacity, flat=True)}
 
 
 def _two_planes(look: SearchLook) -> dict[str, Primitive]:
@@ -189,7 +156,7 @@ def _background(subject: Subject) -> dict[str, Primitive]:
     if len(borders):
         scene["frame"] = Segments(borders, "neutral", 1.5)
     for k, size in enumerate(subject.sizes):
-        word, place = ("first image", "second image")[k], subject.places[k]
+        word, place = IMAGES[k], subject.places[k]
         top = np.array([[size[0] / 2.0, -14.0 * size[0] / 640.0]])
         scene[f"label {word}"] = Label(word, place(top)[0])
         image = subject.images[k]
@@ -212,11 +179,12 @@ def _curves(look: SearchLook) -> dict[str, Primitive]:
     params, subject, now = look.params, look.subject, look.now
     unit, drawn = subject.model.unit, float(now.iteration)
     votes = Chart("Votes" if params.score == "count" else "Score")
+    samples = Chart("Samples")
     left = float(max(now.needed - drawn, 0.0))
     scene: dict[str, Primitive] = {
         "best score": votes.scalar(now.best.score if now.best else 0.0, "best so far"),
-        "needed": SAMPLES.scalar(left, "still needed", "other"),
-        "drawn": SAMPLES.scalar(drawn, "drawn", "neutral"),
+        "needed": samples.scalar(left, "still needed", "other"),
+        "drawn": samples.scalar(drawn, "drawn", "neutral"),
     }
     if now.trial is not None and now.phase == "inliers":
         scene["trial score"] = votes.scalar(now.trial.score, "this sample", "highlight")
@@ -232,7 +200,7 @@ def _curves(look: SearchLook) -> dict[str, Primitive]:
         scene["distances"] = _histogram(subject, fit.distances)
     if subject.is_inlier is not None:
         w = float(subject.is_inlier.mean())
-        scene |= chances(w, subject.model.sample_size, now.iteration)
+        scene |= chances(w, subject.model.sample_size, now.iteration, sizes=tuple(SIZES))
     if params.model == "plane" and params.table == "alone" and params.cloud is None:
         scene |= _by_share(look, best) if now.phase == "stop" else {}
     return scene

@@ -56,7 +56,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         title="An ever wider band",
         line="Points of the true line have a ring. Widen the band: who votes?",
         params=WIDER,
-        step=2,
+        step=1,
         view=FLAT,
     ),
     Preset(

@@ -180,7 +180,7 @@ QUESTIONS: tuple[Question, ...] = (
         answer=_which_huber,
         why=_why_huber,
         params=THIRTY,
-        start=2,
+        start=7,
         choices=(
             Choice(
                 "At the truth, as RANSAC's",

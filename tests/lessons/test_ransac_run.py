@@ -210,16 +210,16 @@ def test_the_picture_has_its_parts(model):
 @pytest.mark.parametrize("model", ["line", "plane", "circle", "sphere"])
 def test_an_outline_lies_on_its_model(model):
     subject = rows_of(Input(model=model))
-    ends = outline(subject, truth_of(subject), np.zeros(0, int)).reshape(-1, 3)
+    ends = outline(subject, truth_of(subject)).reshape(-1, 3)
     p = ends[:, [0, 2]] - [0.0, 0.7] if subject.model.columns == 2 else ends
     assert subject.model.distances(truth_of(subject), p).max() < 1e-9
 
 
 def test_a_model_outside_the_window_is_not_drawn():
     subject = rows_of(Input())
-    assert outline(subject, np.array([0.0, 0.0, 1.0, -50.0]), np.zeros(0, int)).shape == (0, 2, 3)
+    assert outline(subject, np.array([0.0, 0.0, 1.0, -50.0])).shape == (0, 2, 3)
     subject = rows_of(Input(model="line"))
-    assert outline(subject, np.array([0.0, 1.0, -50.0]), np.zeros(0, int)).shape == (0, 2, 3)
+    assert outline(subject, np.array([0.0, 1.0, -50.0])).shape == (0, 2, 3)
 
 
 def test_picks_need_enough_different_points():
