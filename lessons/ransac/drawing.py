@@ -27,6 +27,7 @@ from workbench.scene import (
 )
 
 MOST_LINES = 150  # matches
+UP = np.array([0.0, 0.0, 0.07])
 VOTERS = Chart("Votes of both")
 BY_SHARE = Chart(
     "Error and share of outliers",
@@ -104,6 +105,9 @@ def _models(look: SearchLook) -> dict[str, Primitive]:
         for name, estimate in (subject.rivals or {}).items():
             ends = outline(subject, estimate)
             scene[f"rival/{name}"] = Segments(ends, COLORS[name], 2.0, name=name)
+            if len(ends):  # by its highest end
+                top = ends.reshape(-1, 3)[ends.reshape(-1, 3)[:, 2].argmax()]
+                scene[f"rival/{name}/name"] = Label(name, top + UP, COLORS[name])
     tested = now.estimate if now.phase in ("model", "inliers") else None
     if now.best is not None:
         ends = outline(subject, now.best.estimate)
@@ -182,16 +186,16 @@ def _curves(look: SearchLook) -> dict[str, Primitive]:
     samples = Chart("Samples")
     left = float(max(now.needed - drawn, 0.0))
     scene: dict[str, Primitive] = {
-        "best score": votes.scalar(now.best.score if now.best else 0.0, "best so far"),
-        "needed": samples.scalar(left, "still needed", "other"),
+        "best score": votes.scalar(now.best.score if now.best else 0.0, "best"),
+        "needed": samples.scalar(left, "needed", "other"),
         "drawn": samples.scalar(drawn, "drawn", "neutral"),
     }
     if now.trial is not None and now.phase == "inliers":
-        scene["trial score"] = votes.scalar(now.trial.score, "this sample", "highlight")
+        scene["trial score"] = votes.scalar(now.trial.score, "this", "highlight")
     error = Chart("Error to the truth", unit=unit)
     best = subject.error(now.best.estimate if now.best else None)
     if np.isfinite(best):
-        scene["best error"] = error.scalar(best, "best so far", log=True)
+        scene["best error"] = error.scalar(best, "best", log=True)
     for name, estimate in (subject.rivals or {}).items() if len(subject.p_true) else ():
         off = subject.error(estimate)
         scene[f"error {name}"] = error.scalar(off, name, COLORS[name], log=True)

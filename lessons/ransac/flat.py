@@ -251,7 +251,7 @@ def _beside_squares(look: FlatLook, now: Draw, past: tuple[Draw, ...]) -> dict[s
     words = "Draw {n}: {votes} of {all} points vote for this line. The best of {draws} has {best}."
     return {
         "squares": Segments(line, "other", 3.0, name="least squares"),
-        "squares/name": Label("least squares", left - [0.33, 0.0, 0.0], "other"),
+        "squares/name": Label("least squares", left - [0.45, 0.0, 0.0], "other"),
         "squares/off": Chart("Least squares").scalar(
             turned(sure(subject.truth), squares), "least squares off", "other"
         ),
@@ -307,13 +307,14 @@ def _of_width(look: FlatLook, now: Width) -> dict[str, Primitive]:
         "width": Chart("Width", unit="mm").scalar(at, "width"),
     }
     inside = {}
-    for name, rows, x in (("ringed", true, -0.5), ("others", ~true, 0.6)):
+    for name, rows in (("ringed", true), ("others", ~true)):
         role: Role = "truth" if name == "ringed" else "neutral"
         inside[name] = int(now.votes[rows].sum())
         noun = "ringed points" if name == "ringed" else name
-        scene[name] = _head(f"{inside[name]} of {rows.sum()} {noun} vote", x, role)
         scene[f"{name}/whole"] = COUNTS.whole(MM * WIDTHS, near[:, rows].sum(axis=1), noun, role)
         scene[f"{name}/mark"] = COUNTS.mark(at, inside[name], noun, role, steps="width")
+    words = f"{inside['ringed']} ringed, {inside['others']} other votes"
+    scene["counts"] = _head(words, 0.0, "target")
     errors = MM * errors_by_width(look.params)
     here = float(np.interp(now.width, WIDTHS, errors))
     words = "Within {width} of the true line: {ringed} of its {points} points, and {others} others."

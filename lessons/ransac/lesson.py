@@ -41,7 +41,13 @@ def run(
     if params.stage != "search":
         yield from flat.run(params, subject)
         return
-    yield from search(params, subject, plane_from_points, count_inliers, iterations_needed)
+    yield from search(
+        params,
+        subject,
+        plane_from_points=plane_from_points,
+        count_inliers=count_inliers,
+        iterations_needed=iterations_needed,
+    )
 
 
 def draw(look: Look) -> Scene:

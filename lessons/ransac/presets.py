@@ -78,10 +78,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="line",
         title="A line, seen flat",
-        line=(
-            "Two points determine a line. Who lies in the band around it votes for it: the band"
-            " reaches the inlier distance to either side."
-        ),
+        line="Two points determine a line. Who lies in the band around it votes for it: the band"
+        " reaches the inlier distance to either side.",
         params=Input(model="line", points=150, noise=0.025, inlier_distance=0.05, seed=6),
         step=1,
         view=FLAT,
@@ -89,30 +87,24 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="thirty",
         title="30 % outliers: 13 samples",
-        line=(
-            "A third of all samples is clean, so 13 are enough here; the same outliers drag least"
-            " squares 15 cm off (RMS)."
-        ),
+        line="A third of all samples is clean, so 13 are enough here; the same outliers drag least"
+        " squares 15 cm off (RMS).",
         params=THIRTY,
         step=2,
     ),
     Preset(
         name="seventy",
         title="70 % outliers: 126 samples",
-        line=(
-            "Only one sample in 37 is clean, so 126 are drawn; the plane is still only 3 mm off"
-            " (RMS). Half is no limit."
-        ),
+        line="Only one sample in 37 is clean, so 126 are drawn; the plane is still only 3 mm off"
+        " (RMS). Half is no limit.",
         params=SEVENTY,
         step=2,
     ),
     Preset(
         name="tight",
         title="Inlier distance too small",
-        line=(
-            "4 mm is a quarter of the noise: three in four true points are refused, 500 samples do"
-            " not suffice, and the answer rests on the few that are left."
-        ),
+        line="4 mm is a quarter of the noise: three in four true points are refused, 500 samples do"
+        " not suffice, and the answer rests on the few that are left.",
         params=TIGHT,
         step=-1,
         breaks=True,
@@ -120,10 +112,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="loose",
         title="Inlier distance too large",
-        line=(
-            "0.3 m is 20 sigma: clutter votes too, 13 samples satisfy the formula, and the plane"
-            " ends 4 cm off (RMS)."
-        ),
+        line="0.3 m is 20 sigma: clutter votes too, 13 samples satisfy the formula, and the plane"
+        " ends 4 cm off (RMS).",
         params=LOOSE,
         step=-1,
         breaks=True,
@@ -131,20 +121,16 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="msac",
         title="Too large, but nearness counts",
-        line=(
-            "A count cannot tell 1 mm from 149 mm. MSAC can: the sample that it keeps is 5 mm from"
-            " the truth; the one that a count keeps is 49 mm off."
-        ),
+        line="A count cannot tell 1 mm from 149 mm. MSAC can: the sample that it keeps is 5 mm from"
+        " the truth; the one that a count keeps is 49 mm off.",
         params=MSAC,
         step=0,
     ),
     Preset(
         name="two-planes",
         title="Two planes",
-        line=(
-            "A table beside a wall with twice as many points: the table is what we want. Watch on"
-            " which of the two each new best lies."
-        ),
+        line="A table beside a wall with twice as many points: the table is what we want. Watch on"
+        " which of the two each new best lies.",
         params=WALL,
         step=2,
         breaks=True,
@@ -160,19 +146,16 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="next",
         title="Two planes, the winner taken away",
-        line=(
-            "All who voted for the winner are taken away, and RANSAC runs on the points left over."
-        ),
+        line="All who voted for the winner are taken away, and RANSAC runs on the points left"
+        " over.",
         params=NEXT,
         step=-1,
     ),
     Preset(
         name="collinear",
         title="Three points on one line",
-        line=(
-            "You picked three points of a taut wire: a whole pencil of planes goes through them."
-            " The sample is lost, and still counts as drawn."
-        ),
+        line="You picked three points of a taut wire: a whole pencil of planes goes through them."
+        " The sample is lost, and still counts as drawn.",
         params=WIRE,
         step=1,
         breaks=True,
@@ -180,41 +163,33 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="near-sample",
         title="Three inliers, close together",
-        line=(
-            "You picked three points that truly belong to the plane, close together. This is the"
-            " plane through them: the next step counts who is near it."
-        ),
+        line="You picked three points that truly belong to the plane, close together. This is the"
+        " plane through them: the next step counts who is near it.",
         params=NEAR,
         step=1,
     ),
     Preset(
         name="rivals",
         title="Least squares and Huber beside it",
-        line=(
-            "Squares listen most to the farthest points. Huber's loss bounds each pull but does not"
-            " end it. Compare both planes with RANSAC's and the truth, then take the"
-            " last step for the numbers."
-        ),
+        line="Squares listen most to the farthest points. Huber's loss bounds each pull but does"
+        " not end it. Compare both planes with RANSAC's and the truth, then take the"
+        " last step for the numbers.",
         params=THIRTY,
         step=-2,
     ),
     Preset(
         name="local",
         title="Refit every new best",
-        line=(
-            "A sample carries the noise of three points; refitting each new best at once gathers"
-            " its votes sooner: the run ends after 53 samples in place of 80."
-        ),
+        line="A sample carries the noise of three points; refitting each new best at once gathers"
+        " its votes sooner: the run ends after 53 samples in place of 80.",
         params=LOCAL,
         step=0,
     ),
     Preset(
         name="prosac",
         title="The most trusted first",
-        line=(
-            "Matches have a quality, and PROSAC tries the most trusted first and counts votes among"
-            " them to know when to stop: after 14 samples, where chance draws 375."
-        ),
+        line="Matches have a quality, and PROSAC tries the most trusted first and counts votes"
+        " among them to know when to stop: after 14 samples, where chance draws 375.",
         params=PROSAC,
         step=0,
         view=IMAGES,
@@ -222,10 +197,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="epipolar",
         title="Two views: a fundamental matrix",
-        line=(
-            "A match has only to lie near a line, not at a point, but seven at once must be free of"
-            " outliers. Look what that takes even at 30 %."
-        ),
+        line="A match has only to lie near a line, not at a point, but seven at once must be free"
+        " of outliers. Look what that takes even at 30 %.",
         params=MATCHES,
         step=-1,
         view=IMAGES,

@@ -42,6 +42,18 @@ def error(states: Search, name: str = "") -> float:
     return subject.error(estimate)
 
 
+def on_plane(states: Search) -> tuple[bool, bool]:
+    """Tell whether the end lies on the table, and whether it stands upright, as the wall does."""
+    best = sure(end(states).best)
+    on_table = best.inliers[sure(states.subject.is_inlier)].mean()
+    return bool(on_table > 0.8), bool(abs(best.estimate[2]) < 0.3)
+
+
+def _choice(*holds: bool) -> float:
+    """Return the first choice that holds, or else the one after them."""
+    return float((*holds, True).index(True))
+
+
 def _why_needed(states: Search) -> str:
     w = float(sure(states.subject.is_inlier).mean())
     return (
@@ -50,11 +62,6 @@ def _why_needed(states: Search) -> str:
         f" {end(states).iteration}: it does not know w, and takes the share that votes for its best"
         " so far."
     )
-
-
-def _which_size(states: Search) -> float:
-    four, seven = needed(states, 4), needed(states, 7)
-    return 0.0 if seven < 0.8 * four else 1.0 if seven < 1.25 * four else 2.0
 
 
 def _why_size(states: Search) -> str:
@@ -66,11 +73,6 @@ def _why_size(states: Search) -> str:
     )
 
 
-def _which_near(states: Search) -> float:
-    share = reached(states)
-    return 0.0 if share > 0.9 else 1.0 if share > 0.3 else 2.0
-
-
 def _why_near(states: Search) -> str:
     return (
         f"It reaches {percent(reached(states), 0)} of them. The three lie so close together that a"
@@ -78,22 +80,11 @@ def _why_near(states: Search) -> str:
     )
 
 
-def _which_plane(states: Search) -> float:
-    best = sure(end(states).best)
-    on_table = best.inliers[sure(states.subject.is_inlier)].mean()
-    return 0.0 if on_table > 0.8 else 1.0 if abs(best.estimate[2]) < 0.3 else 2.0
-
-
 def _why_plane(states: Search) -> str:
     return (
         f"{sure(end(states).best).count} points vote for its plane, and it stands upright: the"
         f" wall. The points of the table are {length(error(states))} from it (RMS)."
     )
-
-
-def _which_huber(states: Search) -> float:
-    huber, squares = error(states, "Huber"), error(states, "least squares")
-    return 0.0 if huber < 1.5 * error(states) else 1.0 if huber < 0.5 * squares else 2.0
 
 
 def _why_huber(states: Search) -> str:
@@ -109,10 +100,8 @@ def _why_huber(states: Search) -> str:
 QUESTIONS: tuple[Question, ...] = (
     Question(
         name="predict-needed",
-        text=(
-            "Half of the points belong to a plane. How many samples of three must be drawn so that"
-            " with 99 % confidence one of them is clean?"
-        ),
+        text="Half of the points belong to a plane. How many samples of three must be drawn so that"
+        " with 99 % confidence one of them is clean?",
         answer=lambda states: needed(states, 3),
         why=_why_needed,
         params=Input(),
@@ -123,36 +112,28 @@ QUESTIONS: tuple[Question, ...] = (
             (
                 5,
                 7,
-                (
-                    "That is so for samples of one point: half of those are clean. All three must"
-                    " be clean at once."
-                ),
+                "That is so for samples of one point: half of those are clean. All three must"
+                " be clean at once.",
             ),
             (
                 8,
                 12,
-                (
-                    "One sample in eight is clean, but eight draws do not make sure of it: in 34 %"
-                    " of all tries none of the eight is clean."
-                ),
+                "One sample in eight is clean, but eight draws do not make sure of it: in 34 %"
+                " of all tries none of the eight is clean.",
             ),
             (
                 200,
                 600,
-                (
-                    "The number of points does not matter. What matters is how likely one sample is"
-                    " clean: ½ · ½ · ½."
-                ),
+                "The number of points does not matter. What matters is how likely one sample is"
+                " clean: ½ · ½ · ½.",
             ),
         ),
     ),
     Question(
         name="predict-near-sample",
-        text=(
-            "Three points truly belong to a plane, and lie close together. What share of the other"
-            " true points will lie within 2 sigma of the plane through the three?"
-        ),
-        answer=_which_near,
+        text="Three points truly belong to a plane, and lie close together. What share of the other"
+        " true points will lie within 2 sigma of the plane through the three?",
+        answer=lambda states: _choice(reached(states) > 0.9, reached(states) > 0.3),
         why=_why_near,
         params=NEAR,
         start=1,
@@ -173,11 +154,12 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-huber",
-        text=(
-            "At 30 % outliers, Huber's loss bounds the pull of each of them. Where does its plane"
-            " end?"
+        text="At 30 % outliers, Huber's loss bounds the pull of each of them. Where does its plane"
+        " end?",
+        answer=lambda states: _choice(
+            error(states, "Huber") < 1.5 * error(states),
+            error(states, "Huber") < 0.5 * error(states, "least squares"),
         ),
-        answer=_which_huber,
         why=_why_huber,
         params=THIRTY,
         start=7,
@@ -197,11 +179,9 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-two-planes",
-        text=(
-            "A table, which we want, stands beside a wall with twice as many points. What will"
-            " RANSAC return?"
-        ),
-        answer=_which_plane,
+        text="A table, which we want, stands beside a wall with twice as many points. What will"
+        " RANSAC return?",
+        answer=lambda states: _choice(*on_plane(states)),
         why=_why_plane,
         params=WALL,
         start=0,
@@ -219,11 +199,12 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-size",
-        text=(
-            "A fundamental matrix needs samples of seven matches, a homography four. With the same"
-            " outliers, how many samples does the larger one need?"
+        text="A fundamental matrix needs samples of seven matches, a homography four. With the same"
+        " outliers, how many samples does the larger one need?",
+        answer=lambda states: _choice(
+            needed(states, 7) < 0.8 * needed(states, 4),
+            needed(states, 7) < 1.25 * needed(states, 4),
         ),
-        answer=_which_size,
         why=_why_size,
         params=MATCHES,
         start=0,

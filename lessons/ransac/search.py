@@ -65,15 +65,16 @@ def errors_by_outliers(params: Input) -> np.ndarray:
     found = []
     for share in SHARES:
         rows = with_limit(params, built_in(params, float(share)))
-        best, rivals = winner(params, rows), rivals_of(rows)
-        ours = None if best is None else best.estimate
-        found.append([rows.error(one) for one in (ours, rivals["Huber"], rivals["least squares"])])
+        best = winner(params, rows)
+        fits = {"RANSAC": best.estimate if best else None, **rivals_of(rows)}
+        found.append([rows.error(fits[name]) for name in METHODS])
     return np.array(found).T
 
 
 def search(
     params: Input,
     subject: Subject,
+    *,
     plane_from_points: Slot = plane_from_points,
     count_inliers: Slot = count_inliers,
     iterations_needed: Slot = needed,
@@ -81,7 +82,7 @@ def search(
     """Yield the parts of RANSAC that are shown. On planes the functions given here do their
     work.
     """
-    rng, model = np.random.default_rng(params.seed), subject.model
+    model = subject.model
     judge = Judge(
         p=subject.p, model=model, inlier_distance=subject.limit, score=_score(params, subject)
     )
@@ -91,7 +92,7 @@ def search(
     for now in ransac(
         subject.p,
         model,
-        chain(chosen_sample(params, subject), _samples(params, subject, rng)),
+        chain(chosen_sample(params, subject), _samples(params, subject)),
         judge,
         needed_for=iterations_needed,
         share_of=(lambda fit: subject.trusted(fit)[1]) if params.sampler == "PROSAC" else None,
@@ -172,17 +173,19 @@ def _counting(judge: Judge, count_inliers: Slot, *, decides: bool) -> Callable[[
     """Return a judge whose votes somebody counts; where that decides, the count is the score."""
 
     def counted(plane: np.ndarray) -> Fit:
-        fit, votes = judge(plane), int(count_inliers(plane, judge.p, judge.inlier_distance))
+        fit = judge(plane)
+        votes = int(count_inliers(plane, judge.p, judge.inlier_distance))
         score = float(votes) if decides else fit.score
         return Counted(plane, fit.distances, fit.inliers, score, votes)
 
     return counted
 
 
-def _samples(params: Input, subject: Subject, rng: np.random.Generator) -> Iterator[np.ndarray]:
-    n, size = len(subject.p), subject.model.sample_size
+def _samples(params: Input, subject: Subject) -> Iterator[np.ndarray]:
+    rng = np.random.default_rng(params.seed)
+    size = subject.model.sample_size
     if params.sampler == "uniform":
-        return uniform_samples(n, size, rng)
+        return uniform_samples(len(subject.p), size, rng)
     if subject.quality is None:
         raise InputError(
             "PROSAC draws the most trusted first, and this file does not say whom to trust: set"

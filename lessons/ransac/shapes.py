@@ -67,7 +67,7 @@ def band(
     if named:
         at = edges.reshape(-1, 3)
         place = at[np.argmax(at @ [1.0, -0.6, -0.4])]
-        aside = np.array([0.22 if subject.model.columns == 2 else 0.0, 0.0, 0.0])
+        aside = np.array([0.3 if subject.model.columns == 2 else 0.0, 0.0, 0.0])
         scene["slab/name"] = Label(f"± {brief(MM * reach)} mm", place + aside, color)
     return scene
 

@@ -175,9 +175,7 @@ def test_the_picture_has_its_parts(model):
         assert len(step.caption.text) <= 400
         points = part(scene, "points", Points)
         assert len(points.p) == 100
-        if (
-            state.phase == "inliers"
-        ):  # by votes: what is true of a point is another thing, and vermillion is for what is wrong
+        if state.phase == "inliers":  # by votes: what is true of a point is another thing
             assert isinstance(points.color, Classes)
             assert dict(zip(points.color.names, points.color.roles, strict=True)) == {
                 "votes for": "target",
