@@ -2,6 +2,8 @@
 drawn.
 """
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -36,7 +38,7 @@ from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Classes, Points, Segments
 
 
-def run(params, **slots):
+def run(params, **slots) -> Any:
     return run_on(params, setup(params), **slots)
 
 
