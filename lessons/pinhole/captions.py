@@ -20,9 +20,7 @@ VISIBLE = 0.5  # px: a smaller median error is not blamed on anybody
 MISPLACED = 1e-3  # m, likewise on the way back
 SAME = 1e-6  # m: what rounding leaves of a way out and back
 PLACES = {
-    "world": "world",
     "camera": "camera axes",
-    "divide": "divide",
     "distort": "lens",
     "back": "way back",
 }
@@ -48,7 +46,7 @@ def caption(look: PinholeLook) -> Caption:
     stage = look.now.now.stage
     words, values = _STAGES[stage](look)
     more, others = blame(look)
-    alarm = more and params.mistake == "none" and (params.edit == "none" or params.k_follows)
+    alarm = more and params.mistake == "none" and not params.forgets_k
     if not more:
         more, others = _remark(look)
     tone = "wrong" if alarm else "info"
@@ -69,7 +67,7 @@ def blame(look: PinholeLook) -> Told:
     why = "The calculation differs from the true camera."
     if params.mistake != "none":
         why = MISTAKES[params.mistake]
-    elif params.edit != "none" and not params.k_follows:
+    elif params.forgets_k:
         why = "K is still that of the full picture."
     if state.error > VISIBLE:
         return f" {why} Half of the points are off by {{error}} or more.", {

@@ -1,6 +1,7 @@
 """The charts and tables beside the street."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,16 +11,10 @@ from lessons.pinhole.shot import gap, heights
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.cameras.distortion import distort, invertible_radius
 from workbench.lesson import cached
-from workbench.numerals import coordinates, fixed, pixels
+from workbench.numerals import coordinates, fixed
 from workbench.scene import Chart, Primitive, Table
 
-HEIGHTS = Chart(
-    "Heights in the picture",
-    "how many times the distance",
-    "px",
-    x_range=(0.5, 10.0),
-    y_range=(0.0, 260.0),
-)
+HEIGHTS = Chart("Heights in the picture", "how many times the distance", "px", x_range=(0.5, 10.0))
 GAP = Chart("Gap to orthographic", "how many times the distance", "px", x_range=(1.0, 50.0))
 LENS = Chart("Bent by the lens", "radius without the lens", "radius", x_range=(0.0, 1.4))
 ERROR = Chart("Error of this stage", unit="px")
@@ -50,10 +45,11 @@ def charts(look: PinholeLook) -> dict[str, Primitive]:
         crate, tower = heights_by_dolly(params)
         shown = np.isfinite(crate) & np.isfinite(tower)
         if shown.sum() > 1:
-            parts["heights/crate"] = HEIGHTS.whole(BY[shown], crate[shown], "crate", "target")
-            parts["heights/tower"] = HEIGHTS.whole(BY[shown], tower[shown], "tower", "source")
-        if math.isfinite(shot.tower) and 0.5 <= params.dolly <= 10.0:
-            parts["heights/here"] = HEIGHTS.mark(params.dolly, shot.tower, "here", knob="dolly")
+            chart = replace(HEIGHTS, y_range=(0.0, 1.1 * float(tower[shown].max())))
+            parts["heights/crate"] = chart.whole(BY[shown], crate[shown], "crate", "target")
+            parts["heights/tower"] = chart.whole(BY[shown], tower[shown], "tower", "source")
+            if math.isfinite(shot.tower) and 0.5 <= params.dolly <= 10.0:
+                parts["heights/here"] = chart.mark(params.dolly, shot.tower, "here", knob="dolly")
         return parts
     if params.dolly != 1 and math.isfinite(shot.gap):
         known = gaps(params)
@@ -105,28 +101,14 @@ def tables(look: PinholeLook) -> dict[str, Primitive]:
     if now.reached("back"):
         metres = " m" * bool(np.isfinite(now.p_back[k]).all())
         rows.append(("back in the world", coordinates(now.p_back[k], 2) + metres))
-    w, h = shot.picture.shape[1], shot.picture.shape[0]
-    ball = "the ball's outline" + ", without the lens" * any(shot.lens)
     measured = (
         ("camera centre C = −Rᵀt", f"{coordinates(camera_center(shot.T_camera_world), 2)} m"),
         ("t of T_camera_world", f"{coordinates(shot.T_camera_world[:3, 3], 2)} m"),
         ("focal length f", f"{fixed(shot.K[0, 0], 1)} px"),
         ("principal point", coordinates(shot.K[:2, 2], 1)),
-        ("middle of the picture", coordinates(np.array([w - 1, h - 1]) / 2, 1)),
         ("the rails run towards", coordinates(shot.vanishing, 1)),
-        ("crate, 1 m high", _or(shot.crate, pixels, "has no pixel")),
-        ("tower, 5 m high", _or(shot.tower, pixels, "has no pixel")),
-        (ball, _or(shot.ball_ratio, _times, "not in the picture")),
     )
     return {
         "point numbers": Table("The followed point", ("stage", shot.name), tuple(rows)),
         "camera numbers": Table("The true camera", ("what", "value"), measured),
     }
-
-
-def _or(value: float, written, missing: str) -> str:
-    return written(value) if math.isfinite(value) else missing
-
-
-def _times(ratio: float) -> str:
-    return f"{fixed(ratio, 3)} × as long as wide"

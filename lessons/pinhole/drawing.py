@@ -8,7 +8,7 @@ import numpy as np
 
 from lessons.pinhole import charts, pane
 from lessons.pinhole.captions import PinholeLook, caption, depth
-from lessons.pinhole.shot import CRATE_EDGE, TOWER_EDGE
+from lessons.pinhole.shot import EDGES
 from workbench.data.views.street import street
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.motions import apply, inverse
@@ -141,8 +141,8 @@ def _ways(
     parts: dict[str, Primitive] = {path: Segments(segments(corners), colors, 4, T, name=name)}
     for i, (role, axis, way) in enumerate(zip(roles, "ZXY", (z, x, y), strict=True)):
         at = corners[i : i + 2].mean(axis=0)
-        if axis == "Z" and z < 0:  # far behind the camera nobody sees it
-            at = np.array([0.0, 0.0, max(z / 2, -1.0)])
+        if axis == "Z":  # before the camera, and not so far behind it that nobody sees it
+            at = np.array([0.0, 0.0, max(z / 3, -2.5)])
         parts[f"{path}/{axis}"] = Label(f"{axis} = {depth(way)}", at, role, T)
     return parts
 
@@ -177,11 +177,8 @@ def _triangles(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     shot = look.subject
     C = camera_center(shot.T_camera_world)
     parts: dict[str, Primitive] = {}
-    things: tuple[tuple[str, np.ndarray, Role], ...] = (
-        ("crate", CRATE_EDGE, "target"),
-        ("tower", TOWER_EDGE, "source"),
-    )
-    for name, edge, role in things:
+    roles: tuple[Role, ...] = ("target", "source")
+    for name, edge, role in zip(("crate", "tower"), EDGES, roles, strict=True):
         height = getattr(shot, name)
         if not np.isfinite(height):
             continue

@@ -69,3 +69,8 @@ class Input(Params):
         unit="m",
         step=0.5,
     )
+
+    @property
+    def forgets_k(self) -> bool:
+        """Whether the picture was edited and K was left as it was."""
+        return self.edit != "none" and not self.k_follows

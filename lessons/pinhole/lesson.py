@@ -10,7 +10,7 @@ from pathlib import Path
 from lessons.pinhole.drawing import draw
 from lessons.pinhole.following import Center, Distort, Project
 from lessons.pinhole.inputs import Input
-from lessons.pinhole.models import State, compared, laid_out, model_of, overlaid
+from lessons.pinhole.models import State, compared, model_of, overlays
 from lessons.pinhole.presets import PRESETS, SWEEPS, VIEW, VIEWS
 from lessons.pinhole.questions import QUESTIONS
 from lessons.pinhole.shot import Shot, setup
@@ -29,11 +29,9 @@ def run(
 ) -> Iterator[State]:
     """Yield the stages of the street's points through the calculated camera."""
     model = model_of(params, shot, project, distort, camera_center)
-    outlines = laid_out(model)
+    overlaid = overlays(shot, model)
     for now in model(shot.p_world):
-        picture = overlaid(shot, outlines, now.stage)
-        error, found, missed, false = compared(shot, now)
-        yield State(now=now, picture=picture, error=error, found=found, missed=missed, false=false)
+        yield compared(shot, now, overlaid(now.stage))
 
 
 lesson = Lesson(

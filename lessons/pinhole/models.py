@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from itertools import islice
 
 import numpy as np
@@ -51,49 +51,36 @@ class State:
     false: int
 
 
-def compared(shot: Shot, now: pinhole.State) -> tuple[float, int, int, int]:
-    """Return the median distance from the true pixels, and how many are found, missed and false.
+def compared(shot: Shot, now: pinhole.State, picture: np.ndarray) -> State:
+    """Return a stage beside the true shot.
 
     Before pixels are reached, both sides are scaled with the true K, so that all stages speak of
     pixels.
     """
     if not now.reached("divide"):
-        return float("nan"), 0, 0, 0
-    true, got = shot.uv, onto_pixels(now.xy_bent, shot.K)
-    if not now.reached("distort"):
-        true, got = onto_pixels(shot.xy, shot.K), onto_pixels(now.xy, shot.K)
-    if now.reached("pixels"):
-        got = now.uv
-    seen, found = np.isfinite(true).all(axis=1), np.isfinite(got).all(axis=1)
+        return State(now=now, picture=picture, error=float("nan"), found=0, missed=0, false=0)
+    true = shot.uv if now.reached("distort") else onto_pixels(shot.xy, shot.K)
+    got = now.seen(shot.K)
+    seen = np.isfinite(true).all(axis=1)
+    found = np.isfinite(got).all(axis=1)
     off = np.linalg.norm(got - true, axis=1)[seen & found]
-    error = float(np.median(off)) if len(off) else float("nan")
-    return error, int(found.sum()), int((seen & ~found).sum()), int((found & ~seen).sum())
-
-
-def laid_out(model: Model) -> Model:
-    """Return the model up to its pixels, which calculates the same points once only.
-
-    Its functions may be others' and live in another process.
-    """
-    known: dict[bytes, tuple[pinhole.State, ...]] = {}
-
-    def stages(p_world: np.ndarray) -> Iterator[pinhole.State]:
-        key = p_world.tobytes()
-        if key not in known:
-            known[key] = tuple(islice(model(p_world), STAGES.index("pixels") + 1))
-        return iter(known[key])
-
-    return stages
+    return State(
+        now=now,
+        picture=picture,
+        error=float(np.median(off)) if len(off) else float("nan"),
+        found=int(found.sum()),
+        missed=int((seen & ~found).sum()),
+        false=int((found & ~seen).sum()),
+    )
 
 
 def model_of(
     params: Input, shot: Shot, project: Project, distort: Distort, camera_center: Center
 ) -> Model:
     """Return the calculation with the given functions, changed by the mistake that is asked for."""
-    K = shot.K
-    if params.edit != "none" and not params.k_follows:
-        K = shot.K_first
-    T, f = shot.T_camera_world, K[0, 0]
+    K = shot.K_first if params.forgets_k else shot.K
+    T = shot.T_camera_world
+    f = K[0, 0]
     model = partial(
         follow,
         T_camera_world=T,
@@ -128,31 +115,35 @@ def divide_anyway(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
         return np.where(z[:, None] == 0, np.nan, np.stack([x, y], axis=1) / z[:, None])
 
 
-def overlaid(shot: Shot, model: Model, stage: Stage) -> np.ndarray:
-    """Return the photograph with the outlines that a stage has calculated laid over it.
+def overlays(shot: Shot, model: Model) -> Callable[[Stage], np.ndarray]:
+    """Return what gives the photograph with the outlines that a stage has calculated laid over it.
 
-    From the division on; whatever hides them in the street.
+    From the division on; whatever hides them in the street. The outlines are calculated once for
+    all stages, since functions may be others' and live in another process.
     """
-    if stage in ("world", "camera"):
-        return shot.picture
-    lines, (h, w) = wires(shot.T_camera_world), shot.picture.shape[:2]
+    lines = wires(shot.T_camera_world)
+    item = SegmentItem(lines, color_rows("source", len(lines)))
+    h, w = shot.picture.shape[:2]
 
-    def to_pixels(p_world: np.ndarray) -> np.ndarray:
-        """Before the calculation has pixels itself, the true K makes them."""
-        now = next(state for state in model(p_world) if state.stage in (stage, "pixels"))
-        if now.reached("pixels"):
-            return now.uv
-        return onto_pixels(now.xy_bent if now.reached("distort") else now.xy, shot.K)
+    @cache
+    def calculated(p_world: bytes) -> dict[Stage, pinhole.State]:
+        p = np.frombuffer(p_world).reshape(-1, 3).copy()
+        return {now.stage: now for now in islice(model(p), len(STAGES) - 1)}
 
-    drawn = render(
-        [SegmentItem(lines, color_rows("source", len(lines)))],
-        shot.T_camera_world,
-        shot.K,
-        w,
-        h,
-        shot.lens,
-        to_pixels=to_pixels,
-    )
-    shown, picture = np.isfinite(drawn.depth), shot.picture.copy()
-    picture[shown] = drawn.colors[shown]
-    return picture
+    def overlaid(stage: Stage) -> np.ndarray:
+        if stage in ("world", "camera"):
+            return shot.picture
+        reached: Stage = "pixels" if stage == "back" else stage
+        drawn = render(
+            [item],
+            shot.T_camera_world,
+            shot.K,
+            w,
+            h,
+            shot.lens,
+            to_pixels=lambda p: calculated(np.asarray(p, float).tobytes())[reached].seen(shot.K),
+        )
+        shown = np.isfinite(drawn.depth)
+        return np.where(shown[..., None], drawn.colors, shot.picture)
+
+    return overlaid

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from lessons.pinhole.captions import PinholeLook
-from lessons.pinhole.following import onto_pixels
+from lessons.pinhole.following import off_pixels, onto_pixels
 from lessons.pinhole.shot import ALONG_RAILS, Shot, pinhole_of
 from workbench.data.views.street import street
 from workbench.geometry.cameras import project, vanishing_points
@@ -66,19 +66,18 @@ def seen_at(glass: Picture, shot: Shot, p: np.ndarray) -> np.ndarray:
 def landed(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     """Return the dots of all points on the pane, the followed one larger."""
     shot, now, k = look.subject, look.now.now, look.subject.k
-    xy = now.xy_bent if now.reached("distort") else now.xy
-    uv = now.uv if now.reached("pixels") else onto_pixels(xy, shot.K)
+    uv = now.seen(shot.K)
     near = _near(glass, uv)
+    if not near.any():
+        return {}
     assert glass.width is not None
-    radius, spots = SPOT * glass.width, places(glass, uv[near])
+    spots = Points(places(glass, uv[near]), "source", SPOT * glass.width, name="calculated")
+    parts: dict[str, Primitive] = {"plane": spots}
     if now.stage == "pixels":
-        size = np.array(glass.size)
-        outside = ~np.all((uv > -0.5) & (uv < size - 0.5), axis=1)[near]
+        outside = ~_near(glass, uv[near], 0.0)
         inside = ("source", "in the picture")
         color = Classes.marking(outside, "correspondence", "outside it", others=inside)
-        parts: dict[str, Primitive] = {"plane": Points(spots, color, radius)}
-    else:
-        parts = {"plane": Points(spots, "source", radius, name="calculated")}
+        parts["plane"] = replace(spots, color=color, name=None)
     if near[k]:
         parts["landed"] = dot(glass, uv[k])
     if now.stage == "pixels" and near[k]:
@@ -97,8 +96,7 @@ def bent_grid(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     lines = [np.column_stack([np.full(25, u), t * h - 0.5]) for u in across]
     lines += [np.column_stack([t * w - 0.5, np.full(25, v)]) for v in down]
     straight = np.concatenate([between(line[:-1], line[1:]) for line in lines])
-    K_inverse = np.linalg.inv(shot.K)
-    xy = straight.reshape(-1, 2) @ K_inverse[:2, :2].T + K_inverse[:2, 2]
+    xy = off_pixels(straight.reshape(-1, 2), shot.K)
     bent = onto_pixels(distort(xy, *shot.lens), shot.K).reshape(straight.shape)
     whole = is_invertible(xy, shot.lens).reshape(-1, 2).all(axis=1)
     parts: dict[str, Primitive] = {
@@ -114,26 +112,27 @@ def bent_grid(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
 
 
 def measured(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
-    """Return the principal point and its distances from the corner, where a picture is edited."""
-    if look.params.edit == "none":
+    """Return the principal point and its distances from the corner; in edited ones, the middle."""
+    params = look.params
+    busy = params.heights or params.dolly != 1 or params.point in ON_RAILS
+    if params.edit == "none" and (busy or params.mistake != "none"):
         return {}
     cx, cy = look.subject.K[:2, 2]
     w, h = glass.size
     uv = np.array([[cx, cy], [0.0, cy], [cx, 0.0], [(w - 1) / 2, (h - 1) / 2]])
     at, left, top, middle = places(glass, uv, 2)
     assert glass.width is not None
-    right, down = (at - left) / max(cx, 1e-9), (at - top) / max(cy, 1e-9)
     radius = FOLLOWED * glass.width
     parts: dict[str, Primitive] = {
         "principal": Points(at[None], "truth", radius, name="principal point"),
-        "middle": Points(middle[None], "neutral", radius, name="middle of the picture"),
     }
-    if cx > 1:
-        text = f"cx = {fixed(cx, 2)}"
-        parts |= dimension("cx", left, at, aside=0.06 * h * down, color="truth", text=text)
-    if cy > 1:
-        text = f"cy = {fixed(cy, 2)}"
-        parts |= dimension("cy", top, at, aside=0.06 * h * right, color="truth", text=text)
+    if params.edit != "none":
+        parts["middle"] = Points(middle[None], "neutral", radius, name="middle of the picture")
+    if min(cx, cy) > 1:
+        right, down = (at - left) / cx, (at - top) / cy
+        for path, end, aside, c in (("cx", left, down, cx), ("cy", top, right, cy)):
+            text = f"{path} = {fixed(c, 2)}"
+            parts |= dimension(path, end, at, aside=0.06 * h * aside, color="truth", text=text)
     return parts
 
 
@@ -169,7 +168,7 @@ def vanishing(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     return parts
 
 
-def _near(glass: Picture, uv: np.ndarray) -> np.ndarray:
-    """Say which pixels are in the photograph or close to it."""
+def _near(glass: Picture, uv: np.ndarray, beyond: float = BEYOND) -> np.ndarray:
+    """Say which pixels are in the photograph, or so close to it by its size."""
     size = np.array(glass.size)
-    return np.all((uv > -BEYOND * size) & (uv < (1 + BEYOND) * size), axis=1)
+    return np.all((uv + 0.5 > -beyond * size) & (uv + 0.5 < (1 + beyond) * size), axis=1)

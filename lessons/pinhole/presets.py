@@ -27,7 +27,7 @@ CRATE = replace(
     heights=True,
 )
 DOLLY = replace(CRATE, dolly=3.0)
-ZOOM = replace(CRATE, f=400.0)
+ZOOM = replace(CRATE, f=400.0, pane=6.98)
 RAILS = replace(PLAIN, camera=(0.0, -3.0, 1.7), target=(0.0, 30.0, 0.5), point=4)
 ASIDE = replace(RAILS, aside=2.0)
 BALL = replace(PLAIN, camera=(0.2, 2.8, 1.2), target=(0.2, 12.0, 1.0), f=110.0)
@@ -52,18 +52,19 @@ VIEW = View(
     eye=(2.2, -5.3, 2.3), target=(0.15, 0.6, 1.75), grid=None, grid_height=-0.02, axes=False
 )
 FACING = through(PLAIN)
-SIDE = View(eye=(-21.5, 1.9, 2.6), target=(-0.9, 5.2, 2.2), grid=None, axes=False)
+SIDE = View(eye=(-17.5, 3.6, 2.6), target=(-0.9, 6.2, 2.1), grid=None, axes=False)
 OBLIQUE = View(eye=(8.0, -10.2, 4.9), target=(1.1, -1.0, 1.4), grid=None, axes=False)
 BEHIND_VIEW = View(eye=(5.0, -8.8, 3.2), target=(0.2, 0.5, 1.4), grid=None, axes=False)
-RAILS_VIEW = View(eye=(0.9, -6.0, 2.3), target=(0.5, 2.0, 1.3), grid=None, axes=False)
+RAILS_VIEW = View(eye=(0.5, -5.0, 2.1), target=(0.35, 2.0, 1.35), grid=None, axes=False)
+FAR_VIEW = View(eye=(4.0, -21.0, 5.0), target=(0.3, -4.0, 2.4), grid=None, axes=False)
 VIEWS = {
     "behind": VIEW,
     "facing": FACING,
     "side": SIDE,
     "frames": OBLIQUE,
-    "crate": through(CRATE, 62.0),
     "ball": through(BALL, 96.0),
     "rails": RAILS_VIEW,
+    "far": FAR_VIEW,
     "fold": through(FOLD, 64.0),
     "back": BEHIND_VIEW,
 }
@@ -72,9 +73,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="lamp",
         title="A lamp on a ray",
-        line=(
-            "Move the lamp along its ray, or push the pane away, and watch its dot in the picture."
-        ),
+        line="Move the lamp along its ray, or push the pane away, and watch its dot in the"
+        " picture.",
         params=LAMP,
         step=0,
     ),
@@ -103,10 +103,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="dolly",
         title="Dolly zoom",
-        line=(
-            "Three times as far, three times the focal length: the crate keeps its size, since size"
-            " goes with f / Z. Step on to read what the tower behind it does."
-        ),
+        line="Three times as far, three times the focal length: the crate keeps its size, since"
+        " size goes with f / Z. Step on to read what the tower behind it does.",
         params=DOLLY,
         step=DIVIDE,
         view=SIDE,
@@ -114,31 +112,26 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="zoom",
         title="Only f doubles",
-        line=(
-            "Every pixel moves to twice its distance from the principal point and nothing else"
-            " changes: zooming is cropping and enlarging, not moving."
-        ),
+        line="Every pixel moves to twice its distance from the principal point and nothing else"
+        " changes: zooming is cropping and enlarging, not moving.",
         params=ZOOM,
         step=PIXELS,
-        view=VIEWS["crate"],
+        view=SIDE,
     ),
     Preset(
         name="orthographic",
         title="Orthographic: far away, long lens",
-        line=(
-            "At fifty times the distance the rays are nearly parallel and depth hardly shows; the"
-            " gap shrinks as one over the distance."
-        ),
-        params=replace(PLAIN, dolly=50.0, pane=9.0),
+        line="At fifty times the distance the rays are nearly parallel and depth hardly shows; the"
+        " gap shrinks as one over the distance.",
+        params=replace(PLAIN, dolly=50.0, pane=10.79),
         step=PIXELS,
+        view=FAR_VIEW,
     ),
     Preset(
         name="rails",
         title="The rails' vanishing point",
-        line=(
-            "The pictures of all lines of one direction d run towards one point, K R d. Look at"
-            " what stands in that formula, and what does not."
-        ),
+        line="The pictures of all lines of one direction d run towards one point, K R d. Look at"
+        " what stands in that formula, and what does not.",
         params=RAILS,
         step=PIXELS,
         view=RAILS_VIEW,
@@ -146,10 +139,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="ball",
         title="A ball is an ellipse",
-        line=(
-            "Its rays form a cone, and the flat picture cuts that cone at a slant: away from the"
-            " middle a ball's outline is longer than wide."
-        ),
+        line="Its rays form a cone, and the flat picture cuts that cone at a slant: away from the"
+        " middle a ball's outline is longer than wide.",
         params=BALL,
         step=PIXELS,
         view=VIEWS["ball"],
@@ -165,10 +156,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="barrel",
         title="Barrel: k₁ < 0",
-        line=(
-            "Points move towards the middle, the further out the more; straight edges near the rim"
-            " bow outwards like a barrel's staves."
-        ),
+        line="Points move towards the middle, the further out the more; straight edges near the"
+        " rim bow outwards like a barrel's staves.",
         params=Input(k1=-0.4, k2=0.1),
         step=DISTORT,
         view=FACING,
@@ -176,10 +165,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="pincushion",
         title="Pincushion: k₁ > 0",
-        line=(
-            "Points move away from the middle, the further out the more, and straight edges near"
-            " the rim bow inwards."
-        ),
+        line="Points move away from the middle, the further out the more, and straight edges near"
+        " the rim bow inwards.",
         params=Input(k1=0.4, k2=0.0),
         step=DISTORT,
         view=FACING,
@@ -187,10 +174,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="tangential",
         title="A lens off centre: p₁, p₂",
-        line=(
-            "Tangential terms push every point to within 30° of one direction, more so away from"
-            " the middle: the shift is not along the radius."
-        ),
+        line="Tangential terms push every point to within 30° of one direction, more so away from"
+        " the middle: the shift is not along the radius.",
         params=Input(k1=0.0, k2=0.0, p1=0.06, p2=-0.05),
         step=DISTORT,
         view=FACING,
@@ -198,10 +183,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="fold",
         title="Where a lens model ends",
-        line=(
-            "k₁ = −0.6 turns round at radius 0.745. Beyond it the polynomial would fold points back"
-            " into the picture, so they get no pixel."
-        ),
+        line="k₁ = −0.6 turns round at radius 0.745. Beyond it the polynomial would fold points"
+        " back into the picture, so they get no pixel.",
         params=FOLD,
         step=DISTORT,
         view=VIEWS["fold"],
@@ -210,10 +193,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="on-ray",
         title="Along the ray, and behind the camera",
-        line=(
-            "Somebody divides by Z whatever its sign. Move the lamp along its ray, through the"
-            " camera and on."
-        ),
+        line="Somebody divides by Z whatever its sign. Move the lamp along its ray, through the"
+        " camera and on.",
         params=ON_RAY,
         step=DIVIDE,
         view=BEHIND_VIEW,
@@ -222,10 +203,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="behind",
         title="A lamp behind the camera",
-        line=(
-            "The followed lamp hangs behind the camera. Step on: it is divided by its negative"
-            " depth like all others. Mask before you divide."
-        ),
+        line="The followed lamp hangs behind the camera. Step on: it is divided by its negative"
+        " depth like all others. Mask before you divide.",
         params=BEHIND,
         step=CAMERA,
         view=BEHIND_VIEW,
@@ -234,10 +213,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="inverted",
         title="Camera-to-world for world-to-camera",
-        line=(
-            "Both are 4×4 and rigid, so nothing complains. Nearly every point is then behind the"
-            " camera and loses its pixel."
-        ),
+        line="Both are 4×4 and rigid, so nothing complains. Nearly every point is then behind the"
+        " camera and loses its pixel.",
         params=Input(mistake="pose inverted"),
         step=CAMERA,
         view=OBLIQUE,
@@ -246,10 +223,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="opengl",
         title="OpenGL axes",
-        line=(
-            "A pose for y up and z backwards gives all that is in front a negative depth; dividing"
-            " anyway gives a picture mirrored left to right."
-        ),
+        line="A pose for y up and z backwards gives all that is in front a negative depth;"
+        " dividing anyway gives a picture mirrored left to right.",
         params=Input(mistake="OpenGL axes"),
         step=PIXELS,
         view=FACING,
@@ -258,10 +233,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="rows",
         title="Row before column",
-        line=(
-            "(u, v) is (column, row), arrays are indexed [row, column]: mixed up, the picture is"
-            " flipped about its diagonal."
-        ),
+        line="(u, v) is (column, row), arrays are indexed [row, column]: mixed up, the picture is"
+        " flipped about its diagonal.",
         params=Input(mistake="row before column"),
         step=PIXELS,
         view=FACING,
@@ -270,10 +243,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="lens-on-pixels",
         title="The lens after K",
-        line=(
-            "Distortion acts on normalised coordinates. Fed with pixels, its r² is f² times too"
-            " large, and points fly 36 million pixels away (median)."
-        ),
+        line="Distortion acts on normalised coordinates. Fed with pixels, its r² is f² times too"
+        " large, and points fly 36 million pixels away (median).",
         params=Input(mistake="lens on pixels"),
         step=DISTORT,
         view=FACING,
@@ -282,10 +253,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="cut",
         title="Columns cut off, K forgotten",
-        line=(
-            "The pane loses columns at its left and rows at its top. K does not know, and the"
-            " orange outlines slide to the right and down by as many pixels."
-        ),
+        line="The pane loses columns at its left and rows at its top. K does not know, and the"
+        " orange outlines slide to the right and down by as many pixels.",
         params=Input(edit="cropped", k_follows=False),
         step=PIXELS,
         view=FACING,
@@ -294,10 +263,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="crop-wrong",
         title="Cropped, halved, K forgotten",
-        line=(
-            "The picture lost its left and top and half its size, K knows of neither: the"
-            " calculation is shifted and twice as large as it should be."
-        ),
+        line="The picture lost its left and top and half its size, K knows of neither: the"
+        " calculation is shifted and twice as large as it should be.",
         params=Input(edit="cropped, then half size", k_follows=False),
         step=PIXELS,
         view=FACING,
@@ -306,10 +273,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="crop-right",
         title="Cropped, halved, K too",
-        line=(
-            "A crop moves the principal point, away from the middle of the picture; halving halves"
-            " f as well. Now all fits again."
-        ),
+        line="A crop moves the principal point, away from the middle of the picture; halving"
+        " halves f as well. Now all fits again.",
         params=CROP_RIGHT,
         step=PIXELS,
         view=FACING,
@@ -317,10 +282,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="centre",
         title="t is not the camera",
-        line=(
-            "t is the world's origin seen from the camera. Rays that start there miss every point"
-            " by the distance from t to C = −Rᵀt."
-        ),
+        line="t is the world's origin seen from the camera. Rays that start there miss every point"
+        " by the distance from t to C = −Rᵀt.",
         params=Input(mistake="t for the centre"),
         step=BACK,
         view=BEHIND_VIEW,
@@ -329,10 +292,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="ray-length",
         title="Depth is not ray length",
-        line=(
-            "Points come back too far out, the more the further from the axis: flat walls come back"
-            " curved."
-        ),
+        line="Points come back too far out, the more the further from the axis: flat walls come"
+        " back curved.",
         params=Input(mistake="ray length for depth"),
         step=BACK,
         view=BEHIND_VIEW,

@@ -134,11 +134,9 @@ def _why_crop(states: Run) -> str:
 QUESTIONS: tuple[Question, ...] = (
     Question(
         name="predict-dolly",
-        text=(
-            "The camera backs off to three times its distance from the crate, and f becomes three"
-            " times as long. The crate keeps its size. What does the tower behind it do in the"
-            " picture?"
-        ),
+        text="The camera backs off to three times its distance from the crate, and f becomes three"
+        " times as long. The crate keeps its size. What does the tower behind it do in the"
+        " picture?",
         answer=_which_dolly,
         why=_why_dolly,
         params=DOLLY,
@@ -159,10 +157,8 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-centre",
-        text=(
-            "T_camera_world of another camera has t = (−1.32, 1.96, 4.55) m. Where in the world is"
-            " that camera?"
-        ),
+        text="T_camera_world of another camera has t = (−1.32, 1.96, 4.55) m. Where in the world"
+        " is that camera?",
         answer=_which_centre,
         why=_why_centre,
         params=FRAME,
@@ -184,11 +180,9 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-crop",
-        text=(
-            "60 columns and 40 rows are cut off at the left and top, then the picture is halved."
-            " The principal point was at u = 159.5 px, where pixel centres are at integers. What is"
-            " cx now?"
-        ),
+        text="60 columns and 40 rows are cut off at the left and top, then the picture is halved."
+        " The principal point was at u = 159.5 px, where pixel centres are at integers. What is cx"
+        " now?",
         answer=lambda states: float(states.subject.K[0, 2]),
         why=_why_crop,
         params=CROP_RIGHT,
@@ -203,18 +197,14 @@ QUESTIONS: tuple[Question, ...] = (
             (
                 49.7,
                 50.1,
-                (
-                    "Nearly. The picture begins at −0.5 px, the left edge of pixel 0. Halving keeps"
-                    " this edge in place, and not the middle of pixel 0."
-                ),
+                "Nearly. The picture begins at −0.5 px, the left edge of pixel 0. Halving keeps"
+                " this edge in place, and not the middle of pixel 0.",
             ),
             (
                 64.0,
                 65.5,
-                (
-                    "That is the middle of the new picture. The crop has moved the principal point"
-                    " away from the middle."
-                ),
+                "That is the middle of the new picture. The crop has moved the principal point"
+                " away from the middle.",
             ),
             (
                 79.0,
@@ -235,10 +225,8 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="through-the-middle",
-        text=(
-            "This lens moves each point along its radius. A straight edge runs through the middle"
-            " of the picture, slanting. How is it bent?"
-        ),
+        text="This lens moves each point along its radius. A straight edge runs through the middle"
+        " of the picture, slanting. How is it bent?",
         answer=lambda states: 2.0 if bow_through_the_middle(states) < 0.5 else 1.0,
         why=_why_middle,
         params=RADIAL,
@@ -259,10 +247,8 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-rails",
-        text=(
-            "The camera steps 2 m to its right without turning. Where does the point go in which"
-            " the rails seem to meet?"
-        ),
+        text="The camera steps 2 m to its right without turning. Where does the point go in which"
+        " the rails seem to meet?",
         answer=_which_rails,
         why=_why_rails,
         params=ASIDE,
@@ -283,10 +269,8 @@ QUESTIONS: tuple[Question, ...] = (
     ),
     Question(
         name="predict-behind",
-        text=(
-            "A lamp hangs 2.25 m behind the camera, and somebody divides by Z without looking at"
-            " its sign. Where is its pixel?"
-        ),
+        text="A lamp hangs 2.25 m behind the camera, and somebody divides by Z without looking at"
+        " its sign. Where is its pixel?",
         answer=_which_behind,
         why=_why_behind,
         params=BEHIND,

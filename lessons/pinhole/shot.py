@@ -30,13 +30,13 @@ from workbench.lesson import cached
 WIDTH, HEIGHT = 320, 240
 CROP_TOP = 40
 LAMP = street().names.index("the lamp")
-CRATE_EDGE = np.array([[-1.4, 5.5, 0.0], [-1.4, 5.5, 1.0]])
-TOWER_EDGE = np.array([[-3.7, 13.2, 0.0], [-3.7, 13.2, 5.0]])
+EDGES = np.array([[[-1.4, 5.5, 0.0], [-1.4, 5.5, 1.0]], [[-3.7, 13.2, 0.0], [-3.7, 13.2, 5.0]]])
+"""Of the crate and of the tower, foot and top."""
 ALONG_RAILS = np.array([[0.0, 1.0, 0.0]])
 SKY = (238, 243, 248)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Pinhole:
     """The true camera: its pose, its K before any edit and after it, and its lens."""
 
@@ -46,15 +46,11 @@ class Pinhole:
     lens: Distortion
 
 
-@dataclass(frozen=True, eq=False)
-class Shot:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Shot(Pinhole):
     """What the true camera sees.
 
     Attributes:
-        T_camera_world: Where it is, the dolly included.
-        K: Its intrinsics, for the picture after the edit.
-        K_first: Its intrinsics before the edit.
-        lens: Its lens.
         picture: The photograph after the edit, (h, w, 3).
         p_world: The points (n, 3) of the street, metres.
         k: Which of them is followed.
@@ -68,10 +64,6 @@ class Shot:
             and without the lens.
     """
 
-    T_camera_world: np.ndarray
-    K: np.ndarray
-    K_first: np.ndarray
-    lens: Distortion
     picture: np.ndarray
     p_world: np.ndarray
     k: int
@@ -94,20 +86,17 @@ def setup(params: Input) -> Shot:
     eye = pinhole_of(params, params.dolly)
     T, K, lens = eye.T_camera_world, eye.K, eye.lens
     p_world, k = followed(params, eye)
-    names = street().names
+    crate, tower = heights(params, params.dolly)
     return Shot(
-        T_camera_world=T,
-        K=K,
-        K_first=eye.K_first,
-        lens=lens,
+        **vars(eye),
         picture=photograph(params),
         p_world=p_world,
         k=k,
-        name=names[k] if k < len(names) else f"point {k}",
+        name=dict(enumerate(street().names)).get(k, f"point {k}"),
         uv=project(p_world, T, K, lens),
         xy=normalize(project(p_world, T, K), K),
-        crate=_height(CRATE_EDGE, eye),
-        tower=_height(TOWER_EDGE, eye),
+        crate=crate,
+        tower=tower,
         ball_ratio=_ball_ratio(T, eye.K_first),
         vanishing=vanishing_points(ALONG_RAILS, T, K, distortion=lens)[0],
         gap=gap(params, params.dolly),
@@ -134,13 +123,14 @@ def pinhole_of(params: Input, by: float) -> Pinhole:
     if "half" in params.edit:
         K = resize_intrinsics(K, 0.5, 0.5)
     lens = Distortion(params.k1, params.k2, params.p1, params.p2)
-    return Pinhole(T_camera_world, K_first, K, lens)
+    return Pinhole(T_camera_world=T_camera_world, K_first=K_first, K=K, lens=lens)
 
 
-def heights(params: Input, by: float) -> tuple[float, float]:
-    """Return how tall the crate and the tower are in the picture with the dolly at `by`, pixels."""
+def heights(params: Input, by: float) -> np.ndarray:
+    """Return how tall crate and tower (2,) are in the picture with the dolly at `by`, pixels."""
     eye = pinhole_of(params, by)
-    return _height(CRATE_EDGE, eye), _height(TOWER_EDGE, eye)
+    uv = project(EDGES.reshape(-1, 3), eye.T_camera_world, eye.K, eye.lens).reshape(2, 2, 2)
+    return np.linalg.norm(uv[:, 1] - uv[:, 0], axis=1)
 
 
 def gap(params: Input, by: float) -> float:
@@ -198,11 +188,6 @@ def wires(T_camera_world: np.ndarray) -> np.ndarray:
         outline = sphere_outline(BALL_CENTER, BALL_RADIUS, T_camera_world, n=48)
         ball = segments(outline, closed=True)
     return np.concatenate([scene.edges, scene.rails, ball])
-
-
-def _height(ends: np.ndarray, eye: Pinhole) -> float:
-    low, high = project(ends, eye.T_camera_world, eye.K, eye.lens)
-    return float(np.linalg.norm(high - low))
 
 
 def _ball_ratio(T_camera_world: np.ndarray, K: np.ndarray) -> float:
