@@ -213,7 +213,7 @@ def draw_chain(look: Look[Input, Body, Named]) -> Scene:
     body = look.subject
     now = look.now
     p = body.p_followed(params.point)
-    n, whole = whole_turn(params)
+    n, _ = whole_turn(params)
     here = now.R @ p
     centre = (n @ p) * n
     radius = float(np.linalg.norm(p - centre))
@@ -237,9 +237,8 @@ def draw_chain(look: Look[Input, Body, Named]) -> Scene:
         "matrix": Table.of_matrix("R", ("x axis", "y axis", "z axis"), now.R),
         "numbers": numbers(now.R),
         "caption": say(
-            "One turn by {angle} of {whole} about one axis.",
+            "One turn by {angle} about one axis.",
             angle=degrees(now.value),
-            whole=degrees(np.degrees(whole)),
         ),
     }
     if now.value > 1e-9:

@@ -25,7 +25,7 @@ from workbench.scene import (
 )
 
 SAME = 1e-9  # metres: what rounding leaves
-TURNED = Chart("Turned so far", "t", "deg")
+TURNED = Chart("Turned so far", "t", "deg", x_range=(0.0, 1.0), y_range=(0.0, 360.0))
 SPEED = Chart("Turning speed", "t", "deg per unit of t")
 OFF = Chart("Error to truth", unit="deg")
 VOLUME = Chart("Volume", unit="%")
@@ -67,10 +67,11 @@ def draw(look: Look[Input, Body, Moved]) -> Scene:
             f"T at t = {now.t:.2f}", ("x axis", "y axis", "z axis", "origin"), now.T_world_body
         ),
         "numbers": numbers(now.T_world_body[:3, :3]),
-        "turned": TURNED.curve(way.times, way.turned, method, marks=(now.t,)),
-        "turned at best": TURNED.curve(
+        "turned at best": TURNED.whole(
             now.shortest.times, now.shortest.turned, "shortest turn", "truth"
         ),
+        "turned": TURNED.second(way.times, way.turned, f"by {method}", "source"),
+        "turned mark": TURNED.mark(now.t, float(way.turned[-1]), "now", "source", steps="t"),
         "caption": caption(look),
     }
     if is_about_one_place(now):

@@ -11,12 +11,14 @@ from workbench.lesson import Preset, Sweep, View
 VIEW = View(eye=(2.6, -3.9, 2.2), target=(0.85, 0.2, 0.32), grid=None, axes=False)
 RINGS = View(eye=(2.2, -2.9, 1.3), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 NEAR = View(eye=(2.2, -2.6, 1.5), target=(0.0, 0.0, 0.35), grid=None, axes=False)
+CORNER = View(eye=(3.0, -1.2, 1.7), target=(0.1, -0.1, 0.25), grid=None, axes=False)
 ABOVE = View(eye=(-0.5, -2.6, 3.1), target=(-0.45, 0.0, 0.2), grid=None, axes=False)
 GLOBE = View(eye=(2.4, -2.9, 1.6), target=(0.0, 0.0, 0.1), grid=None, axes=False)
 NEEDLE = View(eye=(1.6, -2.6, 1.2), target=(0.0, 0.0, 0.45), grid=None, axes=False)
 VIEWS = {
     "rings": RINGS,
     "near": NEAR,
+    "corner": CORNER,
     "above": ABOVE,
     "globe": GLOBE,
     "needle": NEEDLE,
@@ -102,7 +104,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         line="The two grey arcs are quarter turns, about x and then about z. Green is one arc.",
         params=CHAIN,
         step=0,
-        view=NEAR,
+        view=CORNER,
     ),
     Preset(
         name="halves",

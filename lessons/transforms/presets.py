@@ -12,9 +12,10 @@ from workbench.numerals import fixed, length
 VIEW = View(eye=(2.6, -3.9, 2.2), target=(0.85, 0.2, 0.32), grid=None, axes=False)
 NEAR = View(eye=(1.9, -2.8, 1.6), target=(0.2, 0.0, 0.5), grid=None, axes=False)
 ABOVE = View(eye=(0.7, -1.2, 5.5), target=(0.7, 0.55, 0.0), grid=None, axes=False)
+WAYS = View(eye=(0.0, -1.6, 6.6), target=(0.0, -0.25, 0.0), grid=None, axes=False)
 LEVEL = View(eye=(0.3, -4.6, 1.2), target=(0.0, 0.0, 1.1), grid=None, axes=False)
 BESIDE = View(eye=(1.2, -3.6, 1.5), target=(0.45, 0.0, 0.5), grid=None, axes=False)
-VIEWS = {"near": NEAR, "above": ABOVE, "level": LEVEL, "beside": BESIDE, "wide": VIEW}
+VIEWS = {"near": NEAR, "above": ABOVE, "ways": WAYS, "level": LEVEL, "beside": BESIDE, "wide": VIEW}
 
 ONE = (1.0, 1.0, 1.0)
 NO_TURN = (0.0, 0.0, 0.0)
@@ -56,10 +57,10 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="undoing",
         title="Two ways back",
-        line="A turn and a shift, taken back by (Rᵀ, −Rᵀt) in green and by (Rᵀ, −t).",
+        line="A turn and a shift, taken back by (Rᵀ, −Rᵀt) in green, and by (Rᵀ, −t).",
         params=UNDOING,
         step=0,
-        view=ABOVE,
+        view=WAYS,
     ),
     Preset(
         name="shearing",
@@ -272,7 +273,7 @@ QUESTIONS: tuple[Question, ...] = (
             " turn, so it must be taken back before the turn is."
         ),
         params=UNDOING,
-        start=QUARTER,
+        start=0,
         step=QUARTER,
         choices=(
             Choice(

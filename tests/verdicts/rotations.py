@@ -129,7 +129,6 @@ VALUES = {
     "apart": lines_apart,
     "off": off,
     "angle": lambda run, k: float(run.states[k].value),
-    "whole": whole,
     "half": lambda run, k: run.states[k].value / 2,
     "other": lambda run, k: run.states[k].value / 2 + 180,
     "left": left,
