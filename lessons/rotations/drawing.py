@@ -237,7 +237,7 @@ def draw_chain(look: Look[Input, Body, Named]) -> Scene:
         "matrix": Table.of_matrix("R", ("x axis", "y axis", "z axis"), now.R),
         "numbers": numbers(now.R),
         "caption": say(
-            "One turn by {angle} about one axis.",
+            "The one turn has gone {angle}.",
             angle=degrees(now.value),
         ),
     }

@@ -128,9 +128,9 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="inverse",
         title="Undo with (Rᵀ, −t)",
-        line="The translation must be turned back too. Read how far the vermillion house is off.",
+        line="The translation must be turned back too. Step on, and read how far the other way leads.",
         params=INVERSE,
-        step=-1,
+        step=-2,
         breaks=True,
     ),
     Preset(
@@ -281,7 +281,7 @@ QUESTIONS: tuple[Question, ...] = (
                 "Each part is undone by itself, but in the wrong order: the shift was made last, so"
                 " it must be undone first.",
             ),
-            Choice("Turned back, but somewhere else"),
+            Choice("Unturned, somewhere else"),
             Choice("Still turned", "RᵀR is the identity, so the turn is undone."),
         ),
     ),

@@ -234,7 +234,7 @@ class TestQuestions:
         found = {q.name: answer(lesson, q, None, timelines) for q in lesson.questions}
         assert found["read-columns"].truth == "It turns by 90° about z"
         assert found["which-order"].value == pytest.approx(2.12, abs=0.01)
-        assert found["undo"].truth == "Turned back, but somewhere else"
+        assert found["undo"].truth == "Unturned, somewhere else"
         assert found["sheared-volume"].truth == "It stays"
         assert found["apex"].truth == "2 m"
 

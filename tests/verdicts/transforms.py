@@ -240,7 +240,10 @@ def right(run: Run, k: int) -> bool | None:
 
 CAPTIONS = (
     Claim(r"best rigid motion", None),
-    Claim(r"(comes|come) home", lambda run, k, m: np.abs(run.states[k].T - np.eye(4)).max() < SAME),
+    Claim(
+        r"does not come home",
+        lambda run, k, m: np.abs(run.states[k].T - np.eye(4)).max() > SAME,
+    ),
     Claim(
         r"the body is ([\d.]+) times as high",
         lambda run, k, m: near(m[1], run.params.scale[2]),
