@@ -1,5 +1,7 @@
 """What the stage `poses` looks like, and the caption of its steps."""
 
+from typing import Any
+
 import numpy as np
 
 from lessons.rotations.drawing import GROUND, lines, numbers, shown
@@ -149,7 +151,7 @@ def caption(look: Look[Input, Body, Moved]) -> Caption:
     if len(way.times) == 1:
         said = "t = 0, the start. The shortest turn to the end is {shortest}; " + HOW[method] + "."
         return say(said, shortest=degrees(shortest, 4))
-    values = {"t": fixed(now.t, 2), "turned": degrees(float(way.turned[-1]), 4)}
+    values: dict[str, Any] = {"t": fixed(now.t, 2), "turned": degrees(float(way.turned[-1]), 4)}
     begun = "t = {t}: turned {turned} so far"
     if abs(now.volume - 1.0) > SAME:
         mirrored = ", mirrored" if now.volume < 0 else ""
@@ -168,7 +170,7 @@ def caption(look: Look[Input, Body, Moved]) -> Caption:
     return _arrival(look, begun, values)
 
 
-def _arrival(look: Look[Input, Body, Moved], begun: str, values: dict) -> Caption:
+def _arrival(look: Look[Input, Body, Moved], begun: str, values: dict[str, Any]) -> Caption:
     """Say at t = 1 whether the end is met, and whether the way there was the shortest turn."""
     now = look.now
     p = look.subject.solid.p

@@ -108,7 +108,11 @@ def _fixed_and_own(params: Input, _: np.ndarray) -> list[Other]:
     other: EulerOrder = params.order.swapcase()  # type: ignore[assignment]
     backwards: EulerOrder = other[::-1]  # type: ignore[assignment]
     angles = np.radians(params.angles)
-    named = ((backwards, angles[::-1]), (other, angles), (backwards, angles))
+    named: tuple[tuple[EulerOrder, np.ndarray], ...] = (
+        (backwards, angles[::-1]),
+        (other, angles),
+        (backwards, angles),
+    )
     return [(f"{order} {in_degrees(a)}", euler_to_matrix(a, order)) for order, a in named]
 
 

@@ -181,13 +181,17 @@ def _undo(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
         aside = 0.62 * np.cross(UP, p_wrong) / missed
         scene |= dimension("miss line", at, p_wrong + at, aside=aside, color="wrong")
     undone = bool(np.abs(now.T - np.eye(4)).max() < 1e-9)
-    values = {"angle": degrees(now.value), "missed": metres(missed)}
     said = "Turned by {angle}, then moved: (Rᵀ, −t) misses the start by {missed}."
     if not undone:
         said = "Turned by {angle}, then moved: the given inverse does not come home. "
         said += "(Rᵀ, −t) misses by {missed}."
-    tone = "info" if undone else "wrong"
-    return scene | {"caption": say(said, tone=tone, **values)}
+    caption = say(
+        said,
+        tone="info" if undone else "wrong",
+        angle=degrees(now.value),
+        missed=metres(missed),
+    )
+    return scene | {"caption": caption}
 
 
 def _shear(look: Look[Input, Body, Held]) -> dict[str, Primitive]:

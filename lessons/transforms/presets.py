@@ -128,7 +128,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="inverse",
         title="Undo with (Rᵀ, −t)",
-        line="The translation must be turned back too. Step on, and read how far the other way leads.",
+        line="The translation must be turned back too. Step on, and read where it leads.",
         params=INVERSE,
         step=-2,
         breaks=True,

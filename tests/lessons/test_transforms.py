@@ -2,13 +2,12 @@
 
 import itertools
 from dataclasses import replace
-from typing import get_args, get_type_hints
+from typing import Any, get_args, get_type_hints
 
 import numpy as np
 import pytest
 
 from lessons.transforms.by_hand import roof
-from lessons.transforms.factors import Built
 from lessons.transforms.hands import VALUES, arrived, fronts
 from lessons.transforms.inputs import Input
 from lessons.transforms.lesson import lesson
@@ -24,7 +23,7 @@ from workbench.scene import Table, caption_of, is_rigid
 NAME = "transforms"
 
 
-def complete(params: Input) -> Built:
+def complete(params: Input) -> Any:
     return next(state for state in of(NAME, params) if state.complete)
 
 
@@ -135,7 +134,7 @@ class TestFactors:
         assert rows["area"][0] == "× 1.28"
 
     def test_nothing_to_blame_is_not_blamed(self):
-        still = (0.0,) * 6
+        still = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         for compare in ("undo by (Rᵀ, −t)", "undo all as if rigid"):
             ghost = of(NAME, Input(scale=(1, 1, 1), pose=still, compare=compare))[-1].ghost
             assert ghost.same
