@@ -78,7 +78,7 @@ def _columns(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     det = float(np.linalg.det(T[:3, :3]))
     lean = float(np.degrees(angle_between(T[:3, 2], UP)))
     scene: dict[str, Primitive] = {
-        **shown("body", body, T, opacity=0.35),
+        **shown("body", body, T, opacity=0.55),
         "vertex": Label(f"vertex {point}", steps[-1] + 0.06 * UP, "highlight"),
         "det": DET.scalar(det, "det T"),
         "share": SHARE.scalar(look.now.value, "share"),
