@@ -363,6 +363,7 @@ def fits_a_phone_in_the_dark(home: Home) -> None:
     assert home.ask("document.documentElement.scrollWidth") <= PHONE["width"]
     if home.ask("page.k") == 0:
         home.press("n")
+        home.until("page.k > 0")
     k = home.ask("page.k")
     home.find("[data-act=back]").press("Enter")
     home.until("k => page.k === k", k - 1)
