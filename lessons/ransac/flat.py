@@ -23,7 +23,7 @@ from workbench.numerals import brief, counted
 from workbench.scene import Chart, Classes, Label, Points, Primitive, Role, Scene, Segments
 
 MOST_DRAWS = 100
-DOT = 0.02  # metres: the radius of a point
+DOT = 0.03  # metres: the radius of a point
 WIDTHS = np.arange(5.0, 301.0, 5.0) / MM
 APARTS = np.append(np.arange(0.05, 0.5, 0.05), np.arange(0.5, 1.81, 0.1))
 REDRAWN = 30  # times the noise of two points

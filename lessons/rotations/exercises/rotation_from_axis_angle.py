@@ -28,7 +28,6 @@ from workbench.geometry.motions import exp_so3, rotations, skew
 
 @contract(
     slot="rotation_from_axis_angle",
-    preset="one-axis",
     forbid=("scipy.spatial.transform",),
     examples=(
         (
