@@ -87,7 +87,9 @@ def test_params_of_a_map_stay_with_transforms():
     place = links.read("?lesson=transforms&half=build%20a%20map&steps=30&shear=0.5&step=2")
     assert place is not None
     assert (place.lesson.name, place.params.shear, place.step) == ("transforms", 0.5, 2)
-    assert links.read("?lesson=transforms&angles=40,20,60").params.angles == (40.0, 20.0, 60.0)
+    turned = links.read("?lesson=transforms&angles=40,20,60")
+    assert turned is not None
+    assert turned.params.angles == (40.0, 20.0, 60.0)
 
 
 def test_a_move_between_poses_is_understood_as_a_command(capsys, tmp_path):

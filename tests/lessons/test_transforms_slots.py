@@ -12,7 +12,7 @@ from workbench.geometry.motions import inverse, motion
 from workbench.geometry.motions.affine import transform
 from workbench.lesson import Look
 from workbench.run.timeline import Timeline
-from workbench.scene import caption_of
+from workbench.scene import Mesh, caption_of
 
 
 def wrong_inverse(T):
@@ -66,6 +66,8 @@ def test_a_bad_mesh_is_one_clear_line(tmp_path):
 def test_a_mirrored_body_is_not_drawn_inside_out():
     run = Timeline(lesson, lesson.preset("mirror").params).complete()
     mesh = next(step for step in run.known() if step.state.factor.kind == "mirror").scene["body"]
+    assert isinstance(mesh, Mesh)
+    assert mesh.T_world_object is not None
     shown = trimesh.Trimesh(transform(mesh.T_world_object, mesh.p), mesh.faces, process=False)
     assert shown.volume > 0
 
