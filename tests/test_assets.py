@@ -40,7 +40,7 @@ def test_the_two_scans_come_together():
 
 def test_the_cloud_has_a_floor():
     timeline = run("ransac", cloud="floor_and_clutter.ply")
-    fit = timeline[-1].state.now.best.estimate
+    fit = timeline[-1].state.best.estimate
     assert abs(fit[2]) == pytest.approx(1.0, abs=1e-3)
     assert fit[3] == pytest.approx(0.0, abs=0.01)
 

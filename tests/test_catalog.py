@@ -31,7 +31,7 @@ def registered(monkeypatch):
 
 
 def test_the_course_is_in_its_order():
-    assert list(catalog())[:3] == ["transforms", "coordinates", "pairs"]
+    assert list(catalog())[:3] == ["transforms", "rotations", "coordinates"]
     assert list(catalog().values()) == sorted(catalog().values(), key=place_of)
 
 
@@ -65,7 +65,7 @@ def test_a_lesson_from_a_file_or_a_line_that_says_why_not(tmp_path):
         with pytest.raises(InputError, match=f"mine.py: .*{said}"):
             load(file)
     with pytest.raises(
-        InputError, match="no lesson is named 'nothing'; there are: transforms, coordinates"
+        InputError, match="no lesson is named 'nothing'; there are: transforms, rotations"
     ):
         find("nothing")
 

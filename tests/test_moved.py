@@ -18,6 +18,13 @@ BEFORE = {
         ),
         "predict-rotations predict-frames predict-signs predict-negated predict-product",
     ),
+    "transforms": (
+        (
+            "order gimbal conventions fixed-own mirror shear perspective transpose inverse"
+            " hidden-scale xyzw direction minus-q one-axis wobble average entries screw"
+        ),
+        "which-order lost-direction sheared-volume mean-heading mean-matrix",
+    ),
     "icp": (
         (
             "home far plane symmetric slide overlap-fixed overlap-adaptive overlap-tight outliers"
@@ -62,6 +69,41 @@ def test_params_of_the_stage_of_pairs_open_the_lesson_of_pairs():
     assert (place.params.scale, place.params.noise) == (1.5, 0.0), "its noise was none by default"
 
 
+@pytest.mark.parametrize(
+    ("words", "stage"),
+    [
+        ("half=move%20between%20two%20poses&method=screw&steps=20", "poses"),
+        ("compare=transpose&angles=0,0,40&scale=1,1,1", "readings"),
+        ("compare=other%20triples&half=build%20a%20map", "readings"),
+    ],
+)
+def test_params_about_rotations_open_the_lesson_of_rotations(words, stage):
+    place = links.read(f"?lesson=transforms&{words}")
+    assert place is not None
+    assert (place.lesson.name, place.params.stage) == ("rotations", stage)
+
+
+def test_params_of_a_map_stay_with_transforms():
+    place = links.read("?lesson=transforms&half=build%20a%20map&steps=30&shear=0.5&step=2")
+    assert place is not None
+    assert (place.lesson.name, place.params.shear, place.step) == ("transforms", 0.5, 2)
+    turned = links.read("?lesson=transforms&angles=40,20,60")
+    assert turned is not None
+    assert turned.params.angles == (40.0, 20.0, 60.0)
+
+
+def test_a_move_between_poses_is_understood_as_a_command(capsys, tmp_path):
+    from workbench.cli import main
+
+    out = tmp_path / "a.rrd"
+    half = ["--half", "move between two poses", "--method", "Euler angles", "--steps", "5"]
+    assert main(["record", "transforms", *half, "-o", str(out)]) == 0, capsys.readouterr().err
+    import workbench
+
+    recording = workbench.open_recording(out)
+    assert (recording.lesson, recording.params["method"]) == ("rotations", "Euler angles")
+
+
 def test_params_of_the_axes_stay():
     place = links.read("?lesson=alignment&stage=axes&noise=0.05&scale=1")
     assert place is not None
@@ -75,7 +117,8 @@ def test_a_move_names_what_there_is(move):
     fields = {field.name for field in fields_of(new.params)}
     assert set(move.base) <= fields
     assert make(new.params, dict(move.base))
-    assert move.lesson not in catalog()
+    stays = any(one.lesson == one.to == move.lesson for one in MOVES)
+    assert (move.lesson in catalog()) == stays
     led_on = runs_led_on(move.lesson)
     assert all(led_on[old] == (move.to, name) for old, name in move.presets.items())
 

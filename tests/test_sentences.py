@@ -30,6 +30,7 @@ MOST_WORDS = 400  # letters of a caption
 STEPS = 8  # of one run
 RUNS = {
     "transforms": 30,
+    "rotations": 30,
     "pinhole": 25,
     "chamfer_emd": 2,
     "disparity": 3,

@@ -107,14 +107,25 @@ def knob(
     parts: tuple[str, ...] = (),
     by: Gizmo | Pick | None = None,
     of_files: bool = False,
+    read_with: Mapping[str, tuple[Any, ...]] | None = None,
 ) -> Any:
     """Return a field of `Params`: its default, and how it is shown and set (see `Knob`).
 
     There is no `needs`: a run that does not read the field leaves the control without effect, and a
-    page shows it so.
+    page shows it so. A file says in `read_with` which choices read it; who hands it over gets the
+    first of them.
     """
     shown = Knob(
-        hint, low, high, unit, step=step, label=label, parts=parts, by=by, of_files=of_files
+        hint,
+        low,
+        high,
+        unit,
+        step=step,
+        label=label,
+        parts=parts,
+        by=by,
+        of_files=of_files,
+        needs=read_with or {},
     )
     return dataclasses.field(default=default, metadata={"knob": shown})
 

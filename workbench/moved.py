@@ -22,7 +22,8 @@ class Move:
         questions: Its questions, likewise.
         base: Params that were otherwise by default, as the part had them.
         gone: Params that the part does not have any more; they are left out.
-        is_rest: Whether it is all of the lesson that no move before it names.
+        is_rest: Whether it is all of the lesson that no move before it names; `to` is the lesson
+            itself where that stays.
     """
 
     lesson: str
@@ -46,7 +47,47 @@ def _same(*names: str) -> dict[str, str]:
     return {name: name for name in names}
 
 
+_BUILDING = frozenset({"half", "first", "scale", "shear", "perspective", "mirror"})
+_MOVING = frozenset({"half", "angles_end", "method", "steps"})
+_READINGS = {
+    "other triples": ("gimbal",),
+    "four conventions": ("conventions",),
+    "fixed and own axes": ("fixed-own",),
+    "transpose": ("transpose",),
+    "xyzw for wxyz": ("xyzw",),
+}
+"""What the lesson on transforms compared that is about rotations, with the presets of each."""
+
 MOVES = (
+    Move(
+        lesson="transforms",
+        to="rotations",
+        where=("half", "move between two poses"),
+        presets=_same("minus-q", "one-axis", "wobble", "average", "entries", "screw"),
+        questions=_same("lost-direction", "mean-heading", "mean-matrix"),
+        gone=_BUILDING | {"compare"},
+    ),
+    *(
+        Move(
+            lesson="transforms",
+            to="rotations",
+            where=("compare", compare),
+            presets=_same(*presets),
+            questions={},
+            base={"stage": "readings"},
+            gone=_BUILDING,
+        )
+        for compare, presets in _READINGS.items()
+    ),
+    Move(
+        lesson="transforms",
+        to="transforms",
+        where=("half", "build a map"),
+        presets={},
+        questions={},
+        gone=_MOVING,
+        is_rest=True,
+    ),
     Move(
         lesson="alignment",
         to="pairs",
@@ -108,7 +149,7 @@ def lessons_led_on() -> dict[str, str]:
     """Return the lessons that are in others altogether, each with the one that has the rest of
     it.
     """
-    return {move.lesson: move.to for move in MOVES if move.is_rest}
+    return {move.lesson: move.to for move in MOVES if move.is_rest and move.to != move.lesson}
 
 
 def asked_before(lesson: str) -> dict[str, tuple[str, str]]:

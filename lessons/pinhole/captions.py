@@ -1,174 +1,170 @@
-"""What happened at a stage, in words and numbers."""
+"""What happened at a stage: a sentence with its numbers, and what is wrong, if anything is."""
 
 import math
+from typing import Any
 
 import numpy as np
 
-from lessons.pinhole.state import Shot, State, name_of
+from lessons.pinhole.inputs import Input
+from lessons.pinhole.models import State
+from lessons.pinhole.shot import Shot
+from workbench.captions import Quantity, counted, fixed, metres, pixels
+from workbench.geometry.cameras import camera_center
 from workbench.geometry.cameras.distortion import invertible_radius
 from workbench.geometry.motions import apply
-from workbench.numerals import coordinates, counted, fixed, fixed_or_power, length, pixels
+from workbench.lesson import Look, say
+from workbench.numerals import fixed_or_power, length
 from workbench.scene import Caption
 
 VISIBLE = 0.5  # px: a smaller median error is not blamed on anybody
 MISPLACED = 1e-3  # m, likewise on the way back
 SAME = 1e-6  # m: what rounding leaves of a way out and back
+PLACES = {
+    "camera": "camera axes",
+    "distort": "lens",
+    "back": "way back",
+}
+MISTAKES = {
+    "pose inverted": "The pose is inverted: camera-to-world stands where world-to-camera belongs.",
+    "divides behind too": "What lies behind the camera was divided by its negative depth too.",
+    "OpenGL axes": "The pose is OpenGL's, so depths ahead are negative and dividing mirrors.",
+    "row before column": "(row, column) stands where (u, v) = (column, row) belongs.",
+    "lens on pixels": "The lens was given pixels, so r² is f² times too large.",
+    "t for the centre": "t is not where the camera is; C = −Rᵀt is.",
+    "ray length for depth": "The length of the ray was taken for the depth Z.",
+}
+PinholeLook = Look[Input, Shot, State]
+Told = tuple[str, dict[str, Any]]
 
 
-def caption(state: State) -> Caption:
+def caption(look: PinholeLook) -> Caption:
     """Return the followed point's numbers at this stage, and what is wrong, if anything is.
 
     A mistake that was asked for is no alarm.
     """
-    wrong, params = blame(state), state.params
-    text = _STAGES[state.now.stage](state) + (wrong or _remark(state))
-    return Caption(
-        text, "wrong" if wrong and params.mistake == "none" and params.k_follows else "info"
-    )
+    params = look.params
+    stage = look.now.now.stage
+    words, values = _STAGES[stage](look)
+    more, others = blame(look)
+    alarm = more and params.mistake == "none" and not params.forgets_k
+    if not more:
+        more, others = _remark(look)
+    tone = "wrong" if alarm else "info"
+    place = PLACES.get(stage, stage)
+    return say(words + more, tone=tone, place=place, **values, **others)
 
 
-def blame(state: State) -> str:
+def blame(look: PinholeLook) -> Told:
     """Return what is wrong at this stage, with its size; nothing while all is right."""
-    params, now = state.params, state.now
-    back = back_error(state)
-    moved = now.stage == "camera" and not np.allclose(
-        now.p_camera, apply(state.shot.T_camera_world, now.p_world)
-    )
-    if not (moved or state.error > VISIBLE or state.missed + state.false > 0 or back > MISPLACED):
-        return ""
+    params = look.params
+    state = look.now
+    now = look.now.now
+    back = back_error(look)
+    true = apply(look.subject.T_camera_world, now.p_world)
+    moved = now.stage == "camera" and not np.allclose(now.p_camera, true)
+    if not (moved or state.error > VISIBLE or state.missed + state.false or back > MISPLACED):
+        return "", {}
+    why = "The calculation differs from the true camera."
     if params.mistake != "none":
         why = MISTAKES[params.mistake]
-    elif not params.k_follows and params.edit != "none":
+    elif params.forgets_k:
         why = "K is still that of the full picture."
-    else:
-        why = "The calculation differs from the true camera."
-    parts = []
     if state.error > VISIBLE:
-        parts.append(f"the pixels are off by {pixels(state.error)} (median)")
+        return f" {why} Half of the points are off by {{error}} or more.", {
+            "error": pixels(state.error)
+        }
     if state.missed:
-        parts.append(f"{state.missed} of {len(now.p_world)} points lose their pixel")
+        lost = counted(state.missed, "point loses its pixel", "points lose their pixel")
+        return f" {why} {{missed}}.", {"missed": lost}
     if state.false:
-        parts.append(
-            f"{counted(state.false, 'point has', 'points have')} a pixel that the true camera does"
-            " not give"
-        )
-    if not parts and back > MISPLACED:
-        parts.append(f"the points that come back are off by {length(back)} (median)")
-    size = "; ".join(parts)
-    return f" {why}" + (f" {size[0].upper()}{size[1:]}." if size else "")
+        gained = counted(state.false, "point has", "points have")
+        return f" {why} {{false}} a pixel that the camera does not give.", {"false": gained}
+    if back > MISPLACED:
+        return f" {why} Half of the points come back {{apart}} off or more.", {
+            "apart": metres(back)
+        }
+    return f" {why}", {}
 
 
-def back_error(state: State) -> float:
-    """Return the median distance of the points that came back from where they are, metres; 0 before
-    that.
-    """
-    if not state.now.reached("back"):
+def back_error(look: PinholeLook) -> float:
+    """Return the median distance of points that came back from where they are; 0 before that."""
+    now = look.now.now
+    if not now.reached("back"):
         return 0.0
-    miss = np.linalg.norm(state.now.p_back - state.now.p_world, axis=1)
+    miss = np.linalg.norm(now.p_back - now.p_world, axis=1)
     return float(np.median(miss[np.isfinite(miss)])) if np.isfinite(miss).any() else 0.0
 
 
-MISTAKES = {
-    "pose inverted": "The pose is inverted: camera-to-world stands where world-to-camera belongs.",
-    "divides behind too": "What lies behind the camera was divided by its negative depth too.",
-    "OpenGL axes": (
-        "The pose is OpenGL's (y up, looking along −z): depths ahead are negative, dividing"
-        " mirrors."
-    ),
-    "row before column": "(row, column) stands where (u, v) = (column, row) belongs.",
-    "lens on pixels": (
-        "The lens was given pixels, not normalised coordinates: r² is f² times too large."
-    ),
-    "t for the centre": "t is not where the camera is; C = −Rᵀt is.",
-    "ray length for depth": "The length of the ray was taken for the depth Z.",
-}
+def _world(look: PinholeLook) -> Told:
+    p = look.now.now.p_world[look.subject.k]
+    C = camera_center(look.subject.T_camera_world)
+    words = f"We follow {look.subject.name}, {{away}} from the camera."
+    return words, {"away": metres(float(np.linalg.norm(p - C)))}
 
 
-def _world(state: State) -> str:
-    p, name = state.now.p_world[state.params.point], name_of(state.params.point)
-    where = coordinates(p, 2)
-    return (
-        f"{len(state.now.p_world)} points of the street in world coordinates, z up. We follow"
-        f" {name}: {where} m."
+def _camera(look: PinholeLook) -> Told:
+    x, y, z = (_metres(value) for value in look.now.now.p_camera[look.subject.k])
+    words = (
+        f"In the camera's axes {look.subject.name} has X = {{x}}, Y = {{y}} and depth Z = {{z}}."
     )
+    return words, {"x": x, "y": y, "z": z}
 
 
-def _camera(state: State) -> str:
-    p = state.now.p_camera[state.params.point]
-    return (
-        "R p + t is the point in the camera's frame (x right, y down, z forward):"
-        f" {coordinates(p, 2)} m. Its depth is Z = {depth(p[2])}; along its ray it is"
-        f" {depth(_norm(p))} away."
-    )
+def _divide(look: PinholeLook) -> Told:
+    k = look.subject.k
+    now = look.now.now
+    z = float(now.p_camera[k, 2])
+    if not np.isfinite(now.xy[k]).all():
+        where = "not in front of" if z <= 0 else "in front of"
+        return f"Z = {{z}}: it is {where} the camera, and gets no place on the pane.", {
+            "z": _metres(z)
+        }
+    x, y = (fixed(value, 3) for value in now.xy[k])
+    words = "Divided by its depth Z = {z} it has x = {x}, y = {y}."
+    return words, {"z": _metres(z), "x": x, "y": y}
 
 
-def _divide(state: State) -> str:
-    k, z = state.params.point, state.now.p_camera[state.params.point, 2]
-    if not np.isfinite(state.now.xy[k]).all():
-        where = "is not in front of" if z <= 0 else "is in front of"
-        return (
-            f"The point {where} the camera, Z = {depth(z)}, and gets no place on the plane one"
-            " metre in front."
-        )
-    return (
-        f"Divided by Z = {depth(z)} the point is at (x, y) = {coordinates(state.now.xy[k], 3)} on"
-        f" the plane one metre in front of the camera. {state.found} of {len(state.now.xy)} points"
-        " have a place there."
-    )
-
-
-def _distort(state: State) -> str:
-    k, f = state.params.point, state.shot.K[0, 0]
-    moved = f * np.linalg.norm(state.now.xy_bent - state.now.xy, axis=1)
-    if not any(state.shot.lens) and not (moved > VISIBLE).any():
-        return "A lens without distortion: k₁ = k₂ = p₁ = p₂ = 0, and (x′, y′) = (x, y)."
-    most = (
-        f"the farthest goes {pixels(np.nanmax(moved))}"
-        if np.isfinite(moved).any()
-        else "nothing is"
-    )
+def _distort(look: PinholeLook) -> Told:
+    k = look.subject.k
+    now = look.now.now
+    shot = look.subject
+    moved = shot.K[0, 0] * np.linalg.norm(now.xy_bent - now.xy, axis=1)
+    if not any(shot.lens) and not (moved > VISIBLE).any():
+        return "This lens bends nothing: x′ = x and y′ = y.", {}
+    if not np.isfinite(moved).any():
+        return "No point has a place behind the lens.", {}
+    most = pixels(float(np.nanmax(moved)))
     if not np.isfinite(moved[k]):
-        return f"The followed point has no place on the lens; {most}."
-    nearer = _norm(state.now.xy_bent[k]) < _norm(state.now.xy[k])
-    where = (
-        ""
-        if moved[k] < 0.05
-        else f", {'nearer to' if nearer else 'further from'} the principal point"
-    )
-    return (
-        f"The lens moves the point {pixels(moved[k])}{where}: (x′, y′) ="
-        f" {coordinates(state.now.xy_bent[k], 3)}; {most}. It acts here, before f."
-    )
+        return "The followed point has no place behind the lens; the farthest moves {most}.", {
+            "most": most
+        }
+    inward = np.linalg.norm(now.xy_bent[k]) < np.linalg.norm(now.xy[k])
+    where = "" if moved[k] < 0.05 else " inwards" if inward else " outwards"
+    words = f"The lens moves it {{moved}}{where}; the farthest point moves {{most}}."
+    return words, {"moved": pixels(float(moved[k])), "most": most}
 
 
-def _pixels(state: State) -> str:
-    k, h, w = state.params.point, *state.shot.picture.shape[:2]
-    inside = np.all((state.now.uv > -0.5) & (state.now.uv < np.array([w, h]) - 0.5), axis=1)
-    many = (
-        f"{np.count_nonzero(inside)} of {len(state.now.uv)} points fall into the {w} × {h} picture."
-    )
-    if not np.isfinite(state.now.uv[k]).all():
-        return f"K makes pixels of what is left; the followed point has none. {many}"
-    u, v = (fixed_or_power(value, 1) for value in state.now.uv[k])
-    return f"K (x′, y′, 1) is the pixel: column u = {u}, row v = {v}. {many}"
+def _pixels(look: PinholeLook) -> Told:
+    uv = look.now.now.uv[look.subject.k]
+    if not np.isfinite(uv).all():
+        return "K makes pixels of what is left; the followed point has none.", {}
+    u, v = (Quantity(float(value), fixed_or_power(value, 1)) for value in uv)
+    return "K makes it column u = {u}, row v = {v}.", {"u": u, "v": v}
 
 
-def _back(state: State) -> str:
-    k, now = state.params.point, state.now
+def _back(look: PinholeLook) -> Told:
+    k = look.subject.k
+    now = look.now.now
     if not np.isfinite(now.p_back[k]).all():
-        return (
-            "From pixels back to rays: the followed point has no pixel, so nothing leads back"
-            " to it."
-        )
-    given = f"With its depth Z = {depth(now.p_camera[k, 2])}"
-    if state.params.mistake == "ray length for depth":
-        given = f"With {depth(_norm(now.p_camera[k]))} for its depth"
-    miss = _norm(now.p_back[k] - now.p_world[k])
-    off = "where we began" if miss < SAME else f"{length(miss)} from where we began"
-    return (
-        f"Back from the pixel: it gives a ray from {coordinates(now.p_center, 2)} m, but not how"
-        f" far to go along it. {given} we come out {off}."
-    )
+        return "The followed point has no pixel, so nothing leads back to it.", {}
+    z = float(now.p_camera[k, 2])
+    if look.params.mistake == "ray length for depth":
+        z = float(np.linalg.norm(now.p_camera[k]))
+    miss = float(np.linalg.norm(now.p_back[k] - now.p_world[k]))
+    words = "The pixel gives a ray, but no depth. With {z} we come out "
+    if miss < SAME:
+        return words + "where we began.", {"z": _metres(z)}
+    return words + "{miss} from where we began.", {"z": _metres(z), "miss": metres(miss)}
 
 
 _STAGES = {
@@ -181,54 +177,39 @@ _STAGES = {
 }
 
 
-def _remark(state: State) -> str:
+def _remark(look: PinholeLook) -> Told:
     """Return one more sentence where this camera is a special one."""
-    shot, params, stage = state.shot, state.params, state.now.stage
-    fold, bare = invertible_radius(shot.lens), " Without the lens" if any(shot.lens) else ""
+    shot = look.subject
+    params = look.params
+    stage = look.now.now.stage
+    fold = invertible_radius(shot.lens)
+    without = " without the lens" * any(shot.lens)
     if stage == "distort" and fold < 1.4:
-        return (
-            f" Beyond radius {fixed(fold, 3)} this model folds back; what lies there has no pixel."
-        )
-    if stage == "pixels" and params.dolly >= 10 and math.isfinite(shot.gap):
-        start = f"{bare} no" if bare else " No"
-        return (
-            f"{start} corner in front of it is more than {pixels(shot.gap)} from its orthographic"
-            " pixel."
-        )
-    if stage == "pixels" and params.dolly != 1:
-        return _heights(shot)
-    if stage == "pixels" and params.point in (3, 4) and np.isfinite(shot.vanishing).all():
-        return (
-            " The rails stay 1.5 m apart; their pictures run towards"
-            f" {coordinates(shot.vanishing, 1)}."
-        )
-    if stage == "pixels" and shot.ball_ratio > 1.2:
-        return (
-            f"{bare or ' Here'} the ball's outline is {fixed(shot.ball_ratio, 2)} times as long as"
-            " wide."
-        )
-    return ""
+        words = " Beyond radius {fold} this model folds back, and there is no pixel."
+        return words, {"fold": fixed(fold, 3)}
+    if stage != "pixels":
+        return "", {}
+    if params.heights and math.isfinite(shot.crate) and math.isfinite(shot.tower):
+        words = " The crate is {crate} high, the tower {tower}."
+        return words, {"crate": pixels(shot.crate), "tower": pixels(shot.tower)}
+    if params.dolly >= 10 and math.isfinite(shot.gap):
+        words = f" No corner in front is farther than {{gap}} from its orthographic pixel{without}."
+        return words, {"gap": pixels(shot.gap)}
+    if params.point in (3, 4) and np.isfinite(shot.vanishing).all():
+        u, v = (fixed(value, 1) for value in shot.vanishing)
+        return " The rails run towards ({rail_u}, {rail_v}).", {"rail_u": u, "rail_v": v}
+    if shot.ball_ratio > 1.2:
+        words = f" The ball's outline is {{ratio}} times as long as wide{without}."
+        return words, {"ratio": fixed(shot.ball_ratio, 2)}
+    return "", {}
 
 
-def _heights(shot: Shot) -> str:
-    """Say what moving the camera did to the crate and the tower, as far as both pictures show
-    them.
-    """
-    heights = {"crate": (shot.crate_before, shot.crate), "tower": (shot.tower_before, shot.tower)}
-    said = [
-        f"the {name} was {pixels(before)} high and is {pixels(now)} now"
-        for name, (before, now) in heights.items()
-        if math.isfinite(before) and math.isfinite(now)
-    ]
-    return f" T{'; '.join(said)[1:]}." if said else ""
-
-
-def depth(metres: float) -> str:
+def depth(value: float) -> str:
     """Write a depth with as many decimals as the points beside it, unless that would say
     nothing.
     """
-    return f"{fixed_or_power(metres, 2)} m" if abs(metres) >= 0.01 else length(metres)
+    return f"{fixed_or_power(value, 2)} m" if abs(value) >= 0.01 else length(value)
 
 
-def _norm(v: np.ndarray) -> float:
-    return float(np.linalg.norm(v))
+def _metres(value: float) -> Quantity:
+    return Quantity(float(value), depth(float(value)))

@@ -60,6 +60,12 @@ class State:
         """Return whether a stage is done."""
         return STAGES.index(stage) <= STAGES.index(self.stage)
 
+    def seen(self, K: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "n 2"]:
+        """Return the pixels so far; before the stage that makes them, this K does."""
+        if self.reached("pixels"):
+            return self.uv
+        return onto_pixels(self.xy_bent if self.reached("distort") else self.xy, K)
+
 
 def start(p_world: np.ndarray) -> State:
     """Return the state in which only the points in the world are known."""

@@ -1,73 +1,86 @@
-"""The camera as it is calculated: the given functions, or one of them replaced by a classic
-mistake.
-"""
+"""The camera as it is calculated: the given functions, or one replaced by a classic mistake."""
 
 from collections.abc import Callable, Iterator
-from functools import partial
+from dataclasses import dataclass
+from functools import cache, partial
 from itertools import islice
 
 import numpy as np
 
+from lessons.pinhole import following as pinhole
 from lessons.pinhole.following import (
     STAGES,
     Center,
     Distort,
     Project,
     Stage,
-    State,
     follow,
     onto_pixels,
 )
-from lessons.pinhole.shot import wires
-from lessons.pinhole.state import Params, Shot
-from workbench.data.views.street import street
+from lessons.pinhole.inputs import Input
+from lessons.pinhole.shot import Shot, wires
 from workbench.geometry.cameras import OPENGL_FROM_OPENCV
-from workbench.geometry.cameras.raster import Image, PointItem, SegmentItem, render
+from workbench.geometry.cameras.raster import SegmentItem, render
 from workbench.geometry.motions import apply, inverse
-from workbench.scene import Role, color_rows
+from workbench.scene import color_rows
 
 SWAP = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 
-Model = Callable[[np.ndarray], Iterator[State]]
+Model = Callable[[np.ndarray], Iterator[pinhole.State]]
 """model(p_world) -> the stages of these points."""
 
 
-def laid_out(model: Model) -> Model:
-    """Return the model up to its pixels, which calculates the same points once only: others may own
-    its functions.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class State:
+    """One stage of all points through the calculation, beside the true shot.
+
+    Attributes:
+        now: How far the calculation has come.
+        picture: The photograph with what this stage has calculated laid over it, if anything.
+        error: Median distance to the true pixels, as far as the stage tells, px; NaN before it
+            does.
+        found, missed, false: How many points have a calculated pixel; how many lack one that the
+            camera does see; and how many have one that the camera does not see.
     """
-    known: dict[bytes, tuple[State, ...]] = {}
 
-    def stages(p_world: np.ndarray) -> Iterator[State]:
-        key = p_world.tobytes()
-        if key not in known:
-            known[key] = tuple(islice(model(p_world), STAGES.index("pixels") + 1))
-        return iter(known[key])
-
-    return stages
+    now: pinhole.State
+    picture: np.ndarray
+    error: float
+    found: int
+    missed: int
+    false: int
 
 
-def pixels(model: Model, stage: Stage, K: np.ndarray, p_world: np.ndarray) -> np.ndarray:
-    """Return where the calculation puts these points in the picture at a stage from the division
-    on.
+def compared(shot: Shot, now: pinhole.State, picture: np.ndarray) -> State:
+    """Return a stage beside the true shot.
 
-    Before it has pixels itself, the true K makes them of the places on the plane one metre in
-    front.
+    Before pixels are reached, both sides are scaled with the true K, so that all stages speak of
+    pixels.
     """
-    now = next(state for state in model(p_world) if state.stage in (stage, "pixels"))
-    return (
-        now.uv
-        if now.reached("pixels")
-        else onto_pixels(now.xy_bent if now.reached("distort") else now.xy, K)
+    if not now.reached("divide"):
+        return State(now=now, picture=picture, error=float("nan"), found=0, missed=0, false=0)
+    true = shot.uv if now.reached("distort") else onto_pixels(shot.xy, shot.K)
+    got = now.seen(shot.K)
+    seen = np.isfinite(true).all(axis=1)
+    found = np.isfinite(got).all(axis=1)
+    off = np.linalg.norm(got - true, axis=1)[seen & found]
+    return State(
+        now=now,
+        picture=picture,
+        error=float(np.median(off)) if len(off) else float("nan"),
+        found=int(found.sum()),
+        missed=int((seen & ~found).sum()),
+        false=int((found & ~seen).sum()),
     )
 
 
 def model_of(
-    params: Params, shot: Shot, project: Project, distort: Distort, camera_center: Center
+    params: Input, shot: Shot, project: Project, distort: Distort, camera_center: Center
 ) -> Model:
     """Return the calculation with the given functions, changed by the mistake that is asked for."""
-    K = shot.K if params.k_follows else shot.K_first
-    T, f = shot.T_camera_world, K[0, 0]
+    K = shot.K_first if params.forgets_k else shot.K
+    T = shot.T_camera_world
+    f = K[0, 0]
     model = partial(
         follow,
         T_camera_world=T,
@@ -87,13 +100,11 @@ def model_of(
         case "row before column":
             return partial(model, K=SWAP @ K)
         case "lens on pixels":
-            return partial(
-                model, distort=lambda xy, k1, k2, p1, p2: distort(f * xy, k1, k2, p1, p2) / f
-            )
+            return partial(model, distort=lambda xy, *k: distort(f * xy, *k) / f)
         case "t for the centre":
             return partial(model, camera_center=lambda T_camera_world: T_camera_world[:3, 3].copy())
         case "ray length for depth":
-            return lambda p_world: model(p_world, depth=np.linalg.norm(apply(T, p_world), axis=1))
+            return lambda p: model(p, depth=np.linalg.norm(apply(T, p), axis=1))
     return model
 
 
@@ -104,42 +115,35 @@ def divide_anyway(p_world: np.ndarray, T_camera_world: np.ndarray, K: np.ndarray
         return np.where(z[:, None] == 0, np.nan, np.stack([x, y], axis=1) / z[:, None])
 
 
-def overlaid(shot: Shot, model: Model, stage: Stage, point: int) -> np.ndarray:
-    """Return the photograph with the outlines and points that a stage has calculated laid over it,
-    whatever hides them.
+def overlays(shot: Shot, model: Model) -> Callable[[Stage], np.ndarray]:
+    """Return what gives the photograph with the outlines that a stage has calculated laid over it.
 
-    From the division on; before it, only the followed point's true pixel.
+    From the division on; whatever hides them in the street. The outlines are calculated once for
+    all stages, since functions may be others' and live in another process.
     """
-    h, w = shot.picture.shape[:2]
-    true = _flat(shot.uv[point : point + 1], "truth", 9)
-    if stage in ("world", "camera"):
-        return _over(shot.picture, render([true], np.eye(4), np.eye(3), w, h))
-    to_pixels = partial(pixels, model, stage, shot.K)
     lines = wires(shot.T_camera_world)
-    drawn = render(
-        [SegmentItem(lines, color_rows("source", len(lines)))],
-        shot.T_camera_world,
-        shot.K,
-        w,
-        h,
-        shot.lens,
-        to_pixels=to_pixels,
-    )
-    uv = to_pixels(street().points)
-    spots = [_flat(uv, "source", 3), true, _flat(uv[[point]], "highlight", 7)]
-    return _over(
-        shot.picture, drawn, *(render([spot], np.eye(4), np.eye(3), w, h) for spot in spots)
-    )
+    item = SegmentItem(lines, color_rows("source", len(lines)))
+    h, w = shot.picture.shape[:2]
 
+    @cache
+    def calculated(p_world: bytes) -> dict[Stage, pinhole.State]:
+        p = np.frombuffer(p_world).reshape(-1, 3).copy()
+        return {now.stage: now for now in islice(model(p), len(STAGES) - 1)}
 
-def _over(picture: np.ndarray, *layers: Image) -> np.ndarray:
-    picture = picture.copy()
-    for layer in layers:
-        shown = np.isfinite(layer.depth)
-        picture[shown] = layer.colors[shown]
-    return picture
+    def overlaid(stage: Stage) -> np.ndarray:
+        if stage in ("world", "camera"):
+            return shot.picture
+        reached: Stage = "pixels" if stage == "back" else stage
+        drawn = render(
+            [item],
+            shot.T_camera_world,
+            shot.K,
+            w,
+            h,
+            shot.lens,
+            to_pixels=lambda p: calculated(np.asarray(p, float).tobytes())[reached].seen(shot.K),
+        )
+        shown = np.isfinite(drawn.depth)
+        return np.where(shown[..., None], drawn.colors, shot.picture)
 
-
-def _flat(uv: np.ndarray, role: Role, width: int) -> PointItem:
-    """Return points that a camera with K = I at the origin sees at these very pixels."""
-    return PointItem(np.column_stack([uv, np.ones(len(uv))]), color_rows(role, len(uv)), width)
+    return overlaid

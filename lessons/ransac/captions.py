@@ -1,220 +1,175 @@
-"""What a step of RANSAC says."""
+"""What a step of the search says: what just happened, with the number that changed."""
 
 import numpy as np
 
-from lessons.ransac.state import State
-from workbench.algorithms.robust.ransac import Stop
+from lessons.ransac.inputs import Input
+from lessons.ransac.rows import Subject
+from lessons.ransac.search import chosen_sample
+from workbench.algorithms.robust.ransac import State, Stop
+from workbench.captions import Quantity, counted, metres, pixels, share
 from workbench.certain import sure
-from workbench.numerals import counted, length, percent, pixels
+from workbench.lesson import Look, say
+from workbench.numerals import brief
 from workbench.scene import Caption
 
+SearchLook = Look[Input, Subject, State]
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven")
-
 BY_CHANCE = (
     " So few of the most trusted vote for it that chance can explain it: it cannot end the run."
 )
 
 
-def caption(state: State) -> Caption:
-    """Return what just happened, with its numbers."""
+def caption(look: SearchLook) -> Caption:
+    """Return the caption of a step."""
     return {
         "sample": _sample,
         "degenerate": _degenerate,
         "model": _model,
-        "inliers": _inliers,
+        "inliers": _votes,
         "best": _best,
         "refit": _refit,
         "stop": _stop,
-    }[state.now.phase](state)
+    }[look.now.phase](look)
 
 
-def _sample(state: State) -> Caption:
-    now, noun = state.now, state.subject.noun
-    how = (
-        "you picked"
-        if state.chosen
-        else "drawn by chance"
-        if state.params.sampler == "uniform"
-        else "drawn by trust"
+def is_right(params: Input, subject: Subject, now: State) -> bool:
+    """Tell whether the best is nearer to the truth than the noise lets single rows be."""
+    in_pixels = subject.model.unit == "px"
+    sigma = max(params.noise_pixels, 0.5) if in_pixels else max(params.noise, 0.005)
+    return bool(subject.error(now.best.estimate if now.best else None) < sigma)
+
+
+def distance(subject: Subject, value: float) -> Quantity:
+    """Return a distance in the unit of the rows; of thousands of pixels two digits."""
+    if subject.model.unit != "px":
+        return metres(value)
+    return pixels(value) if value < 1e3 else Quantity(value, pixels(float(f"{value:.1e}")).text)
+
+
+def _sample(look: SearchLook) -> Caption:
+    params, now, noun = look.params, look.now, look.subject.noun
+    how = "drawn by chance" if params.sampler == "uniform" else "drawn by trust"
+    if now.iteration == 1 and chosen_sample(params, look.subject):
+        how = "you picked"
+    words = f"Sample {{n}}: {COUNTS[len(now.sample)]} {noun}, {how}."
+    return say(words + _proportion(look, first=True), n=now.iteration, place="draw")
+
+
+def _degenerate(look: SearchLook) -> Caption:
+    model = look.subject.model
+    words = f"Sample {{n}} gives no {model.name}: {model.degenerate_when}. It counts as drawn."
+    return say(words, n=look.now.iteration)
+
+
+def _model(look: SearchLook) -> Caption:
+    subject = look.subject
+    words = (
+        f"Sample {{n}} gives a {subject.model.name} (purple). All {subject.noun} within {{limit}}"
     )
-    proportion = _proportion(state) if now.iteration == 1 else ""
-    return Caption(
-        f"Sample {now.iteration}: {COUNTS[len(now.sample)]} {noun},"
-        f" {how}.{_in_truth(state)}{proportion}"
-    )
+    limit = distance(subject, subject.limit)
+    return say(words + " of it vote for it.", n=look.now.iteration, limit=limit)
 
 
-def _in_truth(state: State) -> str:
-    """Say how many rows of the sample are outliers in truth; the sentence can stand anywhere."""
-    known, size = state.subject.is_inlier, len(state.now.sample)
-    if known is None:
-        return ""
-    wrong = int(np.count_nonzero(~known[state.now.sample]))
-    which = "none" if wrong == 0 else "all" if wrong == size else COUNTS[wrong]
-    are = "is an outlier" if wrong == 1 else "are outliers"
-    return f" Of its {COUNTS[size]} {state.subject.noun} {which} {are} in truth."
-
-
-def _degenerate(state: State) -> Caption:
-    model = state.subject.model
-    text = (
-        f"Sample {state.now.iteration} is degenerate: {model.degenerate_when}, so it gives no"
-        f" {model.name}."
-    )
-    return Caption(f"{text} It counts as drawn.")
-
-
-def _model(state: State) -> Caption:
-    now, model, noun = state.now, state.subject.model, state.subject.noun
-    return Caption(
-        f"Sample {now.iteration} gives a {model.name} through its {COUNTS[len(now.sample)]} {noun}"
-        f" (purple). Now all {len(state.subject.p):,} {noun} vote: yes from those within"
-        f" {_limit(state)} of it."
-    )
-
-
-def _inliers(state: State) -> Caption:
-    now, trial, noun = state.now, sure(state.now.trial), state.subject.noun
-    who = "Your sample" if state.chosen else f"Sample {now.iteration}"
-    text = (
-        f"{who}: {trial.count:,} of {len(trial.inliers):,} {noun} lie within {_limit(state)} of its"
-    )
-    text += f" {state.subject.model.name}{_score(state, trial.score)}."
+def _votes(look: SearchLook) -> Caption:
+    now, trial = look.now, sure(look.now.trial)
+    words = f"Sample {{n}} gets {{votes}} votes of {{all}} {look.subject.noun}{_score(look)}"
+    values: dict = {"n": now.iteration, "votes": trial.count, "all": len(trial.inliers)}
+    if look.params.score != "count":
+        values["score"] = Quantity(trial.score, brief(trial.score))
     if now.best is not None and trial.score <= now.best.score:
-        text += f" The best so far has {_points(state, now.best)}: it stays."
-    return Caption(text + (_in_truth(state) if now.phase == "inliers" else ""))
+        return say(f"{words}. The best has {{best}}: it stays.", best=now.best.count, **values)
+    return say(words + ".", **values)
 
 
-def _best(state: State) -> Caption:
-    now, best = state.now, sure(state.now.best)
-    share = best.count / len(best.inliers)
-    text = (
-        f"New best after {counted(now.iteration, 'sample')}: {_points(state, best)},"
-        f" {percent(share, 0)} of all"
-    )
-    text += f" {state.subject.noun}.{_trusted(state)}"
-    if text.endswith(BY_CHANCE):
-        return Caption(text + _to_the_truth(state))
-    asked = f"{100.0 * state.params.confidence:g} % confidence that one of them is free of outliers"
-    if now.needed >= state.params.most_samples:
-        allowed = counted(state.params.most_samples, "sample")
-        text += f" If that is the share of inliers, the {allowed} allowed give no {asked}."
+def _score(look: SearchLook) -> str:
+    name = look.params.score
+    return "" if name == "count" else f" ({name} score {{score}})"
+
+
+def _best(look: SearchLook) -> Caption:
+    params, now, best = look.params, look.now, sure(look.now.best)
+    values: dict = {"n": counted(now.iteration, "sample"), "votes": counted(best.count, "vote")}
+    values["share"] = share(best.count / len(best.inliers), 0)
+    words = "New best after {n}: {votes}, {share} of all."
+    if params.sampler == "PROSAC":
+        length, part = look.subject.trusted(best)
+        if not length:
+            return say(words + BY_CHANCE, place="new best", **values)
+        words += " Of the {trusted} most trusted {part} vote for it."
+        values |= {"trusted": length, "part": share(part, 0)}
+    values["confidence"] = share(params.confidence)
+    if now.needed >= params.most_samples:
+        words += " At that share the {needed} allowed are too few for {confidence} confidence."
     else:
-        text += (
-            f" If that is the share of inliers, {counted(round(now.needed), 'sample')} give"
-            f" {asked}."
-        )
-    return Caption(text + _to_the_truth(state))
+        words += " At that share {needed} give {confidence} confidence of a clean one."
+    needed = counted(round(min(now.needed, params.most_samples)), "sample")
+    return say(words, needed=needed, place="new best", **values)
 
 
-def _to_the_truth(state: State) -> str:
-    if not np.isfinite(state.best_error):
-        return ""
-    return f" RMS error to the truth {_distance(state, state.best_error)}."
-
-
-def _refit(state: State) -> Caption:
-    best, before = sure(state.now.best), state.before
-    text = "Refit: "
+def _refit(look: SearchLook) -> Caption:
+    subject, best = look.subject, sure(look.now.best)
+    before = look.before.best if look.before is not None else None
+    values: dict = {"votes": best.count}
+    words = "Refit to the voters: {votes} votes"
     if before is not None:
-        text += f"least squares on the {before.count:,} that voted for it, then all vote anew:"
-        text += f" {before.count:,} → {best.count:,} votes"
-        if len(state.subject.p_true):
-            old = state.subject.error(before.estimate)
-            text += (
-                f"; RMS error to the truth {_distance(state, old)} →"
-                f" {_distance(state, state.best_error)}"
-            )
-    return Caption(text + ".")
+        words, values["before"] = "Refit to the {before} voters: {votes} vote now", before.count
+    error = subject.error(best.estimate)
+    if not np.isfinite(error):
+        return say(words + ".", place="refit", **values)
+    values["error"] = distance(subject, error)
+    return say(words + ", and it is {error} from the truth.", place="refit", **values)
 
 
-def _stop(state: State) -> Caption:
-    now = state.now
-    assert now.stop is not None
-    text = f"Stop after {counted(now.iteration, 'sample')}: {now.stop.message}. "
-    if now.best is None:
-        return Caption(text + _why_none(state), "wrong")
-    text += (
-        f"{now.best.count:,} of {len(now.best.inliers):,} {state.subject.noun} are within"
-        f" {_limit(state)}"
-    )
-    text += f" of the {state.subject.model.name}"
-    if not np.isfinite(state.best_error):
-        return Caption(
-            f"{text}, RMS distance {_distance(state, now.best.rms)}.{_proportion(state)}"
-        )
-    text += f". RMS error to the truth: RANSAC {_distance(state, state.best_error)}"
-    text += (
-        "".join(f", {rival.name} {_distance(state, rival.error)}" for rival in state.rivals) + "."
-    )
-    return Caption.verdict(text, right=is_right(state), settled=now.stop is Stop.ENOUGH)
+def _stop(look: SearchLook) -> Caption:
+    subject, now, best = look.subject, look.now, look.now.best
+    settled = now.stop is Stop.ENOUGH
+    reason = "" if settled else f": {sure(now.stop).message}"
+    words = f"It stops after {{n}}{reason}"
+    values: dict = {"n": counted(now.iteration, "sample")}
+    if best is None:
+        return say(f"{words}. {_why_none(look)}", tone="wrong", place="compare", **values)
+    values |= {"votes": best.count, "all": len(best.inliers)}
+    words += " with {votes} votes of {all}" if settled else ", with {votes} votes of {all}"
+    error = subject.error(best.estimate)
+    if not np.isfinite(error):
+        values["rms"] = distance(subject, best.rms)
+        words += f"; they lie {{rms}} from the {subject.model.name} (RMS).{_proportion(look)}"
+        return say(words, place="compare", **values)
+    values["error"] = distance(subject, error)
+    words += ", {error} from the truth"
+    others = []
+    for name, estimate in (subject.rivals or {}).items():
+        key = name.split()[-1].lower()
+        others.append(f"{name} {{{key}}}")
+        values[key] = distance(subject, subject.error(estimate))
+    words += f" ({', '.join(others)})." if others else "."
+    right = is_right(look.params, subject, now)
+    return say(words, right=right, settled=settled, place="compare", **values)
 
 
-def _why_none(state: State) -> str:
-    model = state.subject.model
-    if state.degenerate == state.now.iteration:
+def _why_none(look: SearchLook) -> str:
+    model, noun = look.subject.model, look.subject.noun
+    if all(one.phase != "inliers" for one in look.past):
         return (
-            f"Every sample was degenerate ({model.degenerate_when}): such {state.subject.noun}"
-            f" determine no {model.name}."
+            f"Every sample was degenerate ({model.degenerate_when}): such {noun} determine no"
+            f" {model.name}."
         )
     return "A larger inlier distance or more samples may help."
 
 
-def _proportion(state: State) -> str:
+def _proportion(look: SearchLook, *, first: bool = False) -> str:
     """Warn where the inlier distance and the size of somebody's own rows hardly belong together."""
-    params, limit, unit = state.params, state.inlier_distance, state.subject.model.unit
-    size = float(np.linalg.norm(np.ptp(state.subject.p, axis=0)))
-    if (
-        (params.cloud is None and params.matches is None)
-        or size == 0.0
-        or size / 5000.0 <= limit <= size / 10.0
-    ):
+    params, subject = look.params, look.subject
+    if params.cloud is None and params.matches is None:
+        return ""
+    size, limit = float(np.linalg.norm(np.ptp(subject.p, axis=0))), subject.limit
+    if (first and look.now.iteration > 1) or not size or size / 5000.0 <= limit <= size / 10.0:
         return ""
     few = "few" if limit < size / 10.0 else "nearly all"
-    unsure = (
-        "Are the matches in pixels?"
-        if unit == "px"
-        else f"Is the cloud in {params.cloud_unit} (cloud_unit)?"
-    )
+    unsure = "Are the matches in pixels?"
+    if subject.model.unit != "px":
+        unsure = f"Is the cloud in {params.cloud_unit} (cloud_unit)?"
     return (
-        f" Mind: the {state.subject.noun} extend over {_distance(state, size)}, so {few} of them"
-        f" can be expected within {_limit(state)} of any {state.subject.model.name}. {unsure}"
+        f" Mind: the {subject.noun} extend over {distance(subject, size)}, so {few} of them can be"
+        f" expected within {distance(subject, limit)} of any {subject.model.name}. {unsure}"
     )
-
-
-def is_right(state: State) -> bool:
-    """Tell whether the best is the true model, but for noise: nearer than the noise allows single
-    rows to be.
-    """
-    in_pixels = state.subject.model.unit == "px"
-    sigma = state.params.noise_pixels if in_pixels else state.params.noise
-    return bool(state.best_error < max(sigma, 0.5 if in_pixels else 0.005))
-
-
-def _distance(state: State, value: float) -> str:
-    """Write a distance to a model in the unit of its rows; of thousands of pixels two digits."""
-    if state.subject.model.unit != "px":
-        return length(value)
-    return pixels(value if value < 1e3 else float(f"{value:.1e}"))
-
-
-def _limit(state: State) -> str:
-    return _distance(state, state.inlier_distance)
-
-
-def _points(state: State, fit) -> str:
-    return f"{counted(fit.count, 'vote')}{_score(state, fit.score)}"
-
-
-def _trusted(state: State) -> str:
-    """Say from which share PROSAC takes how many samples are needed."""
-    if state.params.sampler != "PROSAC":
-        return ""
-    length, share = state.subject.most_trusted(sure(state.now.best))
-    if not length:
-        return BY_CHANCE
-    return f" Of the {length:,} most trusted {percent(share, 0)} vote for it."
-
-
-def _score(state: State, score: float) -> str:
-    return "" if state.params.score == "count" else f" ({state.params.score} score {score:,.0f})"

@@ -29,6 +29,7 @@ class RobustScene:
         p_true: The inliers without their noise, for the error to the truth.
         quality: How much each row is trusted before anything is fitted, as by the score of a match.
             Inliers mostly have more.
+        is_other: Which rows were made from a second model, where there is one.
     """
 
     p: Float[np.ndarray, "n d"]
@@ -36,13 +37,14 @@ class RobustScene:
     truth: Float[np.ndarray, "..."]
     p_true: Float[np.ndarray, "m d"]
     quality: Float[np.ndarray, " n"]
+    is_other: Bool[np.ndarray, " n"] | None = None
 
 
 def line_scene(
     rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
 ) -> RobustScene:
-    """Return points along a line across a window of 2 m by 2 m, with clutter above it, which drags
-    least squares up.
+    """Return points along a line across a window of 2 m by 2 m, with clutter above it, which
+    drags least squares up.
     """
     inliers, outliers = _split(count, outlier_ratio)
     slope, height = rng.uniform(-0.3, 0.3), rng.uniform(-0.6, -0.3)
@@ -55,11 +57,26 @@ def line_scene(
     return _mixed(rng, p_true, clutter, truth, sigma)
 
 
+def scattered_line_scene(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+) -> RobustScene:
+    """Return points of y = 0.25 x - 0.1, then clutter all over a window of 2 m, near the line
+    too. Not shuffled.
+    """
+    inliers, outliers = _split(count, outlier_ratio)
+    x = rng.uniform(-1.0, 1.0, inliers)
+    p_true = np.column_stack([x, 0.25 * x - 0.1])
+    clutter = rng.uniform(-1.0, 1.0, (outliers, 2))
+    p = np.concatenate([p_true + sigma * rng.normal(size=p_true.shape), clutter])
+    truth = np.array([-0.25, 1.0, 0.1]) / np.hypot(0.25, 1.0)
+    return RobustScene(p, np.arange(count) < inliers, truth, p_true, np.ones(count))
+
+
 def plane_scene(
     rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
 ) -> RobustScene:
-    """Return points of a tilted table top of 2 m by 2 m, with clutter standing on it, which drags
-    least squares up.
+    """Return points of a tilted table top of 2 m by 2 m, with clutter standing on it, which
+    drags least squares up.
     """
     inliers, outliers = _split(count, outlier_ratio)
     truth, up = _table(rng)
@@ -69,21 +86,21 @@ def plane_scene(
 
 
 def two_planes_scene(
-    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float, wall: float = 2.0
 ) -> RobustScene:
-    """Return a small table top, which is the truth, beside a wall that holds twice as many points,
-    and clutter.
+    """Return a small table top, the truth, beside a wall with `wall` times as many points, and
+    clutter.
     """
     inliers, outliers = _split(count, outlier_ratio)
-    table = inliers // 3
+    table = max(1, round(inliers / (1.0 + wall)))
     truth, up = _table(rng)
     p_true = up(rng.uniform(-1.0, 1.0, (table, 2)), np.zeros(table))
-    wall = np.column_stack([np.full(inliers - table, 1.0), rng.uniform(-1.0, 1.0, inliers - table)])
-    on_wall = up(wall[:, ::-1], 1.6 * rng.random(inliers - table)) + sigma * rng.normal(
-        size=(inliers - table, 3)
-    )
+    foot = np.column_stack([np.full(inliers - table, 1.0), rng.uniform(-1.0, 1.0, inliers - table)])
+    on_wall = up(foot[:, ::-1], 1.6 * rng.random(inliers - table))
+    on_wall += sigma * rng.normal(size=on_wall.shape)
     clutter = up(_clutter_places(rng, outliers), 1.2 * rng.random(outliers) ** 1.3)
-    return _mixed(rng, p_true, np.concatenate([on_wall, clutter]), truth, sigma)
+    others = np.concatenate([on_wall, clutter])
+    return _mixed(rng, p_true, others, truth, sigma, other=len(on_wall))
 
 
 def wire_scene(
@@ -110,8 +127,8 @@ def wire_scene(
 def circle_scene(
     rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
 ) -> RobustScene:
-    """Return points of two thirds of a circle in a window of 2 m by 2 m, with clutter mostly to one
-    side.
+    """Return points of two thirds of a circle in a window of 2 m by 2 m, with clutter mostly to
+    one side.
     """
     inliers, outliers = _split(count, outlier_ratio)
     center, radius = rng.uniform(-0.35, 0.0, 2), rng.uniform(0.45, 0.6)
@@ -174,6 +191,13 @@ def match_scene(
     return _mixed(rng, p_true, wrong, truth, sigma)
 
 
+def wall_matches(
+    rng: np.random.Generator, *, count: int, outlier_ratio: float, sigma: float
+) -> RobustScene:
+    """Return matches between two views of one wall: as `match_scene`, with H as the truth."""
+    return match_scene(rng, count=count, outlier_ratio=outlier_ratio, sigma=sigma, flat=True)
+
+
 def _split(count: int, outlier_ratio: float) -> tuple[int, int]:
     if not (count >= 1 and 0.0 <= outlier_ratio < 1.0):
         raise ValueError(
@@ -186,8 +210,8 @@ def _split(count: int, outlier_ratio: float) -> tuple[int, int]:
 def _table(
     rng: np.random.Generator,
 ) -> tuple[np.ndarray, Callable[[np.ndarray, np.ndarray], np.ndarray]]:
-    """Return a tilted plane, and the function that puts places on it, at heights above it, into the
-    world.
+    """Return a tilted plane, and the function that puts places on it, at heights above it, into
+    the world.
     """
     R_world_table = exp_so3(np.append(rng.uniform(-0.15, 0.15, 2), 0.0))
     shift = np.array([0.0, 0.0, rng.uniform(-0.05, 0.05)])
@@ -209,12 +233,19 @@ def _mixed(
     others: np.ndarray,
     truth: np.ndarray,
     sigma: float,
+    *,
     first: int = 0,
+    other: int = 0,
 ) -> RobustScene:
-    """Add the noise and the qualities, and shuffle all rows but the first few."""
+    """Add the noise and the qualities, and shuffle all rows but the first few.
+
+    The first `other` of the others are of a second model.
+    """
     noisy = p_true + sigma * rng.normal(size=p_true.shape)
     p = np.concatenate([noisy, others])
-    is_inlier = np.arange(len(p)) < len(p_true)
+    rows, end = np.arange(len(p)), len(p_true)
+    is_inlier, is_other = rows < end, (rows >= end) & (rows < end + other)
     quality = np.clip(rng.normal(np.where(is_inlier, 0.65, 0.4), 0.15), 0.0, 1.0)
     order = np.append(np.arange(first), first + rng.permutation(len(p) - first))
-    return RobustScene(p[order], is_inlier[order], truth, p_true, quality[order])
+    known = is_other[order] if other else None
+    return RobustScene(p[order], is_inlier[order], truth, p_true, quality[order], known)

@@ -1,30 +1,96 @@
-"""Where the rows of a run come from, built-in scenes or the person's own files, and where they
-stand in the picture.
-"""
+"""The rows of a search, built in or a person's own, what is true of them, and where they stand."""
 
 from collections.abc import Callable
-from functools import lru_cache
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from lessons.ransac import robust_scenes as robust
-from lessons.ransac.robust_scenes import RobustScene
-from lessons.ransac.state import MOST_POINTS, Params, Subject
-from workbench.algorithms.robust.models import MODELS, Model
+from lessons.ransac.inputs import MOST_POINTS, Input
+from workbench.algorithms.robust import ransac
+from workbench.algorithms.robust.models import MODELS, Model, rms_distance
+from workbench.algorithms.robust.samplers import termination_length
 from workbench.data.files import read_cloud, read_image
 from workbench.data.files.matches import read_matches
 from workbench.data.framing import METRES, extent, frame
 from workbench.errors import InputError
-from workbench.knobs import called, only
+from workbench.knobs import called
+from workbench.lesson import cached
 
 PIXEL = 1.0 / 500.0  # metres of the picture per pixel of the built-in images
-FLOOR = -0.35  # height of the picture's ground
-GAP = 0.12
+FLOOR, GAP = -0.35, 0.12  # the height of the picture's ground; between two images
 WIDTH = 2.2  # metres of the picture that own clouds are shown wide
 
 
-def subject_of(params: Params) -> Subject:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Subject:
+    """The rows of a run, and how they are shown.
+
+    Attributes:
+        model: What is fitted.
+        p: The rows: points in metres, or matches in pixels.
+        truth: The true parameters, where known.
+        p_true: Rows free of noise that truly belong to the model, where known; else none.
+        is_inlier: Which rows were made from the model, where known.
+        is_other: Which rows were made from a second model, where there is one.
+        quality: How much each row is trusted, where known.
+        low, high: The window in which models are drawn, in the unit of the rows.
+        places: For each half of a row that is a point (one, or two for a match), where it stands.
+        sizes: Of the two images, pixels; for matches only.
+        images: The images themselves, where the person gave them.
+        limit: How near a row votes, in the unit of the model.
+        rivals: By name, what methods that use all rows at once make of them.
+    """
+
+    model: Model
+    p: np.ndarray
+    truth: np.ndarray | None = None
+    p_true: np.ndarray
+    is_inlier: np.ndarray | None = None
+    is_other: np.ndarray | None = None
+    quality: np.ndarray | None = None
+    low: np.ndarray
+    high: np.ndarray
+    places: tuple[Callable[[np.ndarray], np.ndarray], ...]
+    sizes: tuple[np.ndarray, ...] = ()
+    images: tuple[np.ndarray | None, ...] = (None, None)
+    limit: float = 0.0
+    rivals: dict[str, np.ndarray] | None = None
+
+    @property
+    def noun(self) -> str:
+        """What a row is called."""
+        return "matches" if self.sizes else "points"
+
+    @cached_property
+    def shown(self) -> tuple[np.ndarray, ...]:
+        """The rows as points of the picture, (n, 3); for matches one array per image."""
+        d = self.p.shape[1] // len(self.places)
+        return tuple(place(self.p[:, k * d : (k + 1) * d]) for k, place in enumerate(self.places))
+
+    def trusted(self, fit: ransac.Fit) -> tuple[int, float]:
+        """Return among how many of the most trusted rows a fit has its largest share of votes."""
+        assert self.quality is not None
+        return termination_length(fit.inliers, self.quality, self.model.sample_size)
+
+    def error(self, estimate: np.ndarray | None) -> float:
+        """Return the RMS distance of the noiseless rows to an estimate; NaN where not known."""
+        if estimate is None or not len(self.p_true):
+            return float("nan")
+        return rms_distance(self.model, estimate, self.p_true)
+
+    def without(self, rows: np.ndarray) -> "Subject":
+        """Return the subject without some rows; what is true of the others stays."""
+        parts = {
+            name: None if (old := getattr(self, name)) is None else old[~rows]
+            for name in ("p", "is_inlier", "is_other", "quality")
+        }
+        return replace(self, **parts)
+
+
+def rows_of(params: Input) -> Subject:
     """Return the rows that the params name.
 
     Raises:
@@ -46,51 +112,51 @@ def subject_of(params: Params) -> Subject:
         return _own_matches(params, model)
     if params.first_image is not None or params.second_image is not None:
         raise InputError(f"own images are shown under own matches: give {called('matches')} too")
-    return _built_in(
-        only(params, "model", "table", "points", "outliers", "noise", "noise_pixels", "scene_seed")
-    )
+    return built_in(params, params.outliers)
 
 
-@lru_cache(maxsize=64)
-def _built_in(params: Params) -> Subject:
+@cached
+def built_in(params: Input, outliers: float) -> Subject:
+    """Return a scene of our own with a share of outliers."""
     model, rng = MODELS[params.model], np.random.default_rng(params.scene_seed)
     sigma = params.noise_pixels if model.unit == "px" else params.noise
-    makers: dict[str, Callable[..., RobustScene]] = {
-        "line": robust.line_scene,
-        "plane": {
-            "alone": robust.plane_scene,
-            "beside a wall": robust.two_planes_scene,
-            "with a wire": robust.wire_scene,
-        }[params.table],
-        "circle": robust.circle_scene,
-        "sphere": robust.sphere_scene,
-        "homography": lambda rng, **options: robust.match_scene(rng, flat=True, **options),
-        "fundamental matrix": robust.match_scene,
-    }
-    made = makers[params.model](
-        rng, count=params.points, outlier_ratio=params.outliers, sigma=sigma
-    )
-    known: dict[str, Any] = {
-        "truth": made.truth,
-        "p_true": made.p_true,
-        "is_inlier": made.is_inlier,
-        "quality": made.quality,
-    }
+    given = {"count": params.points, "outlier_ratio": outliers, "sigma": sigma}
+    if params.model == "plane" and params.table == "beside a wall":
+        made = robust.two_planes_scene(rng, wall=params.wall, **given)
+    elif params.model == "plane" and params.table == "with a wire":
+        made = robust.wire_scene(rng, **given)
+    else:
+        made = {
+            "line": robust.line_scene,
+            "plane": robust.plane_scene,
+            "circle": robust.circle_scene,
+            "sphere": robust.sphere_scene,
+            "homography": robust.wall_matches,
+            "fundamental matrix": robust.match_scene,
+        }[params.model](rng, **given)
+    names = ("truth", "p_true", "is_inlier", "is_other", "quality")
+    known: dict[str, Any] = {name: getattr(made, name) for name in names}
     if model.unit == "px":
         size = np.array(robust.IMAGE_SIZE, float)
         return _of_matches(model, made.p, (size, size), PIXEL, **known)
     if model.columns == 2:
-        low, high = np.array([-1.1, -1.1]), np.array([1.1, 1.1])
-        return Subject(model=model, p=made.p, low=low, high=high, places=(_stand_up,), **known)
+        window = np.array([1.1, 1.1])
+        return Subject(model=model, p=made.p, low=-window, high=window, places=(stand_up,), **known)
     low, high = np.array([-1.15, -1.15, -0.3]), np.array([1.15, 1.15, 1.5])
     return Subject(model=model, p=made.p, low=low, high=high, places=(np.asarray,), **known)
 
 
-def _own_cloud(params: Params, model: Model) -> Subject:
+def stand_up(p: np.ndarray, nearer: float = 0.0) -> np.ndarray:
+    """Put points of the plane upright before the viewer, who is at -y."""
+    return np.column_stack([p[:, 0], np.full(len(p), -nearer), p[:, 1] + 0.7])
+
+
+def _own_cloud(params: Input, model: Model) -> Subject:
     assert params.cloud is not None
     p = METRES[params.cloud_unit] * read_cloud(params.cloud, fewest=model.sample_size)
     if len(p) > MOST_POINTS:
-        p = p[np.random.default_rng(params.scene_seed).choice(len(p), MOST_POINTS, replace=False)]
+        rng = np.random.default_rng(params.scene_seed)
+        p = p[rng.choice(len(p), MOST_POINTS, replace=False)]
     margin = 0.02 * extent(p)
     return Subject(
         model=model,
@@ -102,31 +168,27 @@ def _own_cloud(params: Params, model: Model) -> Subject:
     )
 
 
-def _own_matches(params: Params, model: Model) -> Subject:
+def _own_matches(params: Input, model: Model) -> Subject:
     assert params.matches is not None
     found = read_matches(params.matches, fewest=model.sample_size)
     p, quality = found.p, found.quality
     if len(p) > MOST_POINTS:
-        rows = np.random.default_rng(params.scene_seed).choice(len(p), MOST_POINTS, replace=False)
+        rng = np.random.default_rng(params.scene_seed)
+        rows = rng.choice(len(p), MOST_POINTS, replace=False)
         p, quality = p[rows], None if quality is None else quality[rows]
     truth = found.H if model.name == "homography" else found.F
-    near = (
-        np.zeros(len(p), bool)
-        if truth is None
-        else model.distances(truth, p) <= params.inlier_pixels
-    )
-    images = tuple(
-        None if file is None else read_image(file)
-        for file in (params.first_image, params.second_image)
-    )
+    near = np.zeros(len(p), bool)
+    if truth is not None:
+        near = model.distances(truth, p) <= params.inlier_pixels
+    files = (params.first_image, params.second_image)
+    images = tuple(None if file is None else read_image(file) for file in files)
     sizes = tuple(
-        (
-            1.05 * p[:, 2 * k : 2 * k + 2].max(axis=0)
-            if image is None
-            else np.array(image.shape[1::-1], float)
-        )
+        1.05 * p[:, 2 * k : 2 * k + 2].max(axis=0)
+        if image is None
+        else np.array(image.shape[1::-1], float)
         for k, image in enumerate(images)
     )
+    known = None if truth is None else near
     return _of_matches(
         model,
         p,
@@ -135,7 +197,7 @@ def _own_matches(params: Params, model: Model) -> Subject:
         images,
         truth=truth,
         p_true=p[near],
-        is_inlier=None if truth is None else near,
+        is_inlier=known,
         quality=quality,
     )
 
@@ -151,27 +213,21 @@ def _of_matches(
     """Stand the two images up side by side, facing the viewer."""
     width_first, height = sizes[0][0] * pixel, max(size[1] for size in sizes) * pixel
     left = (-GAP / 2 - width_first, GAP / 2)
-    places = tuple(_on_image(x, height + FLOOR + 0.1, pixel) for x in left)
     return Subject(
         model=model,
         p=p,
         low=np.array([0.0, 0.0]),
         high=np.max(sizes, axis=0),
-        places=places,
+        places=tuple(_on_image(x, height + FLOOR + 0.1, pixel) for x in left),
         sizes=sizes,
         images=images,
-        noun="matches",
         **known,
     )
 
 
 def _on_image(left: float, top: float, pixel: float) -> Callable[[np.ndarray], np.ndarray]:
     def place(uv: np.ndarray) -> np.ndarray:
-        return np.column_stack([left + pixel * uv[:, 0], np.zeros(len(uv)), top - pixel * uv[:, 1]])
+        x, z = left + pixel * uv[:, 0], top - pixel * uv[:, 1]
+        return np.column_stack([x, np.zeros(len(uv)), z])
 
     return place
-
-
-def _stand_up(p: np.ndarray) -> np.ndarray:
-    """Put points of the plane upright before the viewer."""
-    return np.column_stack([p[:, 0], np.zeros(len(p)), p[:, 1] + 0.7])

@@ -1,97 +1,95 @@
-"""The outlines of models: line segments and surfaces inside a window, in the picture."""
-
-from functools import lru_cache
+"""Parts of the picture: outlines of models, the band in which one votes, colours of votes."""
 
 import numpy as np
 
-from lessons.ransac.state import Subject
+from lessons.ransac.rows import Subject
 from workbench.geometry.clipping import clip_lines, plane_in_box, segments_inside
 from workbench.geometry.polylines import circle, rectangle, segments, sphere_rings
 from workbench.geometry.two_views.epipolar import epipolar_lines
 from workbench.geometry.two_views.homography import warped_grid
+from workbench.numerals import brief
+from workbench.scene import Classes, Label, Mesh, Primitive, Role, Segments
 
+MM = 1000.0
 NOTHING = np.zeros((0, 2, 3))
+MATCHES = 8  # of which epipolar lines are drawn
 
 
-def outline(subject: Subject, estimate: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Return the segments (n, 2, 3) that show an estimate; for a fundamental matrix, the lines of
-    the matches `rows`.
-
-    The same question has the same answer, so that a viewer is not sent again what has not changed.
-    """
-    return _outline(subject, estimate.tobytes(), estimate.shape, tuple(rows.tolist()))
+def marked(votes: np.ndarray) -> Classes:
+    """Return the colours of points by their votes."""
+    return Classes.marking(~votes, "neutral", "votes against", others=("target", "votes for"))
 
 
-@lru_cache(maxsize=256)
-def _outline(
-    subject: Subject, numbers: bytes, shape: tuple[int, ...], rows: tuple[int, ...]
-) -> np.ndarray:
-    name, estimate = subject.model.name, np.frombuffer(numbers).reshape(shape)
-    if name == "line":
-        return _placed(subject, clip_lines(estimate[None], subject.low, subject.high))
+def outline(subject: Subject, estimate: np.ndarray) -> np.ndarray:
+    """Return the segments (n, 2, 3) that show an estimate; of F the lines of some matches."""
+    name, ends = subject.model.name, NOTHING
     if name == "plane":
         corners = plane_in_box(estimate, subject.low, subject.high)
         return segments(subject.places[0](corners), closed=True) if len(corners) else NOTHING
-    if name == "circle":
-        return _placed(
-            subject,
-            segments_inside(
-                segments(estimate[:2] + estimate[2] * circle()), subject.low, subject.high
-            ),
-        )
-    if name == "sphere":
-        rings = sphere_rings(estimate[:3], estimate[3])
-        return _placed(subject, segments_inside(rings, subject.low, subject.high))
+    if name == "fundamental matrix":
+        return _epipolar(subject, estimate)
     if name == "homography":
-        low, high = -0.15 * subject.sizes[1], 1.15 * subject.sizes[1]
-        return _placed(
-            subject, segments_inside(warped_grid(estimate, subject.sizes[0]), low, high), 1
-        )
-    return _epipolar(subject, estimate, np.array(rows))
+        grid = warped_grid(estimate, subject.sizes[0])
+        inside = segments_inside(grid, -0.15 * subject.sizes[1], 1.15 * subject.sizes[1])
+        return _placed(subject, inside, 1)
+    if name == "line":
+        return _placed(subject, clip_lines(estimate[None], subject.low, subject.high))
+    if name == "circle":
+        ends = segments(estimate[:2] + estimate[2] * circle())
+    if name == "sphere":
+        ends = sphere_rings(estimate[:3], estimate[3])
+    return _placed(subject, segments_inside(ends, subject.low, subject.high))
 
 
-def slab(subject: Subject, estimate: np.ndarray, distance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the outlines of a model moved to either side by a distance, and in a plane the corners
-    of the band between.
+def band(
+    subject: Subject, estimate: np.ndarray, color: Role, *, reach: float, named: bool = True
+) -> dict[str, Primitive]:
+    """Return where a point is near enough to a line, plane or circle to vote for it.
 
-    The last number of a line, plane or circle is where it lies, in metres; of other models no slab
-    is drawn.
+    The last number of these is where they lie, in metres; of other models no band is drawn.
     """
-    nothing = np.zeros((0, 3))
-    if subject.model.name not in ("line", "plane", "circle"):
-        return NOTHING, nothing
-    if subject.model.name != "circle":  # whichever way its normal points
+    name = subject.model.name
+    if name not in ("line", "plane", "circle"):
+        return {}
+    if name != "circle":  # whichever way its normal points
         estimate = estimate * np.sign(estimate[np.argmax(np.abs(estimate[:-1]))])
-    sides = [estimate + side * distance * np.eye(len(estimate))[-1] for side in (1.0, -1.0)]
-    ends = [outline(subject, side, np.zeros(0, int)) for side in sides]
-    whole = subject.model.name == "line" and len(ends[0]) == len(ends[1]) == 1
-    return np.concatenate(ends), np.stack([side[0] for side in ends], axis=1).reshape(
-        -1, 3
-    ) if whole else nothing
+    sides = [
+        outline(subject, estimate + side * np.eye(len(estimate))[-1]) for side in (reach, -reach)
+    ]
+    edges = np.concatenate(sides)
+    if not len(edges):
+        return {}
+    scene: dict[str, Primitive] = {"slab": Segments(edges, color, 1.5, opacity=0.7)}
+    if name == "line" and len(sides[0]) == len(sides[1]) == 1:
+        corners = np.stack([side[0] for side in sides], axis=1).reshape(-1, 3)
+        faces = np.array([[0, 1, 2], [1, 3, 2]])
+        scene["slab/band"] = Mesh(corners, faces, color, opacity=0.2, flat=True)
+    if named:
+        at = edges.reshape(-1, 3)
+        place = at[np.argmax(at @ [1.0, -0.6, -0.4])]
+        aside = np.array([0.3 if subject.model.columns == 2 else 0.0, 0.0, 0.0])
+        scene["slab/name"] = Label(f"± {brief(MM * reach)} mm", place + aside, color)
+    return scene
 
 
-@lru_cache(maxsize=64)
 def frames(subject: Subject) -> np.ndarray:
-    """Return the borders of the two images, of the 2D window, or nothing."""
-    if subject.sizes:
-        borders = [rectangle(np.zeros(2), size) - 0.5 for size in subject.sizes]
-        return np.concatenate(
-            [
-                segments(place(border), closed=True)
-                for place, border in zip(subject.places, borders, strict=True)
-            ]
-        )
-    if len(subject.low) == 2:
-        return segments(subject.places[0](rectangle(subject.low, subject.high)), closed=True)
-    return NOTHING
+    """Return the borders of the two images, of the window of a drawing, or nothing."""
+    if len(subject.low) == 3:
+        return NOTHING
+    borders = [rectangle(np.zeros(2), size) - 0.5 for size in subject.sizes]
+    borders = borders or [rectangle(subject.low, subject.high)]
+    places = zip(subject.places, borders, strict=True)
+    return np.concatenate([segments(place(border), closed=True) for place, border in places])
 
 
-def _epipolar(subject: Subject, F: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Return the lines of the matches' pixels, in the first image and in the second."""
-    matches, ends = subject.p[rows], []
-    for k, lines in enumerate(
-        (epipolar_lines(F.T, matches[:, 2:]), epipolar_lines(F, matches[:, :2]))
-    ):
+def _epipolar(subject: Subject, F: np.ndarray) -> np.ndarray:
+    """Return the lines of some matches' pixels, in the first image and in the second."""
+    rows = np.arange(0, len(subject.p), max(1, len(subject.p) // MATCHES))
+    if subject.is_inlier is not None:
+        rows = np.flatnonzero(subject.is_inlier)
+    p = subject.p[rows[:MATCHES]]
+    ends = []
+    for k, lines in enumerate((epipolar_lines(F.T, p[:, 2:]), epipolar_lines(F, p[:, :2]))):
         known = lines[np.isfinite(lines).all(axis=1)]
         ends.append(_placed(subject, clip_lines(known, np.zeros(2), subject.sizes[k]), k))
     return np.concatenate(ends)

@@ -1,1 +1,1 @@
-"""Transforms: the same motion, many numbers."""
+"""Transforms: a matrix says where the axes go."""

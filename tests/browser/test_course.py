@@ -57,7 +57,7 @@ def until(me: Visit, holds, why: str) -> None:
 
 
 def test_a_lesson_is_done_when_all_its_questions_are_answered_in_this_browser(visit):
-    lesson = catalog()["transforms"]
+    lesson = catalog()["fitting"]
     me = visit(f"?lesson={lesson.name}")
     said = me.page.locator("form.question output")
     count = len(lesson.questions)
@@ -85,8 +85,8 @@ def test_two_browsers_have_a_place_each(visit):
 
 
 def test_the_theme_is_kept_on_every_page(visit):
-    me = visit("?lesson=transforms", scene=True)
-    me.says(first_words(catalog()["transforms"]))
+    me = visit("?lesson=fitting", scene=True)
+    me.says(first_words(catalog()["fitting"]))
     me.page.keyboard.press("t")
     me.page.wait_for_selector("[data-theme=dark]")
     me.go("?course")

@@ -21,7 +21,7 @@ def test_nothing_of_a_page_is_refused_and_nothing_is_asked_of_another_host(chrom
     )
     page.on("pageerror", lambda error: said.append(str(error)))
     page.on("request", lambda request: asked.append(request.url))
-    page.goto(f"{server.address}/?lesson=pinhole")
+    page.goto(f"{server.address}/?lesson=pinhole&step=2")
     page.locator("#count").get_by_text(f" / {len(run) - 1}").wait_for()
     page.locator("[data-act=last]").click()
     page.locator("#caption").get_by_text(run[-1].caption.text, exact=True).wait_for()

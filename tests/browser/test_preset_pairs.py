@@ -10,12 +10,12 @@ from workbench.run.timeline import Timeline
 pytestmark = pytest.mark.browser
 APART = 25  # of 255
 TRANSFORMS = catalog()["transforms"]
-FIRST, *OTHERS = ("conventions", "mirror", "perspective", "inverse")
+FIRST, *OTHERS = ("order", "mirror", "perspective", "inverse")
 
 
 def opened(chromium, server):
     page = chromium.new_page(viewport={"width": 640, "height": 640})
-    page.goto(f"{server.address}/?lesson=transforms")
+    page.goto(f"{server.address}/?lesson=transforms&step=0")
     page.frame_locator("#scene iframe").locator("canvas[data-engine]").wait_for()
     return page
 

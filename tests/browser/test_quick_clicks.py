@@ -24,7 +24,7 @@ def alone(lesson: Any) -> list[Question]:
     ]
 
 
-@pytest.mark.parametrize("name", ["pinhole", "transforms"])
+@pytest.mark.parametrize("name", ["epipolar", "fitting"])  # told lessons ask in their story
 def test_the_last_of_quick_clicks_wins_and_a_question_s_run_follows(visit, name):
     lesson = catalog()[name]
     last, question = (

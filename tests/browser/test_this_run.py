@@ -84,7 +84,7 @@ def test_a_run_that_fails_is_said_and_not_recorded(visit):
 
 
 def test_playing_waits_for_steps_to_come_stops_at_the_end_and_starts_anew_from_there(visit):
-    me = visit("?lesson=transforms")
+    me = visit("?lesson=fitting")
     me.page.wait_for_function("page.run && page.run.finished")
     last = me.page.evaluate("page.known() - 1")
     me.page.locator("#speed").select_option("8")

@@ -87,7 +87,7 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
         report.get_by_text("my_align_rigid.py is gone").wait_for()
 
         me.page.locator("nav.top a").first.click()
-        me.page.locator("li[data-card=transforms] a").click()
+        me.page.locator("li[data-card=fitting] a").click()
         me.page.locator("#exercise").get_by_text("workbench exercise").first.wait_for()
         assert me.page.locator("#exercise .report").count() == 0
         me.page.close()  # a page whose server is gone says so in its console

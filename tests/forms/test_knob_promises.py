@@ -92,3 +92,13 @@ def test_a_preset_s_run_is_looked_at_too():
     lines = told(unread, replace(lesson, run=run, presets=(some,)))
     assert all("although preset 'some' does not read it" in line for line in lines)
     assert lines
+
+
+def test_a_run_longer_than_what_is_compared_is_told_nothing():
+    """Its ends were compared with those of its first twelve steps."""
+
+    def run(params: Input, bucket: Bucket) -> Any:
+        yield from range(10 * params.some, -30, -1)
+
+    found = told(unread, replace(lesson, run=run, presets=()))
+    assert not [line for line in found if "how the run ends" in line]

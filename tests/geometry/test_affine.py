@@ -1,13 +1,11 @@
 import numpy as np
 import pytest
-import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.geometry.motions import apply, motion
+from workbench.geometry.motions import apply
 from workbench.geometry.motions.affine import (
     Kind,
-    decompose,
     from_homogeneous,
     homogeneous,
     kind_of,
@@ -20,7 +18,6 @@ from workbench.geometry.motions.affine import (
     transform_directions,
     translation,
 )
-from workbench.geometry.motions.rotations import rotation_from_axis_angle
 
 few = settings(max_examples=40, deadline=None)
 number = st.floats(-3, 3)
@@ -83,56 +80,6 @@ def test_perspective_keeps_lines_straight_and_makes_parallels_meet():
     np.testing.assert_allclose(np.cross(line[1] - line[0], line[2] - line[0]), 0.0, atol=1e-15)
     far_points = transform(H, np.array([a, a + 1.0]) + 1e9 * d)
     np.testing.assert_allclose(far_points, np.tile(d / ([0.0, 0.3, 0.1] @ d), (2, 1)), rtol=1e-7)
-
-
-@few
-@given(matrices, vectors)
-def test_the_parts_make_the_whole(A, t):
-    parts = decompose(motion(A, t))
-    np.testing.assert_allclose(parts.matrix, motion(A, t), atol=1e-12)
-    np.testing.assert_allclose(parts.rotation @ parts.rotation.T, np.eye(3), atol=1e-12)
-    assert np.linalg.det(parts.rotation) == pytest.approx(1.0)
-    np.testing.assert_allclose(parts.stretch, parts.stretch.T, atol=1e-12)
-    assert np.linalg.eigvalsh(parts.stretch).min() > -1e-12
-    assert parts.mirror == (-1 if np.linalg.det(A) < 0 else 1)
-
-
-@few
-@given(matrices.filter(lambda A: np.linalg.det(A) > 0.01))
-def test_decompose_agrees_with_scipy(A):
-    R, S = scipy.linalg.polar(A)
-    parts = decompose(motion(A, np.zeros(3)))
-    np.testing.assert_allclose(parts.rotation, R, atol=1e-9)
-    np.testing.assert_allclose(parts.stretch, S, atol=1e-9)
-
-
-def test_a_rotation_is_found_again_under_a_stretch():
-    R = rotation_from_axis_angle(np.array([1.0, 2, 3]), 0.7)
-    S = np.diag([1.0, 2.0, 0.5])
-    parts = decompose(motion(-R @ S, np.ones(3)))
-    np.testing.assert_allclose(parts.rotation, R, atol=1e-14)
-    np.testing.assert_allclose(parts.stretch, S, atol=1e-14)
-    assert parts.mirror == -1
-
-
-@pytest.mark.parametrize(
-    "flat",
-    [
-        np.zeros((3, 3)),
-        np.diag([1.0, 1, 0]),
-        np.diag([1.0, -1, 0]),
-        np.outer([1.0, 2, 3], [1, 1, 0]),
-    ],
-)
-def test_flat_maps_still_have_a_proper_rotation(flat):
-    parts = decompose(motion(flat, np.zeros(3)))
-    assert np.linalg.det(parts.rotation) == pytest.approx(1.0)
-    np.testing.assert_allclose(parts.matrix[:3, :3], flat, atol=1e-12)
-
-
-def test_a_projective_map_is_not_taken_apart():
-    with pytest.raises(ValueError, match="projective"):
-        decompose(perspective(np.array([0.1, 0, 0])))
 
 
 @pytest.mark.parametrize(

@@ -18,6 +18,10 @@ GIVEAWAYS = {
         r"vanishing point[^.]*(stays|does not move|keeps its place)",
         r"rails[^.]*(stays? where|do(es)? not move)",
     ),
+    "through-the-middle": (
+        r"through the middle[^.]*(straight|not bent|not at all)",
+        r"radial (edges|lines) stay",
+    ),
     "predict-crop": (r"\b49(\.\d+)?\b",),
 }
 

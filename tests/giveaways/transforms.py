@@ -3,24 +3,13 @@ case does not matter.
 """
 
 GIVEAWAYS = {
+    "read-columns": (r"quarter turn to the left", r"turns? by \+?90° about z"),
     "which-order": (r"\b2(\.1\d?)? m (off|away|apart)", r"√2 · 1\.5"),
-    "lost-direction": (
-        r"about (one|the same) (axis|line)",
-        r"share an axis",
-        r"lo(st|ses?) (is )?(a|one) direction",
-        r"two (independent )?directions",
-        r"one direction (less|fewer|is lost)",
-    ),
+    "undo": (r"\b1\.97 m", r"misses by 1\.", r"turned back, but"),
     "sheared-volume": (
         r"shear\w* (keeps|preserves) (the )?volume",
         r"volume (stays|is kept|survives|does not|remains)",
         r"det (stays|is|=) 1\b",
     ),
-    "mean-heading": (r"long way", r"\b340\b", r"their mean is 0°"),
-    "mean-matrix": (
-        r"nearly flat",
-        r"(less than|under) 1 %",
-        r"volume is 1 %",
-        r"keeps (hardly|almost no)",
-    ),
+    "apex": (r"meet at 2 m", r"\(0, 0, 2\)", r"run to one point"),
 }

@@ -5,20 +5,37 @@ from typing import TypeVar
 
 import numpy as np
 
+from lessons.ransac.captions import is_right
 from lessons.ransac.lesson import lesson
+from workbench.lesson import Look
 from workbench.run.timeline import Timeline
+from workbench.scene import Scene
 
 Kind = TypeVar("Kind")
 
 
 @functools.cache
 def states_of(params):
+    """The States of a run: with its params and its subject."""
     return Timeline(lesson, params).states()
 
 
 def best(state):
-    assert state.now.best is not None
-    return state.now.best
+    assert state.best is not None
+    return state.best
+
+
+def end(states):
+    return next(state for state in states if state.phase == "stop")
+
+
+def best_error(states) -> float:
+    """How far the end of a run is from the truth."""
+    return states.subject.error(best(end(states)).estimate)
+
+
+def ends_right(states) -> bool:
+    return is_right(states.params, states.subject, end(states))
 
 
 def members(subject) -> np.ndarray:
@@ -39,5 +56,11 @@ def part(scene, path: str, kind: type[Kind]) -> Kind:
     return primitive
 
 
-def rivals(state):
-    return {rival.name: rival.error for rival in state.rivals}
+def drawn(states, k: int) -> Scene:
+    """The picture of a step."""
+    look = Look(params=states.params, subject=states.subject, now=states[k], past=tuple(states[:k]))
+    return lesson.form.draw(look)
+
+
+def rivals(states):
+    return {name: states.subject.error(one) for name, one in states.subject.rivals.items()}

@@ -15,7 +15,7 @@ from workbench.page.document import FONTS, STATIC, bare
 from workbench.viewer.documents import course_page
 
 TODAY = {
-    "Move": ["transforms", "coordinates"],
+    "Move": ["transforms", "rotations", "coordinates"],
     "Estimate": ["pairs", "icp", "axes", "fitting", "ransac"],
     "See": ["pinhole", "calibration", "pose", "features", "epipolar", "disparity"],
     "Measure": ["representations", "measures", "curvature", "distances", "chamfer_emd"],

@@ -18,10 +18,19 @@ TOWER = np.array([[-3.7, 13.2, 0.0], [-3.7, 13.2, 5.0]])
 @functools.lru_cache(maxsize=32)
 def camera(params: Any, dolly: float | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """R, t and K before the edit."""
-    eye, target = np.array(params.camera, float), np.array(params.target, float)
+    eye = np.array(params.camera, float)
+    target = np.array(params.target, float)
     forward = (target - eye) / np.linalg.norm(target - eye)
     right = np.cross(forward, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
+    c = np.cos(np.radians(params.turn))
+    d = np.sin(np.radians(params.turn))
+    about = np.array([[c, d, 0.0], [-d, c, 0.0], [0.0, 0.0, 1.0]])  # clockwise from above
+    target = eye + about @ (target - eye)
+    forward = about @ forward
+    right = about @ right
+    eye = eye + params.aside * right
+    target = target + params.aside * right
     factor = params.dolly if dolly is None else dolly
     eye = target - factor * np.linalg.norm(target - eye) * forward
     R = np.stack([right, np.cross(forward, right), forward])
@@ -32,11 +41,89 @@ def camera(params: Any, dolly: float | None = None) -> tuple[np.ndarray, np.ndar
 def edited(params: Any, K: np.ndarray) -> np.ndarray:
     K = K.copy()
     if "cropped" in params.edit:
-        K[:2, 2] -= (60, 40)
+        K[:2, 2] -= (params.cut, 40)
     if "half" in params.edit:
         K[:2, 2] = (K[:2, 2] + 0.5) / 2 - 0.5
         K[:2, :2] /= 2
     return K
+
+
+def points(params: Any) -> np.ndarray:
+    """The street's points, with the lamp on the ray of the picked one where it hangs there."""
+    p = street().points
+    R, t, _ = camera(params)
+    at = R @ p[params.point] + t
+    if params.z == 0.0 or at[2] <= 0:
+        return p
+    p = p.copy()
+    p[5] = R.T @ (params.z * at / at[2] - t)
+    return p
+
+
+def followed(params: Any) -> int:
+    """Which point is followed."""
+    return params.point if np.array_equal(points(params), street().points) else 5
+
+
+def calculated(run: Run) -> dict[str, np.ndarray]:
+    """The followed and all other points at each stage, with the run's mistake: written out once
+    more.
+    """
+    params = run.params
+    p = points(run.params)
+    R, t, K = camera(params)
+    K = edited(params, K) if params.k_follows else K
+    R_true = R
+    t_true = t
+    if params.mistake == "pose inverted":
+        R, t = R.T, -R.T @ t
+    if params.mistake == "OpenGL axes":
+        flip = np.diag([1.0, -1.0, -1.0])
+        R = flip @ R
+        t = flip @ t
+    p_camera = p @ R.T + t
+    Z = p_camera[:, 2:]
+    anyway = params.mistake in ("OpenGL axes", "divides behind too")
+    with np.errstate(all="ignore"):
+        xy = np.where((Z > 0) | anyway, p_camera[:, :2] / Z, np.nan)
+        f = K[0, 0] if params.mistake == "lens on pixels" else 1.0
+        inside = np.linalg.norm(xy, axis=1) < fold(params)
+        xy_bent = polynomial(params, f * xy) / f
+    if not (params.p1 or params.p2):
+        xy_bent[~inside] = np.nan
+    K_used = K[[1, 0, 2]][:, [0, 1, 2]] if params.mistake == "row before column" else K
+    uv = xy_bent @ K_used[:2, :2].T + K_used[:2, 2]
+    C = -R.T @ t if params.mistake != "t for the centre" else t
+    z = p_camera[:, 2]
+    if params.mistake == "ray length for depth":
+        z = np.linalg.norm(p @ R_true.T + t_true, axis=1)
+    back = (
+        C
+        + z[:, None] * np.column_stack([np.where(np.isfinite(uv), xy, np.nan), np.ones(len(p))]) @ R
+    )
+    if params.mistake == "lens on pixels":  # no inverse to write out
+        back = run.states[-1].now.p_back
+    return {
+        "p": p,
+        "camera": p_camera,
+        "divide": xy,
+        "distort": xy_bent,
+        "pixels": uv,
+        "back": back,
+        "z": z,
+    }
+
+
+def polynomial(params: Any, xy: np.ndarray) -> np.ndarray:
+    """Where the lens' formula puts points, however far out."""
+    (x, y) = xy.T
+    p1 = params.p1
+    p2 = params.p2
+    s = x * x + y * y
+    g = 1 + params.k1 * s + params.k2 * s * s
+    a = 2 * p1 * x * y + p2 * (s + 2 * x * x)
+    b = p1 * (s + 2 * y * y) + 2 * p2 * x * y
+    return np.array([x * g + a, y * g + b]).T
 
 
 def ideal(params: Any, p: np.ndarray, dolly: float | None = None) -> np.ndarray:
@@ -57,17 +144,9 @@ def fold(params: Any) -> float:
 
 
 def bent(params: Any, xy: np.ndarray) -> np.ndarray:
-    (x, y), (p1, p2) = xy.T, (params.p1, params.p2)
-    s = x * x + y * y
-    g = 1 + params.k1 * s + params.k2 * s * s
-    out = np.array(
-        [
-            x * g + 2 * p1 * x * y + p2 * (s + 2 * x * x),
-            y * g + p1 * (s + 2 * y * y) + 2 * p2 * x * y,
-        ]
-    ).T
-    if not (p1 or p2):
-        out[np.sqrt(s) > fold(params)] = np.nan
+    out = polynomial(params, xy)
+    if not (params.p1 or params.p2):
+        out[np.linalg.norm(xy, axis=1) > fold(params)] = np.nan
     return out
 
 
@@ -88,15 +167,18 @@ def height(params: Any, ends: np.ndarray, dolly: float | None = None) -> float:
 
 def both(run: Run, k: int) -> tuple[np.ndarray, np.ndarray]:
     """The calculated and the true places of all points at a stage, in pixels of the true K."""
-    state, params = run.states[k], run.params
+    state = run.states[k]
+    params = run.params
     K = edited(params, camera(params)[2])
-    xy = ideal(params, street().points)
+    xy = ideal(params, points(params))
     if k == STAGES.index("divide"):
-        got, true = state.now.xy, xy
+        got = state.now.xy
+        true = xy
     elif k == STAGES.index("distort"):
-        got, true = state.now.xy_bent, bent(params, xy)
+        got = state.now.xy_bent
+        true = bent(params, xy)
     else:
-        return state.now.uv, pixels(params, street().points)
+        return state.now.uv, pixels(params, points(params))
     return got @ K[:2, :2] + K[:2, 2], true @ K[:2, :2] + K[:2, 2]
 
 
@@ -112,7 +194,7 @@ def lost(run: Run, k: int) -> tuple[int, int]:
 
 
 def median_back(run: Run) -> float:
-    off = np.linalg.norm(run.states[-1].now.p_back - street().points, axis=1)
+    off = np.linalg.norm(run.states[-1].now.p_back - points(run.params), axis=1)
     return float(np.median(off[np.isfinite(off)])) if np.isfinite(off).any() else 0.0
 
 

@@ -1,11 +1,8 @@
-"""What is true of a robust fit, from the rows and the truth that a state carries: distances,
+"""What is true of a robust fit, from the rows and the truth that a run carries: distances,
 errors, draws needed.
 """
 
-import functools
-import itertools
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
@@ -32,34 +29,31 @@ def rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.square(values).mean()))
 
 
-def error(state, estimate: np.ndarray) -> float:
+def limit_of(run: Run) -> float:
+    return (
+        run.params.inlier_pixels if run.subject.model.unit == "px" else run.params.inlier_distance
+    )
+
+
+def votes_on(run: Run, estimate: np.ndarray) -> int:
+    """Return how many rows lie within the limit of an estimate."""
+    return int((apart(run.subject.model.name, estimate, run.subject.p) <= limit_of(run)).sum())
+
+
+def error(run: Run, estimate: np.ndarray) -> float:
     """Return how far the true rows, free of noise, are from an estimate: it holds all of its
     parameters.
     """
-    return rms(apart(state.subject.model.name, estimate, state.subject.p_true))
+    return rms(apart(run.subject.model.name, estimate, run.subject.p_true))
 
 
-def is_right(state) -> bool:
+def is_right(run: Run, k: int) -> bool:
     """Nearer to the truth than the noise lets single rows be."""
-    if state.now.best is None:
+    best = run.states[k].best
+    if best is None:
         return False
-    sigma = state.params.noise_pixels if state.subject.model.unit == "px" else state.params.noise
-    return error(state, state.now.best.estimate) < sigma
-
-
-def determines(sample: np.ndarray) -> bool:
-    """Whether three points make a plane, or four matches a homography that some camera can see."""
-    if sample.shape[1] == 3:
-        return bool(np.linalg.matrix_rank(np.diff(sample, axis=0), tol=1e-9) > 1)
-    corners = [sample[list(three)] for three in itertools.combinations(range(4), 3)]
-    turned = [side(three[:, :2]) * side(three[:, 2:]) for three in corners]
-    return all(turn > 0 for turn in turned) or all(turn < 0 for turn in turned)
-
-
-def side(uv: np.ndarray) -> float:
-    """Return on which side of two pixels the third is: as signed area."""
-    (a, b), (c, d) = uv[1] - uv[0], uv[2] - uv[0]
-    return float(a * d - b * c)
+    in_pixels = run.subject.model.unit == "px"
+    return error(run, best.estimate) < (run.params.noise_pixels if in_pixels else run.params.noise)
 
 
 def enough_for(share: float, size: int, confidence: float) -> float:
@@ -75,15 +69,15 @@ def enough_for(share: float, size: int, confidence: float) -> float:
     return high
 
 
-def most_trusted(state) -> tuple[int, float]:
+def most_trusted(run: Run, k: int) -> tuple[int, float]:
     """Return PROSAC's termination length and the share of votes in it, from the definition (its
     sec. 2.2, eq. 7 to 9).
 
     At least twenty rows; a wrong model has each row beside the sample with 5 %, and so many or more
     with less than 5 %.
     """
-    best, m, found = state.now.best, state.subject.model.sample_size, (0, 0.0)
-    by_trust = sorted(range(len(best.inliers)), key=lambda row: -state.subject.quality[row])
+    best, m, found = run.states[k].best, run.subject.model.sample_size, (0, 0.0)
+    by_trust = sorted(range(len(best.inliers)), key=lambda row: -run.subject.quality[row])
     votes = [bool(best.inliers[row]) for row in by_trust]
     for n in range(20, len(votes) + 1):
         votes_here = sum(votes[:n])
@@ -96,61 +90,62 @@ def most_trusted(state) -> tuple[int, float]:
     return found
 
 
-def share_for_stop(state) -> float:
-    """Return the share of inliers that the run takes for the truth: of the most trusted in PROSAC,
+def share_for_stop(run: Run, k: int) -> float:
+    """Return the share of votes that the run takes for the truth: of the most trusted in PROSAC,
     otherwise of all.
     """
-    best = state.now.best
-    trusting = state.params.sampler == "PROSAC"
-    return (
-        most_trusted(state)[1] if trusting else np.count_nonzero(best.inliers) / len(best.inliers)
-    )
+    best = run.states[k].best
+    if run.params.sampler == "PROSAC":
+        return most_trusted(run, k)[1]
+    return votes_on(run, best.estimate) / len(run.subject.p)
 
 
-@functools.lru_cache(maxsize=4)
-def states(params) -> tuple:
-    return tuple(lesson.run(params))
+def finished(params) -> Run:
+    """Return the run of some params."""
+    states = lesson.form.states(params)
+    return Run(params, tuple(states), lesson.form.setup(params))
 
 
 def drawn(run: Run) -> int:
-    return run.states[-1].now.iteration
+    return run.states[-1].iteration
 
 
 def last_error(run: Run) -> float:
-    return error(run.states[-1], run.states[-1].now.best.estimate)
+    return error(run, run.states[-1].best.estimate)
 
 
 def error_of_rival(run: Run, name: str) -> float:
-    state = run.states[-1]
-    return error(state, next(rival.estimate for rival in state.rivals if rival.name == name))
+    return error(run, run.subject.rivals[name])
 
 
 def clean(run: Run, size: int) -> float:
-    return float(run.states[-1].subject.is_inlier.mean()) ** size
+    return float(run.subject.is_inlier.mean()) ** size
 
 
 def refused(run: Run) -> float:
-    """Return the share of the true rows beyond the limit of the final model, and of the true
-    one.
-    """
-    state = run.states[-1]
-    inliers = state.subject.p[state.subject.is_inlier]
-    beyond = apart("plane", state.now.best.estimate, inliers) > state.inlier_distance
-    return float(beyond.mean())
+    """Return the share of the true rows beyond the limit of the final model."""
+    true = run.subject.p[run.subject.is_inlier]
+    return float((apart("plane", run.states[-1].best.estimate, true) > limit_of(run)).mean())
 
 
 def clutter_votes(run: Run) -> bool:
     """Over a third of the outliers lie within the limit."""
-    state = run.states[-1]
-    off = apart("plane", state.now.best.estimate, state.subject.p[~state.subject.is_inlier])
-    return bool((off <= state.inlier_distance).mean() > 1 / 3)
+    others = run.subject.p[~run.subject.is_inlier]
+    off = apart("plane", run.states[-1].best.estimate, others)
+    return bool((off <= limit_of(run)).mean() > 1 / 3)
 
 
-def kept(found: Sequence) -> float:
+def kept(run: Run) -> float:
     """Return the error of the best before the refit."""
-    best = [state for state in found if state.now.phase == "best"][-1]
-    return error(best, best.now.best.estimate)
+    best = [state for state in run.states if state.phase == "best"][-1]
+    return error(run, best.best.estimate)
 
 
 def at_true_share(run: Run, size: int) -> float:
     return enough_for(clean(run, 1), size, run.params.confidence)
+
+
+def line_through(p: np.ndarray) -> np.ndarray:
+    """Return the line (a, b, c) through two points, by homogeneous coordinates."""
+    a, b, c = np.cross([*p[0], 1.0], [*p[1], 1.0])
+    return np.array([a, b, c]) / np.hypot(a, b)

@@ -10,17 +10,20 @@ import numpy as np
 
 from lessons.pinhole import captions
 from lessons.pinhole.lesson import run as follow
-from tests.readings import LENGTH, NUMBER, POWER, close, number, says, says_length
+from lessons.pinhole.lesson import setup
+from tests.readings import NUMBER, close, number, says
 from tests.truths.pinhole import (
     CRATE,
     STAGES,
     TOWER,
     bent,
     both,
+    calculated,
     camera,
     centre,
     edited,
     fold,
+    followed,
     height,
     ideal,
     lost,
@@ -29,17 +32,19 @@ from tests.truths.pinhole import (
     moves,
     pixels,
     pixels_at,
+    points,
     shot_gap,
 )
 from tests.verdicts import Claim, Run
 from workbench.data.views.street import BALL_CENTER, BALL_RADIUS, street
+from workbench.lesson import Look
 from workbench.scene import Caption
 
 POINT = rf"\(({NUMBER}), ({NUMBER}), ({NUMBER})\)"
 
 
-def caption(state: Any) -> Caption:
-    return captions.caption(state)
+def caption(look: Look) -> Caption:
+    return captions.caption(look)
 
 
 def right(run: Run, k: int) -> bool | None:
@@ -50,13 +55,13 @@ def right(run: Run, k: int) -> bool | None:
         return True
     if k == 1:
         R, t, _ = camera(run.params)
-        return bool(close(run.states[1].now.p_camera, street().points @ R.T + t, atol=1e-9))
+        return bool(close(run.states[1].now.p_camera, points(run.params) @ R.T + t, atol=1e-9))
     if median_off(run, k) > 0.5 or any(lost(run, k)):
         return False
     return not (k == len(STAGES) - 1 and median_back(run) > 1e-3)
 
 
-# The sentences ------------------------------------------------------------------------------------
+# The numbers --------------------------------------------------------------------------------------
 
 
 def place(m: re.Match[str], p: np.ndarray) -> bool:
@@ -65,123 +70,95 @@ def place(m: re.Match[str], p: np.ndarray) -> bool:
     )
 
 
-def _p(run: Run) -> np.ndarray:
-    return street().points[run.params.point]
+def at(stage: str, axis: int):
+    """A coordinate of the followed point, calculated anew with the run's own mistake."""
+    return lambda run, k: float(calculated(run)[stage][followed(run.params), axis])
 
 
-def _world(run: Run, k: int, m: re.Match[str]) -> bool:
-    names = {
-        "the tower's top": (-3.7, 13.2, 5.0),
-        "the crate's corner": (-1.4, 5.5, 1.0),
-        "the lamp": (0.9, -5.2, 2.4),
-        "the rail, 40 m along": (0.75, 40.0, 0.06),
-    }
-    return (
-        number(m[1]) == len(street().points)
-        and close(names[m[2]], _p(run))
-        and says(m[3], _p(run)[0])
+def _z(run: Run, k: int) -> float:
+    found = calculated(run)
+    return float(
+        (found["z"] if k == len(STAGES) - 1 else found["camera"][:, 2])[followed(run.params)]
     )
 
 
-def _camera(run: Run, k: int, m: re.Match[str]) -> bool:
-    p = run.states[k].now.p_camera[run.params.point]
-    return place(m, p) and says(m[4], float(p[2])) and says(m[5], float(np.sqrt((p**2).sum())))
+def _x_or_y(axis: int):
+    return lambda run, k: at("camera" if k == STAGES.index("camera") else "divide", axis)(run, k)
 
 
-def _divided(run: Run, k: int, m: re.Match[str]) -> bool:
-    p = run.states[k].now.p_camera[run.params.point]
-    found = np.isfinite(run.states[k].now.xy).all(axis=1).sum()
-    xy_there = says(m[1], p[2]) and says(m[2], p[0] / p[2]) and says(m[3], p[1] / p[2])
-    return bool(xy_there and number(m[4]) == found and number(m[5]) == len(street().points))
+def _moves(run: Run) -> np.ndarray:
+    """How far the lens moves each point, in pixels of the true K."""
+    found = calculated(run)
+    f = edited(run.params, camera(run.params)[2])[0, 0]
+    return f * np.linalg.norm(found["distort"] - found["divide"], axis=1)
 
 
-def _bent(run: Run, k: int, m: re.Match[str]) -> bool:
-    now, f = run.states[k].now, edited(run.params, camera(run.params)[2])[0, 0]
-    moved = f * np.linalg.norm(now.xy_bent - now.xy, axis=1)
-    nearer = np.linalg.norm(now.xy_bent[run.params.point]) < np.linalg.norm(
-        now.xy[run.params.point]
-    )
-    way = nearer if m[2] == "nearer to" else not nearer
-    there = all(
-        says(text, value)
-        for text, value in zip((m[3], m[4]), now.xy_bent[run.params.point], strict=True)
-    )
-    return bool(
-        says(m[1], moved[run.params.point]) and way and there and says(m[5], np.nanmax(moved))
-    )
-
-
-def _most(run: Run, k: int, m: re.Match[str]) -> bool:
-    now, f = run.states[k].now, edited(run.params, camera(run.params)[2])[0, 0]
-    here = np.isfinite(now.xy_bent[run.params.point]).all()
-    return (
-        says(m[1], float(np.nanmax(f * np.linalg.norm(now.xy_bent - now.xy, axis=1)))) and not here
-    )
-
-
-def _pixel(run: Run, k: int, m: re.Match[str]) -> bool:
-    u, v = run.states[k].now.uv[run.params.point]
-    return says(m[1], u) and says(m[2], v)
-
-
-def _inside(run: Run, k: int, m: re.Match[str]) -> bool:
-    uv = run.states[k].now.uv
-    w, h = (260, 200) if "cropped" in run.params.edit else (320, 240)
-    w, h = (w // 2, h // 2) if "half" in run.params.edit else (w, h)
-    inside = (uv[:, 0] >= -0.5) & (uv[:, 1] >= -0.5) & (uv[:, 0] <= w - 0.5) & (uv[:, 1] <= h - 0.5)
-    return [number(text) for text in m.groups()] == [inside.sum(), len(uv), w, h]
-
-
-def _came_back(run: Run, k: int, m: re.Match[str]) -> bool:
-    now = run.states[k].now
-    miss = float(np.linalg.norm(now.p_back[run.params.point] - _p(run)))
-    start = all(
-        says(text, float(value)) for text, value in zip(m.groups()[:3], now.p_center, strict=True)
-    )
-    if m[4] is None:
-        return start and miss < 1e-6
-    return start and says_length(m[4], miss, 3)
-
-
-def _heights(run: Run, k: int, m: re.Match[str]) -> bool:
-    ends = {"crate": CRATE, "tower": TOWER}[m[1]]
-    return says(m[2], height(run.params, ends, 1.0)) and says(m[3], height(run.params, ends))
-
-
-def _gap(run: Run, k: int, m: re.Match[str]) -> bool:
+def _gap(run: Run, k: int) -> float:
     corners = street().edges.reshape(-1, 3)
     params = replace(run.params, k1=0.0, k2=0.0, p1=0.0, p2=0.0, edit="none")
     R, t, K = camera(params)
     X, Y, Z = R @ corners.T + t[:, None]
-    depth = R[2] @ np.array(params.target) + t[2]
-    flat = np.array([X, Y]).T * K[0, 0] / depth + K[:2, 2]
-    off = np.linalg.norm(pixels(params, corners) - flat, axis=1)[Z > 0]
-    return says(m[1], float(off.max()))
+    distance = params.dolly * np.linalg.norm(np.subtract(params.target, params.camera))
+    flat = np.array([X, Y]).T * K[0, 0] / distance + K[:2, 2]
+    return float(np.linalg.norm(pixels(params, corners) - flat, axis=1)[Z > 0].max())
 
 
-def _rails(run: Run, k: int, m: re.Match[str]) -> bool:
-    far = pixels(run.params, np.array([[x, 1e9, 0.06] for x in (-0.75, 0.75)]))
-    return all(says(m[1], float(u)) and says(m[2], float(v)) for u, v in far)
+def _rails(axis: int):
+    return lambda run, k: float(pixels(run.params, np.array([[0.75, 1e9, 0.06]]))[0, axis])
 
 
-def _ball(run: Run, k: int, m: re.Match[str]) -> bool:
-    """Longest over shortest diameter of the outline of many points of the ball, without the
-    lens.
-    """
-    params = replace(run.params, k1=0.0, k2=0.0, p1=0.0, p2=0.0)
-    turn, tilt = np.meshgrid(np.linspace(0, 2 * np.pi, 400), np.linspace(0, np.pi, 400))
-    unit = np.stack(
-        [np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)], axis=-1
-    ).reshape(-1, 3)
-    uv = ideal(params, BALL_CENTER + BALL_RADIUS * unit)
-    n = np.stack([np.cos(angles := np.linspace(0, np.pi, 360)), np.sin(angles)])
-    width = np.ptp(uv @ n, axis=0)
-    return abs(number(m[1]) - width.max() / width.min()) < 0.02
+def _ball(run: Run, k: int) -> float:
+    """Longest over shortest half axis: of the cone of rays that touch the ball, cut by the pane."""
+    R, t, _ = camera(run.params)
+    c = R @ BALL_CENTER + t
+    cone = np.outer(c, c) - (c @ c - BALL_RADIUS**2) * np.eye(3)  # rays v with v^T cone v = 0
+    values = np.linalg.eigvalsh(cone[:2, :2])
+    return float(np.sqrt(values.min() / values.max()) if values.max() < 0 else np.nan)
+
+
+VALUES = {
+    "away": lambda run, k: float(
+        np.linalg.norm(points(run.params)[followed(run.params)] - centre(run.params))
+    ),
+    "x": _x_or_y(0),
+    "y": _x_or_y(1),
+    "z": _z,
+    "moved": lambda run, k: float(_moves(run)[followed(run.params)]),
+    "most": lambda run, k: float(np.nanmax(_moves(run))),
+    "fold": lambda run, k: (
+        float(1 / np.sqrt(-3 * run.params.k1)) if run.params.k2 == 0 else fold(run.params)
+    ),
+    "u": at("pixels", 0),
+    "v": at("pixels", 1),
+    "miss": lambda run, k: float(
+        np.linalg.norm(calculated(run)["back"] - points(run.params), axis=1)[followed(run.params)]
+    ),
+    "error": median_off,
+    "missed": lambda run, k: lost(run, k)[0],
+    "false": lambda run, k: lost(run, k)[1],
+    "apart": lambda run, k: median_back(run),
+    "crate": lambda run, k: height(run.params, CRATE),
+    "tower": lambda run, k: height(run.params, TOWER),
+    "gap": _gap,
+    "rail_u": _rails(0),
+    "rail_v": _rails(1),
+    "ratio": _ball,
+}
+
+
+# The sentences ------------------------------------------------------------------------------------
 
 
 def _wrong(mistake: str):
     """A sentence that blames a mistake: it was asked for, and the stage is off."""
     return lambda run, k, m: run.params.mistake == mistake and right(run, k) is False
+
+
+def _inward(run: Run, k: int, m: re.Match[str]) -> bool:
+    found = calculated(run)
+    i = followed(run.params)
+    nearer = np.linalg.norm(found["distort"][i]) < np.linalg.norm(found["divide"][i])
+    return bool(nearer == (m[1] == "inwards"))
 
 
 BLAME = (
@@ -191,81 +168,39 @@ BLAME = (
 
 CAPTIONS = (
     Claim(
-        rf"^({NUMBER}) points of the street in world coordinates, z up. We follow (.*):"
-        rf" \(({NUMBER}),",
-        _world,
-    ),
-    Claim(
-        rf"^R p \+ t is the point in the camera's frame \(x right, y down, z forward\): {POINT} m."
-        r" Its depth is Z ="
-        rf" ({NUMBER}) m; along its ray it is ({NUMBER}) m away",
-        _camera,
-    ),
-    Claim(
-        rf"Divided by Z = ({NUMBER}) m the point is at \(x, y\) = \(({NUMBER}), ({NUMBER})\) on the"
-        r" plane one metre in"
-        rf" front of the camera. ({NUMBER}) of ({NUMBER}) points have a place there",
-        _divided,
-    ),
-    Claim(
-        rf"The point is not in front of the camera, Z = ({NUMBER}) m, and gets no place",
-        lambda run, k, m: (
-            says(m[1], run.states[k].now.p_camera[run.params.point, 2])
-            and number(m[1]) < 0
-            and np.isnan(run.states[k].now.xy[run.params.point]).all()
+        "it is not in front of the camera, and gets no place",
+        lambda run, k, m: bool(
+            _z(run, 1) < 0 and np.isnan(calculated(run)["divide"][followed(run.params)]).all()
         ),
     ),
+    Claim("it is in front of the camera, and gets no place", lambda run, k, m: _z(run, 1) > 0),
     Claim(
-        "A lens without distortion: .*y\\)",
-        lambda run, k, m: (
-            not (
-                np.nan_to_num(run.states[k].now.xy_bent - run.states[k].now.xy).any()
-                or run.params.k1
-                or run.params.k2
-                or run.params.p1
-                or run.params.p2
-            )
+        "This lens bends nothing",
+        lambda run, k, m: not (run.params.k1 or run.params.k2 or run.params.p1 or run.params.p2),
+    ),
+    Claim("px (inwards|outwards);", _inward),
+    Claim(
+        "The followed point has no place behind the lens",
+        lambda run, k, m: bool(np.isnan(calculated(run)["distort"][followed(run.params)]).all()),
+    ),
+    Claim(
+        "this model folds back, and there is no pixel",
+        lambda run, k, m: bool(
+            np.isnan(
+                calculated(run)["distort"][
+                    np.linalg.norm(calculated(run)["divide"], axis=1) > fold(run.params)
+                ]
+            ).all()
         ),
     ),
-    Claim(
-        rf"The lens moves the point ({POWER}) px, (nearer to|further from) the principal point:"
-        rf" \(x′, y′\) = \(({POWER}),"
-        rf" ({POWER})\); the farthest goes ({POWER}) px",
-        _bent,
-    ),
-    Claim(rf"The followed point has no place on the lens; the farthest goes ({POWER}) px", _most),
-    Claim(
-        rf"Beyond radius ({NUMBER}) this model folds back; what lies there has no pixel",
-        lambda run, k, m: (
-            abs(number(m[1]) - fold(run.params)) < 1e-3
-            and np.isnan(run.states[k].now.xy_bent)[
-                np.linalg.norm(run.states[k].now.xy, axis=1) > fold(run.params)
-            ].all()
-        ),
-    ),
-    Claim(rf"is the pixel: column u = ({POWER}), row v = ({POWER})\.", _pixel),
     Claim(
         "K makes pixels of what is left; the followed point has none",
-        lambda run, k, m: bool(np.isnan(run.states[k].now.uv[run.params.point]).all()),
+        lambda run, k, m: bool(np.isnan(calculated(run)["pixels"][followed(run.params)]).all()),
     ),
+    Claim("we come out where we began", lambda run, k, m: VALUES["miss"](run, k) < 1e-6),
     Claim(
-        rf"({NUMBER}) of ({NUMBER}) points fall into the ({NUMBER}) × ({NUMBER}) picture", _inside
-    ),
-    Claim(rf"(?<=[Tt]he )(crate|tower) was ({NUMBER}) px high and is ({NUMBER}) px now", _heights),
-    Claim(rf"o corner in front of it is more than ({NUMBER}) px from its orthographic pixel", _gap),
-    Claim(
-        rf"The rails stay 1.5 m apart; their pictures run towards \(({NUMBER}), ({NUMBER})\)",
-        _rails,
-    ),
-    Claim(rf"the ball's outline is ({NUMBER}) times as long as wide", _ball),
-    Claim(
-        rf"it gives a ray from {POINT} m, but not how far to go along it. With .* we come out"
-        rf" (?:where we began|({LENGTH}) from where we began)",
-        _came_back,
-    ),
-    Claim(
-        "the followed point has no pixel, so nothing leads back to it",
-        lambda run, k, m: bool(np.isnan(run.states[k].now.uv[run.params.point]).all()),
+        "The followed point has no pixel, so nothing leads back to it",
+        lambda run, k, m: bool(np.isnan(calculated(run)["pixels"][followed(run.params)]).all()),
     ),
     Claim(
         "The pose is inverted: camera-to-world stands where world-to-camera belongs",
@@ -276,10 +211,12 @@ CAPTIONS = (
         _wrong("divides behind too"),
     ),
     Claim(
-        r"The pose is OpenGL's .*: depths ahead are negative, dividing mirrors",
+        "The pose is OpenGL's, so depths ahead are negative and dividing mirrors",
         lambda run, k, m: bool(
             (
-                run.states[k].now.p_camera[np.isfinite(ideal(run.params, street().points)[:, 0]), 2]
+                run.states[k].now.p_camera[
+                    np.isfinite(ideal(run.params, points(run.params))[:, 0]), 2
+                ]
                 < 0
             ).all()
         ),
@@ -288,10 +225,7 @@ CAPTIONS = (
         r"\(row, column\) stands where \(u, v\) = \(column, row\) belongs",
         _wrong("row before column"),
     ),
-    Claim(
-        "The lens was given pixels, not normalised coordinates: r² is f² times too large",
-        _wrong("lens on pixels"),
-    ),
+    Claim("The lens was given pixels, so r² is f² times too large", _wrong("lens on pixels")),
     Claim(
         "t is not where the camera is; C = −Rᵀt is",
         lambda run, k, m: bool(np.linalg.norm(camera(run.params)[1] - centre(run.params)) > 0.1),
@@ -300,22 +234,6 @@ CAPTIONS = (
     Claim(
         "K is still that of the full picture",
         lambda run, k, m: run.params.edit != "none" and not run.params.k_follows,
-    ),
-    Claim(
-        rf"[Tt]he pixels are off by ({POWER}) px \(median\)",
-        lambda run, k, m: says(m[1], median_off(run, k)),
-    ),
-    Claim(
-        rf"({NUMBER}) of ({NUMBER}) points lose their pixel",
-        lambda run, k, m: number(m[1]) == lost(run, k)[0] and number(m[2]) == len(street().points),
-    ),
-    Claim(
-        rf"({NUMBER}) points? ha(?:s|ve) a pixel that the true camera does not give",
-        lambda run, k, m: number(m[1]) == lost(run, k)[1],
-    ),
-    Claim(
-        rf"[Tt]he points that come back are off by ({LENGTH}) \(median\)",
-        lambda run, k, m: says_length(m[1], median_back(run)),
     ),
     # who blames nobody says that all is right
     Claim(rf"^(?!.*(?:{BLAME}))", lambda run, k, m: right(run, k) is not False),
@@ -327,11 +245,13 @@ CAPTIONS = (
 
 def with_(run: Run, **changes: Any) -> Run:
     params = replace(run.params, **changes)
-    return Run(params, tuple(follow(params)))
+    subject = setup(params)
+    return Run(params, tuple(follow(params, subject)), subject)
 
 
 def _doubled(run: Run, k: int, m: re.Match[str]) -> bool:
-    c, half = np.array([159.5, 119.5]), with_(run, f=run.params.f / 2)
+    c = np.array([159.5, 119.5])
+    half = with_(run, f=run.params.f / 2)
     same = close(half.states[-1].now.xy, run.states[-1].now.xy, equal_nan=True)
     return same and close(
         run.states[-1].now.uv - c, 2 * (half.states[-1].now.uv - c), equal_nan=True
@@ -411,7 +331,7 @@ def _shifted_and_doubled(run: Run, k: int, m: re.Match[str]) -> bool:
 
 
 def _misses_alike(run: Run, k: int, m: re.Match[str]) -> bool:
-    off = np.linalg.norm(run.states[-1].now.p_back - street().points, axis=1)
+    off = np.linalg.norm(run.states[-1].now.p_back - points(run.params), axis=1)
     t = camera(run.params)[1]
     return close(off[np.isfinite(off)], np.linalg.norm(t - centre(run.params)))
 
@@ -419,8 +339,8 @@ def _misses_alike(run: Run, k: int, m: re.Match[str]) -> bool:
 def _too_far(run: Run, k: int, m: re.Match[str]) -> bool:
     R, t, _ = camera(run.params)
     seen = np.isfinite(run.states[-1].now.p_back).all(axis=1)
-    z, z_back = ((p @ R.T + t)[seen, 2] for p in (street().points, run.states[-1].now.p_back))
-    r = np.linalg.norm(ideal(run.params, street().points)[seen], axis=1)
+    z, z_back = ((p @ R.T + t)[seen, 2] for p in (points(run.params), run.states[-1].now.p_back))
+    r = np.linalg.norm(ideal(run.params, points(run.params))[seen], axis=1)
     return bool(
         (z_back >= z).all()
         and (np.diff((z_back / z)[np.argsort(r)]) > -1e-9).all()
@@ -430,7 +350,7 @@ def _too_far(run: Run, k: int, m: re.Match[str]) -> bool:
 
 def _mirrored(run: Run, k: int, m: re.Match[str]) -> bool:
     """Left to right, about the principal point; what is in front has a negative depth."""
-    true = pixels(run.params, street().points)
+    true = pixels(run.params, points(run.params))
     seen = np.isfinite(true).all(axis=1)
     behind = (run.states[1].now.p_camera[seen, 2] < 0).all()
     return bool(behind) and close(pixels_at(run)[seen], true[seen] * (-1, 1) + (319, 0))
@@ -468,10 +388,21 @@ LINES = {
     ),
     "ball": (
         Claim(
-            "a ball's outline is longer than wide",
-            lambda run, k, m: run.states[0].shot.ball_ratio > 1.2,
+            "a ball's outline is longer than wide", lambda run, k, m: run.subject.ball_ratio > 1.2
         ),
     ),
+    "cut": (
+        Claim(
+            "slide to the right and down by as many pixels",
+            lambda run, k, m: close(
+                pixels_at(run),
+                pixels(run.params, points(run.params)) + np.array([run.params.cut, 40]),
+                equal_nan=True,
+            ),
+        ),
+    ),
+    "lamp-1": (Claim("Half as far from the camera, the same picture is half as large", None),),
+    "lamp-4": (Claim("Twice as far from the camera, the same picture is twice as large", None),),
     "barrel": (Claim("Points move towards the middle.*bow outwards", _radial(-1)),),
     "pincushion": (Claim("Points move away from the middle.*bow inwards", _radial(1)),),
     "tangential": (
@@ -511,7 +442,7 @@ LINES = {
         Claim(
             "the picture is flipped about its diagonal",
             lambda run, k, m: close(
-                pixels_at(run), pixels(run.params, street().points)[:, ::-1], equal_nan=True
+                pixels_at(run), pixels(run.params, points(run.params))[:, ::-1], equal_nan=True
             ),
         ),
     ),
@@ -531,8 +462,8 @@ LINES = {
             "A crop moves the principal point, away from the middle of the picture; halving halves"
             " f as well",
             lambda run, k, m: (
-                bool(np.abs(run.states[0].shot.K[:2, 2] - (64.5, 49.5)).min() > 5)
-                and close(run.states[0].shot.K[0, 0], run.params.f / 2)
+                bool(np.abs(run.subject.K[:2, 2] - (64.5, 49.5)).min() > 5)
+                and close(run.subject.K[0, 0], run.params.f / 2)
             ),
         ),
         Claim(
@@ -550,11 +481,25 @@ LINES = {
 
 def _step_right(run: Run, p: np.ndarray) -> float:
     """By how many pixels a point moves to the right when the camera steps 2 m to its right."""
-    R, t, K = camera(run.params)
     before, after = (
-        K @ (R @ p + t - offset) for offset in (np.zeros(3), np.array([2.0, 0.0, 0.0]))
+        K @ (R @ p + t) for R, t, K in (camera(replace(run.params, aside=a)) for a in (0.0, 2.0))
     )
     return float(after[0] / after[2] - before[0] / before[2])
+
+
+def _bow(run: Run) -> float:
+    """How far straight edges through the middle leave their lines, px, at most over all
+    directions.
+    """
+    r = np.linspace(-0.7, 0.7, 57)
+    worst = 0.0
+    for angle in np.linspace(0.0, np.pi, 12):
+        along = np.array([np.cos(angle), np.sin(angle)])
+        across = np.array([-np.sin(angle), np.cos(angle)])
+        worst = max(
+            worst, run.params.f * np.abs(bent(run.params, r[:, None] * along) @ across).max()
+        )
+    return float(worst)
 
 
 WHYS = {
@@ -612,13 +557,16 @@ WHYS = {
             ),
         ),
     ),
+    "through-the-middle": (
+        Claim(rf"It is bent by ({NUMBER}) px", lambda run, k, m: says(m[1], _bow(run))),
+    ),
     "predict-crop": (
         Claim(
             rf"({NUMBER}) px: first .*The middle of the picture is ({NUMBER}) px",
             lambda run, k, m: (
                 says(m[1], (159.5 - 60 + 0.5) / 2 - 0.5)
                 and says(m[2], ((320 - 60) / 2 - 1) / 2)
-                and says(m[1], float(run.states[0].shot.K[0, 2]))
+                and says(m[1], float(run.subject.K[0, 2]))
             ),
         ),
     ),

@@ -1,4 +1,4 @@
-"""What the RANSAC lesson says of its runs, decided from the rows and the truth that a state
+"""What the RANSAC lesson says of its runs, decided from the rows and the truth that a run
 carries.
 """
 
@@ -8,51 +8,49 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lessons.ransac.captions import caption
-from tests.readings import NUMBER, near, near_length, number
+from lessons.ransac.captions import caption as caption_search
+from lessons.ransac.flat import Draw, Fan, Width
+from lessons.ransac.flat import draw as draw_flat
+from tests.readings import NUMBER, near, near_length
 from tests.truths.ransac import (
     apart,
     at_true_share,
     clean,
     clutter_votes,
-    determines,
     drawn,
     enough_for,
     error,
     error_of_rival,
+    finished,
     is_right,
     kept,
     last_error,
+    limit_of,
+    line_through,
     most_trusted,
     refused,
     rms,
     share_for_stop,
-    states,
+    votes_on,
 )
 from tests.verdicts import Claim, Run
+from workbench.lesson import Look
+from workbench.scene import Caption, caption_of
 
-__all__ = ["CAPTIONS", "LINES", "WHYS", "caption", "right"]
+__all__ = ["CAPTIONS", "LINES", "VALUES", "WHYS", "caption", "right"]
 
-NUMBERS = {
-    "no": 0,
-    "none": 0,
-    "one": 1,
-    "two": 2,
-    "three": 3,
-    "four": 4,
-    "five": 5,
-    "six": 6,
-    "seven": 7,
-}
+
+def flat(state) -> bool:
+    return isinstance(state, Draw | Width | Fan)
+
+
+def caption(look: Look) -> Caption:
+    return caption_of(draw_flat(look)) if flat(look.now) else caption_search(look)
 
 
 def right(run: Run, k: int) -> bool | None:
     state = run.states[k]
-    if state.now.phase == "stop":
-        return is_right(state)
-    if state.now.phase == "degenerate" and state.subject.model.name != "fundamental matrix":
-        return determines(state.subject.p[state.now.sample])
-    return None
+    return None if flat(state) or state.phase != "stop" else is_right(run, k)
 
 
 def distance(name: str) -> str:
@@ -71,165 +69,142 @@ def same(said: str, value: float) -> bool:
     )
 
 
-def outliers_of(run: Run, k: int, found: re.Match[str]) -> bool:
+def votes(run: Run, k: int) -> float:
+    """Of the model in question, counted anew; of a fan the median over its lines, whose noise is
+    drawn anew.
+    """
     state = run.states[k]
-    wrong = int(np.count_nonzero(~state.subject.is_inlier[state.now.sample]))
-    said = len(state.now.sample) if found["n"] == "all" else NUMBERS[found["n"]]
-    return NUMBERS[found["size"]] == len(state.now.sample) and said == wrong
+    if isinstance(state, Draw):
+        return votes_of_draw(run, k)
+    if isinstance(state, Fan):
+        a, b, c = run.subject.truth
+        ends = np.array([0.0, -c / b]) + state.apart * np.array([[-0.5], [0.5]]) * [b, -a]
+        noise = run.params.noise * np.random.default_rng(run.params.seed).normal(size=(30, 2, 2))
+        return float(np.median([votes_on(run, line_through(ends + one)) for one in noise]))
+    return votes_on(run, state.estimate if state.phase == "inliers" else state.best.estimate)
 
 
-def counted(run: Run, k: int, found: re.Match[str]) -> bool:
-    """So many rows lie within the limit of the estimate in question."""
-    state = run.states[k]
-    estimate = state.now.estimate if state.now.phase == "inliers" else state.now.best.estimate
-    limit = (
-        state.params.inlier_pixels
-        if state.subject.model.unit == "px"
-        else state.params.inlier_distance
+def votes_of_draw(run: Run, k: int) -> int:
+    return votes_on(run, line_through(run.subject.p[run.states[k].sample]))
+
+
+def best(run: Run, k: int) -> float:
+    if isinstance(run.states[k], Draw):
+        return max(votes_of_draw(run, i) for i in range(k + 1))
+    return votes_on(run, run.states[k].best.estimate)
+
+
+def clean_so_far(run: Run, k: int) -> int:
+    return sum(run.subject.is_inlier[one.sample].all() for one in run.states[: k + 1])
+
+
+def in_band(run: Run, k: int) -> np.ndarray:
+    return apart("line", run.subject.truth, run.subject.p) <= run.states[k].width
+
+
+def needed(run: Run, k: int) -> float:
+    enough = enough_for(
+        share_for_stop(run, k), run.subject.model.sample_size, run.params.confidence
     )
-    count = np.count_nonzero(apart(state.subject.model.name, estimate, state.subject.p) <= limit)
-    return same(found["limit"], limit) and number(found["n"]) == count
+    return min(run.params.most_samples, enough)
+
+
+def msac(run: Run, k: int) -> float:
+    assert run.params.score == "MSAC"
+    off = apart(run.subject.model.name, run.states[k].estimate, run.subject.p)
+    return float(np.maximum(0.0, 1.0 - (off / limit_of(run)) ** 2).sum())
+
+
+def rms_of_voters(run: Run, k: int) -> float:
+    off = apart(run.subject.model.name, run.states[k].best.estimate, run.subject.p)
+    return rms(off[off <= limit_of(run)])
+
+
+VALUES = {
+    "n": lambda run, k: k + 1 if flat(run.states[k]) else run.states[k].iteration,
+    "draws": lambda run, k: k + 1,
+    "votes": votes,
+    "best": best,
+    "all": lambda run, k: len(run.subject.p),
+    "clean": clean_so_far,
+    "width": lambda run, k: 5e-3 * (k + 1),
+    "ringed": lambda run, k: in_band(run, k)[run.subject.is_inlier].sum(),
+    "others": lambda run, k: in_band(run, k)[~run.subject.is_inlier].sum(),
+    "points": lambda run, k: run.subject.is_inlier.sum(),
+    "apart": lambda run, k: 0.05 * (k + 1) if k < 9 else 0.5 + 0.1 * (k - 9),
+    "limit": lambda run, k: limit_of(run),
+    "score": msac,
+    "share": lambda run, k: votes(run, k) / len(run.subject.p),
+    "trusted": lambda run, k: most_trusted(run, k)[0],
+    "part": lambda run, k: most_trusted(run, k)[1],
+    "confidence": lambda run, k: run.params.confidence,
+    "needed": needed,
+    "before": lambda run, k: votes_on(run, run.states[k - 1].best.estimate),
+    "error": lambda run, k: error(run, run.states[k].best.estimate),
+    "squares": lambda run, k: error_of_rival(run, "least squares"),
+    "huber": lambda run, k: error_of_rival(run, "Huber"),
+    "rms": rms_of_voters,
+}
 
 
 def stays(run: Run, k: int, found: re.Match[str]) -> bool:
-    now = run.states[k].now
-    best = np.count_nonzero(now.best.inliers)
-    fewer = now.trial.score <= now.best.score
-    after = run.states[k + 1].now
+    now, after = run.states[k], run.states[k + 1]
     replaced = after.phase == "best" and after.iteration == now.iteration
-    return fewer and best == number(found["n"]) and not replaced
+    return now.trial.score <= now.best.score and not replaced
 
 
 def is_new_best(run: Run, k: int, found: re.Match[str]) -> bool:
-    """It beats every best before it, and so many samples were drawn."""
-    now = run.states[k].now
-    before = [state.now.best.score for state in run.states[:k] if state.now.best is not None]
-    share = 100.0 * np.count_nonzero(now.best.inliers) / len(now.best.inliers)
-    return (
-        all(now.best.score > score for score in before)
-        and number(found["after"]) == now.iteration
-        and number(found["n"]) == np.count_nonzero(now.best.inliers)
-        and abs(float(found["share"]) - share) <= 0.5 + 1e-9
+    """It beats every best before it."""
+    now = run.states[k]
+    return all(
+        now.best.score > state.best.score for state in run.states[:k] if state.best is not None
     )
 
 
-def draws_needed(run: Run, k: int, found: re.Match[str]) -> bool:
-    state = run.states[k]
-    share = share_for_stop(state)
-    confidence, said = float(found["p"]) / 100.0, number(found["n"])
-    assert confidence == state.params.confidence
-    if found["no"]:
-        clean = share**state.subject.model.sample_size
-        return said == state.params.most_samples and 1.0 - (1.0 - clean) ** (said - 1) < confidence
-    return said == enough_for(share, state.subject.model.sample_size, confidence)
-
-
-def error_is(run: Run, k: int, found: re.Match[str]) -> bool:
-    state = run.states[k]
-    return same(found["n"], error(state, state.now.best.estimate))
-
-
-def refit(run: Run, k: int, found: re.Match[str]) -> bool:
-    """So many inliers before and after, and the errors to the truth of both."""
-    state, before = run.states[k], run.states[k - 1]
-    counts = [np.count_nonzero(each.now.best.inliers) for each in (before, state)]
-    errors = [error(state, each.now.best.estimate) for each in (before, state)]
-    said = [number(found[name]) for name in ("n", "old", "new")]
-    return (
-        said == [counts[0], *counts]
-        and same(found["was"], errors[0])
-        and same(found["is"], errors[1])
+def needs_more(run: Run, k: int, found: re.Match[str]) -> bool:
+    enough = enough_for(
+        share_for_stop(run, k), run.subject.model.sample_size, run.params.confidence
     )
+    return enough >= run.params.most_samples
 
 
 def stopped(run: Run, k: int, found: re.Match[str]) -> bool:
-    state = run.states[k]
-    last_best = [each for each in run.states[:k] if each.now.phase == "best"][-1]
+    last_best = max(i for i in range(k) if run.states[i].phase == "best")
     asked = enough_for(
-        share_for_stop(last_best), state.subject.model.sample_size, state.params.confidence
+        share_for_stop(run, last_best), run.subject.model.sample_size, run.params.confidence
     )
-    drawn = number(found["n"])
-    if found["why"].startswith("enough"):
-        return drawn == state.now.iteration >= asked
-    return drawn == state.now.iteration == state.params.most_samples <= asked
+    drawn_here = run.states[k].iteration
+    if found["why"] == " with":
+        return drawn_here >= asked
+    return drawn_here == run.params.most_samples <= asked
 
 
-def trusted(run: Run, k: int, found: re.Match[str]) -> bool:
-    length, share = most_trusted(run.states[k])
-    return number(found["n"]) == length and abs(float(found["share"]) - 100 * share) <= 0.5 + 1e-9
+def clean_draw(run: Run, k: int, found: re.Match[str]) -> bool:
+    return run.subject.is_inlier[run.states[k].sample].all() == (found["what"] == "clean")
 
 
-def rms_of_best(run: Run, k: int, found: re.Match[str]) -> bool:
-    best, state = run.states[k].now.best, run.states[k]
-    off = apart(state.subject.model.name, best.estimate, state.subject.p)[best.inliers]
-    return same(found["n"], rms(off))
-
-
-def errors_are(run: Run, k: int, found: re.Match[str]) -> bool:
-    """Of RANSAC, of plain least squares, and of Huber's fit, whose estimate the state carries."""
-    state = run.states[k]
-    squares, huber = (rival.estimate for rival in state.rivals)
-    return (
-        same(found["r"], error(state, state.now.best.estimate))
-        and same(found["s"], error(state, squares))
-        and same(found["h"], error(state, huber))
-    )
-
-
-ROWS = r"(points|matches)"
 CAPTIONS = (
-    Claim(
-        rf"Of its (?P<size>\w+) {ROWS} (?P<n>\w+) (is an outlier|are outliers) in truth",
-        outliers_of,
-    ),
-    Claim(
-        rf"(?P<n>[\d,]+) of [\d,]+ {ROWS} (lie|are) within {distance('limit')} of (its|the) \w+",
-        counted,
-    ),
-    Claim(r"The best so far has (?P<n>[\d,]+) votes?( \([^)]*\))?: it stays", stays),
-    Claim(
-        r"New best after (?P<after>[\d,]+) samples?: (?P<n>[\d,]+) votes?( \([^)]*\))?,"
-        r" (?P<share>\d+) % of all",
-        is_new_best,
-    ),
-    Claim(r"Of the (?P<n>[\d,]+) most trusted (?P<share>\d+) % vote for it", trusted),
+    Claim(r"Draw \d+ is (?P<what>clean|spoilt)", clean_draw),
+    Claim(r"The best of \d+ draws? has", None),
+    Claim(r"Within [\d.]+ mm of the true line", None),
+    Claim(r"The best has [\d,]+: it stays", stays),
+    Claim(r"New best after", is_new_best),
+    Claim(r"samples? allowed are too few", needs_more),
     Claim(
         r"So few of the most trusted vote for it that chance can explain it",
-        lambda run, k, _: most_trusted(run.states[k]) == (0, 0.0),
+        lambda run, k, _: most_trusted(run, k) == (0, 0.0),
     ),
     Claim(
-        r"If that is the share of inliers, (the )?(?P<n>[\d,]+) samples? (allowed )?give (?P<no>no"
-        r" )?(?P<p>[\d.]+) %"
-        r" confidence that one of them is free of outliers",
-        draws_needed,
-    ),
-    Claim(
-        r"least squares on the (?P<n>[\d,]+) that voted for it, then all vote anew: (?P<old>[\d,]+)"
-        r" → (?P<new>[\d,]+) votes;"
-        rf" RMS error to the truth {distance('was')} → {distance('is')}",
-        refit,
-    ),
-    Claim(rf"RMS error to the truth {distance('n')}(?! →)\b", error_is),
-    Claim(
-        r"Stop after (?P<n>[\d,]+) samples?: (?P<why>enough samples for the confidence asked"
-        r" for|the maximum number of"
-        r" samples is reached)",
+        r"It stops after \d+ samples?(?P<why>: the maximum number of samples is reached| with)",
         stopped,
-    ),
-    Claim(rf"RMS distance {distance('n')}", rms_of_best),
-    Claim(
-        rf"RMS error to the truth: RANSAC {distance('r')}, least squares {distance('s')}, Huber"
-        rf" {distance('h')}",
-        errors_are,
     ),
     Claim(
         r"It looks settled, and it is wrong",
         lambda run, k, _: (
-            not is_right(run.states[k]) and run.states[k].now.iteration < run.params.most_samples
+            not is_right(run, k) and run.states[k].iteration < run.params.most_samples
         ),
     ),
-    Claim(r"It is wrong", lambda run, k, _: not is_right(run.states[k])),
-    Claim(r"of the truth|to the truth|in truth", None),
+    Claim(r"It is wrong", lambda run, k, _: not is_right(run, k)),
 )
 
 
@@ -242,51 +217,46 @@ def at(seed: int, holds: Callable[[Run], bool]) -> Callable[[Run, int, re.Match[
 
 
 def both_kept(run: Run) -> bool:
-    by_count = kept(states(dataclasses.replace(run.params, score="count")))
-    return near("5", 1e3 * kept(run.states), 1) and near("49", 1e3 * by_count, 2)
+    by_count = kept(finished(dataclasses.replace(run.params, score="count")))
+    return near("5", 1e3 * kept(run), 1) and near("49", 1e3 * by_count, 2)
 
 
 def twice_as_many(run: Run, k: int, found: re.Match[str]) -> bool:
     """Of the points on either plane: the wall is upright in the table's own directions, 1 m from
     its middle.
     """
-    state = run.states[-1]
-    wall = (
-        state.now.best.inliers & ~state.subject.is_inlier
-    )  # the final plane, where that is upright, is the wall
-    upright = abs(state.now.best.estimate[2]) < 0.3
-    return upright and bool(1.8 < wall.sum() / state.subject.is_inlier.sum() < 2.3)
+    best, true = run.states[-1].best, run.subject.is_inlier
+    wall = best.inliers & ~true  # the final plane, where that is upright, is the wall
+    return abs(best.estimate[2]) < 0.3 and bool(1.8 < wall.sum() / true.sum() < 2.3)
 
 
 def sooner(run: Run) -> bool:
-    return (
-        drawn(run),
-        states(dataclasses.replace(run.params, local_refit=False))[-1].now.iteration,
-    ) == (53, 80)
+    return (drawn(run), drawn(finished(dataclasses.replace(run.params, local_refit=False)))) == (
+        53,
+        80,
+    )
 
 
 def trusted_ends(run: Run) -> bool:
-    by_chance = states(dataclasses.replace(run.params, sampler="uniform", steps="improvements"))
-    return (drawn(run), by_chance[-1].now.iteration) == (14, 375)
+    by_chance = finished(dataclasses.replace(run.params, sampler="uniform", steps="improvements"))
+    return (drawn(run), drawn(by_chance)) == (14, 375)
 
 
 def picked_are_inliers(run: Run, k: int, found: re.Match[str]) -> bool:
-    state = run.states[0]
-    rows = state.now.sample
-    spread = float(np.linalg.norm(np.ptp(state.subject.p[rows], axis=0)))
-    return bool(state.chosen and state.subject.is_inlier[rows].all() and spread < 0.3)
+    rows = run.states[0].sample
+    spread = float(np.linalg.norm(np.ptp(run.subject.p[rows], axis=0)))
+    return picked(run) and bool(run.subject.is_inlier[rows].all() and spread < 0.3)
+
+
+def picked(run: Run) -> bool:
+    return set(run.states[0].sample) == set(run.params.sample[1:])
 
 
 def on_a_wire(run: Run, k: int, found: re.Match[str]) -> bool:
     """The picked points are on one line, give no plane, and another sample follows."""
     first, second = run.states[0], run.states[1]
-    line = np.linalg.matrix_rank(np.diff(first.subject.p[first.now.sample], axis=0), tol=1e-9) == 1
-    return (
-        line
-        and first.chosen
-        and second.now.phase == "degenerate"
-        and run.states[2].now.iteration == 2
-    )
+    line = np.linalg.matrix_rank(np.diff(run.subject.p[first.sample], axis=0), tol=1e-9) == 1
+    return line and picked(run) and second.phase == "degenerate" and run.states[2].iteration == 2
 
 
 LINES = {
@@ -325,13 +295,12 @@ LINES = {
             "500 samples do not suffice",
             lambda run, k, _: (
                 drawn(run) == run.params.most_samples == 500
-                and enough_for(np.count_nonzero(run.states[-1].now.best.inliers) / 600, 3, 0.99)
-                > 500
+                and enough_for(votes_on(run, run.states[-1].best.estimate) / 600, 3, 0.99) > 500
             ),
         ),
         Claim(
             "the answer rests on the few that are left",
-            lambda run, k, _: bool(run.states[-1].now.best.inliers.mean() < 0.15),
+            lambda run, k, _: bool(run.states[-1].best.inliers.mean() < 0.15),
         ),
     ),
     "loose": (
@@ -369,9 +338,11 @@ LINES = {
         Claim("three points that truly belong to the plane, close together", picked_are_inliers),
         Claim(
             "the next step counts who is near it",
-            lambda run, k, _: run.states[2].now.phase == "inliers",
+            lambda run, k, _: run.states[2].phase == "inliers",
         ),
     ),
+    "wider": (Claim("of the true line have a ring", None),),
+    "race": (Claim("one step for each new best", None),),
     "rivals": (Claim("RANSAC's and the truth", None),),
     "local": (
         Claim(
@@ -387,7 +358,7 @@ LINES = {
     "epipolar": (
         Claim(
             "seven at once must be free of outliers",
-            lambda run, k, _: len(run.states[0].now.sample) in (0, 7),
+            lambda run, k, _: len(run.states[0].sample) in (0, 7),
         ),
         Claim("at 30 %", lambda run, k, _: abs(clean(run, 1) - 0.7) < 0.01),
     ),
@@ -408,22 +379,21 @@ def of_one_sample(run: Run, k: int, found: re.Match[str]) -> bool:
 
 
 def reach_of_the_picked(run: Run, k: int, found: re.Match[str]) -> bool:
-    state = next(state for state in run.states if state.now.phase == "inliers")
-    inliers = state.subject.p[state.subject.is_inlier]
-    reached = (apart("plane", state.now.estimate, inliers) <= state.inlier_distance).mean()
+    state = next(state for state in run.states if state.phase == "inliers")
+    true = run.subject.p[run.subject.is_inlier]
+    reached = (apart("plane", state.estimate, true) <= limit_of(run)).mean()
     return abs(100 * reached - float(found["n"])) <= 0.5 + 1e-9
 
 
 def on_the_wall(run: Run, k: int, found: re.Match[str]) -> bool:
-    state = run.states[-1]
-    best = state.now.best
-    of_table = (best.inliers & state.subject.is_inlier).sum() / state.subject.is_inlier.sum()
+    best, true = run.states[-1].best, run.subject.is_inlier
+    of_table = (best.inliers & true).sum() / true.sum()
     return int(found["n"]) == best.inliers.sum() and abs(best.estimate[2]) < 0.3 and of_table < 0.1
 
 
 def pull_upwards(run: Run, k: int, found: re.Match[str]) -> bool:
     """Of the outliers, nine in ten lie above the table."""
-    subject = run.states[-1].subject
+    subject = run.subject
     truth = subject.truth * np.sign(subject.truth[2])
     off = subject.p[~subject.is_inlier] @ truth[:3] + truth[3]
     return bool((off > 0).mean() > 0.9)
@@ -446,14 +416,16 @@ WHYS = {
             of_one_sample,
         ),
         Claim(r"This run drew (\d+)", lambda run, k, found: int(found[1]) == drawn(run)),
-        Claim("of its best so far", None),
+        Claim("for its best so far", None),
     ),
     "predict-near-sample": (
         Claim(r"It reaches (?P<n>\d+) % of them", reach_of_the_picked),
         Claim("The three lie so close together", picked_are_inliers),
     ),
     "predict-two-planes": (
-        Claim(r"Its plane has (?P<n>\d+) points near it and stands upright: the wall", on_the_wall),
+        Claim(
+            r"(?P<n>\d+) points vote for its plane, and it stands upright: the wall", on_the_wall
+        ),
         Claim(
             rf"The points of the table are {distance('n')} from it \(RMS\)",
             lambda run, k, found: same(found["n"], last_error(run)),

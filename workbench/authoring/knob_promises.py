@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from workbench.authoring.promises import MOST_STEPS, Found, Subject, differs, promise
-from workbench.knobs import Field, changed, fields_of, from_json, to_json
+from workbench.knobs import Field, Pick, changed, fields_of, from_json, to_json
 from workbench.lesson import Lesson
 from workbench.run.flags import RESERVED
 from workbench.run.timeline import Timeline
@@ -35,7 +35,13 @@ def every_knob_goes_to_its_ends(subject: Subject) -> Found:
             )
             fine = run.failure is None or run.stopped == default.stopped  # which is told already
             yield None if fine else f"{run.stopped} (at {where})"
-        if runs and field.name in read and not any(_changes(subject, run) for run in runs.values()):
+        picked = isinstance(field.knob.by, Pick)  # one row at all of its places is no choice yet
+        if (
+            runs
+            and not picked
+            and field.name in read
+            and not any(_changes(subject, run) for run in runs.values())
+        ):
             values = " or ".join(map(str, runs))
             unchanged = f"the default run reads {field.name}, and nothing in it changes at {values}"
             yield f"{subject.who}: {unchanged}; read it where it has an effect"
@@ -109,8 +115,8 @@ def _effect(plain: Timeline, turned: Timeline) -> str | None:
     """Return what differs between two runs: the path of a thing, or that they end otherwise."""
     pairs = zip(plain.known(), turned.known(), strict=False)
     found = next((path for one, two in pairs if (path := _differs(one.scene, two.scene))), None)
-    same_length = len(plain) == len(turned) or not turned.finished  # it was run for some steps only
-    same_end = plain.stopped == turned.stopped and same_length
+    whole = plain.finished and turned.finished  # of a longer run only its first steps are made
+    same_end = not whole or (plain.stopped == turned.stopped and len(plain) == len(turned))
     return found or (None if same_end else "how the run ends")
 
 
@@ -151,7 +157,7 @@ def a_knob_that_a_run_does_not_read_changes_nothing(subject: Subject) -> Found:
         unread = (
             f"{subject.who}: no run reads {field.name}: not the default, no preset, at no choice"
         )
-        yield None if field.name in read else unread
+        yield None if field.name in read or field.knob.of_files else unread
 
 
 def _choices(lesson: Lesson) -> Iterator[Any]:

@@ -1,4 +1,4 @@
-"""The exercises of this lesson: invert a motion, turn about an axis, multiply Euler angles."""
+"""The exercise of this lesson: invert a motion."""
 
 from collections.abc import Iterator
 

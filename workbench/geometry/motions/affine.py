@@ -1,15 +1,13 @@
-"""Affine and projective maps as 4x4 matrices: built from factors, and taken apart.
+"""Affine and projective maps as 4x4 matrices: built from factors, and told apart.
 
 A map acts on columns (x, y, z, w): a point has w = 1, a direction w = 0. Factors compose to the
 left: `B @ A` does A first. Metres and radians; every factor but a translation leaves the origin
 where it is.
 """
 
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
-import scipy
 from jaxtyping import Float
 
 from workbench.geometry.motions.rigid import motion
@@ -27,21 +25,6 @@ class Kind(Enum):
     SIMILARITY = "similarity"
     AFFINE = "affine map"
     PROJECTIVE = "projective map"
-
-
-@dataclass(frozen=True, eq=False)
-class Parts:
-    """An affine map: symmetric stretch, then mirror at the origin (±1), rotation, translation."""
-
-    translation: Float[np.ndarray, "3"]
-    rotation: Float[np.ndarray, "3 3"]
-    mirror: int
-    stretch: Float[np.ndarray, "3 3"]
-
-    @property
-    def matrix(self) -> Map:
-        """The 4x4 put together again."""
-        return motion(self.mirror * self.rotation @ self.stretch, self.translation)
 
 
 def translation(offset: Float[np.ndarray, "3"]) -> Map:
@@ -125,27 +108,6 @@ def transform_directions(A: Map, v: Float[np.ndarray, "n 3"]) -> Float[np.ndarra
 def is_affine(H: Map) -> bool:
     """Return whether a map keeps parallel lines parallel: its last row is 0 0 0 1."""
     return bool(np.array_equal(H[3], (0, 0, 0, 1)))
-
-
-def decompose(A: Map) -> Parts:
-    """Return the rotation, mirror, stretch and translation of an affine map by polar decomposition.
-
-    Where the stretch flattens (det = 0) the rotation is one of many.
-    Reference: Shoemake and Duff, Matrix animation and polar decomposition, 1992: M = T F R S.
-
-    Raises:
-        ValueError: If the last row is not (0, 0, 0, 1): a projective map has no such parts.
-    """
-    if not is_affine(A):
-        raise ValueError(f"the last row {A[3]} is that of a projective map")
-    linear = A[:3, :3]
-    mirror = -1 if np.linalg.det(linear) < 0 else 1
-    R, S = scipy.linalg.polar(mirror * linear)
-    # Only where det = 0: turn the flattened axis over, which the stretch does not feel
-    if np.linalg.det(R) < 0:
-        n = np.linalg.eigh(S)[1][:, 0]
-        R = R @ (np.eye(3) - 2.0 * np.outer(n, n))
-    return Parts(A[:3, 3], R, mirror, S)
 
 
 def kind_of(H: Map, tolerance: float = 1e-9) -> Kind:

@@ -37,7 +37,7 @@ const handles = {
     const all = new Map(nodes);
     for (const knob of this.knobs) {
       const name = `/handle/${knob.name}`, value = params[knob.name], shown = this.held === knob.name && feed.shown.get(name);
-      if (!value) continue;
+      if (!value || page.run.idle?.includes(knob.name)) continue; // a knob without effect has no handle
       const at = { position: [...value.slice(0, 3), 0].slice(0, 3), wxyz: value.length === 6 ? quaternion(value.slice(3)) : [1, 0, 0, 0] };
       all.set(name, { kind: this.kind(knob, value.length), ...(shown ? { position: shown.position, wxyz: shown.wxyz } : at) });
     }

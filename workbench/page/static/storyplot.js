@@ -12,7 +12,7 @@ function slug(text) {
 // the colour of a role, for things and for words; other colours are taken as they are
 const ROLE_COLORS = { target: "target", source: "source", truth: "truth", highlight: "highlight",
   correspondence: "match-ink", match: "match-ink", neutral: "match-ink", outlier: "wrong-fill",
-  wrong: "wrong-fill" };
+  wrong: "wrong-fill", other: "other", x: "wrong-fill", y: "truth", z: "target" };
 function colorOf(role) { return ROLE_COLORS[role] ? `var(--${ROLE_COLORS[role]})` : role; }
 function inkOf(role) {
   const name = (ROLE_COLORS[role] ?? "").replace(/-(ink|fill)$/, "");
@@ -207,7 +207,8 @@ function seriesRow(run, chart, { w, top, height, k, end, last }) {
     const at = taken.some((other) => Math.abs(other - v) < 16) ? v + 16 : v;
     taken.push(at);
     const name = lines.length > 1 ? `${one.name} ` : "";
-    const words = `${name}${measured(Number(one.values[shown.at(-1)[2]].toPrecision(2)), one.unit)}`;
+    const value = one.values[shown.at(-1)[2]], whole = `${Math.trunc(Math.abs(value))}`.length;
+    const words = `${name}${measured(Number(value.toPrecision(Math.max(2, whole))), one.unit)}`;
     parts.push(`<text class="value over" x="${x + 10}" y="${at + 4}" style="fill:${ink}">` +
       `${escape(words)}</text>`);
   }
@@ -222,7 +223,7 @@ function seriesRow(run, chart, { w, top, height, k, end, last }) {
 
 // the role of a series: it comes as a colour of the palette, or as the role itself
 const CSS_ROLES = { "0,114,178": "target", "230,159,0": "source", "0,158,115": "truth",
-  "213,94,0": "outlier", "204,121,167": "highlight" };
+  "213,94,0": "outlier", "204,121,167": "highlight", "86,180,233": "other" };
 function cssRole({ color }) {
   if (ROLE_COLORS[color]) return color;
   const hex = /^#(..)(..)(..)$/.exec(color)?.slice(1).map((part) => parseInt(part, 16));

@@ -1,11 +1,11 @@
-"""Write the rotation that three Euler angles stand for, in all 24 orders. The lesson turns the body
-by it, one angle after the other.
+"""Write the rotation that three Euler angles stand for, in all 24 orders. The lesson turns its
+rings by it, and the body wherever Euler angles are blended.
 """
 
 import numpy as np
 from jaxtyping import Float
 
-from lessons.transforms.exercises import GRADERS, STUDENTS
+from lessons.rotations.exercises import GRADERS, STUDENTS
 from workbench.exercise import (
     Function,
     Verdict,

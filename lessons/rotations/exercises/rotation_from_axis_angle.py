@@ -1,6 +1,5 @@
-"""Write Rodrigues' formula: the rotation by an angle about an axis. Set the lesson's knob half to
-'move between two poses' and it turns the body from one pose to the other about one axis, at
-constant speed.
+"""Write Rodrigues' formula: the rotation by an angle about an axis. The lesson turns the
+body from one pose to the other by it, and makes one turn of a chain of turns.
 """
 
 from collections.abc import Iterator
@@ -8,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from jaxtyping import Float
 
-from lessons.transforms.exercises import GRADERS, STUDENTS, some_motions
+from lessons.rotations.exercises import GRADERS, STUDENTS, some_motions
 from workbench.exercise import (
     Function,
     Verdict,
@@ -29,7 +28,6 @@ from workbench.geometry.motions import exp_so3, rotations, skew
 
 @contract(
     slot="rotation_from_axis_angle",
-    preset="one-axis",
     forbid=("scipy.spatial.transform",),
     examples=(
         (

@@ -1,0 +1,1 @@
+"""Rotations: one turn, many names."""
