@@ -3,7 +3,8 @@
 A function that reads `params.seed` and nothing else gives the same value for all params with that
 seed. `cached` finds out by itself: it hands the function the params in a guise that notes every
 field that is read. Params with the same values in the fields read lead to the value kept. So a
-function keeps its value while a knob is turned that it does not read.
+function keeps its value while a knob is turned that it does not read. A file that a field names is
+part of its value: when it has changed, the function is called again.
 """
 
 import dataclasses
@@ -11,7 +12,8 @@ import functools
 import inspect
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Mapping
+from pathlib import Path
 from typing import Any, Concatenate, ParamSpec, TypeVar, overload
 
 from workbench.errors import AuthorError
@@ -23,6 +25,9 @@ Rest = ParamSpec("Rest")
 
 Note = Callable[[str], object]
 """What is told the name of each field that is read."""
+
+Values = Mapping[str, Hashable]
+"""The values of params by the names of their fields."""
 
 
 def watched(params: P, note: Note) -> P:
@@ -139,8 +144,9 @@ def cached(function: Any = None, /, *, most: int = 32) -> Any:
     @functools.wraps(function)
     def wrapper(params: Any, *rest: Any, **named: Any) -> Any:
         bare, outer = plain(params), reader(params)
+        values = _values_of(bare)
         others = (type(bare), rest, tuple(sorted(named.items())))
-        found = kept.find(bare, others)
+        found = kept.find(values, others)
         if found is None:
             reads = _Reads(function)
             try:
@@ -150,7 +156,7 @@ def cached(function: Any = None, /, *, most: int = 32) -> Any:
                 _tell(outer, reads.names)
             for array in arrays(value):
                 array.setflags(write=False)
-            kept.keep(bare, others, tuple(sorted(reads.names)), value)
+            kept.keep(values, others, tuple(sorted(reads.names)), value)
             return value
         names, value = found
         _tell(outer, names)
@@ -158,6 +164,22 @@ def cached(function: Any = None, /, *, most: int = 32) -> Any:
 
     wrapper.forget = kept.forget  # type: ignore[attr-defined]
     return wrapper
+
+
+def _values_of(params: Any) -> dict[str, Hashable]:
+    """Return the values of all fields; with a file's, when it was changed and its size."""
+    found = {field.name: getattr(params, field.name) for field in dataclasses.fields(params)}
+    return found | {
+        name: (value, _stamp(value)) for name, value in found.items() if isinstance(value, Path)
+    }
+
+
+def _stamp(path: Path) -> tuple[int, int] | None:
+    try:
+        stat = path.stat()
+    except OSError:  # whoever reads it says so
+        return None
+    return stat.st_mtime_ns, stat.st_size
 
 
 def _tell(note: Note | None, names: Any) -> None:
@@ -191,19 +213,19 @@ class _Kept:
         self._read: dict[tuple[str, ...], None] = {}  # each set of fields that some call has read
         self._lock, self._most = threading.Lock(), most
 
-    def find(self, params: Any, others: Hashable) -> tuple[tuple[str, ...], Any] | None:
+    def find(self, values: Values, others: Hashable) -> tuple[tuple[str, ...], Any] | None:
         with self._lock:
             for names in self._read:
-                key = self._key(params, others, names)
+                key = self._key(values, others, names)
                 if key in self._values:
                     self._values.move_to_end(key)
                     return names, self._values[key]
         return None
 
-    def keep(self, params: Any, others: Hashable, names: tuple[str, ...], value: Any) -> None:
+    def keep(self, values: Values, others: Hashable, names: tuple[str, ...], value: Any) -> None:
         with self._lock:
             self._read[names] = None
-            self._values[self._key(params, others, names)] = value
+            self._values[self._key(values, others, names)] = value
             while len(self._values) > self._most:
                 self._values.popitem(last=False)
 
@@ -213,5 +235,5 @@ class _Kept:
             self._read.clear()
 
     @staticmethod
-    def _key(params: Any, others: Hashable, names: tuple[str, ...]) -> Hashable:
-        return others, names, tuple(getattr(params, name) for name in names)
+    def _key(values: Values, others: Hashable, names: tuple[str, ...]) -> Hashable:
+        return others, names, tuple(values[name] for name in names)

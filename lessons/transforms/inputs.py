@@ -6,10 +6,8 @@ from typing import Literal
 
 import numpy as np
 
-from workbench.data.files import read_mesh
-from workbench.data.framing import frame
-from workbench.data.shapes.solids import Shape, Solid, outlined, solid
-from workbench.errors import InputError
+from workbench.data.own_meshes import read_solid
+from workbench.data.shapes.solids import Shape, Solid, solid
 from workbench.geometry.motions.rotations import EulerOrder
 from workbench.lesson import Gizmo, Params, Pick, cached, knob
 
@@ -99,10 +97,4 @@ def setup(params: Input) -> Body:
     """
     if params.mesh is None:
         return Body(name=params.shape, solid=solid(params.shape))
-    p, faces = read_mesh(params.mesh)
-    if len(faces) > MOST_FACES:
-        raise InputError(
-            f"{params.mesh.name}: {len(faces):,} faces; this lesson takes up to {MOST_FACES:,}"
-        )
-    shown = outlined(frame(p, 1.0).standing(p).shown(p), faces, angle=0.6)
-    return Body(name="mesh", solid=shown)
+    return Body(name="mesh", solid=read_solid(params.mesh, MOST_FACES))

@@ -5,6 +5,7 @@ import functools
 import pickle
 import threading
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -193,3 +194,25 @@ def test_threads_may_ask_at_once(chosen):
         thread.join()
     assert len(found) == 160
     assert not np.any(found)
+
+
+class Filed(Params):
+    """A file of a person's own."""
+
+    own: Path | None = knob(None, "A file")
+
+
+def test_a_file_that_changed_is_read_again(calls, tmp_path):
+    @cached
+    def read(params: Filed) -> str:
+        calls.append(params)
+        return "" if params.own is None else params.own.read_text()
+
+    file = tmp_path / "own.txt"
+    params = Filed(own=file)
+    with pytest.raises(FileNotFoundError):
+        read(params)
+    file.write_text("first")
+    assert (read(params), read(params), len(calls)) == ("first", "first", 2)
+    file.write_text("then another")
+    assert (read(params), read(params), len(calls)) == ("then another", "then another", 3)

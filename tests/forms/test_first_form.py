@@ -1,5 +1,5 @@
-"""A lesson as `workbench new` wrote it before there was a second form: `beacon/` is left as it
-was.
+"""A lesson as `workbench new` wrote it before there was a second form: `authoring/old/beacon` is
+left as it was.
 """
 
 from pathlib import Path
@@ -15,7 +15,7 @@ from workbench.run.loading import load
 from workbench.run.questions import answer
 from workbench.run.timeline import Timeline, Timelines
 
-BEACON = Path(__file__).with_name("beacon")
+BEACON = Path(__file__).resolve().parents[1] / "authoring" / "old" / "beacon"
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,8 @@ from jaxtyping import Float, Int
 from numpy import ndarray
 
 from workbench.data.files import read_mesh
+from workbench.data.framing import frame
+from workbench.data.shapes.solids import Solid, outlined
 from workbench.errors import InputError
 from workbench.geometry.meshes import check_mesh, welded
 from workbench.geometry.meshes.measures import surface_area
@@ -77,3 +79,16 @@ def read_welded(
     if not surface_area(p, faces) > 0:
         raise InputError(f"{path.name}: its faces have no area")
     return p, faces
+
+
+def read_solid(path: Path, most: int) -> Solid:
+    """Read a mesh of at most `most` faces as a solid that stands on the origin, 1 m large, with
+    its sharp edges.
+
+    Raises:
+        InputError: If it cannot be used, or is too large; names the file.
+    """
+    p, faces = read_mesh(path)
+    if len(faces) > most:
+        raise InputError(f"{path.name}: {len(faces):,} faces; this lesson takes up to {most:,}")
+    return outlined(frame(p, 1.0).standing(p).shown(p), faces, angle=0.6)
