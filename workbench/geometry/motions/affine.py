@@ -3,6 +3,9 @@
 A map acts on columns (x, y, z, w): a point has w = 1, a direction w = 0. Factors compose to the
 left: `B @ A` does A first. Metres and radians; every factor but a translation leaves the origin
 where it is.
+
+Reference: Hartley and Zisserman, Multiple View Geometry in Computer Vision, 2nd ed., 2004,
+sections 2.4 and 3.4 (the hierarchy of transformations that `Kind` follows).
 """
 
 from enum import Enum
