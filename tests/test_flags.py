@@ -16,17 +16,17 @@ from workbench.cli import show
 from workbench.errors import InputError
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, catalog
-from workbench.run.flags import Chosen, parse
+from workbench.run.flags import RunChoice, parse
 from workbench.run.links import command_line, show_command
 
 LESSONS = list(catalog().values())
 
 
-def opened(command: str) -> Chosen:
+def opened(command: str) -> RunChoice:
     """What a command opens, read as a shell and then `workbench show` read it."""
     program, verb, *words = shlex.split(command)
     assert (program, verb) == ("workbench", "show")
-    seen: list[Chosen] = []
+    seen: list[RunChoice] = []
 
     @functools.wraps(show)
     def seeing(run, serving, step=None, with_=None):

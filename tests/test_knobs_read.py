@@ -25,7 +25,7 @@ class Params:
     ] = None
 
 
-def field_of(kind: Any, knob: Knob, default: Any) -> knobs.Field:
+def field_of(kind: Any, knob: Knob, default: Any) -> knobs.ParamField:
     made = make_dataclass("Made", [("value", Annotated[kind, knob], default)], frozen=True)
     return fields_of(made)[0]
 

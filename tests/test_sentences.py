@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
-from workbench.knobs import Field as KnobField
+from workbench.knobs import ParamField as KnobField
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, catalog
 from workbench.run.timeline import Timeline

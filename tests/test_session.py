@@ -9,7 +9,7 @@ from tests.fake import Params, lesson
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import catalog
-from workbench.run.session import Look, Session
+from workbench.run.session import Session, Shown
 from workbench.run.timeline import Timelines
 from workbench.scene import same
 
@@ -22,7 +22,7 @@ def settled(params=None) -> Session:
     return session
 
 
-def seen(session: Session) -> Look:
+def seen(session: Session) -> Shown:
     look = session.look()
     assert look is not None
     return look

@@ -8,7 +8,7 @@ import pytest
 from tests.fake import Params, lesson, turn_about_z
 from workbench.errors import InputError
 from workbench.lesson import Lesson
-from workbench.run.session import Look, Session
+from workbench.run.session import Session, Shown
 from workbench.scene import Caption
 
 OTHER = dataclasses.replace(lesson, name="other")
@@ -16,7 +16,7 @@ LAST_FIRST = dataclasses.replace(lesson, first_step=-1)
 THIRD_FIRST = dataclasses.replace(lesson, first_step=2)
 
 
-def looked(session: Session) -> Look:
+def looked(session: Session) -> Shown:
     while session.pending:
         session.compute(0.01)
     look = session.look()

@@ -168,10 +168,11 @@ def cached(function: Any = None, /, *, most: int = 32) -> Any:
 
 def _values_of(params: Any) -> dict[str, Hashable]:
     """Return the values of all fields; with a file's, when it was changed and its size."""
-    found = {field.name: getattr(params, field.name) for field in dataclasses.fields(params)}
-    return found | {
-        name: (value, _stamp(value)) for name, value in found.items() if isinstance(value, Path)
-    }
+    found = {}
+    for one in dataclasses.fields(params):
+        value = getattr(params, one.name)
+        found[one.name] = (value, _stamp(value)) if isinstance(value, Path) else value
+    return found
 
 
 def _stamp(path: Path) -> tuple[int, int] | None:

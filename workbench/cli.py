@@ -16,7 +16,7 @@ from workbench.knobs import called_by_flags
 from workbench.lesson import catalog
 from workbench.machinery.docstrings import summary_of
 from workbench.machinery.version import __version__
-from workbench.run.flags import Chosen, Option, Serving, ServingLive, parse
+from workbench.run.flags import Option, RunChoice, Serving, ServingLive, parse
 from workbench.run.links import command_line
 from workbench.run.loading import is_path, lesson_given
 
@@ -64,7 +64,7 @@ def list_() -> None:
 
 @command
 def show(
-    run: Chosen,
+    run: RunChoice,
     serving: ServingLive,
     step: Annotated[
         int | None, Option("Step to open at; negative counts from the end.", "K")
@@ -82,9 +82,9 @@ def show(
     watched = edited = None
     if with_ is not None:
         from workbench.exercise.sandbox import best
-        from workbench.exercise.watching import Watched
+        from workbench.exercise.watching import WatchedFile
 
-        watched = Watched(run.lesson, with_)
+        watched = WatchedFile(run.lesson, with_)
         first = None if run.preset is not None else watched.first_preset(run.params)
         run = run if first is None else replace(run, params=first.params, preset=first.name)
         if not best().holds:
@@ -102,7 +102,7 @@ def show(
 
 @command
 def record(
-    run: Chosen,
+    run: RunChoice,
     out: Annotated[
         Path, Option("File to write; - writes to standard output.", "FILE.rrd", short="-o")
     ],

@@ -145,7 +145,7 @@ Kind = Literal["float", "int", "bool", "choice", "floats", "ints", "path"]
 
 
 @dataclass(frozen=True)
-class Field:
+class ParamField:
     """One field of a Params class, read: its name, kind, default, choices or length, and its
     knob.
     """
@@ -255,7 +255,7 @@ class Field:
 
 
 @functools.lru_cache(maxsize=128)
-def fields_of(params: type) -> tuple[Field, ...]:
+def fields_of(params: type) -> tuple[ParamField, ...]:
     """Read a Params class into its fields.
 
     Raises:
@@ -268,7 +268,7 @@ def fields_of(params: type) -> tuple[Field, ...]:
     return tuple(_read(params, field, hints[field.name]) for field in dataclasses.fields(params))
 
 
-def _read(owner: type, field: dataclasses.Field, hint: Any) -> Field:
+def _read(owner: type, field: dataclasses.Field, hint: Any) -> ParamField:
     where = f"{owner.__name__}.{field.name}"
     declared, *extras = get_args(hint) if get_origin(hint) is Annotated else (hint,)
     knob = next(
@@ -290,7 +290,7 @@ def _read(owner: type, field: dataclasses.Field, hint: Any) -> Field:
         raise TypeError(f"{where}: a Gizmo sets {wanted}, not {declared}")
     if isinstance(knob.by, Pick) and kind not in ("int", "ints"):
         raise TypeError(f"{where}: a Pick sets an int or a tuple of ints, not {declared}")
-    return Field(field.name, kind, field.default, knob, choices, length)
+    return ParamField(field.name, kind, field.default, knob, choices, length)
 
 
 def _kind(where: str, declared: Any) -> tuple[Kind, tuple[str, ...], int]:

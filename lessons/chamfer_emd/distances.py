@@ -10,13 +10,13 @@ import numpy as np
 
 from lessons.chamfer_emd.clouds import yardsticks
 from lessons.chamfer_emd.state import Clouds, Lowers, Numbers, Params, Side
-from workbench.algorithms.transport import Matching, best_matching, earth_movers_gradient
+from workbench.algorithms.transport import TransportPlan, best_matching, earth_movers_gradient
 from workbench.algorithms.transport import exact as transport
 from workbench.algorithms.transport.flow import Distance, Flow, Gradient, numeric_gradient
 from workbench.geometry.points import shape_distances
 from workbench.geometry.points.shape_distances import (
     DEFINITIONS,
-    Nearest,
+    NearestPoints,
     chamfer_gradient,
     index_mse,
     nearest_both_ways,
@@ -60,8 +60,8 @@ def measured(
 def numbers(
     p: np.ndarray,
     p_target: np.ndarray,
-    near: Nearest,
-    matching: Matching,
+    near: NearestPoints,
+    matching: TransportPlan,
     params: Params,
     measures: Measures,
 ) -> Numbers:

@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 import numpy as np
 
 from lessons.chamfer_emd.point_sets import Shape
-from workbench.algorithms.transport import Matching, blurred_earth_movers
+from workbench.algorithms.transport import TransportPlan, blurred_earth_movers
 from workbench.algorithms.transport.flow import Flow
-from workbench.geometry.points.shape_distances import Definition, Nearest
+from workbench.geometry.points.shape_distances import Definition, NearestPoints
 from workbench.knobs import Knob
 
 Start = Literal[
@@ -137,8 +137,8 @@ class Side:
 
     flow: Flow
     numbers: Numbers
-    near: Nearest
-    matching: Matching
+    near: NearestPoints
+    matching: TransportPlan
     p_target: np.ndarray
     blur: float
 

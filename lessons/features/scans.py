@@ -18,7 +18,7 @@ from workbench.data.shapes.clouds import pair
 from workbench.errors import InputError
 from workbench.geometry.features.fpfh import PairAngles, fpfh
 from workbench.geometry.features.keypoints import iss_keypoints
-from workbench.geometry.features.matching import Nearest, filtered, nearest_both_ways
+from workbench.geometry.features.matching import NearestDescriptors, filtered, nearest_both_ways
 from workbench.geometry.motions import apply, exp_so3, motion
 from workbench.geometry.points.normals import point_normals
 from workbench.knobs import called, only
@@ -149,7 +149,7 @@ def matched_points(params: Params, p: np.ndarray) -> np.ndarray:
 
 
 def chosen(
-    params: Params, found: Nearest, a: np.ndarray, b: np.ndarray, mutual_matches: Matcher
+    params: Params, found: NearestDescriptors, a: np.ndarray, b: np.ndarray, mutual_matches: Matcher
 ) -> np.ndarray:
     """Return the matches that the params keep; both filters together are the function that was
     given.

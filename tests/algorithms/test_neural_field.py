@@ -9,7 +9,7 @@ from workbench.algorithms.learning import neural_field, perceptron
 from workbench.algorithms.learning.neural_field import (
     BATCH,
     CLAMP,
-    Network,
+    FieldNetwork,
     encoded,
     new_network,
     train_field,
@@ -24,7 +24,9 @@ def samples(n: int, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
     return p, torus_sdf(p, 0.6, 0.25)
 
 
-def loss_of(network: Network, values: np.ndarray, x: np.ndarray, y: np.ndarray, target) -> float:
+def loss_of(
+    network: FieldNetwork, values: np.ndarray, x: np.ndarray, y: np.ndarray, target
+) -> float:
     layers = perceptron.layers_of(values, network.sizes)
     return neural_field._loss(
         perceptron.forward(layers, x, network.activation)[-1][:, 0], y, target
@@ -99,7 +101,7 @@ def test_outputs_beyond_the_clamp_learn_nothing():
     network = new_network(8, 1, "tanh", rng=np.random.default_rng(6))
     values = network.values.copy()
     values[-1] = 50 * CLAMP  # the last bias
-    dead = Network(values=values, sizes=network.sizes, frequencies=1, activation="tanh")
+    dead = FieldNetwork(values=values, sizes=network.sizes, frequencies=1, activation="tanh")
     p, y = samples(2 * BATCH)
     counts = (0, 50)
     _, last = train_field(dead, p, y, counts=counts, target="clamped", rng=np.random.default_rng(7))

@@ -27,7 +27,7 @@ from workbench.handout.writing import files
 from workbench.lesson import Lesson
 from workbench.recording.compare import compare_bytes
 from workbench.recording.read import reopening
-from workbench.recording.replay import Replay
+from workbench.recording.replay import ReplayServer
 from workbench.run.links import Place
 from workbench.run.loading import load
 from workbench.run.timeline import Timeline
@@ -206,7 +206,7 @@ def test_a_new_recording_of_an_old_run_has_the_same_content(tmp_path, lesson):
 @pytest.mark.parametrize("name", ["equal", "transforms"])
 def test_old_recordings_are_replayed_and_compared(tmp_path, lesson, name):
     path = unpacked(name, tmp_path)
-    with Replay({path.name: path}, "Old", port=0) as replay:
+    with ReplayServer({path.name: path}, "Old", port=0) as replay:
         asked = http.client.HTTPConnection("127.0.0.1", replay.port, timeout=30)
         asked.request("GET", "/0.rrd")
         assert asked.getresponse().read() == path.read_bytes()

@@ -13,7 +13,7 @@ from workbench.authoring.reloading import Edited, carried
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
 from workbench.exercise.starter import write_starter
-from workbench.exercise.watching import Watched
+from workbench.exercise.watching import WatchedFile
 from workbench.run.loading import load
 from workbench.run.timeline import Timeline
 
@@ -135,7 +135,7 @@ def test_a_student_s_file_drives_the_edited_lesson_too(edited, tmp_path):
         "raise NotImplementedError", "return np.array([0.4, 0.3, 1.0])"
     )
     mine.write_text(text, encoding="utf-8")
-    watched = Watched(edited.lesson, mine)
+    watched = WatchedFile(edited.lesson, mine)
     try:
         save(edited, "draw.py", "The algebraic fit", "THE FIT")
         assert edited.changed()

@@ -47,8 +47,8 @@ SERVE = """
 import sys
 from workbench.viewer import server
 from workbench.viewer.serving import serve
-made = server.Runs
-server.Runs = lambda most_bytes: made(most_bytes, threads=int(sys.argv[1]))
+made = server.SharedRuns
+server.SharedRuns = lambda most_bytes: made(most_bytes, threads=int(sys.argv[1]))
 serve(port=0, browser=False)
 """
 

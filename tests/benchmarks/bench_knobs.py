@@ -22,7 +22,7 @@ one_each()  # as the server does, before numpy comes
 
 # ruff: noqa: E402
 from workbench.errors import InputError
-from workbench.knobs import Field, fields_of
+from workbench.knobs import ParamField, fields_of
 from workbench.lesson import Lesson, catalog
 from workbench.page.steps import Steps
 from workbench.run.timeline import Timeline
@@ -31,7 +31,7 @@ MOST = 0.1
 """Seconds of processor time that a first picture may need."""
 
 
-def turned(field: Field, value: Any) -> Iterator[Any]:
+def turned(field: ParamField, value: Any) -> Iterator[Any]:
     """Yield other values of a field: of a number the next that its slider has."""
     if field.kind == "bool":
         yield not value

@@ -18,7 +18,7 @@ from playwright.sync_api import TimeoutError as TookTooLong
 from scipy.spatial.transform import Rotation
 
 from tests.browser.homes import HOMES, PHONE, Browser, Home, asked, barriers, linked, own_end
-from workbench.knobs import Field, Gizmo, Pick, fields_of, text_of
+from workbench.knobs import Gizmo, ParamField, Pick, fields_of, text_of
 from workbench.lesson import catalog
 from workbench.page.code import moment_data
 from workbench.run.questions import answer
@@ -226,7 +226,7 @@ def moved(home: Home, name: str, act: Callable[[int], None]) -> None:
     raise AssertionError(f"{name} stays {before}")
 
 
-def drag(home: Home, field: Field, turn: int) -> None:
+def drag(home: Home, field: ParamField, turn: int) -> None:
     """Draw at the end of a handle's longest arrow; where it is missed, the camera turns, and it is
     elsewhere.
     """

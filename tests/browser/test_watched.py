@@ -6,7 +6,7 @@ import pytest
 
 from workbench.exercise.finding import exercises
 from workbench.exercise.starter import write_starter
-from workbench.exercise.watching import Watched
+from workbench.exercise.watching import WatchedFile
 from workbench.lesson import catalog
 from workbench.run import links
 from workbench.viewer.server import Server
@@ -36,7 +36,7 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
     file = tmp_path / "my_align_rigid.py"
     file.write_text(TRANSPOSED)
     lesson = catalog()["icp"]
-    watched = Watched(lesson, file)
+    watched = WatchedFile(lesson, file)
     server = Server(links.Place(watched.lesson, lesson.params(), None), watched=watched)
     try:
         me = visit(at=server, scene=True)
@@ -98,7 +98,7 @@ def test_a_student_s_file_is_watched(chromium, visit, tmp_path):
 
 def test_a_run_that_does_not_call_the_function_says_so(chromium, visit, tmp_path):
     lesson = catalog()["icp"]
-    watched = Watched(lesson, write_starter(exercises()["point_to_plane_step"], tmp_path))
+    watched = WatchedFile(lesson, write_starter(exercises()["point_to_plane_step"], tmp_path))
     server = Server(links.Place(watched.lesson, lesson.params(), None), watched=watched)
     try:
         me = visit(at=server)

@@ -11,7 +11,7 @@ from tests.exercise.batch import write_class
 from tests.exercise.centroid import EXERCISE
 from workbench.cli import main
 from workbench.exercise import classroom, finding
-from workbench.exercise.candidate import Answer, Call
+from workbench.exercise.candidate import Call, Returned
 from workbench.exercise.finding import exercises
 from workbench.exercise.grading import grade_function
 from workbench.exercise.marking import Asked
@@ -51,7 +51,7 @@ def test_a_table_of_answers_is_worth_little_from_another_seed(exercise):
     table = {}
 
     def key(args):
-        return Call(args, Answer(None, ""), Answer(None, "")).key
+        return Call(args, Returned(None, ""), Returned(None, "")).key
 
     def learning(*args):
         try:

@@ -12,7 +12,7 @@ from workbench.exercise import finding
 from workbench.exercise.driven import DIFFERENCE, calls_it, driven, first_difference
 from workbench.exercise.finding import exercises
 from workbench.exercise.starter import write_starter
-from workbench.exercise.watching import GONE_AFTER, Watched
+from workbench.exercise.watching import GONE_AFTER, WatchedFile
 from workbench.lesson import catalog
 from workbench.run.session import Session
 from workbench.run.timeline import Timeline
@@ -37,12 +37,12 @@ BROKEN = RIGHT.replace("q, p =", "q, p = 1 / 0,")
 def watched(tmp_path):
     file = tmp_path / "my_align_rigid.py"
     file.write_text(RIGHT)
-    made = Watched(catalog()["icp"], file)
+    made = WatchedFile(catalog()["icp"], file)
     yield made
     made.close()
 
 
-def calls(watched: Watched) -> int:
+def calls(watched: WatchedFile) -> int:
     return watched.printed().count("called with")
 
 

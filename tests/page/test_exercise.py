@@ -13,7 +13,7 @@ from workbench.exercise.finding import exercises, exercises_of
 from workbench.exercise.grading import grade_function
 from workbench.exercise.reports import counted, terminal
 from workbench.exercise.starter import commands, starter, write_starter
-from workbench.exercise.watching import Watched
+from workbench.exercise.watching import WatchedFile
 from workbench.lesson import catalog
 from workbench.page.exercise import report_data, watched_html
 from workbench.viewer.documents import lesson_page
@@ -75,7 +75,7 @@ def test_a_watched_file_is_told_of_the_run_that_calls_it(name):
 
 def test_what_is_found_of_a_watched_file_stands_before_the_text(tmp_path):
     lesson = catalog()["icp"]
-    watched = Watched(lesson, write_starter(exercises()["match"], tmp_path))
+    watched = WatchedFile(lesson, write_starter(exercises()["match"], tmp_path))
     page = lesson_page(watched.lesson, catalog(), watched)
     watched.close()
     assert page.index('class="report"') < page.index('class="wb"')

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 from tests.recording.test_compare import files as files
-from workbench.recording.replay import Replay
+from workbench.recording.replay import ReplayServer
 from workbench.scene import PALETTE, Role
 
 pytestmark = pytest.mark.browser
@@ -65,7 +65,7 @@ class Window:
 
 @pytest.fixture(scope="module")
 def window(chromium, fake_file, tmp_path_factory) -> Iterator[Window]:
-    with Replay({fake_file.name: fake_file}, "fake", port=0) as replay:
+    with ReplayServer({fake_file.name: fake_file}, "fake", port=0) as replay:
         window = Window(chromium, replay.address, tmp_path_factory.mktemp("looks"))
         yield window
         window.page.close()

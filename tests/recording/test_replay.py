@@ -15,12 +15,12 @@ import pytest
 from workbench.errors import InputError
 from workbench.recording import replay as replay_module
 from workbench.recording import viewer_files
-from workbench.recording.replay import POLICY, Replay, replay_file
+from workbench.recording.replay import POLICY, ReplayServer, replay_file
 
 
 @pytest.fixture(scope="module")
 def replay(fake_file):
-    with Replay(
+    with ReplayServer(
         {"fake.rrd": fake_file, "bytes.rrd": b"RRF2 and more"}, "A <title>", port=0
     ) as running:
         yield running
@@ -111,7 +111,7 @@ def test_it_answers_to_this_machine_s_names_alone(replay, name):
 
 
 def test_where_others_may_reach_it_it_answers_to_addresses_and_to_its_own_name(fake_file):
-    with Replay({"a.rrd": fake_file}, "t", host="0.0.0.0", port=0) as public:
+    with ReplayServer({"a.rrd": fake_file}, "t", host="0.0.0.0", port=0) as public:
         for host in (
             "127.0.0.1",
             f"192.168.1.7:{public.port}",
@@ -128,16 +128,16 @@ def test_a_taken_port_is_said(fake_file):
         taken.listen()
         port = taken.getsockname()[1]
         with pytest.raises(InputError, match=f"port {port} is in use"):
-            Replay({"a.rrd": fake_file}, "t", port=port)
+            ReplayServer({"a.rrd": fake_file}, "t", port=port)
 
 
 def test_a_host_that_is_not_ours_is_said(fake_file):
     with pytest.raises(InputError, match=r"host 'no\.such\.host\.invalid'|cannot listen"):
-        Replay({"a.rrd": fake_file}, "t", host="no.such.host.invalid", port=0)
+        ReplayServer({"a.rrd": fake_file}, "t", host="no.such.host.invalid", port=0)
 
 
 def test_after_the_end_nobody_answers(fake_file):
-    with Replay({"a.rrd": fake_file}, "t", port=0) as short:
+    with ReplayServer({"a.rrd": fake_file}, "t", port=0) as short:
         address = short.address
     with pytest.raises(urllib.error.URLError):
         get(address)

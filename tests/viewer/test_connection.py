@@ -15,7 +15,7 @@ from workbench.lesson import Lesson, Preset, View
 from workbench.run import links
 from workbench.run.timeline import Timeline
 from workbench.viewer.connection import PageConnection
-from workbench.viewer.runs import Runs
+from workbench.viewer.runs import SharedRuns
 
 
 class Talk:
@@ -25,7 +25,7 @@ class Talk:
         self.told: list[dict] = []
         self.scenes: list[dict] = []  # what was said before their arrays
         self._heard = asyncio.Event()
-        self.runs = Runs()
+        self.runs = SharedRuns()
         self.student = PageConnection({"fake": lesson}, self.runs, self._hear)
         self._work = asyncio.create_task(self.student.work())
 

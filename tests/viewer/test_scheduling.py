@@ -22,7 +22,7 @@ from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Scene
 from workbench.viewer import runs as runs_module
 from workbench.viewer import scheduling
-from workbench.viewer.runs import Runs, caches
+from workbench.viewer.runs import SharedRuns, caches
 from workbench.viewer.scheduling import Scheduler
 
 
@@ -156,7 +156,7 @@ def test_while_people_wait_for_something_else_only_what_is_waited_for_is_compute
 
 
 def test_while_pictures_of_other_runs_wait_a_step_is_shown_and_nothing_is_computed_at_rest():
-    runs, held = Runs(threads=1), threading.Event()
+    runs, held = SharedRuns(threads=1), threading.Event()
 
     async def asked() -> None:
         expensive = [asyncio.create_task(runs.showing.do(held.wait, 60)) for _ in range(9)]
@@ -208,7 +208,7 @@ def cached(number: int) -> np.ndarray:
 
 
 def test_memory_counts_runs_their_data_and_lessons_caches_each_array_once():
-    runs = Runs(most_bytes=10**9)
+    runs = SharedRuns(most_bytes=10**9)
     try:
         cached.cache_clear()
         run = runs.timelines.get(fake.lesson, fake.Params())
@@ -234,7 +234,7 @@ def test_memory_counts_runs_their_data_and_lessons_caches_each_array_once():
 def test_room_is_made_by_what_is_needed_least(monkeypatch):
     trimmed = []
     monkeypatch.setattr(runs_module, "give_back", lambda: trimmed.append(True))
-    runs = Runs(most_bytes=10**9)
+    runs = SharedRuns(most_bytes=10**9)
     try:
         sessions = [Session(fake.lesson, runs.timelines) for _ in range(3)]
         for angle, session in enumerate(sessions):

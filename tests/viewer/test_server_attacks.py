@@ -29,7 +29,7 @@ from workbench.viewer import connection as connection_module
 from workbench.viewer import patience
 from workbench.viewer import server as server_module
 from workbench.viewer.connection import PageConnection
-from workbench.viewer.runs import Runs
+from workbench.viewer.runs import SharedRuns
 from workbench.viewer.server import Server
 
 
@@ -75,7 +75,7 @@ def test_a_page_that_takes_nothing_is_sent_the_latest_when_it_takes_again():
 
     async def attack() -> None:
         takes = asyncio.Event()
-        runs = Runs()
+        runs = SharedRuns()
 
         async def send(part: str | bytes) -> None:
             if isinstance(part, bytes):

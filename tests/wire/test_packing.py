@@ -19,7 +19,7 @@ from workbench.lesson import View
 from workbench.run.timeline import Timeline
 from workbench.scene import Points
 from workbench.wire import packing
-from workbench.wire.nodes import Content, Kind, Maker, digest
+from workbench.wire.nodes import Content, Maker, NodeKind, digest
 from workbench.wire.packing import PageWire, packed, run_bytes, run_text
 
 VIEW = View()
@@ -38,7 +38,7 @@ def test_what_is_packed_is_what_is_read():
         contents = [RNG.bytes(size) for size in sizes]
         arrays = [Content(f"{i}", content) for i, content in enumerate(contents)]
         texts = ['{"type":"a","props":{"é":"\\u00b7 €"}}', '{"type":"b","props":{}}']
-        kinds = [Kind(digest(text.encode()), text, ()) for text in texts]
+        kinds = [NodeKind(digest(text.encode()), text, ()) for text in texts]
         message = packed({"run": 3, "word": "½ · ∞ <"}, kinds, arrays)
         reader = Reader()
         head = reader.read(message)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from workbench.authoring.promises import MOST_STEPS, Found, Subject, differs, promise
-from workbench.knobs import Field, Pick, changed, fields_of, from_json, to_json
+from workbench.knobs import ParamField, Pick, changed, fields_of, from_json, to_json
 from workbench.lesson import Lesson
 from workbench.run.flags import RESERVED
 from workbench.run.timeline import Timeline
@@ -65,7 +65,7 @@ def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
     otherwise.
     """
     fields = {field.name: field for field in fields_of(subject.lesson.params)}
-    idle: dict[Any, list[Field]] = {}  # knobs without effect at some params
+    idle: dict[Any, list[ParamField]] = {}  # knobs without effect at some params
     for field in fields.values():
         for name, wanted in field.knob.needs.items():
             of_file = name in fields and fields[name].kind == "path" and wanted == (None,)
@@ -86,7 +86,7 @@ def a_knob_whose_needs_are_not_met_changes_nothing(subject: Subject) -> Found:
             yield from [None] * len(turned)
 
 
-def _all_turned(subject: Subject, fields: list[Field], base: Any, plain: Timeline) -> bool:
+def _all_turned(subject: Subject, fields: list[ParamField], base: Any, plain: Timeline) -> bool:
     """Whether knobs that are turned together, to each of their ends once, change a run."""
     values = {field.name: ends(field) for field in fields if field.kind != "path"}
     for k in range(max(map(len, values.values()), default=0)):
@@ -100,7 +100,7 @@ def _all_turned(subject: Subject, fields: list[Field], base: Any, plain: Timelin
 
 
 def _has_no_effect(
-    subject: Subject, field: Field, base: Any, plain: Timeline, although: str
+    subject: Subject, field: ParamField, base: Any, plain: Timeline, although: str
 ) -> Found:
     for value in [value for value in ends(field) if value != getattr(base, field.name)]:
         turned = subject.fresh(
@@ -189,7 +189,7 @@ def params_survive_the_way_through_text(subject: Subject) -> Found:
         )
 
 
-def ends(field: Field) -> list[Any]:
+def ends(field: ParamField) -> list[Any]:
     """Return the values of a knob at each end of its range, or each of its choices."""
     low, high = field.knob.low, field.knob.high
     if field.kind in ("float", "int"):

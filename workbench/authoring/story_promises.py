@@ -12,7 +12,7 @@ from workbench.machinery.authors import place
 from workbench.page.charts import slug
 from workbench.run.timeline import Timeline
 from workbench.scene import Curve, Table
-from workbench.story import Place, Story, has_story, story_of
+from workbench.story import StagePlace, Story, has_story, story_of
 from workbench.story.names import Names
 from workbench.story.places import disagreement, series_in, step_in
 
@@ -110,8 +110,8 @@ def every_place_of_the_story_is_in_its_run(subject: Subject) -> Found:
             yield from _in_run(here, timeline, _line(subject, line))
 
 
-def _by_run(story: Story) -> dict[str, list[tuple[Place, int]]]:
-    found: dict[str, list[tuple[Place, int]]] = {}
+def _by_run(story: Story) -> dict[str, list[tuple[StagePlace, int]]]:
+    found: dict[str, list[tuple[StagePlace, int]]] = {}
     for scene in story.scenes:
         for here, line in scene.told.places:
             found.setdefault(here.run, []).append((here, line))
@@ -123,7 +123,7 @@ def _run(subject: Subject, name: str) -> Timeline:
     return subject.whole(params, f"the run {name!r}")
 
 
-def _in_run(here: Place, timeline: Timeline, where: str) -> Found:
+def _in_run(here: StagePlace, timeline: Timeline, where: str) -> Found:
     steps = [here.step] if here.start is None else [here.start, here.step]
     for step in steps:
         known = step_in(timeline, step) is not None

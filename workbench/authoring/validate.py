@@ -39,7 +39,7 @@ _FRAME = re.compile(r'^  File "(.*)", line (\d+) in ', re.MULTILINE)
 
 
 @dataclass(frozen=True)
-class Verdict:
+class LessonReport:
     """What validating found: the lesson's name (or the word for it), how many things were looked
     at, and what is wrong.
     """
@@ -76,7 +76,7 @@ def _guarded(look: Callable[[], Found], subject: Subject, what: str) -> Found:
         )
 
 
-def validate(word: str, told: Callable[[str], object], *, seconds: float = SECONDS) -> Verdict:
+def validate(word: str, told: Callable[[str], object], *, seconds: float = SECONDS) -> LessonReport:
     """Hold a lesson to its promises in another process.
 
     Args:
@@ -117,7 +117,7 @@ def validate(word: str, told: Callable[[str], object], *, seconds: float = SECON
                     f" {doing}"
                 )
             )
-    return Verdict(name, looked_at, tuple(wrong))
+    return LessonReport(name, looked_at, tuple(wrong))
 
 
 def _started(word: str, seconds: float, last_words: Any) -> subprocess.Popen:

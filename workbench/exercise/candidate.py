@@ -21,7 +21,7 @@ distance.
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class Returned:
     """What a function said to a call: its value, or None and the name of the error."""
 
     value: Any
@@ -39,8 +39,8 @@ class Call:
     """
 
     args: tuple[Any, ...]
-    answer: Answer
-    right: Answer
+    answer: Returned
+    right: Returned
 
     @functools.cached_property
     def key(self) -> tuple[Any, ...]:
@@ -87,7 +87,7 @@ class Candidate:
             with np.errstate(all="ignore"):
                 value = self.function(*given)
         except StudentError as error:
-            self._keep(args, Answer(None, _known(error.errors) or error.kind), right)
+            self._keep(args, Returned(None, _known(error.errors) or error.kind), right)
             raise
         except Exception as error:  # one of our own functions, which may be wrong on purpose
             self._keep(args, raised(error), right)
@@ -95,7 +95,7 @@ class Candidate:
             raise StudentError(
                 f"{self.__name__} raised {name}: {error}", "raised", name, errors=names
             ) from None
-        self._keep(args, Answer(value, ""), right)
+        self._keep(args, Returned(value, ""), right)
         pairs = zip(args, given, strict=True)
         self._changed = any(
             isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs
@@ -112,22 +112,22 @@ class Candidate:
         """Whether the last call changed what it was given."""
         return self._changed or bool(getattr(self.function, "changed_inputs", False))
 
-    def _keep(self, args: tuple[Any, ...], answer: Answer, right: Answer) -> None:
+    def _keep(self, args: tuple[Any, ...], answer: Returned, right: Returned) -> None:
         if self._remember:
             self.calls.append(Call(args, answer, right))
 
-    def _right(self, args: tuple[Any, ...]) -> Answer:
+    def _right(self, args: tuple[Any, ...]) -> Returned:
         """Ours; None and an error on input for which the contract asks for one."""
         try:
             with np.errstate(all="ignore"):
-                return Answer(self._reference(*_copied(args)), "")
+                return Returned(self._reference(*_copied(args)), "")
         except Exception as error:
             return raised(error)
 
 
-def raised(error: Exception) -> Answer:
+def raised(error: Exception) -> Returned:
     """Return what a function said that raised this: Python's own error that it is one of."""
-    return Answer(None, _known(kind.__name__ for kind in type(error).__mro__))
+    return Returned(None, _known(kind.__name__ for kind in type(error).__mro__))
 
 
 def _known(names: Iterable[str]) -> str:

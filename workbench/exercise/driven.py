@@ -34,7 +34,7 @@ DIFFERENCE = "exercise/difference"
 
 
 @dataclass(frozen=True, eq=False)
-class Pair:
+class StepPair:
     """One step of both runs, drawn once.
 
     Attributes:
@@ -85,7 +85,7 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
     """Return the lesson driven by a student's function, with the reference's run as its ghost."""
     form = lesson.form
 
-    def run(params: Any, subject: Any) -> Iterator[Pair]:
+    def run(params: Any, subject: Any) -> Iterator[StepPair]:
         beside = _Beside(function, exercise)
         ours = form.run(params, subject)
         theirs = form.run(params, subject, **{exercise.contract.slot: beside})
@@ -101,7 +101,7 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
                 return
             except Exception as error:
                 trouble, line = _trouble(error, exercise)
-                yield Pair(
+                yield StepPair(
                     state_ours,
                     None,
                     trouble,
@@ -117,10 +117,12 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
             differs = beside.differed and not difference <= TOLERANCE
             behind = ghost(scene_ours, scene) if differs else {}
             first = differs and not differed
-            yield Pair(state_ours, state, "", 0, difference, first, beside.called, scene, behind)
+            yield StepPair(
+                state_ours, state, "", 0, difference, first, beside.called, scene, behind
+            )
             differed = differed or differs
 
-    def draw(look: Look[Any, Any, Pair]) -> Scene:
+    def draw(look: Look[Any, Any, StepPair]) -> Scene:
         pair = look.now
         scene = {**pair.scene, **pair.ghost}
         if pair.theirs is None:
@@ -216,7 +218,7 @@ def _in_world(primitive: Points | Mesh | Segments) -> np.ndarray:
 def calls_it(timeline: Timeline) -> bool | None:
     """Return whether a student's run calls the function; None where that is not known."""
     steps = timeline.known()
-    if not steps or not isinstance(steps[-1].state, Pair):
+    if not steps or not isinstance(steps[-1].state, StepPair):
         return None
     if steps[-1].state.called:
         return True
@@ -226,7 +228,7 @@ def calls_it(timeline: Timeline) -> bool | None:
 def first_difference(steps: Iterable[Step]) -> int | None:
     """Return the first step at which the student's run differs or fails, or None."""
     for k, step in enumerate(steps):
-        if not isinstance(step.state, Pair):
+        if not isinstance(step.state, StepPair):
             return None
         if step.state.first:
             return k

@@ -5,7 +5,7 @@ in `sandbox`.
 """
 
 from workbench.exercise.model import Exercise
-from workbench.exercise.submission import Part, Submission
+from workbench.exercise.submission import Statement, Submission
 
 
 def forbidden_use(given: Submission, exercise: Exercise) -> str:
@@ -29,7 +29,7 @@ def forbidden_use(given: Submission, exercise: Exercise) -> str:
     return ""
 
 
-def _counting(parts: tuple[Part, ...], name: str) -> list[Part]:
+def _counting(parts: tuple[Statement, ...], name: str) -> list[Statement]:
     """Return the statements without functions that `name` does not reach, and their own needs."""
     ours = _reached([k for k, part in enumerate(parts) if part.runs or name in part.binds], parts)
     others = [k for k, part in enumerate(parts) if part.defines and k not in ours]
@@ -37,7 +37,7 @@ def _counting(parts: tuple[Part, ...], name: str) -> list[Part]:
     return [part for k, part in enumerate(parts) if k not in left]
 
 
-def _reached(begin: list[int], parts: tuple[Part, ...]) -> set[int]:
+def _reached(begin: list[int], parts: tuple[Statement, ...]) -> set[int]:
     """Return the indices of statements, and of all that bind the names which they read."""
     places: dict[str, list[int]] = {}
     for k, part in enumerate(parts):

@@ -84,7 +84,7 @@ class Asked:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class GradedFile:
     """A file that an exercise grades: its path in the student's folder, and as it was read."""
 
     file: str
@@ -103,7 +103,7 @@ class Chosen:
         missing: The exercises that are asked for, and that no file is for.
     """
 
-    graded: list[Part]
+    graded: list[GradedFile]
     troubles: list[dict[str, Any]]
     notes: list[str]
     missing: list[Exercise]
@@ -159,7 +159,7 @@ def grade_student(handed: HandIn, asked: Asked) -> Result:
 
 
 def marked(
-    part: Part, wall: Wall, megabytes: int | None = None, seed: int | None = None
+    part: GradedFile, wall: Wall, megabytes: int | None = None, seed: int | None = None
 ) -> Report | dict[str, Any]:
     """Return the report on a file, or what `ungraded` makes of it that it cannot be graded."""
     try:
@@ -225,7 +225,7 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
         for file, one in read.items()
         for name in one.modules
     }
-    found: dict[str, list[Part]] = {}
+    found: dict[str, list[GradedFile]] = {}
     strays: list[dict[str, Any]] = []
     for file, one in read.items():
         said = asked.wanted(one)
@@ -235,7 +235,7 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
             )
         elif said or file not in helping:
             try:
-                parts = [Part(file, one, exercise) for exercise in asked.of(one)]
+                parts = [GradedFile(file, one, exercise) for exercise in asked.of(one)]
                 for part in parts:
                     found.setdefault(part.exercise.name, []).append(part)
                 if not parts:
@@ -247,7 +247,7 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
                 troubles += [ungraded(file, exercise, str(error)) for exercise in wanted]
                 told = str(error) if one.broken or not asked.only else _defines_none(file, asked)
                 strays += [] if wanted else [ungraded(file, None, told)]
-    graded: list[Part] = []
+    graded: list[GradedFile] = []
     for name, several in found.items():
         meant = [part for part in several if part.exercise in asked.wanted(part.given)] or several
         if len({part.given.source for part in meant}) > 1:

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from workbench.exercise.candidate import Answer, Call, raised
+from workbench.exercise.candidate import Call, Returned, raised
 from workbench.exercise.model import Exercise, Function, Mistake
 
 ENOUGH = 3
@@ -133,17 +133,17 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
     return Evidence(weight, made, spared, other)
 
 
-def _is_apart(mistaken: Answer, right: Sequence[Answer]) -> bool:
+def _is_apart(mistaken: Returned, right: Sequence[Returned]) -> bool:
     """Tell whether the mistake's answer is none of the right ones, which are near each other."""
     spread = max(_gap(one, right[0]) for one in right)
     return _size(right[0]) * NEAR > spread < FAR * min(_gap(one, mistaken) for one in right)
 
 
-def _size(answer: Answer) -> float:
-    return _gap(answer, Answer(np.zeros_like(answer.value), ""))
+def _size(answer: Returned) -> float:
+    return _gap(answer, Returned(np.zeros_like(answer.value), ""))
 
 
-def _gap(a: Answer, b: Answer) -> float:
+def _gap(a: Returned, b: Returned) -> float:
     """Return the largest difference of two answers; infinite where they are not alike in kind."""
     if a.error or b.error:
         return 0.0 if a.error == b.error else np.inf
@@ -174,7 +174,7 @@ def _wrong_entries(mistaken: Any, right: Any, numbers: set[float]) -> int:
     return int((~np.isclose(wrong, known, equal_nan=True)).sum())
 
 
-def _alike(a: Answer, b: Answer, exercise: Exercise) -> bool:
+def _alike(a: Returned, b: Returned, exercise: Exercise) -> bool:
     if a.error or b.error:
         return a.error == b.error
     return any(
@@ -206,18 +206,18 @@ def values_alike(a: Any, b: Any) -> bool:
 # what one of our functions says to a call, kept for the next student ------------------------------
 
 
-def _answer(function: Function, call: Call) -> Answer:
+def _answer(function: Function, call: Call) -> Returned:
     return _answered(function, call.key)
 
 
 @functools.lru_cache(maxsize=KEPT_ANSWERS)
-def _answered(function: Function, key: tuple[Any, ...]) -> Answer:
+def _answered(function: Function, key: tuple[Any, ...]) -> Returned:
     args = [_thawed(part) for part in key]
     if any(_is_beyond(arg) for arg in args):
         return raised(OverflowError("an argument is beyond what can be computed with"))
     try:
         with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
-            return Answer(function(*args), "")
+            return Returned(function(*args), "")
     except Exception as error:
         return raised(error)
 

@@ -16,7 +16,7 @@ SUFFIXES = (".py", ".ipynb")
 
 
 @dataclass(frozen=True)
-class Part:
+class Statement:
     """A statement of a file.
 
     Attributes:
@@ -53,8 +53,8 @@ class Submission:
     said: tuple[str, ...] = ()
     defines: frozenset[str] = frozenset()
     broken: str = ""
-    parts: tuple[Part, ...] = ()
-    extra_files: dict[str, tuple[Part, ...]] = field(default_factory=dict)
+    parts: tuple[Statement, ...] = ()
+    extra_files: dict[str, tuple[Statement, ...]] = field(default_factory=dict)
 
 
 def read_submission(path: Path) -> Submission:
@@ -82,7 +82,7 @@ def submission(
     """
     found = reader.read(file, data)
     modules: dict[str, str] = {}
-    parts: dict[str, tuple[Part, ...]] = {}
+    parts: dict[str, tuple[Statement, ...]] = {}
     waiting = list(found.get("imports", []))
     while waiting and len(modules) < MOST_MODULES:
         name = waiting.pop(0)
@@ -103,9 +103,9 @@ def submission(
     )
 
 
-def _parts(found: dict[str, Any]) -> tuple[Part, ...]:
+def _parts(found: dict[str, Any]) -> tuple[Statement, ...]:
     return tuple(
-        Part(
+        Statement(
             frozenset(one["binds"]),
             frozenset(one["reads"]),
             one["defines"],

@@ -17,7 +17,7 @@ GONE_AFTER = 4
 """After how many looks a file that is not there is gone: an editor may be replacing it."""
 
 
-class Watched:
+class WatchedFile:
     """A student's file beside a lesson, whose run it drives.
 
     Attributes:

@@ -33,14 +33,14 @@ Written = Callable[
 
 
 @dataclass(frozen=True)
-class Places:
+class ServiceFolders:
     """Where a service puts what is handed in, and looks for the results; below its root."""
 
     submission: str
     results: str = "results/results.json"
 
 
-PLACES = {"gradescope": Places("submission"), "prairielearn": Places("student")}
+PLACES = {"gradescope": ServiceFolders("submission"), "prairielearn": ServiceFolders("student")}
 
 
 def grade(assignment: Assignment, root: Path) -> dict[str, Any]:

@@ -4,7 +4,7 @@ answers.
 
 from typing import Any
 
-from workbench.knobs import Field, Gizmo, Pick, changed, fields_of
+from workbench.knobs import Gizmo, ParamField, Pick, changed, fields_of
 from workbench.lesson import Lesson, Preset, Question
 from workbench.moved import asked_before
 from workbench.words.typeset import inline_html
@@ -28,7 +28,7 @@ def lesson_data(lesson: Lesson) -> dict[str, Any]:
     }
 
 
-def knob_data(field: Field) -> dict[str, Any]:
+def knob_data(field: ParamField) -> dict[str, Any]:
     """Return how a field of Params is set: its name as formulas write it, hint, unit, range and
     kind.
     """
@@ -82,7 +82,7 @@ def files_of(params: Any) -> dict[str, str]:
     return {name: path.name for name, path in paths.items() if path is not None}
 
 
-def part_names(field: Field) -> tuple[str, ...]:
+def part_names(field: ParamField) -> tuple[str, ...]:
     """Return the names of a vector's entries; of a single number one empty name."""
     if not field.length:
         return ("",)

@@ -130,7 +130,7 @@ def swept(lesson: Lesson, sweep: Sweep) -> list[tuple[str, str, Any]]:
     ]
 
 
-def _field(lesson: Lesson, sweep: Sweep) -> knobs.Field:
+def _field(lesson: Lesson, sweep: Sweep) -> knobs.ParamField:
     return next(field for field in knobs.fields_of(lesson.params) if field.name == sweep.knob)
 
 

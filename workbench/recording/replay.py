@@ -55,7 +55,7 @@ def play(
     if native:
         _play_native([file for file in files.values() if isinstance(file, Path)])
         return
-    with Replay(files, title, host=host, port=port) as replay:
+    with ReplayServer(files, title, host=host, port=port) as replay:
         print(replay.address, flush=True)  # noqa: T201
         if browser:
             webbrowser.open(replay.address)
@@ -86,7 +86,7 @@ def _play_native(paths: Sequence[Path]) -> None:
         )
 
 
-class Replay:
+class ReplayServer:
     """A web server, in its own thread, for a page with Rerun's viewer, and recordings.
 
     Args:
@@ -123,7 +123,7 @@ class Replay:
         while self._thread.is_alive() and not self._server.started:
             self._thread.join(0.01)
 
-    def __enter__(self) -> "Replay":
+    def __enter__(self) -> "ReplayServer":
         """Return itself."""
         return self
 

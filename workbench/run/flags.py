@@ -2,10 +2,10 @@
 argparse.
 
 A command is a function whose parameters are `Annotated[type, Option(...)]`, positional on the
-command line where they are positional-only. A parameter of type `Chosen` becomes LESSON, --preset
-and one flag per Params field; one of type `Serving` becomes --host, --port and --no-browser, and
-`ServingLive` --open, --behind and --workers too. Whatever cannot be used raises InputError with one
-line.
+command line where they are positional-only. A parameter of type `RunChoice` becomes LESSON,
+--preset and one flag per Params field; one of type `Serving` becomes --host, --port and
+--no-browser, and `ServingLive` --open, --behind and --workers too. Whatever cannot be used raises
+InputError with one line.
 """
 
 import argparse
@@ -78,7 +78,7 @@ class ServingLive(Serving):
 
 
 @dataclass(frozen=True)
-class Chosen:
+class RunChoice:
     """A lesson and its params, as asked for, and the preset they started from (flags may have
     changed them since).
 
@@ -115,12 +115,12 @@ def parse(
     signature, words = inspect.signature(function), _spelled(args)
     parser = _Parser(prog, description=description, allow_abbrev=False, formatter_class=_layout)
     asked = _asked(words, signature.parameters.values())
-    if any(one.annotation is Chosen for one in signature.parameters.values()):
+    if any(one.annotation is RunChoice for one in signature.parameters.values()):
         words, asked = _led_on(words, *asked)
     readers = {
         name: (
             _lesson_reader(parser, words, *asked)
-            if one.annotation is Chosen
+            if one.annotation is RunChoice
             else _reader(parser, one)
         )
         for name, one in signature.parameters.items()
@@ -221,7 +221,7 @@ def _asked(
     """
     finder = _Parser(add_help=False, allow_abbrev=False)
     for one in parameters:
-        if one.annotation is not Chosen:
+        if one.annotation is not RunChoice:
             _reader(finder, one)
     finder.add_argument("--preset")
     finder.add_argument("lesson", nargs="?")
@@ -292,7 +292,7 @@ def _lesson_reader(
     for field in fields_:
         _add_param(group, field, getattr(base, field.name))
 
-    def read(values: argparse.Namespace) -> Chosen:
+    def read(values: argparse.Namespace) -> RunChoice:
         given = {
             field.name: value
             for field in fields_
@@ -302,7 +302,7 @@ def _lesson_reader(
         made = knobs.make(lesson.params, given, base=base)
         files = [field.name for field in fields_ if field.kind == "path" and field.name in given]
         try:
-            return Chosen(lesson, knobs.showing(made, files, kept=given), preset, path)
+            return RunChoice(lesson, knobs.showing(made, files, kept=given), preset, path)
         except InputError as error:
             with knobs.called_by_flags():
                 raise InputError(knobs.in_words(str(error), lesson.params)) from None
@@ -310,7 +310,7 @@ def _lesson_reader(
     return read
 
 
-def _add_param(group: Any, field: knobs.Field, default: Any) -> None:
+def _add_param(group: Any, field: knobs.ParamField, default: Any) -> None:
     """Add the flag of a Params field. It takes text: `knobs` knows kind and range, and says what is
     allowed.
     """

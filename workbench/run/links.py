@@ -122,7 +122,7 @@ def show_command(lesson: Lesson, params: Any) -> str:
     return command_line("show", word_for(lesson.name, lesson.params.__module__), *flags)
 
 
-def _flag_of(field: knobs.Field, text: str) -> str:
+def _flag_of(field: knobs.ParamField, text: str) -> str:
     """Return the flag that gives a field the value that `knobs.changed` writes as this text."""
     name = field.name.replace("_", "-")
     if field.kind == "bool":

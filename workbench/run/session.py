@@ -19,7 +19,7 @@ from workbench.scene import Caption, Scene
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Look:
+class Shown:
     """What a person sees now.
 
     Args:
@@ -237,7 +237,7 @@ class Session:
         while timeline is self.timeline and timeline.extend() and time.perf_counter() < end:
             pass
 
-    def look(self) -> Look | None:
+    def look(self) -> Shown | None:
         """Return what is to be seen now; None when there is nothing yet. The picture of the run
         before stays meanwhile.
         """
@@ -250,7 +250,7 @@ class Session:
             return self._blank() if timeline.finished or self.message else None
         self._last_k = k
         step = timeline[k]
-        return Look(
+        return Shown(
             lesson=self.lesson,
             params=self.params,
             own=self.own,
@@ -304,9 +304,9 @@ class Session:
             return Caption(ended, "wrong")
         return None
 
-    def _blank(self) -> Look:
+    def _blank(self) -> Shown:
         text = self.message or self.timeline.stopped or ""
-        return Look(
+        return Shown(
             lesson=self.lesson,
             params=self.params,
             own=self.own,

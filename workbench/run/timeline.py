@@ -15,7 +15,7 @@ from workbench.apart import told
 from workbench.cached import watched
 from workbench.errors import AuthorError, InputError
 from workbench.form import Look, States
-from workbench.knobs import Field, Pick, fields_of, in_words, paths_of
+from workbench.knobs import ParamField, Pick, fields_of, in_words, paths_of
 from workbench.lesson import Lesson
 from workbench.machinery.authors import Blaming, at
 from workbench.run.picking import pickable
@@ -87,7 +87,7 @@ class Timeline:
         self.failure: str | None = None  # the traceback of an error in the lesson's own code
         self.bytes = 0
         self._steps: list[Step] = []
-        self._series = Columns()
+        self._series = ScalarColumns()
         self._slots = dict(slots or {})
         self._form = lesson.form
         self._read: set[str] = set()  # the fields of the params that the run has read
@@ -299,7 +299,7 @@ class Timeline:
                 self.bytes += array.nbytes
 
 
-class Columns:
+class ScalarColumns:
     """The scalars of a run's steps, grown step by step; read from any thread while one adds."""
 
     def __init__(self) -> None:
@@ -346,7 +346,7 @@ def _no_scene(shown: Any) -> str | None:
     return None
 
 
-def _not_picked(field: Field, shown: Mapping[str, Primitive]) -> str | None:
+def _not_picked(field: ParamField, shown: Mapping[str, Primitive]) -> str | None:
     """Say why no click can set a field that is picked, None when one can."""
     pick = field.knob.by
     if not isinstance(pick, Pick) or (pick.path in shown and pickable(shown[pick.path])):

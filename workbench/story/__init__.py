@@ -3,11 +3,11 @@ words.
 """
 
 from workbench.story.data import story_data
-from workbench.story.model import Place, StepName, Story, TextScene, Value
+from workbench.story.model import StagePlace, StepName, Story, TextScene, Value
 from workbench.story.reading import bench_text, has_story, plain_text, story_of
 
 __all__ = [
-    "Place",
+    "StagePlace",
     "StepName",
     "Story",
     "TextScene",

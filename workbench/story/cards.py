@@ -7,7 +7,7 @@ from typing import Any
 
 from workbench.lesson import Question
 from workbench.story.markdown import Block
-from workbench.story.model import Place
+from workbench.story.model import StagePlace
 from workbench.story.names import Names
 from workbench.story.words import Found, element
 from workbench.words.typeset import inline_html, with_terms
@@ -116,7 +116,7 @@ def _picks(tokens: list[Any], names: Names, found: Found, line: int) -> tuple[st
             words.append(" ")
         elif token.type == "link_open" and str(token.attrs.get("href", "")).startswith("run:"):
             run, step = names.moment(str(token.attrs["href"]).removeprefix("run:"), line)
-            found.places.append((Place(run=run, step=0 if step is None else step), line))
+            found.places.append((StagePlace(run=run, step=0 if step is None else step), line))
             go, inside = run if step is None else f"{run}@{step}", []
         elif token.type == "link_close" and go is not None:
             given = {"type": "button", "class": "pick", "data-go": go, "aria-pressed": "false"}

@@ -13,7 +13,7 @@ of other starts.
 
 
 @dataclass(frozen=True)
-class Place:
+class StagePlace:
     """What the stage shows while a beat is read.
 
     Args:
@@ -32,7 +32,7 @@ class Place:
     chart: str = ""
     hide: tuple[str, ...] = ()
 
-    def come_to_rest(self) -> "Place":
+    def come_to_rest(self) -> "StagePlace":
         """Return the place where playing has ended."""
         return replace(self, start=None)
 
@@ -71,7 +71,7 @@ class Told:
     series: tuple[tuple[str, str, int], ...] = ()  # (run, name, line)
     knobs: tuple[tuple[str, str, int], ...] = ()  # likewise
     places: tuple[
-        tuple[Place, int], ...
+        tuple[StagePlace, int], ...
     ] = ()  # of beats and links; a link has its run and step alone
 
 
@@ -94,7 +94,7 @@ class TextScene:
     name: str
     title: str
     html: str
-    beats: tuple[Place, ...]
+    beats: tuple[StagePlace, ...]
     words: int
     questions: tuple[str, ...]
     line: int
@@ -116,7 +116,7 @@ class Story:
     title: str
     scenes: tuple[TextScene, ...]
     reference: str
-    starts: Mapping[str, tuple[Place, StepName]]
+    starts: Mapping[str, tuple[StagePlace, StepName]]
 
     @property
     def html(self) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from workbench.errors import AuthorError, not_among
-from workbench.knobs import Field, fields_of
+from workbench.knobs import ParamField, fields_of
 from workbench.lesson import Lesson, Question, View
 from workbench.machinery.authors import place
 from workbench.scene import PALETTE
@@ -27,7 +27,9 @@ class Names:
 
     def __init__(self, lesson: Lesson, home: str):
         self.lesson, self.home = lesson, home
-        self.fields: Mapping[str, Field] = {field.name: field for field in fields_of(lesson.params)}
+        self.fields: Mapping[str, ParamField] = {
+            field.name: field for field in fields_of(lesson.params)
+        }
         self.questions: Mapping[str, Question] = {one.name: one for one in lesson.questions}
         self._swept = {
             (sweep.knob, run_name(lesson, lesson.run_params(sweep.run))) for sweep in lesson.sweeps
@@ -92,7 +94,7 @@ class Names:
             raise self.wrong(line, f"there is no camera {name!r}; {not_among(name, known)}")
         return name
 
-    def knob(self, name: str, line: int) -> Field:
+    def knob(self, name: str, line: int) -> ParamField:
         """Return a field of Params that there is."""
         if name not in self.fields:
             raise self.wrong(line, f"there is no knob {name!r}; {not_among(name, self.fields)}")

@@ -16,7 +16,7 @@ from workbench.lesson import Lesson
 from workbench.story.attributes import BRACES, HEADING, Attributes
 from workbench.story.cards import asked, what_if
 from workbench.story.markdown import CARD, Block, Section, blocks, in_home, sections
-from workbench.story.model import Place, StepName, Story, TextScene
+from workbench.story.model import StagePlace, StepName, Story, TextScene
 from workbench.story.names import Names
 from workbench.story.words import Found, Words, count, element
 from workbench.words.typeset import inline_html, typesetting
@@ -78,8 +78,8 @@ class _Scene:
     """A scene while it is read."""
 
     name: str
-    here: Place
-    beats: list[Place] = field(default_factory=list)
+    here: StagePlace
+    beats: list[StagePlace] = field(default_factory=list)
     html: list[str] = field(default_factory=list)
     words: int = 0
     questions: list[str] = field(default_factory=list)
@@ -100,7 +100,7 @@ class _Reader:
     def __init__(self, names: Names):
         self._names = names
         self._scenes: list[TextScene] = []
-        self._starts: dict[str, tuple[Place, StepName]] = {}
+        self._starts: dict[str, tuple[StagePlace, StepName]] = {}
         self._lines: dict[str, int] = {}  # of the scenes, by name
 
     def read(self, parts: list[Section]) -> Story:
@@ -142,7 +142,7 @@ class _Reader:
                 part.line, f"line {self._lines[name]} has a scene {name!r} already"
             )
         self._lines[name] = part.line
-        here = self._moved(Place(), part.attributes, part.line)
+        here = self._moved(StagePlace(), part.attributes, part.line)
         scene = _Scene(name, here)
         title = part.attributes.values.get("title") or _plain(part.title)
         if opening is not None:
@@ -227,7 +227,7 @@ class _Reader:
         scene.is_later = True
         self._starts[question.name] = start, seen
 
-    def _moved(self, here: Place, given: Attributes, line: int) -> Place:
+    def _moved(self, here: StagePlace, given: Attributes, line: int) -> StagePlace:
         """Return the place to which attributes move the stage."""
         values = dict(given.values)
         if "run" in values:
@@ -258,7 +258,7 @@ class _Reader:
             if part is not parts[0]:
                 inside.append(f"<h3>{inline_html(part.title)}</h3>")
             for block in blocks(part):
-                Words(self._names, "reference", found).resolve(block, Place())
+                Words(self._names, "reference", found).resolve(block, StagePlace())
                 inside.append(block.html())
         title = _plain(parts[0].title)
         return (

@@ -12,7 +12,7 @@ from html import escape
 from typing import Any
 
 from workbench.story.markdown import Block
-from workbench.story.model import Place, Told, Value
+from workbench.story.model import StagePlace, Told, Value
 from workbench.story.names import Names
 
 
@@ -23,7 +23,7 @@ class Found:
     values: list[Value] = field(default_factory=list)
     series: list[tuple[str, str, int]] = field(default_factory=list)
     knobs: list[tuple[str, str, int]] = field(default_factory=list)
-    places: list[tuple[Place, int]] = field(default_factory=list)
+    places: list[tuple[StagePlace, int]] = field(default_factory=list)
 
     def told(self) -> Told:
         """Return it all, as nothing changes any more."""
@@ -42,7 +42,7 @@ class Words:
     def __init__(self, names: Names, scene: str, found: Found):
         self._names, self._scene, self._found = names, scene, found
 
-    def resolve(self, block: Block, here: Place) -> None:
+    def resolve(self, block: Block, here: StagePlace) -> None:
         """Change the tokens of a block in place: each span and each link to a run becomes its
         element.
         """
@@ -52,7 +52,7 @@ class Words:
             line = block.line + (token.map or [0])[0] - (block.tokens[0].map or [0])[0]
             token.children = list(self._children(token.children, line, here))
 
-    def _children(self, tokens: list[Any], line: int, here: Place) -> Iterator[Any]:
+    def _children(self, tokens: list[Any], line: int, here: StagePlace) -> Iterator[Any]:
         plain: list[bool] = []  # of the spans that are open, whether they leave their words alone
         for i, token in enumerate(tokens):
             line += token.type in ("softbreak", "hardbreak")
@@ -70,10 +70,10 @@ class Words:
     def _link(self, token: Any, line: int) -> None:
         run, step = self._names.moment(str(token.attrs["href"]).removeprefix("run:"), line)
         step = self._names.opening(run) if step is None else step
-        self._found.places.append((Place(run=run, step=step), line))
+        self._found.places.append((StagePlace(run=run, step=step), line))
         token.attrs = {"class": "run", "data-go": f"{run}@{step}", "href": f"#{self._scene}"}
 
-    def _span(self, token: Any, words: str, line: int, here: Place) -> bool:
+    def _span(self, token: Any, words: str, line: int, here: StagePlace) -> bool:
         """Change the opening of a span; False where nothing but its words is to stay."""
         given = {key: str(value) for key, value in token.attrs.items()}
         roles = given.pop("class", "").split()
@@ -93,13 +93,15 @@ class Words:
         token.attrs = {"class": " ".join(self._names.role(role, line) for role in roles)}
         return bool(roles)
 
-    def _knob(self, token: Any, name: str, words: str, line: int, here: Place) -> bool:
+    def _knob(self, token: Any, name: str, words: str, line: int, here: StagePlace) -> bool:
         self._names.knob(name, line)
         self._found.knobs.append((here.run, name, line))
         token.attrs = {"class": "num", "data-knob": name, "data-unit": unit_in(words)}
         return self._names.can_turn(name, here.run)
 
-    def _value(self, token: Any, given: dict[str, str], words: str, line: int, here: Place) -> None:
+    def _value(
+        self, token: Any, given: dict[str, str], words: str, line: int, here: StagePlace
+    ) -> None:
         run, step = here.run, here.step
         if "run" in given:
             run, at = self._names.moment(given["run"], line)

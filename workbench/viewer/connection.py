@@ -28,7 +28,7 @@ from workbench.run.timeline import Timeline
 from workbench.viewer.following import Following
 from workbench.viewer.own_files import OwnFiles
 from workbench.viewer.requests import Requests, read_request
-from workbench.viewer.runs import Runs
+from workbench.viewer.runs import SharedRuns
 from workbench.viewer.terminal import tell_terminal
 from workbench.viewer.updates import PageUpdates, packed
 
@@ -51,7 +51,7 @@ class PageConnection:
     def __init__(
         self,
         lessons: Mapping[str, Lesson],
-        runs: Runs,
+        runs: SharedRuns,
         send: Callable[[str | bytes], Awaitable[None]],
     ):
         self.lessons, self.runs, self._send = lessons, runs, send

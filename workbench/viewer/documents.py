@@ -7,7 +7,7 @@ from html import escape
 
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
-from workbench.exercise.watching import Watched
+from workbench.exercise.watching import WatchedFile
 from workbench.lesson import Lesson, place_of
 from workbench.machinery.authors import Blaming
 from workbench.page.article import PLACE, article_html
@@ -48,7 +48,7 @@ class LessonPages:
         self._made: dict[str, tuple[Lesson, str, tuple[str, ...], str]] = {}
 
     def page(
-        self, lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None
+        self, lesson: Lesson, lessons: Mapping[str, Lesson], watched: WatchedFile | None = None
     ) -> str:
         """Return the document of a lesson, as `lesson_page` does."""
         try:
@@ -71,7 +71,7 @@ class LessonPages:
 
 
 def lesson_page(
-    lesson: Lesson, lessons: Mapping[str, Lesson], watched: Watched | None = None
+    lesson: Lesson, lessons: Mapping[str, Lesson], watched: WatchedFile | None = None
 ) -> str:
     """Return the document of a lesson, with what drives it where a student's file does."""
     article = _told(
@@ -128,7 +128,7 @@ def start_address(start: links.Place, query: str) -> str:
     return links.write(start) + (f"&{query}" if query else "")
 
 
-def _exercises(lesson: Lesson, watched: Watched | None) -> str:
+def _exercises(lesson: Lesson, watched: WatchedFile | None) -> str:
     if watched is not None and watched.lesson is lesson:
         return watched_html(
             watched.exercise,

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 from workbench.authoring.reloading import Edited
 from workbench.errors import InputError
-from workbench.exercise.watching import RUNNING, Watched
+from workbench.exercise.watching import RUNNING, WatchedFile
 from workbench.lesson import Lesson
 from workbench.page.code import text_html
 from workbench.page.exercise import report_data
@@ -46,7 +46,7 @@ class Following:
     def __init__(
         self,
         lesson: Lesson,
-        watched: Watched | None,
+        watched: WatchedFile | None,
         edited: Edited | None,
         replace: Callable[[Lesson, Lesson], None],
         pages: Callable[[], Iterable[Follower]],
@@ -125,7 +125,7 @@ class Following:
         for page in self._pages():
             page.go_on(before, after, news)
 
-    def _report(self, watched: Watched) -> None:
+    def _report(self, watched: WatchedFile) -> None:
         self._reported = report_of(watched)
         self._tell(exercise_news(watched))
 
@@ -134,7 +134,7 @@ class Following:
             page.tell_where(self._lesson, news)
 
 
-def exercise_news(watched: Watched) -> dict[str, Any]:
+def exercise_news(watched: WatchedFile) -> dict[str, Any]:
     """Return what a page is told of a student's file: its name, its source, and what the checks
     found.
     """
@@ -147,7 +147,7 @@ def exercise_news(watched: Watched) -> dict[str, Any]:
     }
 
 
-def report_of(watched: Watched) -> dict[str, Any]:
+def report_of(watched: WatchedFile) -> dict[str, Any]:
     """Return what the checks found of a student's file as it is now, and what it printed in the run
     that it drives.
     """

@@ -129,7 +129,7 @@ class Rules:
         return f"?{rest}"
 
 
-class Gate:
+class RequestGate:
     """Stands before an application and lets in what the rules let in; answers carry what keeps
     browsers safe.
 

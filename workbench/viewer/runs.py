@@ -80,7 +80,7 @@ def _settle(answer: asyncio.Future, found: Any, error: Exception | None) -> None
         answer.set_result(found)
 
 
-class Runs:
+class SharedRuns:
     """What the pages of a server share.
 
     `stepping` shows a step of the run that a page shows already, `showing` the first of another,

@@ -23,7 +23,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from workbench.authoring.reloading import Edited, carried
 from workbench.errors import InputError
-from workbench.exercise.watching import Watched
+from workbench.exercise.watching import WatchedFile
 from workbench.lesson import Lesson, catalog
 from workbench.machinery.hosts import listening
 from workbench.page.code import source_html
@@ -37,8 +37,8 @@ from workbench.viewer.documents import LessonPages, course_page, lesson_page, st
 from workbench.viewer.following import Following
 from workbench.viewer.pace import FIRST_WORD, Pace
 from workbench.viewer.patience import Patience, more_files
-from workbench.viewer.rules import Gate, Rules, page_response
-from workbench.viewer.runs import MOST_BYTES, Runs
+from workbench.viewer.rules import RequestGate, Rules, page_response
+from workbench.viewer.runs import MOST_BYTES, SharedRuns
 from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
 from workbench.words.typeset import math_font_css
@@ -88,7 +88,7 @@ class Server:
         *,
         host: str = "127.0.0.1",
         port: int = 0,
-        watched: Watched | None = None,
+        watched: WatchedFile | None = None,
         edited: Edited | None = None,
         open_to_all: bool = False,
         behind: str | None = None,
@@ -104,7 +104,7 @@ class Server:
         sys.setswitchinterval(SWITCH)
         self.port = listener.getsockname()[1]
         self.doors = Doors(host, self.port, self.rules.token)
-        self.runs, self._start, self._most_pages = Runs(most_bytes), start, most_pages
+        self.runs, self._start, self._most_pages = SharedRuns(most_bytes), start, most_pages
         self._lesson_pages = LessonPages()
         self.students: dict[str, PageConnection] = {}
         self._pictures: dict[str, tuple[Lesson, asyncio.Task[bytes]]] = {}
@@ -112,7 +112,7 @@ class Server:
             start.lesson, watched, edited, self._replace, self._pages
         )
         config = uvicorn.Config(
-            Gate(self._app(), self.rules, f"workbench-{self.port}"),
+            RequestGate(self._app(), self.rules, f"workbench-{self.port}"),
             http="h11",
             ws="websockets-sansio",
             log_level="critical",

@@ -11,7 +11,7 @@ from typing import Any
 
 from workbench.authoring.reloading import Edited
 from workbench.errors import InputError
-from workbench.exercise.watching import Watched
+from workbench.exercise.watching import WatchedFile
 from workbench.lesson import Lesson
 from workbench.run import links
 from workbench.viewer.addresses import Doors
@@ -30,7 +30,7 @@ def serve(
     open_to_all: bool = False,
     behind: str | None = None,
     workers: int = 1,
-    watched: Watched | None = None,
+    watched: WatchedFile | None = None,
     edited: Edited | None = None,
 ) -> None:
     """Serve the course, or one lesson at a place, until interrupted; print the address when ready.

@@ -7,18 +7,18 @@ from collections.abc import Mapping
 from typing import Any
 
 from workbench.errors import AuthorError, InputError
-from workbench.exercise.driven import Pair, calls_it, first_difference
-from workbench.exercise.watching import Watched
+from workbench.exercise.driven import StepPair, calls_it, first_difference
+from workbench.exercise.watching import WatchedFile
 from workbench.lesson import Lesson, View
 from workbench.machinery.authors import Blaming
 from workbench.page.lessons import files_of, values_of
 from workbench.page.steps import Steps
 from workbench.run import links
 from workbench.run.links import show_command
-from workbench.run.session import Look, Session
+from workbench.run.session import Session, Shown
 from workbench.run.timeline import Timeline
 from workbench.story.names import run_name
-from workbench.viewer.runs import Runs
+from workbench.viewer.runs import SharedRuns
 from workbench.viewer.terminal import tell_terminal
 from workbench.wire.packing import PageWire
 from workbench.wire.stage import Aim
@@ -35,7 +35,7 @@ class PageUpdates:
         aim: Where the page's camera is put.
     """
 
-    def __init__(self, runs: Runs):
+    def __init__(self, runs: SharedRuns):
         self._runs, self._wire, self.aim = runs, PageWire(runs.maker), Aim()
         self.timeline: Timeline | None = None
         self._steps: Steps | None = None  # of that run
@@ -52,7 +52,7 @@ class PageUpdates:
         self.timeline = self._steps = self._seen = self._drawn = None
 
     def show(
-        self, session: Session, look: Look, *, tell: bool, watched: Watched | None
+        self, session: Session, look: Shown, *, tell: bool, watched: WatchedFile | None
     ) -> list[str | bytes]:
         """Return what the page is to be sent so that it shows a look: its scene as bytes, and
         texts.
@@ -86,7 +86,7 @@ class PageUpdates:
             *(packed(message) for message in told if message is not None),
         ]
 
-    def _scene(self, look: Look, *, current: bool) -> tuple[bytes | None, str | None]:
+    def _scene(self, look: Shown, *, current: bool) -> tuple[bytes | None, str | None]:
         """Return the bytes that the page lacks of a scene, or what went wrong; its view is of the
         run that is wanted.
 
@@ -109,7 +109,9 @@ class PageUpdates:
             tell_terminal(error)
             return None, str(error)
 
-    def _run_told(self, steps: Steps, look: Look, watched: Watched | None) -> dict[str, Any] | None:
+    def _run_told(
+        self, steps: Steps, look: Shown, watched: WatchedFile | None
+    ) -> dict[str, Any] | None:
         """Return what is new of the run since it was last told, None when nothing is."""
         params, lesson = look.params, look.lesson
         is_watched = watched is not None and watched.lesson is lesson
@@ -136,7 +138,7 @@ class PageUpdates:
         self._told, self._told_steps = said, look.known
         return new
 
-    def _step_told(self, steps: Steps, look: Look, trouble: str | None) -> dict[str, Any]:
+    def _step_told(self, steps: Steps, look: Shown, trouble: str | None) -> dict[str, Any]:
         step = dict(steps.step(look.k))
         if look.caption.text != step["caption"] or trouble:
             step |= {
@@ -148,7 +150,7 @@ class PageUpdates:
         if code is not None:
             state = look.timeline[look.k].state
             step["code"] = code | (
-                {"wrong": state.line} if isinstance(state, Pair) and state.line else {}
+                {"wrong": state.line} if isinstance(state, StepPair) and state.line else {}
             )
             wanted.append(code["source"])
         new = {n: steps.things[n] for n in wanted if n not in self._sent}

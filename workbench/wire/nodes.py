@@ -37,7 +37,7 @@ class Content:
 
 
 @dataclass(frozen=True, eq=False)
-class Kind:
+class NodeKind:
     """What is drawn, wherever it stands.
 
     Attributes:
@@ -52,11 +52,11 @@ class Kind:
     arrays: tuple[Content, ...] = field(repr=False)
 
 
-Node = tuple[Kind, Pose]
+Node = tuple[NodeKind, Pose]
 
 
 @dataclass(frozen=True)
-class Stage:
+class StageNodes:
     """What stands where a scene will be: nodes by name, and what a client is told besides."""
 
     nodes: Mapping[str, Node]
@@ -93,7 +93,7 @@ class Maker:
                 found |= {base + part: node for part, node in self._of(primitive).items()}  # type: ignore[arg-type]
         return found
 
-    def _stage(self, view: View) -> Stage:
+    def _stage(self, view: View) -> StageNodes:
         """Return the stage of a view; `stage` does, and keeps those that were wanted last."""
         listener = self._listener()
         nodes, light = self._nodes(
@@ -101,7 +101,7 @@ class Maker:
         )
         for name, place in axis_names(view):
             nodes[f"/axis/{name}"] = self._word(name, small=True), place_of(place, None)
-        return Stage(nodes, tuple(light))
+        return StageNodes(nodes, tuple(light))
 
     def _listener(self) -> Listener:
         if not hasattr(self._own, "listener"):
@@ -131,7 +131,7 @@ class Maker:
             for name, (kind, at) in nodes.items()
         }
 
-    def _word(self, text: str, *, small: bool = False, fade: float = 1.0) -> Kind:
+    def _word(self, text: str, *, small: bool = False, fade: float = 1.0) -> NodeKind:
         return self._kind(
             "Label", {"text": text, **({"small": True} if small else {})}, [], fade=fade
         )
@@ -174,7 +174,7 @@ class Maker:
         *,
         fade: float = 1.0,
         visible: bool = True,
-    ) -> Kind:
+    ) -> NodeKind:
         contents: list[Content] = []
 
         def plain(value: Any) -> Any:
@@ -197,7 +197,7 @@ class Maker:
         said |= {"fade": round(fade, 4)} if fade < 1 else {}
         said |= {} if visible else {"visible": False}
         text = json.dumps(said, separators=(",", ":"), allow_nan=False)
-        return Kind(digest(text.encode()), text, tuple(contents))
+        return NodeKind(digest(text.encode()), text, tuple(contents))
 
     def _content(self, content: bytes) -> Content:
         key = digest(content)

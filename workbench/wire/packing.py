@@ -15,7 +15,7 @@ import zstandard
 from workbench.lesson import View
 from workbench.run.timeline import Timeline
 from workbench.scene import Scene
-from workbench.wire.nodes import MAKER, Content, Kind, Maker, Node
+from workbench.wire.nodes import MAKER, Content, Maker, Node, NodeKind
 from workbench.wire.stage import camera_of
 
 MOST_ON_A_PAGE = 96 * 2**20
@@ -24,7 +24,7 @@ LEVEL = 12
 """Of compression, for files."""
 
 
-def packed(head: Mapping[str, Any], kinds: Iterable[Kind], arrays: Iterable[Content]) -> bytes:
+def packed(head: Mapping[str, Any], kinds: Iterable[NodeKind], arrays: Iterable[Content]) -> bytes:
     """Return one message."""
     arrays = list(arrays)
     text = json.dumps(
@@ -98,7 +98,7 @@ def run_bytes(timeline: Timeline, maker: Maker = MAKER) -> bytes:
     in the one before.
     """
     view = timeline.lesson.view_of(timeline.params)
-    kinds: dict[str, Kind] = {}
+    kinds: dict[str, NodeKind] = {}
     arrays: dict[str, Content] = {}
     steps: list[list[Any]] = []
     before: dict[str, Node] = {}

@@ -28,7 +28,7 @@ BATCH, RATE, CLAMP = 512, 5e-3, 0.1
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Network:
+class FieldNetwork:
     """A network from points to one number each.
 
     Attributes:
@@ -60,7 +60,7 @@ class Network:
 class Trained:
     """A network after some iterations, and the mean loss over the batches since the last state."""
 
-    network: Network
+    network: FieldNetwork
     iterations: int
     loss: float
 
@@ -81,7 +81,7 @@ def new_network(
     *,
     rng: np.random.Generator,
     hidden: int = 2,
-) -> Network:
+) -> FieldNetwork:
     """Return a network of normal weights: variance 1 over the inputs, twice that for ReLU."""
     sizes = (3 + 6 * frequencies, *[width] * hidden, 1)
     values = []
@@ -92,12 +92,12 @@ def new_network(
         inner = k < hidden and activation == "tanh"
         values.append(rng.uniform(-0.5, 0.5, out) if inner else np.zeros(out))
     flat = np.concatenate(values).astype(np.float32)
-    return Network(values=flat, sizes=sizes, frequencies=frequencies, activation=activation)
+    return FieldNetwork(values=flat, sizes=sizes, frequencies=frequencies, activation=activation)
 
 
 @traced
 def train_field(
-    network: Network,
+    network: FieldNetwork,
     p: Float[np.ndarray, "n 3"],
     distances: Float[np.ndarray, " n"],
     *,
@@ -125,7 +125,7 @@ def train_field(
         return loss, gradients
 
     for done, loss in descend(values, gradient, counts, RATE):
-        now = Network(
+        now = FieldNetwork(
             values=values.copy(),
             sizes=network.sizes,
             frequencies=network.frequencies,

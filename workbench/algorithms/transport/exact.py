@@ -35,7 +35,7 @@ _CONTESTED = 0.35
 
 
 @dataclass(frozen=True, eq=False)
-class Matching:
+class TransportPlan:
     """A transport plan: pairs of a point of a and one of b, the mass that moves, and how far.
 
     Attributes:
@@ -110,7 +110,7 @@ def blurred_earth_movers(
     )
 
 
-def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Matching:
+def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> TransportPlan:
     """Return a matching with the least total distance.
 
     Raises:
@@ -121,7 +121,9 @@ def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) 
 
 
 @functools.lru_cache(maxsize=8)
-def _matched(a: bytes, shape_a: tuple[int, ...], b: bytes, shape_b: tuple[int, ...]) -> Matching:
+def _matched(
+    a: bytes, shape_a: tuple[int, ...], b: bytes, shape_b: tuple[int, ...]
+) -> TransportPlan:
     """Return the best matching, kept: who asks how far two clouds are apart asks for it again."""
     p_a, p_b = np.frombuffer(a).reshape(shape_a), np.frombuffer(b).reshape(shape_b)
     distances = scipy.spatial.distance.cdist(p_a, p_b)
@@ -130,7 +132,7 @@ def _matched(a: bytes, shape_a: tuple[int, ...], b: bytes, shape_b: tuple[int, .
         mass = np.full(len(p_a), 1 / len(p_a))
     else:
         i_a, i_b, mass = best_plan(distances)
-    found = Matching(i_a, i_b, mass, distances[i_a, i_b])
+    found = TransportPlan(i_a, i_b, mass, distances[i_a, i_b])
     for array in (found.i_a, found.i_b, found.mass, found.distances):
         array.setflags(write=False)
     return found

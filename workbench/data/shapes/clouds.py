@@ -15,7 +15,7 @@ Cloud = Float[np.ndarray, "n 3"]
 
 
 @dataclass(frozen=True, eq=False)
-class Pair:
+class ScanPair:
     """Two scans of one shape, their true motion, and which source points are not the shape's."""
 
     p_target: Float[np.ndarray, "m 3"]
@@ -63,7 +63,7 @@ def pair(
     overlap: float = 1.0,
     noise: float = 0.0,
     outliers: float = 0.0,
-) -> Pair:
+) -> ScanPair:
     """Return two scans of a shape, each of its own random points, the second in its own frame.
 
     Args:
@@ -90,7 +90,7 @@ def pair(
     low, high = second.min(axis=0), second.max(axis=0)
     anywhere = rng.uniform(low - 0.5 * (high - low), high + 0.5 * (high - low), (count, 3))
     second = np.where(is_outlier[:, None], anywhere, second)
-    return Pair(first, apply(inverse(T_target_source), second), T_target_source, is_outlier)
+    return ScanPair(first, apply(inverse(T_target_source), second), T_target_source, is_outlier)
 
 
 def _vase_radius(z: np.ndarray) -> np.ndarray:

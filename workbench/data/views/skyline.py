@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.data.shapes.solids import box
-from workbench.data.views.street import Solid, chequered, lit
+from workbench.data.views.street import LitMesh, chequered, lit
 from workbench.geometry.cameras.raster import MeshItem, SegmentItem
 
 VALLEY = -83.0  # metres, +Z up: its ground; the camera stands at about 0 and looks along +Y
@@ -27,7 +27,7 @@ GREENS = (202, 208, 200), (212, 218, 210)
 class Skyline:
     """The scene, metres, +Z up: solids lit by the sun, the towers' outlines, and their storeys."""
 
-    solids: tuple[Solid, ...]
+    solids: tuple[LitMesh, ...]
     edges: Float[np.ndarray, "e 2 3"]
     storeys: Float[np.ndarray, "s 2 3"]
 
@@ -67,7 +67,7 @@ def skyline_items() -> tuple[MeshItem | SegmentItem, ...]:
     )
 
 
-def _mountains() -> Solid:
+def _mountains() -> LitMesh:
     x = np.linspace(-1400.0, 1500.0, 30)
     high = (
         130.0 + 60.0 * np.sin(x / 190.0) + 45.0 * np.sin(x / 83.0 + 1.0) + 25.0 * np.sin(x / 41.0)

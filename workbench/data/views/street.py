@@ -20,7 +20,7 @@ MAPPED = 4000
 
 
 @dataclass(frozen=True, eq=False)
-class Solid:
+class LitMesh:
     """A closed mesh with one colour per face, already lit by the sun."""
 
     p_world: Float[np.ndarray, "v 3"]
@@ -29,7 +29,7 @@ class Solid:
 
 
 @dataclass(frozen=True, eq=False)
-class Street:
+class StreetScene:
     """The scene, metres, +Z up; the rails run along +Y and the camera usually stands at negative y.
 
     Attributes:
@@ -39,7 +39,7 @@ class Street:
             balls.
     """
 
-    solids: dict[str, Solid]
+    solids: dict[str, LitMesh]
     rails: Float[np.ndarray, "2 2 3"]
     edges: Float[np.ndarray, "e 2 3"]
     points: Float[np.ndarray, "n 3"]
@@ -47,7 +47,7 @@ class Street:
 
 
 @functools.cache
-def street() -> Street:
+def street() -> StreetScene:
     """Return the street; it is the same each time."""
     house, roof, door = (
         _box((4.6, 11.0, 0.0), (3.2, 4.0, 2.4)),
@@ -98,7 +98,7 @@ def street() -> Street:
     points = np.concatenate(
         [list(named.values()), crate[0], tower[0], house[0], roof[0], along, *balls]
     )
-    return Street(solids, rails, edges, points, tuple(named))
+    return StreetScene(solids, rails, edges, points, tuple(named))
 
 
 @functools.cache
@@ -193,7 +193,7 @@ def chequered(
     *,
     height: float,
     colors: tuple[tuple[int, int, int], tuple[int, int, int]],
-) -> Solid:
+) -> LitMesh:
     """Return level ground of square tiles, two colours by turns; the first is at the origin.
 
     x and y say where tiles begin, in tiles; `tile` is how long a side is, metres.
@@ -203,7 +203,7 @@ def chequered(
     first = 4 * np.arange(len(corner))[:, None]
     faces = np.concatenate([first + np.array(corners) for corners in ((0, 1, 2), (0, 2, 3))])
     shown = np.array(colors, np.uint8)[corner.sum(axis=1) % 2]
-    return Solid(
+    return LitMesh(
         np.column_stack([p, np.full(len(p), height)]), faces, np.concatenate([shown, shown])
     )
 
@@ -214,14 +214,14 @@ def _merge(meshes: list[Mesh]) -> Mesh:
     return np.concatenate([p for p, _ in meshes]), np.concatenate(faces)
 
 
-def lit(mesh: Mesh, color: tuple[int, int, int]) -> Solid:
+def lit(mesh: Mesh, color: tuple[int, int, int]) -> LitMesh:
     """Return a mesh with a colour per face, by Lambert's law, half of the light from everywhere."""
     p, faces = mesh
     a, b, c = p[faces[:, 0]], p[faces[:, 1]], p[faces[:, 2]]
     normal = np.cross(b - a, c - a)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     light = 0.55 + 0.45 * np.maximum(normal @ SUN, 0.0)
-    return Solid(p, faces, np.rint(light[:, None] * np.array(color)).astype(np.uint8))
+    return LitMesh(p, faces, np.rint(light[:, None] * np.array(color)).astype(np.uint8))
 
 
 def _box_edges(mesh: Mesh) -> np.ndarray:

@@ -15,7 +15,7 @@ _CELLS = 4_000_000  # distances at a time
 
 
 @dataclass(frozen=True, eq=False)
-class Nearest:
+class NearestDescriptors:
     """The nearest descriptor of the other set, both ways, and how far the two nearest are."""
 
     index: Int[np.ndarray, " n"]
@@ -33,7 +33,9 @@ class Nearest:
         return keep
 
 
-def nearest_both_ways(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) -> Nearest:
+def nearest_both_ways(
+    a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]
+) -> NearestDescriptors:
     """Return the nearest descriptors of two sets, by Euclid's distance, the first of equal ones.
 
     Raises:
@@ -61,10 +63,12 @@ def nearest_both_ways(a: Float[np.ndarray, "n d"], b: Float[np.ndarray, "m d"]) 
     # rounding
     distance, second = (np.linalg.norm(given[0] - given[1][k], axis=1) for k in (index, next_to_it))
     if m == 1:
-        return Nearest(index, distance, np.full(n, np.inf), back)
+        return NearestDescriptors(index, distance, np.full(n, np.inf), back)
     turned = (second < distance) | ((second == distance) & (next_to_it < index))
     index = np.where(turned, next_to_it, index)
-    return Nearest(index, np.minimum(distance, second), np.maximum(distance, second), back)
+    return NearestDescriptors(
+        index, np.minimum(distance, second), np.maximum(distance, second), back
+    )
 
 
 def mutual_matches(
@@ -85,7 +89,10 @@ def mutual_matches(
 
 
 def filtered(
-    found: Nearest, how: Filter, ratio: float, mutual: Int[np.ndarray, " n"] | None = None
+    found: NearestDescriptors,
+    how: Filter,
+    ratio: float,
+    mutual: Int[np.ndarray, " n"] | None = None,
 ) -> Int[np.ndarray, "k 2"]:
     """Return rows (index in the first set, index in the second) of the matches a filter keeps.
 

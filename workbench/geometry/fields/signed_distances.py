@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
-from workbench.geometry.meshes.containment import Columns, columns, windings
+from workbench.geometry.meshes.containment import ColumnIndex, columns, windings
 
 Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
@@ -56,7 +56,7 @@ class FaceTree:
     corners: Float[np.ndarray, "3 3 f"]
     boxes: tuple[Float[np.ndarray, "2 3 _"], ...]
     middles: "scipy.spatial.cKDTree"
-    columns: Columns | None
+    columns: ColumnIndex | None
 
 
 def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:

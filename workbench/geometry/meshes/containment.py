@@ -25,7 +25,7 @@ _MOST_CELLS = 256
 
 
 @dataclass(frozen=True, eq=False)
-class Columns:
+class ColumnIndex:
     """A mesh sorted into square columns along z: each knows the faces whose box touches it.
 
     `faces` lists those of column 0, of column 1, and so on; each column's begin at `first`.
@@ -39,7 +39,7 @@ class Columns:
     first: Int[np.ndarray, " c"]
 
 
-def columns(p: Points, faces: Faces) -> Columns:
+def columns(p: Points, faces: Faces) -> ColumnIndex:
     """Return a mesh sorted into columns, for `windings`; worth it once for many points."""
     corners = p[faces]
     low, high = corners[:, :, :2].min(axis=1), corners[:, :, :2].max(axis=1)
@@ -52,10 +52,10 @@ def columns(p: Points, faces: Faces) -> Columns:
     place = i * cells + j
     order = np.argsort(place, kind="stable")
     begins = np.searchsorted(place[order], np.arange(cells * cells + 1))
-    return Columns(corners, floor, size, cells, face[order], begins)
+    return ColumnIndex(corners, floor, size, cells, face[order], begins)
 
 
-def windings(mesh: Columns, q: Queries) -> Int[np.ndarray, " n"]:
+def windings(mesh: ColumnIndex, q: Queries) -> Int[np.ndarray, " n"]:
     """Return the winding number of a closed mesh around each point: 1 inside, 0 outside.
 
     Where the mesh is open it holds only below what is there of it.

@@ -29,7 +29,7 @@ _LARGE = 4000  # points from which threads and an order of queries gain more tha
 
 
 @dataclass(frozen=True, eq=False)
-class Nearest:
+class NearestPoints:
     """The nearest point of the other cloud for each point, and the distance, both ways."""
 
     a_to_b: Int[np.ndarray, "n"]
@@ -55,13 +55,15 @@ class Nearest:
         return 2 * precision * recall / (precision + recall) if precision + recall > 0 else 0.0
 
 
-def nearest_both_ways(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> Nearest:
+def nearest_both_ways(
+    p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]
+) -> NearestPoints:
     """Return the nearest neighbour of every point of each cloud in the other."""
     check_clouds(p_a, p_b)
     tree_a, tree_b = _tree(p_a), _tree(p_b)
     a_to_b, d_a = _query(tree_b, p_a, tree_a)
     b_to_a, d_b = _query(tree_a, p_b, tree_b)
-    return Nearest(a_to_b, b_to_a, d_a, d_b)
+    return NearestPoints(a_to_b, b_to_a, d_a, d_b)
 
 
 def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
