@@ -2,13 +2,19 @@
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from tests.story.hill import lesson
 from workbench.certain import sure
 from workbench.errors import AuthorError
+from workbench.page.article import article_html
+from workbench.page.document import lesson_document
 from workbench.story import has_story, plain_text, story_data, story_of
+from workbench.story.names import PAGE_IDS
+
+STATIC = Path(__file__).parents[2] / "workbench" / "page" / "static"
 
 
 def with_page(tmp_path, text):
@@ -137,3 +143,31 @@ def test_a_recording_has_the_words_without_attributes():
     assert "A ball lies on a curve." in text
     assert "## A step goes downhill\n" in text
     assert r"$$ x \leftarrow x - a\,f'(x) . $$" in text
+
+
+def own_ids():
+    """The ids of the parts of a page: of its document, and of what its scripts look for."""
+    page = lesson_document(
+        lesson, article_html(lesson, lambda *_: "?", "live"), home="live", root="page/"
+    )
+    found = set(re.findall(r'\sid="([\w-]+)"', page))
+    for script in STATIC.glob("*.js"):
+        found |= set(re.findall(r'\$\("#([\w-]+)', script.read_text(encoding="utf-8")))
+    return found - {scene.name for scene in sure(story_of(lesson, "live")).scenes}
+
+
+def test_no_scene_takes_the_id_of_a_part_of_the_page(tmp_path):
+    missing = own_ids() - PAGE_IDS
+    assert missing == set(), "a scene of that name would hide it, or be hidden with it"
+    with pytest.raises(AuthorError, match="the page has a part 'back' of its own"):
+        told(tmp_path, "## A {#back run=far}\n\nOne.\n")
+
+
+def test_a_what_if_behind_a_question_waits_for_its_answer(tmp_path):
+    asked = "::: {.ask #second run=far}\n:::\n\n"
+    card = "::: {.what-if}\n### From afar\n[far](run:far)\n:::\n\n"
+    before, after = re.findall(
+        r'class="(what-if[^"]*)"',
+        told(tmp_path, f"## A {{#a run=far}}\n\n{card}{asked}{card}").scenes[0].html,
+    )
+    assert (before, after) == ("what-if", "what-if later")

@@ -68,8 +68,9 @@ def nice_step(low: float, high: float) -> float:
     return power
 
 
-def what_if(block: Block, names: Names, found: Found, beat: int) -> str:
-    """Return a what-if: `### title`, a line, and links that are its picks.
+def what_if(block: Block, names: Names, found: Found, *, beat: int, later: bool = False) -> str:
+    """Return a what-if: `### title`, a line, and links that are its picks; `later` hides it until
+    the scene's question is answered, whose run it would show.
 
     Raises:
         AuthorError: If it has no title or no pick, or a pick leads nowhere.
@@ -93,7 +94,7 @@ def what_if(block: Block, names: Names, found: Found, beat: int) -> str:
     view = names.view(block.attributes.values.get("camera", ""), block.line)
     line = " ".join(lines)
     given = {
-        "class": "what-if",
+        "class": "what-if later" if later else "what-if",
         "data-title": title,
         "data-line": line,
         "data-beat": beat,

@@ -16,6 +16,59 @@ from workbench.story.model import StepName
 MOMENT = re.compile(r"(?P<run>[\w-]+)(?:@(?P<step>[\w-]+))?")
 """A run, and a step of it: `flat@stop`."""
 
+PAGE_IDS = frozenset(
+    [
+        "again",
+        "around",
+        "article",
+        "aside",
+        "back",
+        "bar",
+        "begin",
+        "caption",
+        "count",
+        "course",
+        "difference",
+        "dots",
+        "drawer",
+        "exercise",
+        "help",
+        "help-keys",
+        "labels",
+        "large",
+        "legend",
+        "map",
+        "marks",
+        "move",
+        "notice",
+        "pin",
+        "plate",
+        "reference",
+        "scene",
+        "set",
+        "side",
+        "speed",
+        "stage",
+        "step",
+        "story",
+        "story-around",
+        "story-chart",
+        "story-top",
+        "text",
+        "theme",
+        "third-parties",
+        "this-run",
+        "tiles",
+        "tools",
+        "to-bench",
+        "to-story",
+        "toy",
+        "view",
+        "wait",
+    ]
+)
+"""What the page's own parts are called: no scene may be called so, since its address is its id."""
+
 
 class Names:
     """The names of a lesson, for the story in its page.md.

@@ -17,7 +17,7 @@ from workbench.story.attributes import BRACES, HEADING, Attributes
 from workbench.story.cards import asked, what_if
 from workbench.story.markdown import CARD, Block, Section, blocks, in_home, sections
 from workbench.story.model import StagePlace, StepName, Story, TextScene
-from workbench.story.names import Names
+from workbench.story.names import PAGE_IDS, Names
 from workbench.story.words import Found, Words, count, element
 from workbench.words.typeset import inline_html, typesetting
 
@@ -141,6 +141,10 @@ class _Reader:
             raise self._names.wrong(
                 part.line, f"line {self._lines[name]} has a scene {name!r} already"
             )
+        if name in PAGE_IDS:
+            raise self._names.wrong(
+                part.line, f"the page has a part {name!r} of its own; give the scene another name"
+            )
         self._lines[name] = part.line
         here = self._moved(StagePlace(), part.attributes, part.line)
         scene = _Scene(name, here)
@@ -203,7 +207,10 @@ class _Reader:
         if "ask" in block.attributes.classes:
             self._ask(scene, block)
         elif "what-if" in block.attributes.classes:
-            scene.html.append(what_if(block, self._names, scene.found, scene.beat(block.line)))
+            beat = scene.beat(block.line)
+            scene.html.append(
+                what_if(block, self._names, scene.found, beat=beat, later=scene.is_later)
+            )
         else:
             raise self._names.wrong(
                 block.line, "a block between ::: is {.ask #question} or {.what-if}"
