@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from lessons.axes.inputs import Input
-from workbench.data.files import stamp
 from workbench.data.framing import FAR
 from workbench.data.scan_shapes import LOW, Sample, beside, own_pair, own_sampler, sampler
 from workbench.data.thinning import some_points
@@ -57,11 +56,11 @@ def scans_of(params: Input) -> Scans:
         raise InputError(
             f"a known pose is one in the frame of an own first scan: give {called('target')} too"
         )
-    return _scans(params, *(stamp(path) for path in files))
+    return _scans(params)
 
 
 @cached
-def _scans(params: Input, *_stamps: tuple[int, int]) -> Scans:
+def _scans(params: Input) -> Scans:
     if params.target is not None:
         return _own_pair(params)
     rng = np.random.default_rng(params.seed)

@@ -176,7 +176,7 @@ def _ring(p_moved: np.ndarray, q: np.ndarray) -> dict[str, Primitive]:
     one = int(gaps.argmax())
     p_one, radius = p_moved[one], float(gaps[one])
     circle = p_one + on_dial(np.linspace(0.0, 360.0, 73), radius)
-    name = p_one + on_dial(np.array([150.0]), radius + 0.06)
+    name = on_dial(np.array([180.0]), 0.86 * DIAL)  # below both outlines
     return {
         "ring/circle": Segments(segments(upright(circle, 0.01)), "neutral", 1.5, opacity=0.8),
         "ring/name": Label("nothing blue is nearer", upright(name)[0]),

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from lessons.icp.inputs import Input
-from workbench.data.files import read_cloud, read_pose, stamp
+from workbench.data.files import read_cloud, read_pose
 from workbench.data.framing import FAR, METRES, Frame, extent, frame, ground_grid, round_below
 from workbench.data.shapes.clouds import pair
 from workbench.data.shapes.lidar import lidar_pair
@@ -25,8 +25,6 @@ from workbench.lesson import cached
 HOME_DEGREES, HOME_SPACINGS = 5.0, 2.0
 RINGS, COLUMNS = 32, 900
 WIDTH = 1.2  # metres of the picture that large or small scans are shown wide
-Stamps = tuple[tuple[int, int], ...]
-"""When each own file was written, and how long it is: a file that changed is read anew."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -96,12 +94,6 @@ class Scans:
         return float(np.mean(np.einsum("ij,ij->i", off, off) <= within))
 
 
-def own_files(params: Input) -> Stamps:
-    """Return the stamps of the own files that the params name; empty where there are none."""
-    paths = (params.target, params.source, params.truth)
-    return tuple(stamp(path) for path in paths if path is not None)
-
-
 def scans_of(params: Input) -> Scans:
     """Return the scans that the params describe.
 
@@ -109,7 +101,8 @@ def scans_of(params: Input) -> Scans:
         InputError: If an own file cannot be used, or only one of the two scans is given.
     """
     if (params.target, params.source, params.truth) != (None, None, None):
-        scans = _own(params, _checked(params))
+        _check(params)
+        scans = _own(params)
     else:
         scans = _driven(params) if params.shape == "lidar" else _built_in(params)
     v_world, w_world = np.array(params.guess[:3]), np.array(params.guess[3:])
@@ -167,7 +160,7 @@ def _driven(params: Input) -> Scans:
     return replace(_framed(p_target, p_source, upright, _spread(params)), T_truth=T_truth)
 
 
-def _checked(params: Input) -> Stamps:
+def _check(params: Input) -> None:
     if params.target is None or params.source is None:
         both = f"{called('target')} and {called('source')}"
         raise InputError(f"own scans come in pairs: give both {both}")
@@ -175,11 +168,10 @@ def _checked(params: Input) -> Stamps:
         read_cloud(scan)  # so that a bad file is refused before anything else
     if params.truth is not None:
         read_pose(params.truth, params.target, params.source)
-    return own_files(params)
 
 
 @cached(most=8)
-def _own(params: Input, _stamps: Stamps) -> Scans:
+def _own(params: Input) -> Scans:
     """Thin own scans and bring them into the picture; anew when a file has changed."""
     target, source = params.target, params.source
     assert target is not None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lessons.icp.inputs import Input
-from lessons.icp.scans import Scans, Stamps, own_files, sampled, scans_of
+from lessons.icp.scans import Scans, sampled, scans_of
 from workbench.algorithms.registration import icp
 from workbench.data.thinning import every
 from workbench.geometry.motions import apply, exp_so3, motion
@@ -62,7 +62,7 @@ def run(
     yield from _steps(params, scans, scans.p_source, scans.T_start, align, match, step)
     sliding = params.target is None and params.shape in SLIDING
     if scans.known and not sliding and (align, match, step) == (None, None, None):
-        yield from (tried(params, angle, own_files(params)) for angle in ANGLES)
+        yield from (tried(params, angle) for angle in ANGLES)
 
 
 def _steps(
@@ -105,7 +105,7 @@ def gate_of(params: Input, scans: Scans) -> icp.Gate:
 
 
 @cached(most=512)
-def tried(params: Input, angle: float, _stamps: Stamps = ()) -> Try:
+def tried(params: Input, angle: float) -> Try:
     """Return where ICP ends from another start: the same gate, fit and shift, at most TRIED points.
 
     The source is placed truly, and then turned about the vertical to the side on which the run

@@ -11,7 +11,6 @@ from pathlib import Path
 from lessons.pairs import drawing, flat, space
 from lessons.pairs.inputs import Input
 from lessons.pairs.presets import PRESETS, QUESTIONS, SWEEPS, VIEW, VIEWS
-from workbench.data.files import stamp
 from workbench.errors import InputError
 from workbench.geometry.motions import alignment
 from workbench.knobs import called
@@ -38,11 +37,11 @@ def setup(params: Input) -> flat.Bands | space.Scans:
         raise InputError(
             f"a known pose is in the frame of an own first scan: give {called('target')} too"
         )
-    return _scans(params, *(stamp(path) for path in files))
+    return _scans(params)
 
 
 @cached
-def _scans(params: Input, *_stamps: tuple[int, int]) -> space.Scans:
+def _scans(params: Input) -> space.Scans:
     return space.built_in(params) if params.target is None else space.own(params)
 
 
