@@ -97,9 +97,10 @@ def back_error(look: PinholeLook) -> float:
 
 def _world(look: PinholeLook) -> Told:
     p = look.now.now.p_world[look.subject.k]
-    C = camera_center(look.subject.T_camera_world)
-    words = f"We follow {look.subject.name}, {{away}} from the camera."
-    return words, {"away": metres(float(np.linalg.norm(p - C)))}
+    T = look.subject.T_camera_world
+    words = f"We follow {look.subject.name}, {{away}} away along its ray and {{deep}} deep."
+    away = float(np.linalg.norm(p - camera_center(T)))
+    return words, {"away": metres(away), "deep": metres(float((T[:3, :3] @ p + T[:3, 3])[2]))}
 
 
 def _camera(look: PinholeLook) -> Told:

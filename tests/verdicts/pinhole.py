@@ -116,10 +116,17 @@ def _ball(run: Run, k: int) -> float:
     return float(np.sqrt(values.min() / values.max()) if values.max() < 0 else np.nan)
 
 
+def _depth(params):
+    """The true depth of the point that is followed: its way along the camera's axis."""
+    R, t, _ = camera(params)
+    return float((points(params)[followed(params)] @ R.T + t)[2])
+
+
 VALUES = {
     "away": lambda run, k: float(
         np.linalg.norm(points(run.params)[followed(run.params)] - centre(run.params))
     ),
+    "deep": lambda run, k: _depth(run.params),
     "x": _x_or_y(0),
     "y": _x_or_y(1),
     "z": _z,

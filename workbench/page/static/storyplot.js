@@ -101,7 +101,8 @@ function secondCurve(at, curve) {
   if (!all.length) return [];
   const color = colorOf(curve.color), [x, y] = all.reduce((a, b) => (b[1] > a[1] ? b : a));
   const [first, end] = [all[0], all.at(-1)], valley = y > Math.max(first[1], end[1]) + 4;
-  const high = first[1] < end[1] ? first : end, right = high === end;
+  const high = first[1] < end[1] ? first : end, wide = 6.6 * curve.name.length;
+  const right = high === end && high[0] - 16 - wide > FRAME.left;
   const [u, v, anchor] = valley
     ? [Math.min(at.w - 70, Math.max(FRAME.left + 60, (first[0] + end[0]) / 2)), FRAME.top + 14, "middle"]
     : [high[0] + (right ? -16 : 16), high[1] + 5, right ? "end" : "start"];
