@@ -1,5 +1,7 @@
 """The story in a real browser: what is read stands on the stage, and the hand can take it."""
 
+import re
+
 import pytest
 
 from tests.browser.homes import barriers
@@ -159,3 +161,19 @@ def test_nobody_is_kept_out(told, dark):
     me = told()
     me.page.evaluate("dark => page.theme(dark)", dark)
     assert barriers(me.page.main_frame) == []
+
+
+@pytest.mark.parametrize(
+    ("value", "said"), [(426.0, "426"), (1250.0, "1,250"), (0.0123456, "0.012"), (-35.7, "−36")]
+)
+def test_the_end_of_a_series_keeps_its_whole_number(told, value, said):
+    y = {"low": -40, "high": 1300, "ticks": [0], "words": ["0"]}
+    one = {"chart": "a", "name": "a", "values": [0, value], "color": "source", "unit": ""}
+    drawn = told().page.evaluate(
+        "([run, room]) => seriesRow(run, 'a', room).join('')",
+        [
+            {"series": [one], "charts": {"a": {"y": y, "yLabel": ""}}},
+            {"w": 600, "top": 10, "height": 120, "k": 1, "end": 1, "last": True},
+        ],
+    )
+    assert said in re.findall(r'class="value over"[^>]*>([^<]*)<', drawn)

@@ -208,8 +208,9 @@ def test_colours_are_one_for_all_or_one_for_each_and_for_both_ends():
     )
 
 
-def test_no_segments_are_no_node_and_what_stands_beside_is_none():
+def test_no_segments_and_no_points_are_no_node_and_what_stands_beside_is_none():
     assert shown({"x": Segments(np.zeros((0, 2, 3)))}) == {}
+    assert shown({"x": Points(np.zeros((0, 3)))}) == {}
     beside = {
         path: one for path, one in fake.draw(fake._state(0)).items() if path.startswith("beside/")
     }

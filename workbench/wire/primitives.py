@@ -79,6 +79,8 @@ def wxyz_of(R: np.ndarray) -> tuple[float, float, float, float]:
 
 
 def _points(scene: viser.SceneApi, points: Points) -> None:
+    if not len(points.p):
+        return
     scene.add_point_cloud(
         NAME,
         _placed(points, points.p).astype(np.float32),
