@@ -11,7 +11,7 @@ from xdist.scheduler import LoadScopeScheduling
 
 RUN_LESSONS = re.compile(
     r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers|lessons/test_rest|page/test_article"
-    r"|page/test_links|page/test_thumbnail)\.py::"
+    r"|page/test_links|page/test_thumbnail|recording/test_read_back)\.py::"
     r"\w+\[(\w+)"
 )
 OF_A_LESSON = re.compile(
