@@ -10,10 +10,13 @@ import re
 from xdist.scheduler import LoadScopeScheduling
 
 RUN_LESSONS = re.compile(
-    r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers|page/test_article|page/test_links|page/test_thumbnail)\.py::"
+    r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers|lessons/test_rest|page/test_article"
+    r"|page/test_links|page/test_thumbnail|recording/test_read_back)\.py::"
     r"\w+\[(\w+)"
 )
-OF_A_LESSON = re.compile(r"tests/lessons/test_(\w+?)(?:_(?:own|slots|drawn|run))?\.py::")
+OF_A_LESSON = re.compile(
+    r"tests/lessons/test_(?!rest\b)(\w+?)(?:_(?:own|slots|drawn|flat|run))?\.py::"
+)
 HOMES_OF_A_LESSON = re.compile(r"(tests/browser/test_matrix\.py::\w+\[\w+)-")
 AUDITS = re.compile(r"tests/test_verdicts\.py::")
 IN_A_BROWSER = re.compile(r"(tests/(?:browser/\w+|recording/test_browser)\.py)::")

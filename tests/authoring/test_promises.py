@@ -389,6 +389,12 @@ BROKEN = [
     (TASK, "** np.array([1, 1, 2])", "", "the mistake 'squared radius' gets full marks"),
     (TASK, "if rank < 3:", "if rank < 2:", "our own function loses points: points_on_a_line"),
     (TASK, 'what="Six points on a line"', "what=''", None),
+    (
+        TASK,
+        "beside(got, right, HINT)",
+        "'r is 1, right is 1.'",
+        "points_on_a_circle writes both as 1",
+    ),
     (TASK, "    return band(", "    return fail('No.') if off > 1 else band(", "says only 'No.'"),
     (TASK, '"[1, 1, 1.4142]"', '"[1, 1, 1.4142" + 130 * "0" + "]"', "a line of the starter has 1"),
 ]

@@ -10,8 +10,9 @@ from tests.exercise.table import FOLDER, Graded, complaints, graded, graded_stra
 from workbench.exercise.finding import exercises
 
 EXERCISES = list(exercises().values())
-LEAST_RIGHT, LEAST_WRONG = 9, 10
-MOST_VAGUE = 0.03
+LEAST_RIGHT, LEAST_WRONG = 4, 8
+TOLD_VAGUELY = {"wrong_equal_points_have_no_frame"}
+"""Those that a check tells without both numbers."""
 
 
 @pytest.fixture(scope="module")
@@ -25,8 +26,7 @@ def test_what_students_hand_in_gets_what_it_deserves(exercise, every):
     assert sum(one.is_right for one in found) >= LEAST_RIGHT
     assert sum(not one.is_right for one in found) >= LEAST_WRONG
     assert not complaints(found), "\n\n".join(complaints(found))
-    vague = [one.name for one in found if one.fate == "vague"]
-    assert len(vague) <= MOST_VAGUE * len(found), vague
+    assert {one.name for one in found if one.fate == "vague"} <= TOLD_VAGUELY
 
 
 def test_right_answers_of_people_who_saw_no_checks_have_full_marks():

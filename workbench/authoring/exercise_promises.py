@@ -28,6 +28,8 @@ SAYS_BOTH = re.compile(
     r" written|took more"
 )
 """What the message of a check that failed has: what came and what is right, or what went wrong."""
+ALIKE = re.compile(r"is (\([^()]*\)|[^\s,]+), right is (\([^()]*\)|[^\s,]+?)[.;:]?(?=\s|$)")
+"""What came and what is right, as a message writes them; it writes them so that they differ."""
 WIDEST = 125
 LONGEST = 200
 """After how many steps a run that has not called a function is taken for one that never does."""
@@ -197,6 +199,10 @@ def every_mistake_is_named(subject: Subject, exercise: Exercise) -> Found:
                 f"exercise {exercise.name}: {at(outcome.check.judge)}{outcome.check.name} {said}"
             )
             yield vague if is_vague(outcome) else None
+            where = f"exercise {exercise.name}: {at(outcome.check.judge)}{outcome.check.name}"
+            for got, right in ALIKE.findall(outcome.verdict.message):
+                alike = f"writes both as {got}; `against` takes the digits that tell them apart"
+                yield f"{where} {alike}" if got == right else None
 
 
 @promise

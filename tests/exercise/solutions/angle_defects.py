@@ -36,25 +36,6 @@ def right_add_at(p, faces):
     return out
 
 
-def right_bincount(p, faces):
-    return full_turn(p, faces) - np.bincount(
-        faces.ravel(), angles(p, faces).ravel(), minlength=len(p)
-    )
-
-
-def right_loops(p, faces):
-    total, count = [0.0] * len(p), {}
-    for f in faces.tolist():
-        for k in range(3):
-            i, j, l = f[k], f[(k + 1) % 3], f[(k + 2) % 3]
-            u, v = p[j] - p[i], p[l] - p[i]
-            total[i] += float(np.arctan2(np.linalg.norm(np.cross(u, v)), u @ v))
-            edge = frozenset((i, j))
-            count[edge] = count.get(edge, 0) + 1
-    edge_vertices = {i for edge, n in count.items() if n == 1 for i in edge}
-    return [(np.pi if i in edge_vertices else 2 * np.pi) - t for i, t in enumerate(total)]
-
-
 def right_law_of_cosines_clipped(p, faces):
     out = full_turn(p, faces)
     for k in range(3):
@@ -62,18 +43,6 @@ def right_law_of_cosines_clipped(p, faces):
         b, c, a = ((j - i) ** 2).sum(1), ((l - i) ** 2).sum(1), ((l - j) ** 2).sum(1)
         cosine = np.clip((b + c - a) / (2 * np.sqrt(b * c)), -1, 1)
         np.subtract.at(out, faces[:, k], np.arccos(cosine))
-    return out
-
-
-def right_unit_vectors(p, faces):
-    corner = p[faces]
-    u = np.roll(corner, -1, axis=1) - corner
-    v = np.roll(corner, 1, axis=1) - corner
-    u, v = (x / np.linalg.norm(x, axis=2, keepdims=True) for x in (u, v))
-    a = 2 * np.arctan2(np.linalg.norm(u - v, axis=2), np.linalg.norm(u + v, axis=2))
-    out = full_turn(p, faces)
-    for k in range(3):
-        np.add.at(out, faces[:, k], -a[:, k])
     return out
 
 
@@ -93,40 +62,6 @@ def right_matrix_product(p, faces):
     incidence = np.zeros((len(p), faces.size))
     incidence[faces.ravel(), np.arange(faces.size)] = 1
     return full_turn(p, faces) - incidence @ angles(p, faces).ravel()
-
-
-def right_einsum(p, faces):
-    out = full_turn(p, faces)
-    for k in range(3):
-        u, v = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
-        dot = np.einsum("ij,ij->i", u, v)
-        cross = np.sqrt(
-            np.maximum(np.einsum("ij,ij->i", u, u) * np.einsum("ij,ij->i", v, v) - dot**2, 0)
-        )
-        np.subtract.at(out, faces[:, k], np.arctan2(cross, dot))
-    return out
-
-
-def right_third_angle_by_difference(p, faces):
-    a = angles(p, faces)
-    a[:, 2] = np.pi - a[:, 0] - a[:, 1]
-    return full_turn(p, faces) - np.bincount(faces.ravel(), a.ravel(), len(p))
-
-
-def right_single_precision(p, faces):
-    return right_bincount(p, faces).astype(np.float32)
-
-
-class Mesh:
-    def __init__(self, p, faces):
-        self.p, self.faces = p, faces
-
-    def defects(self):
-        return right_add_at(self.p, self.faces)
-
-
-def right_class(p, faces):
-    return Mesh(p, faces).defects()
 
 
 # wrong ---------------------------------------------------------------------------------------------------------------
@@ -156,29 +91,6 @@ def wrong_arccos_not_clipped(p, faces):
     return out
 
 
-def wrong_sum_returned_in_degrees_and_sign(p, faces):
-    return -np.degrees(right_add_at(p, faces))
-
-
-def wrong_half_turn_everywhere(p, faces):
-    return np.pi - np.bincount(faces.ravel(), angles(p, faces).ravel(), minlength=len(p))
-
-
-def wrong_border_by_few_faces(p, faces):
-    few = np.bincount(faces.ravel(), minlength=len(p)) <= 4
-    return np.where(few, np.pi, 2 * np.pi) - np.bincount(
-        faces.ravel(), angles(p, faces).ravel(), minlength=len(p)
-    )
-
-
-def wrong_border_is_nan(p, faces):
-    return np.where(border(len(p), faces), np.nan, right_add_at(p, faces))
-
-
-def wrong_border_is_zero(p, faces):
-    return np.where(border(len(p), faces), 0.0, right_add_at(p, faces))
-
-
 def wrong_lone_vertices_are_zero(p, faces):
     out = right_add_at(p, faces)
     out[np.bincount(faces.ravel(), minlength=len(p)) == 0] = 0
@@ -193,57 +105,12 @@ def wrong_lone_vertices_break_bincount(p, faces):
     return full_turn(p, faces) - np.bincount(faces.ravel(), angles(p, faces).ravel())
 
 
-def wrong_arcsin(p, faces):
-    out = full_turn(p, faces)
-    for k in range(3):
-        u, v = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
-        s = (
-            np.linalg.norm(np.cross(u, v), axis=1)
-            / np.linalg.norm(u, axis=1)
-            / np.linalg.norm(v, axis=1)
-        )
-        np.subtract.at(out, faces[:, k], np.arcsin(np.clip(s, 0, 1)))
-    return out
-
-
-def wrong_not_normalised_cosine(p, faces):
-    out = full_turn(p, faces)
-    for k in range(3):
-        u, v = p[faces[:, (k + 1) % 3]] - p[faces[:, k]], p[faces[:, (k + 2) % 3]] - p[faces[:, k]]
-        np.subtract.at(out, faces[:, k], np.arccos(np.clip((u * v).sum(1), -1, 1)))
-    return out
-
-
-def wrong_outer_angle(p, faces):
-    out = full_turn(p, faces)
-    np.subtract.at(out, faces, np.pi - angles(p, faces))
-    return out
-
-
-def wrong_corners_out_of_step(p, faces):
-    out = full_turn(p, faces)
-    np.subtract.at(out, np.roll(faces, 1, axis=1), angles(p, faces))
-    return out
-
-
 def wrong_flat_faces_skipped(p, faces):
     a = angles(p, faces)
     keep = a.min(axis=1) > 1e-6
     out = full_turn(p, faces)
     np.subtract.at(out, faces[keep], a[keep])
     return out
-
-
-def wrong_per_face(p, faces):
-    return np.pi - angles(p, faces).sum(axis=1)
-
-
-def wrong_total(p, faces):
-    return right_add_at(p, faces).sum()
-
-
-def wrong_absolute(p, faces):
-    return np.abs(right_add_at(p, faces))
 
 
 def wrong_scaled_in_place(p, faces):
@@ -256,18 +123,6 @@ def wrong_faces_sorted_in_place(p, faces):
     return right_add_at(p, faces)
 
 
-def wrong_share_of_a_turn(p, faces):
-    return right_add_at(p, faces) / (2 * np.pi)
-
-
-def wrong_box_only(p, faces):
-    return np.full(len(p), np.pi / 2)
-
-
-def wrong_equilateral_assumed(p, faces):
-    return full_turn(p, faces) - np.pi / 3 * np.bincount(faces.ravel(), minlength=len(p))
-
-
 def wrong_only_the_last_may_have_no_face(p, faces):
     out = right_add_at(p, faces)
     out[np.setdiff1d(np.arange(faces.max()), faces)] = 0
@@ -277,12 +132,4 @@ def wrong_only_the_last_may_have_no_face(p, faces):
 def wrong_one_without_faces_at_most(p, faces):
     out = right_add_at(p, faces)
     out[np.setdiff1d(np.arange(len(p)), faces)[1:]] = 0
-    return out
-
-
-def wrong_small_faces_are_none(p, faces):
-    n = np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
-    large = np.linalg.norm(n, axis=1) > 1e-5
-    out = full_turn(p, faces)
-    np.subtract.at(out, faces[large], angles(p, faces)[large])
     return out

@@ -3,7 +3,6 @@
 import numpy as np
 
 NAMED = {
-    "wrong_no_depths": "without depths",
     "wrong_no_depths_in_a_loop": "without depths",
     "wrong_first_three": "by three",
     "wrong_inverse": "inverted",
@@ -58,42 +57,6 @@ def right_min_with_key(candidates, p_world, xy):
     return min(candidates, key=cost)
 
 
-def right_sorted(candidates, p_world, xy):
-    scored = []
-    for i, T in enumerate(candidates):
-        p = (T[:3] @ np.vstack([p_world.T, np.ones(len(p_world))])).T
-        if (p[:, 2] > 0).all():
-            scored.append((np.sum((p[:, :2] / p[:, 2:3] - xy) ** 2), i))
-    return candidates[sorted(scored)[0][1] if scored else 0]
-
-
-def right_filter_first(candidates, p_world, xy):
-    depth = candidates[:, 2, :3] @ p_world.T + candidates[:, 2, 3:4]
-    front = np.where((depth > 0).all(axis=1))[0]
-    if len(front) == 0:
-        return candidates[0]
-    rms = []
-    for k in front:
-        seen = (candidates[k][:2, :3] @ p_world.T + candidates[k][:2, 3:]) / depth[k]
-        rms.append(np.sqrt(((seen - xy.T) ** 2).mean()))
-    return candidates[front[int(np.argmin(rms))]]
-
-
-def right_points_one_by_one(candidates, p_world, xy):
-    best, least = 0, float("inf")
-    for k in range(len(candidates)):
-        R, t, total = candidates[k, :3, :3], candidates[k, :3, 3], 0.0
-        for X, x in zip(p_world, xy):
-            p = R @ X + t
-            if p[2] <= 0:
-                total = float("inf")
-                break
-            total += (p[0] / p[2] - x[0]) ** 2 + (p[1] / p[2] - x[1]) ** 2
-        if total < least:
-            best, least = k, total
-    return candidates[best]
-
-
 def right_large_number_for_behind(candidates, p_world, xy):
     costs = np.zeros(len(candidates))
     for k, T in enumerate(candidates):
@@ -102,21 +65,7 @@ def right_large_number_for_behind(candidates, p_world, xy):
     return candidates[costs.argmin()]
 
 
-def right_masked(candidates, p_world, xy):
-    p = candidates[:, :3, :3] @ p_world.T + candidates[:, :3, 3:]
-    z = p[:, 2]
-    e = np.ma.masked_array(
-        np.square(p[:, :2] / z[:, None] - xy.T).mean((1, 2)), mask=(z <= 0).any(axis=1)
-    )
-    return candidates[0] if e.mask.all() else candidates[int(e.argmin())]
-
-
 # wrong ---------------------------------------------------------------------------------------------------------------
-
-
-def wrong_no_depths(candidates, p_world, xy):
-    p = np.einsum("mij,nj->mni", candidates[:, :3, :3], p_world) + candidates[:, None, :3, 3]
-    return candidates[np.argmin(((p[..., :2] / p[..., 2:] - xy) ** 2).sum((1, 2)))]
 
 
 def wrong_no_depths_in_a_loop(candidates, p_world, xy):
@@ -182,34 +131,6 @@ def wrong_last_point_alone(candidates, p_world, xy):
     return right_loop(candidates, p_world[-1:], xy[-1:])
 
 
-def wrong_mean(candidates, p_world, xy):
-    return candidates.mean(axis=0)
-
-
-def wrong_row_vectors(candidates, p_world, xy):
-    errors = []
-    for T in candidates:
-        p = p_world @ T[:3, :3] + T[:3, 3]
-        errors.append(np.linalg.norm(p[:, :2] / p[:, 2:] - xy) if (p[:, 2] > 0).all() else np.inf)
-    return candidates[int(np.argmin(errors))]
-
-
-def wrong_no_translation(candidates, p_world, xy):
-    errors = []
-    for T in candidates:
-        p = p_world @ T[:3, :3].T
-        errors.append(np.linalg.norm(p[:, :2] / p[:, 2:] - xy))
-    return candidates[int(np.argmin(errors))]
-
-
-def wrong_signed_mean(candidates, p_world, xy):
-    errors = []
-    for T in candidates:
-        p = p_world @ T[:3, :3].T + T[:3, 3]
-        errors.append((p[:, :2] / p[:, 2:] - xy).mean() if (p[:, 2] > 0).all() else np.inf)
-    return candidates[int(np.argmin(errors))]
-
-
 def wrong_sign_of_depth(candidates, p_world, xy):
     errors = []
     for T in candidates:
@@ -225,22 +146,6 @@ def chosen(candidates, p_world, xy, cost, least=0.0):
     costs = np.array([cost(one) for one in off])
     costs[(p[..., 2] <= least).any(1)] = np.inf
     return candidates[np.argmin(costs)]
-
-
-def wrong_mean_distance(candidates, p_world, xy):
-    return chosen(candidates, p_world, xy, lambda off: np.linalg.norm(off, axis=1).mean())
-
-
-def wrong_median_distance(candidates, p_world, xy):
-    return chosen(candidates, p_world, xy, lambda off: np.median(np.linalg.norm(off, axis=1)))
-
-
-def wrong_sum_of_absolutes(candidates, p_world, xy):
-    return chosen(candidates, p_world, xy, lambda off: np.abs(off).sum())
-
-
-def wrong_largest_distance(candidates, p_world, xy):
-    return chosen(candidates, p_world, xy, lambda off: np.linalg.norm(off, axis=1).max())
 
 
 def wrong_ten_centimetres(candidates, p_world, xy):

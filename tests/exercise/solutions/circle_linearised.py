@@ -30,37 +30,11 @@ def right_divide_where(circle, p):
     return d - circle[2], np.hstack([-n, np.full((len(p), 1), -1.0)])
 
 
-def right_loop(circle, p):
-    r = np.zeros(len(p))
-    J = np.zeros((len(p), 3))
-    for i, q in enumerate(p):
-        v = circle[:2] - q
-        d = np.linalg.norm(v)
-        r[i] = d - circle[2]
-        J[i, 2] = -1
-        if d > 1e-15:
-            J[i, :2] = v / d
-    return r, J
-
-
-def right_list_of_arrays(circle, p):
-    r, J = right_hypot(circle, p)
-    return [r, J]
-
-
 def right_complex(circle, p):
     z = p[:, 0] + 1j * p[:, 1] - (circle[0] + 1j * circle[1])
     d = abs(z)
     n = np.where(d > 0, z / np.where(d > 0, d, 1), 0)
     return d - circle[2], np.column_stack([-n.real, -n.imag, -np.ones(len(p))])
-
-
-def right_tiny_floor(circle, p):
-    v = p - circle[:2]
-    d = np.maximum(np.linalg.norm(v, axis=1), 1e-12)
-    return np.linalg.norm(v, axis=1) - circle[2], np.column_stack(
-        [-v / d[:, None], -np.ones(len(p))]
-    )
 
 
 def right_angles(circle, p):
@@ -70,25 +44,6 @@ def right_angles(circle, p):
     angle = np.arctan2(dy, dx)
     J = -np.array([np.cos(angle) * (d > 0), np.sin(angle) * (d > 0), np.ones_like(d)]).T
     return d - R, J
-
-
-def right_einsum(circle, p):
-    v = circle[None, :2] - p
-    d = np.einsum("ni,ni->n", v, v) ** 0.5
-    J = np.empty((len(p), 3))
-    J[:, :2] = np.nan_to_num(v / np.where(d == 0, np.inf, d)[:, None])
-    J[:, 2] = -1
-    return d - circle[2], J
-
-
-def right_rows(circle, p):
-    rows = []
-    for x, y in p:
-        d = ((x - circle[0]) ** 2 + (y - circle[1]) ** 2) ** 0.5
-        n = ((x - circle[0]) / d, (y - circle[1]) / d) if d else (0.0, 0.0)
-        rows.append((d - circle[2], -n[0], -n[1], -1.0))
-    rows = np.array(rows)
-    return rows[:, 0], rows[:, 1:]
 
 
 def wrong_algebraic(circle, p):
@@ -144,73 +99,6 @@ def wrong_nan_at_centre(circle, p):
     v = p - circle[:2]
     d = np.linalg.norm(v, axis=1)
     return d - circle[2], np.column_stack([-v / d[:, None], -np.ones(len(p))])
-
-
-def wrong_columns_swapped(circle, p):
-    r, J = right_hypot(circle, p)
-    return r, J[:, [1, 0, 2]]
-
-
-def wrong_radius_first(circle, p):
-    r, J = right_hypot(circle, p)
-    return r, J[:, [2, 0, 1]]
-
-
-def wrong_divided_by_radius(circle, p):
-    v = p - circle[:2]
-    return np.linalg.norm(v, axis=1) - circle[2], np.column_stack(
-        [-v / circle[2], -np.ones(len(p))]
-    )
-
-
-def wrong_relative(circle, p):
-    r, J = right_hypot(circle, p)
-    return r / circle[2], J
-
-
-def wrong_zero_column(circle, p):
-    r, J = right_hypot(circle, p)
-    J[:, 2] = 0
-    return r, J
-
-
-def wrong_from_the_origin(circle, p):
-    return right_hypot(np.array([0, 0, circle[2]]), p)
-
-
-def wrong_manhattan(circle, p):
-    v = p - circle[:2]
-    return np.abs(v).sum(1) - circle[2], np.column_stack([-np.sign(v), -np.ones(len(p))])
-
-
-def wrong_squared_half(circle, p):
-    v = p - circle[:2]
-    return ((v**2).sum(1) - circle[2] ** 2) / 2, np.column_stack([-v, np.full(len(p), -circle[2])])
-
-
-def wrong_forward_differences(circle, p):
-    h = 1e-2
-    r = np.linalg.norm(p - circle[:2], axis=1) - circle[2]
-    J = np.zeros((len(p), 3))
-    for k in range(3):
-        c = circle.copy()
-        c[k] += h
-        J[:, k] = (np.linalg.norm(p - c[:2], axis=1) - c[2] - r) / h
-    return r, J
-
-
-def wrong_stub(circle, p):
-    return np.zeros(len(p)), np.zeros((len(p), 3))
-
-
-def wrong_mean_removed(circle, p):
-    r, J = right_hypot(circle, p)
-    return r - r.mean(), J
-
-
-def wrong_transposed(circle, p):
-    r, J = right_hypot(circle, p)
-    return r, J.T
 
 
 def wrong_changes_points(circle, p):

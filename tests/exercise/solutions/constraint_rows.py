@@ -3,7 +3,6 @@
 import numpy as np
 
 NAMED = {
-    "wrong_rows_of_h": "rows for columns",
     "wrong_transposed_first": "rows for columns",
     "wrong_v11_only": "no difference",
     "wrong_plus": "added",
@@ -30,14 +29,6 @@ def v(H, i, j):
 
 def right_zhang(H):
     return np.array([v(H, 0, 1), v(H, 0, 0) - v(H, 1, 1)])
-
-
-def right_vstack(H):
-    return np.vstack((v(H, 0, 1), v(H, 0, 0) - v(H, 1, 1)))
-
-
-def right_list(H):
-    return [list(v(H, 0, 1)), list(v(H, 0, 0) - v(H, 1, 1))]
 
 
 def right_unpacked(H):
@@ -74,45 +65,6 @@ def right_duplication(H):
         D[3 * i + j, k] = D[3 * j + i, k] = 1
     h1, h2 = H[:, 0], H[:, 1]
     return np.vstack([np.kron(h1, h2) @ D, (np.kron(h1, h1) - np.kron(h2, h2)) @ D])
-
-
-def right_einsum(H):
-    E = np.zeros((6, 3, 3))
-    for k, (i, j) in enumerate([(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)]):
-        E[k, i, j] = E[k, j, i] = 1
-    a, b = H[:, 0], H[:, 1]
-    return np.array([np.einsum("i,kij,j->k", a, E, b), np.einsum("i,kij,j->k", a + b, E, a - b)])
-
-
-def right_filled(H):
-    out = np.empty((2, 6))
-    out[0] = v(H, 0, 1)
-    out[1] = v(H, 0, 0)
-    out[1] -= v(H, 1, 1)
-    return out
-
-
-def right_loop(H):
-    rows = []
-    for pairs in ([(0, 1, 1)], [(0, 0, 1), (1, 1, -1)]):
-        row = np.zeros(6)
-        for i, j, sign in pairs:
-            k = 0
-            for q in range(3):
-                for p in range(q + 1):
-                    term = H[p, i] * H[q, j]
-                    if p != q:
-                        term += H[q, i] * H[p, j]
-                    row[k] += sign * term
-                    k += 1
-        rows.append(row)
-    return np.array(rows)
-
-
-def wrong_rows_of_h(H):
-    h1, h2 = H[0], H[1]
-    M = np.column_stack([h1, h2])
-    return np.array([v(M, 0, 1), v(M, 0, 0) - v(M, 1, 1)])
 
 
 def wrong_transposed_first(H):
@@ -155,55 +107,6 @@ def wrong_upper_triangle_order(H):
 
 def wrong_h2_h3(H):
     return np.array([v(H, 1, 2), v(H, 1, 1) - v(H, 2, 2)])
-
-
-def wrong_h1_h3(H):
-    return np.array([v(H, 0, 2), v(H, 0, 0) - v(H, 2, 2)])
-
-
-def wrong_squared_lengths_of_one(H):
-    return np.array([v(H, 0, 1), v(H, 0, 0) - 1])
-
-
-def wrong_doubled_diagonal(H):
-    w = np.array([2, 1, 2, 1, 1, 2.0])
-    return np.array([v(H, 0, 1), v(H, 0, 0) - v(H, 1, 1)]) * w
-
-
-def wrong_normalised(H):
-    rows = np.array([v(H, 0, 1), v(H, 0, 0) - v(H, 1, 1)])
-    return rows / np.linalg.norm(rows, axis=1, keepdims=True)
-
-
-def wrong_h33_one(H):
-    H = H / H[2, 2] if H[2, 2] else H
-    return np.array([v(H, 0, 1), v(H, 0, 0) - v(H, 1, 1)])
-
-
-def wrong_inverse(H):
-    H = np.linalg.pinv(H)
-    return np.array([v(H, 0, 1), v(H, 0, 0) - v(H, 1, 1)])
-
-
-def wrong_missing_b33(H):
-    rows = np.array([v(H, 0, 1), v(H, 0, 0) - v(H, 1, 1)])
-    rows[:, 5] = 0
-    return rows
-
-
-def wrong_minus_in_mixed(H):
-    rows = np.array([v(H, 0, 1), v(H, 0, 0) - v(H, 1, 1)])
-    rows[0, 1] = H[0, 0] * H[1, 1] - H[1, 0] * H[0, 1]
-    return rows
-
-
-def wrong_in_place(H):
-    H /= np.linalg.norm(H) + 1e-300
-    return np.array([v(H, 0, 1), v(H, 0, 0) - v(H, 1, 1)])
-
-
-def wrong_three_rows(H):
-    return np.array([v(H, 0, 1), v(H, 0, 0), v(H, 1, 1)])
 
 
 def wrong_small_ones_scaled(H):

@@ -5,7 +5,6 @@ import numpy as np
 NAMED = {
     "wrong_any_coordinate": "to the foot",
     "wrong_nan_counts": "nan is near",
-    "wrong_one_side_by_max": "below counts",
     "wrong_strict": "limit left out",
     "wrong_not_farther": "nan is near",
     "wrong_sum_of_a_list_of_signed": "below counts",
@@ -16,25 +15,9 @@ def right_vectorised(plane, p, inlier_distance):
     return int(np.sum(np.abs(p @ plane[:3] + plane[3]) <= inlier_distance))
 
 
-def right_loop(plane, p, inlier_distance):
-    n = 0
-    for q in p:
-        if abs(plane[0] * q[0] + plane[1] * q[1] + plane[2] * q[2] + plane[3]) <= inlier_distance:
-            n += 1
-    return n
-
-
 def right_count_nonzero(plane, p, inlier_distance):
     d = np.einsum("ij,j->i", p, plane[:3]) + plane[3]
     return np.count_nonzero((d <= inlier_distance) & (d >= -inlier_distance))
-
-
-def right_numpy_integer(plane, p, inlier_distance):
-    return (np.fabs(np.dot(p, plane[:3]) + plane[3]) <= inlier_distance).sum()
-
-
-def right_len_of_flatnonzero(plane, p, inlier_distance):
-    return len(np.flatnonzero(abs(p.dot(plane[:3]) + plane[3]) <= inlier_distance))
 
 
 def right_filter(plane, p, inlier_distance):
@@ -44,38 +27,11 @@ def right_filter(plane, p, inlier_distance):
     return len(list(filter(near, p)))
 
 
-def right_homogeneous(plane, p, inlier_distance):
-    h = np.hstack([p, np.ones((p.shape[0], 1))])
-    return int((np.abs(h @ plane) <= inlier_distance).sum())
-
-
 def right_normalised_first(plane, p, inlier_distance):
     length = np.sqrt(plane[0] ** 2 + plane[1] ** 2 + plane[2] ** 2)
     if not length > 0:
         return 0
     return sum(bool(b) for b in np.abs(p @ plane[:3] + plane[3]) / length <= inlier_distance)
-
-
-def right_nan_dropped(plane, p, inlier_distance):
-    if np.isnan(plane).any():
-        return 0
-    q = p[~np.isnan(p).any(axis=1)]
-    return int((np.abs(q @ plane[:3] + plane[3]) <= inlier_distance).sum())
-
-
-def right_recursive(plane, p, inlier_distance):
-    if len(p) == 0:
-        return 0
-    if len(p) == 1:
-        return int(abs(p[0] @ plane[:3] + plane[3]) <= inlier_distance)
-    m = len(p) // 2
-    return right_recursive(plane, p[:m], inlier_distance) + right_recursive(
-        plane, p[m:], inlier_distance
-    )
-
-
-def right_unsigned(plane, p, inlier_distance):
-    return np.uint32((np.abs(p @ plane[:3] + plane[3]) <= inlier_distance).sum())
 
 
 # wrong ---------------------------------------------------------------------------------------------------------------
@@ -100,10 +56,6 @@ def wrong_sum_of_a_list_of_signed(plane, p, inlier_distance):
     return sum(1 for q in p if q @ plane[:3] + plane[3] <= inlier_distance)
 
 
-def wrong_float(plane, p, inlier_distance):
-    return float(right_vectorised(plane, p, inlier_distance))
-
-
 def wrong_nan_counts(plane, p, inlier_distance):
     return int((np.nan_to_num(np.abs(p @ plane[:3] + plane[3])) <= inlier_distance).sum())
 
@@ -123,16 +75,8 @@ def wrong_empty_is_none(plane, p, inlier_distance):
     return right_vectorised(plane, p, inlier_distance) if len(p) else None
 
 
-def wrong_distance_to_each_coordinate(plane, p, inlier_distance):
-    return int((np.abs(p * plane[:3] + plane[3]) <= inlier_distance).sum())
-
-
 def wrong_any_coordinate(plane, p, inlier_distance):
     return int((np.abs(p - plane[:3] * -plane[3]) <= inlier_distance).all(axis=1).sum())
-
-
-def wrong_abs_inside(plane, p, inlier_distance):
-    return int((np.abs(p) @ np.abs(plane[:3]) - abs(plane[3]) <= inlier_distance).sum())
 
 
 def wrong_nan_replaced_in_place(plane, p, inlier_distance):
@@ -145,42 +89,9 @@ def wrong_points_moved_in_place(plane, p, inlier_distance):
     return int((np.abs(p @ plane[:3]) <= inlier_distance).sum())
 
 
-def wrong_tolerance_added(plane, p, inlier_distance):
-    return int((np.abs(p @ plane[:3] + plane[3]) <= inlier_distance + 0.005).sum())
-
-
-def wrong_one_side_by_max(plane, p, inlier_distance):
-    d = p @ plane[:3] + plane[3]
-    return int((np.maximum(d, 0) <= inlier_distance).sum())
-
-
 def wrong_both_sides_exclusive(plane, p, inlier_distance):
     d = p @ plane[:3] + plane[3]
     return int((d < inlier_distance).sum() - (d < -inlier_distance).sum())
-
-
-def wrong_percentage(plane, p, inlier_distance):
-    return int(100 * right_vectorised(plane, p, inlier_distance) / max(len(p), 1))
-
-
-def wrong_zero_level_only(plane, p, inlier_distance):
-    return int(np.isclose(p @ plane[:3] + plane[3], 0, atol=inlier_distance / 10).sum())
-
-
-def wrong_indices(plane, p, inlier_distance):
-    return np.flatnonzero(np.abs(p @ plane[:3] + plane[3]) <= inlier_distance)
-
-
-def wrong_hard_coded_table(plane, p, inlier_distance):
-    return {0.01: 3, 0.05: 6, 0.3: 8}.get(inlier_distance, len(p) // 2)
-
-
-def wrong_samples_the_points_out_of_three(plane, p, inlier_distance):
-    return max(right_vectorised(plane, p, inlier_distance) - 3, 0)
-
-
-def wrong_rounded_distance(plane, p, inlier_distance):
-    return int((np.round(np.abs(p @ plane[:3] + plane[3]), 1) <= inlier_distance).sum())
 
 
 def wrong_nothing_within_nought(plane, p, inlier_distance):

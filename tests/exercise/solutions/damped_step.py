@@ -20,29 +20,10 @@ def right_solve(residuals, jacobian, damping):
     return np.linalg.solve(A + damping * np.diag(np.diag(A)), -jacobian.T @ residuals)
 
 
-def right_scaled_diagonal(residuals, jacobian, damping):
-    A = jacobian.T @ jacobian
-    A[np.arange(len(A)), np.arange(len(A))] *= 1 + damping
-    return -np.linalg.solve(A, jacobian.T @ residuals)
-
-
-def right_inverse(residuals, jacobian, damping):
-    A = jacobian.T.dot(jacobian)
-    D = np.diag(A.diagonal())
-    return np.linalg.inv(A + damping * D).dot(-jacobian.T.dot(residuals))
-
-
 def right_rows(residuals, jacobian, damping):
     w = np.sqrt(damping) * np.sqrt((jacobian**2).sum(0))
     B = np.concatenate([jacobian, np.diag(w)])
     return np.linalg.lstsq(B, np.concatenate([-residuals, 0 * w]), rcond=None)[0]
-
-
-def right_cholesky(residuals, jacobian, damping):
-    A = jacobian.T @ jacobian
-    L = np.linalg.cholesky(A + damping * np.diag(np.diag(A)))
-    y = np.linalg.solve(L, -jacobian.T @ residuals)
-    return np.linalg.solve(L.T, y)
 
 
 def right_einsum(residuals, jacobian, damping):
@@ -51,27 +32,10 @@ def right_einsum(residuals, jacobian, damping):
     return np.linalg.solve(A * (1 + damping * np.eye(len(A))), -g)
 
 
-def right_column(residuals, jacobian, damping):
-    A = jacobian.T @ jacobian
-    g = -(jacobian.T @ residuals[:, None])
-    return np.linalg.solve(A + damping * np.diag(np.diag(A)), g).ravel()
-
-
 def right_eigenvectors(residuals, jacobian, damping):
     scale = 1 / np.linalg.norm(jacobian, axis=0)
     values, V = np.linalg.eigh((jacobian * scale).T @ (jacobian * scale))
     return -scale * (V @ ((V.T @ (scale * (jacobian.T @ residuals))) / (values + damping)))
-
-
-def right_loops(residuals, jacobian, damping):
-    k = jacobian.shape[1]
-    A, g = np.zeros((k, k)), np.zeros(k)
-    for r, row in zip(residuals, jacobian):
-        A += np.outer(row, row)
-        g += r * row
-    for i in range(k):
-        A[i, i] += damping * A[i, i]
-    return np.linalg.solve(A, -g)
 
 
 def wrong_identity(residuals, jacobian, damping):
@@ -116,63 +80,10 @@ def wrong_gradient(residuals, jacobian, damping):
     return -(residuals @ jacobian)
 
 
-def wrong_subtracted(residuals, jacobian, damping):
-    A = jacobian.T @ jacobian
-    return np.linalg.solve(A - damping * np.diag(np.diag(A)), -jacobian.T @ residuals)
-
-
-def wrong_half(residuals, jacobian, damping):
-    return right_solve(residuals, jacobian, damping) / 2
-
-
-def wrong_double(residuals, jacobian, damping):
-    return 2 * right_solve(residuals, jacobian, damping)
-
-
-def wrong_diag_only(residuals, jacobian, damping):
-    d = (jacobian**2).sum(0)
-    return -(jacobian.T @ residuals) / (d * (1 + damping))
-
-
-def wrong_largest(residuals, jacobian, damping):
-    A = jacobian.T @ jacobian
-    return np.linalg.solve(A + damping * np.diag(A).max() * np.eye(len(A)), -jacobian.T @ residuals)
-
-
-def wrong_trace(residuals, jacobian, damping):
-    A = jacobian.T @ jacobian
-    return np.linalg.solve(
-        A + damping * np.trace(A) / len(A) * np.eye(len(A)), -jacobian.T @ residuals
-    )
-
-
-def wrong_root_of_damping(residuals, jacobian, damping):
-    return right_solve(residuals, jacobian, np.sqrt(damping))
-
-
-def wrong_vector_diag(residuals, jacobian, damping):
-    A = jacobian.T @ jacobian
-    return np.linalg.solve(A + damping * np.diag(A), -jacobian.T @ residuals)
-
-
 def wrong_changes_jacobian(residuals, jacobian, damping):
     jacobian *= 1.0 + 0 * damping
     jacobian /= 2
     return right_solve(residuals, 2 * jacobian, damping)
-
-
-def wrong_residuals_not_transposed(residuals, jacobian, damping):
-    A = jacobian.T @ jacobian
-    return np.linalg.solve(A + damping * np.diag(np.diag(A)), -residuals[: len(A)])
-
-
-def wrong_stub(residuals, jacobian, damping):
-    return np.zeros(jacobian.shape[1])
-
-
-def wrong_normalised(residuals, jacobian, damping):
-    s = right_solve(residuals, jacobian, damping)
-    return s / np.linalg.norm(s)
 
 
 def wrong_damping_up_to_a_hundred(residuals, jacobian, damping):

@@ -4,12 +4,10 @@ import numpy as np
 
 NAMED = {
     "wrong_no_signs": "signs not mended",
-    "wrong_abs_det": "signs not mended",
     "wrong_v": "v for its transpose",
     "wrong_w_twice": "one rotation",
     "wrong_one_t": "one direction",
     "wrong_t_of_v": "t from v",
-    "wrong_center_for_t": "t from v",
     "wrong_inverted": "inverses",
     "wrong_transposed_r": "transposed rotations",
     "wrong_long_t": "t scaled",
@@ -44,65 +42,12 @@ def right_other_order(E):
     return right_plain(E)[::-1].copy()
 
 
-def right_last_column_turned(E):
-    U, _, Vt = np.linalg.svd(E)
-    if np.linalg.det(U @ Vt) < 0:
-        Vt[2] *= -1
-    t = U[:, 2]
-    return pack([U @ W @ Vt, U @ W.T @ Vt], [t, -t])
-
-
-def right_sign_of_r(E):
-    U, _, Vt = np.linalg.svd(E)
-    Rs = [U @ W @ Vt, U @ W.T @ Vt]
-    return pack([R if np.linalg.det(R) > 0 else -R for R in Rs], [U[:, 2], -U[:, 2]])
-
-
 def right_scaled_first(E):
     return right_plain(E / np.linalg.norm(E))
 
 
 def right_negative(E):
     return right_plain(-E)
-
-
-def right_t_from_null_space(E):
-    t = np.linalg.svd(E.T)[2][-1]
-    U, _, Vt = fixed(E)
-    return pack([U @ W.T @ Vt, U @ W @ Vt], [t, -t])
-
-
-def right_half_turn(E):
-    U, _, Vt = fixed(E)
-    R, t = U @ W @ Vt, U[:, 2]
-    return pack([R, (2 * np.outer(t, t) - np.eye(3)) @ R], [t, -t])
-
-
-def right_lists(E):
-    U, _, Vt = fixed(E)
-    out = []
-    for Wk in (W, W.T):
-        for sign in (1, -1):
-            top = np.hstack([U @ Wk @ Vt, sign * U[:, 2:3]])
-            out.append(np.vstack([top, [0, 0, 0, 1]]))
-    return np.array(out)
-
-
-def right_horn(E):
-    E = E / np.sqrt(0.5 * np.trace(E @ E.T))
-    c = np.stack(
-        [np.cross(E[:, 0], E[:, 1]), np.cross(E[:, 1], E[:, 2]), np.cross(E[:, 2], E[:, 0])]
-    )
-    t = c[np.argmax(np.linalg.norm(c, axis=1))]
-    t = t / np.linalg.norm(t)
-    cofactors = np.stack([np.cross(E[1], E[2]), np.cross(E[2], E[0]), np.cross(E[0], E[1])])
-    Ts = np.tile(np.eye(4), (4, 1, 1))
-    for k in range(4):
-        b = t if k % 2 else -t
-        X = np.array([[0, -b[2], b[1]], [b[2], 0, -b[0]], [-b[1], b[0], 0]])
-        U, _, Vt = np.linalg.svd(cofactors - X @ E)
-        Ts[k, :3, :3], Ts[k, :3, 3] = U @ Vt, b if k < 2 else -b
-    return Ts
 
 
 def wrong_no_signs(E):
@@ -144,73 +89,9 @@ def wrong_long_t(E):
     return pack([U @ W @ Vt, U @ W.T @ Vt], [s[0] * U[:, 2], -s[0] * U[:, 2]])
 
 
-def wrong_first_column_of_u(E):
-    U, _, Vt = fixed(E)
-    return pack([U @ W @ Vt, U @ W.T @ Vt], [U[:, 0], -U[:, 0]])
-
-
-def wrong_row_of_u(E):
-    U, _, Vt = fixed(E)
-    return pack([U @ W @ Vt, U @ W.T @ Vt], [U[2], -U[2]])
-
-
-def wrong_identity_for_w(E):
-    U, _, Vt = fixed(E)
-    return pack([U @ Vt, U @ Vt], [U[:, 2], -U[:, 2]])
-
-
-def wrong_w_with_z_turned(E):
-    U, _, Vt = fixed(E)
-    Z = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 0.0]])
-    return pack([U @ Z @ Vt, U @ Z.T @ Vt], [U[:, 2], -U[:, 2]])
-
-
-def wrong_abs_det(E):
-    U, _, Vt = np.linalg.svd(E)
-    Rs = [U @ W @ Vt, U @ W.T @ Vt]
-    return pack([R * abs(np.linalg.det(R)) for R in Rs], [U[:, 2], -U[:, 2]])
-
-
 def wrong_last_row_missing(E):
     Ts = right_plain(E)
     Ts[:, 3] = 0
-    return Ts
-
-
-def wrong_t_in_the_row(E):
-    return np.swapaxes(right_plain(E), 1, 2).copy()
-
-
-def wrong_center_for_t(E):
-    Ts = right_plain(E)
-    for T in Ts:
-        T[:3, 3] = -T[:3, :3].T @ T[:3, 3]
-    return Ts
-
-
-def wrong_only_one_repeated(E):
-    return np.repeat(right_plain(E)[:1], 4, axis=0)
-
-
-def wrong_e_itself(E):
-    out = np.tile(np.eye(4), (4, 1, 1))
-    out[:, :3, :3] = E
-    return out
-
-
-def wrong_only_u_mended(E):
-    U, _, Vt = np.linalg.svd(E)
-    U = U * np.sign(np.linalg.det(U))
-    return pack([U @ W @ Vt, U @ W.T @ Vt], [U[:, 2], -U[:, 2]])
-
-
-def wrong_zeros(E):
-    return np.zeros((4, 4, 4))
-
-
-def wrong_minus_rotation(E):
-    Ts = right_plain(E)
-    Ts[2:, :3, :3] *= -1
     return Ts
 
 

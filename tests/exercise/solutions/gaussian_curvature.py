@@ -61,54 +61,6 @@ def right_mixed(p, faces):
     return divided(p, faces, 2 * np.pi - angle_sums(p, faces), areas(p, faces))
 
 
-def right_loops(p, faces):
-    defect, area, count = [2 * np.pi] * len(p), [0.0] * len(p), {}
-    for f in faces.tolist():
-        P = [p[i] for i in f]
-        A = float(np.linalg.norm(np.cross(P[1] - P[0], P[2] - P[0]))) / 2
-        ang = []
-        for k in range(3):
-            u, v = P[(k + 1) % 3] - P[k], P[(k + 2) % 3] - P[k]
-            ang.append(float(np.arctan2(2 * A, u @ v)))
-            edge = tuple(sorted((f[k], f[(k + 1) % 3])))
-            count[edge] = count.get(edge, 0) + 1
-        for k in range(3):
-            defect[f[k]] -= ang[k]
-            if max(ang) > np.pi / 2:
-                area[f[k]] += A / 2 if ang[k] > np.pi / 2 else A / 4
-            else:
-                u, v = P[(k + 1) % 3] - P[k], P[(k + 2) % 3] - P[k]
-                area[f[k]] += (
-                    float(u @ u / np.tan(ang[(k + 2) % 3]) + v @ v / np.tan(ang[(k + 1) % 3])) / 8
-                )
-    edge_of = {i for edge, n in count.items() if n == 1 for i in edge}
-    return [float("nan") if i in edge_of else d / a for i, (d, a) in enumerate(zip(defect, area))]
-
-
-def right_bincount(p, faces):
-    corner = p[faces]
-    u, v = np.roll(corner, -1, 1) - corner, np.roll(corner, 1, 1) - corner
-    dot = np.einsum("fck,fck->fc", u, v)
-    double = np.linalg.norm(np.cross(u[:, 0], v[:, 0]), axis=1)[:, None]
-    angle = np.arctan2(double, dot)
-    with np.errstate(all="ignore"):
-        cot = dot / double
-    uu, vv = (u**2).sum(-1), (v**2).sum(-1)
-    part = (uu * np.roll(cot, 1, 1) + vv * np.roll(cot, -1, 1)) / 8
-    obtuse = (angle > np.pi / 2).any(1, keepdims=True)
-    part = np.where(obtuse, np.where(angle > np.pi / 2, double / 4, double / 8), part)
-    defect = 2 * np.pi - np.bincount(faces.ravel(), angle.ravel(), len(p))
-    return divided(p, faces, defect, np.bincount(faces.ravel(), part.ravel(), len(p)))
-
-
-def right_clipped_cosines(p, faces):
-    total = np.zeros(len(p))
-    for i, u, v in corners(p, faces):
-        c = (u * v).sum(1) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)
-        np.add.at(total, i, np.arccos(np.clip(c, -1, 1)))
-    return divided(p, faces, 2 * np.pi - total, areas(p, faces))
-
-
 def right_nan_written_at_the_end(p, faces):
     K = (2 * np.pi - angle_sums(p, faces)) / areas(p, faces)
     K[border(len(p), faces)] = np.nan
@@ -120,38 +72,11 @@ def right_scaled_mesh(p, faces):
     return right_mixed(p / s, faces) / s**2
 
 
-def right_kahan(p, faces):
-    area = np.zeros(len(p))
-    cut = np.zeros(len(p))
-    for f in faces:
-        part = areas(p[f], np.array([[0, 1, 2]]))
-        new = area[f] + (part - cut[f])
-        cut[f] = (new - area[f]) - (part - cut[f])
-        area[f] = new
-    return divided(p, faces, 2 * np.pi - angle_sums(p, faces), area)
-
-
-def right_single_precision(p, faces):
-    return right_mixed(p, faces).astype(np.float32)
-
-
 def right_complex_angles(p, faces):
     total = np.zeros(len(p))
     for i, u, v in corners(p, faces):
         np.add.at(total, i, np.angle((u * v).sum(1) + 1j * np.linalg.norm(np.cross(u, v), axis=1)))
     return divided(p, faces, 2 * np.pi - total, areas(p, faces))
-
-
-class Vertices:
-    def __init__(self, p, faces):
-        self.p, self.faces = p.copy(), faces.copy()
-
-    def curvature(self):
-        return right_mixed(self.p, self.faces)
-
-
-def right_class(p, faces):
-    return Vertices(p, faces).curvature()
 
 
 # wrong ---------------------------------------------------------------------------------------------------------------
@@ -195,45 +120,6 @@ def wrong_voronoi_everywhere(p, faces):
     return divided(p, faces, 2 * np.pi - angle_sums(p, faces), area)
 
 
-def wrong_quarter_and_eighths(p, faces):
-    return divided(p, faces, 2 * np.pi - angle_sums(p, faces), areas(p, faces, 0.25, 0.125))
-
-
-def wrong_third_of_obtuse_faces(p, faces):
-    return divided(p, faces, 2 * np.pi - angle_sums(p, faces), areas(p, faces, 1 / 3, 1 / 3))
-
-
-def wrong_halves_swapped(p, faces):
-    return divided(p, faces, 2 * np.pi - angle_sums(p, faces), areas(p, faces, 0.25, 0.5))
-
-
-def wrong_border_is_zero(p, faces):
-    return np.nan_to_num(right_mixed(p, faces))
-
-
-def wrong_border_is_infinite(p, faces):
-    K = right_mixed(p, faces)
-    return np.where(np.isnan(K), np.inf, K)
-
-
-def wrong_border_left_out(p, faces):
-    K = right_mixed(p, faces)
-    return K[~np.isnan(K)]
-
-
-def wrong_sign(p, faces):
-    return -right_mixed(p, faces)
-
-
-def wrong_absolute(p, faces):
-    return np.abs(right_mixed(p, faces))
-
-
-def wrong_root(p, faces):
-    with np.errstate(invalid="ignore"):
-        return np.sqrt(right_mixed(p, faces))
-
-
 def wrong_flat_face_gives_nan(p, faces):
     total = np.zeros(len(p))
     with np.errstate(all="ignore"):
@@ -249,34 +135,9 @@ def wrong_flat_face_dropped(p, faces):
     return right_mixed(p, faces)
 
 
-def wrong_mean_area_for_all(p, faces):
-    return divided(p, faces, 2 * np.pi - angle_sums(p, faces), areas(p, faces).mean())
-
-
-def wrong_area_of_the_neighbour(p, faces):
-    return divided(p, faces, 2 * np.pi - angle_sums(p, faces), np.roll(areas(p, faces), 1))
-
-
 def wrong_scaled_in_place(p, faces):
     p -= p.mean(axis=0)
     return right_mixed(p, faces)
-
-
-def wrong_degrees(p, faces):
-    return np.degrees(right_mixed(p, faces))
-
-
-def wrong_sphere_assumed(p, faces):
-    r = np.linalg.norm(p - p.mean(axis=0), axis=1).mean()
-    return np.where(border(len(p), faces), np.nan, 1 / r**2)
-
-
-def wrong_column(p, faces):
-    return right_mixed(p, faces)[:, None]
-
-
-def wrong_total_only(p, faces):
-    return float(np.nansum(right_mixed(p, faces)))
 
 
 def wrong_a_little_added_to_the_area(p, faces):

@@ -14,12 +14,6 @@ NAMED = {
 }
 
 
-def right_as_written(adjacency, features, weights):
-    A = adjacency + np.eye(adjacency.shape[0])
-    D = np.diag(A.sum(axis=1) ** -0.5)
-    return np.maximum(0, D @ A @ D @ features @ weights)
-
-
 def right_broadcast(adjacency, features, weights):
     A = adjacency + np.eye(len(adjacency))
     s = 1 / np.sqrt(A.sum(1))
@@ -30,42 +24,6 @@ def right_outer(adjacency, features, weights):
     A = adjacency + np.identity(len(adjacency))
     d = A.sum(axis=0)
     return np.clip((A / np.sqrt(np.outer(d, d))) @ features @ weights, 0, None)
-
-
-def right_where(adjacency, features, weights):
-    A = adjacency + np.eye(len(adjacency))
-    d = A.sum(axis=1)
-    H = (A / np.sqrt(d[:, None]) / np.sqrt(d[None, :])) @ (features @ weights)
-    return np.where(H > 0, H, 0.0)
-
-
-def right_loops(adjacency, features, weights):
-    n = len(adjacency)
-    d = [1 + sum(adjacency[i]) for i in range(n)]
-    out = np.zeros((n, weights.shape[1]))
-    for i in range(n):
-        total = features[i] / d[i]
-        for j in range(n):
-            if adjacency[i, j] != 0:
-                total = total + adjacency[i, j] * features[j] / (d[i] * d[j]) ** 0.5
-        out[i] = total @ weights
-    return np.maximum(out, 0)
-
-
-def right_inverse_root(adjacency, features, weights):
-    A = adjacency + np.eye(len(adjacency))
-    root = np.linalg.inv(np.sqrt(np.diag(A.sum(axis=1))))
-    H = root @ A @ root @ features @ weights
-    H[H < 0] = 0
-    return H
-
-
-def right_sparse(adjacency, features, weights):
-    from scipy.sparse import csr_array, diags_array, eye_array
-
-    A = csr_array(adjacency) + eye_array(len(adjacency))
-    s = diags_array(1 / np.sqrt(np.asarray(A.sum(axis=1)).ravel()))
-    return np.maximum(np.asarray(s @ A @ s @ features @ weights), 0.0)
 
 
 def right_einsum(adjacency, features, weights):
@@ -79,24 +37,6 @@ def right_solved(adjacency, features, weights):
     root = np.sqrt(np.diag(A.sum(axis=1)))
     H = np.linalg.solve(root, A @ np.linalg.solve(root, features @ weights))
     return (np.abs(H) + H) / 2
-
-
-def right_lists(adjacency, features, weights):
-    return right_as_written(adjacency, features, weights).tolist()
-
-
-class Layer:
-    def __init__(self, weights):
-        self.weights = weights
-
-    def __call__(self, adjacency, x):
-        A = adjacency + np.eye(len(x))
-        s = np.power(A.sum(axis=-1), -0.5)
-        return np.maximum((s[:, None] * A * s[None]) @ x @ self.weights, 0)
-
-
-def right_class(adjacency, features, weights):
-    return Layer(weights)(adjacency, features)
 
 
 # wrong ---------------------------------------------------------------------------------------------------------------
@@ -146,71 +86,10 @@ def wrong_counts(adjacency, features, weights):
     return np.maximum((s[:, None] * A * s) @ features @ weights, 0)
 
 
-def wrong_column_mean(adjacency, features, weights):
-    A = adjacency + np.eye(len(adjacency))
-    return np.maximum(A / A.sum(axis=0) @ features @ weights, 0)
-
-
-def wrong_laplacian(adjacency, features, weights):
-    d = adjacency.sum(axis=1)
-    d[d == 0] = 1
-    L = np.eye(len(adjacency)) - adjacency / np.sqrt(np.outer(d, d))
-    return np.maximum(L @ features @ weights, 0)
-
-
-def wrong_loops_twice(adjacency, features, weights):
-    A = adjacency + 2 * np.eye(len(adjacency))
-    s = A.sum(axis=1) ** -0.5
-    return np.maximum((s[:, None] * A * s) @ features @ weights, 0)
-
-
-def wrong_minus_half_of_the_matrix(adjacency, features, weights):
-    A = adjacency + np.eye(len(adjacency))
-    D = np.diag(A.sum(axis=1))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        root = D**-0.5
-    return np.maximum(root @ A @ root @ features @ weights, 0)
-
-
-def wrong_left_side_only(adjacency, features, weights):
-    A = adjacency + np.eye(len(adjacency))
-    s = A.sum(axis=1) ** -0.5
-    return np.maximum((s[:, None] * A) @ features @ weights, 0)
-
-
-def wrong_leaky(adjacency, features, weights):
-    A = adjacency + np.eye(len(adjacency))
-    s = A.sum(axis=1) ** -0.5
-    H = (s[:, None] * A * s) @ features @ weights
-    return np.where(H > 0, H, 0.01 * H)
-
-
-def wrong_sigmoid(adjacency, features, weights):
-    A = adjacency + np.eye(len(adjacency))
-    s = A.sum(axis=1) ** -0.5
-    return 1 / (1 + np.exp(-(s[:, None] * A * s) @ features @ weights))
-
-
-def wrong_absolute(adjacency, features, weights):
-    A = adjacency + np.eye(len(adjacency))
-    s = A.sum(axis=1) ** -0.5
-    return np.abs((s[:, None] * A * s) @ features @ weights)
-
-
-def wrong_no_neighbours(adjacency, features, weights):
-    return np.maximum(features @ weights, 0)
-
-
 def wrong_in_place(adjacency, features, weights):
     adjacency += np.eye(len(adjacency))
     s = adjacency.sum(axis=1) ** -0.5
     return np.maximum((s[:, None] * adjacency * s) @ features @ weights, 0)
-
-
-def wrong_weights_transposed(adjacency, features, weights):
-    A = adjacency + np.eye(len(adjacency))
-    s = A.sum(axis=1) ** -0.5
-    return np.maximum((s[:, None] * A * s) @ features @ weights.T, 0)
 
 
 def wrong_one_node_has_nothing(adjacency, features, weights):

@@ -1,19 +1,14 @@
 """What students hand in for great_circle_distance."""
 
-import math
-
 import numpy as np
 
 NAMED = {
     "wrong_chord": "chord",
-    "wrong_chord_by_vectors": "chord",
     "wrong_plane": "flat degrees",
     "wrong_equirectangular": "plane with cosine",
     "wrong_no_radians": "degrees as radians",
     "wrong_swapped": "swapped",
-    "wrong_cosines": "law of cosines",
     "wrong_cosines_by_vectors": "law of cosines",
-    "wrong_cosines_unclipped": "law of cosines",
     "wrong_half": "half the angle",
     "wrong_no_radius": "without the radius",
     "wrong_answer_in_degrees": "angle in degrees",
@@ -25,17 +20,6 @@ def right_haversine(a, b, radius):
     d = lb - la
     h = np.sin(d[:, 0] / 2) ** 2 + np.cos(la[:, 0]) * np.cos(lb[:, 0]) * np.sin(d[:, 1] / 2) ** 2
     return 2 * radius * np.arcsin(np.minimum(1, np.sqrt(h)))
-
-
-def right_haversine_atan2(a, b, radius):
-    lat1, lon1 = np.deg2rad(a).T
-    lat2, lon2 = np.deg2rad(b).T
-    h = (
-        np.sin((lat2 - lat1) / 2) ** 2
-        + np.cos(lat1) * np.cos(lat2) * np.sin((lon2 - lon1) / 2) ** 2
-    )
-    h = np.clip(h, 0, 1)
-    return 2 * radius * np.arctan2(np.sqrt(h), np.sqrt(1 - h))
 
 
 def right_vincenty(a, b, radius):
@@ -61,46 +45,6 @@ def right_from_the_chord(a, b, radius):
     return 2 * radius * np.arcsin(np.clip(chord / 2, 0, 1))
 
 
-def right_kahan(a, b, radius):
-    p, q = unit(a), unit(b)
-    return 2 * radius * np.arctan2(np.linalg.norm(p - q, axis=1), np.linalg.norm(p + q, axis=1))
-
-
-def right_loop(a, b, radius):
-    out = []
-    for (lat1, lon1), (lat2, lon2) in zip(a, b, strict=True):
-        f1, f2, d = math.radians(lat1), math.radians(lat2), math.radians(lon2 - lon1)
-        h = math.sin((f2 - f1) / 2) ** 2 + math.cos(f1) * math.cos(f2) * math.sin(d / 2) ** 2
-        out.append(2 * radius * math.asin(math.sqrt(min(h, 1.0))))
-    return np.array(out)
-
-
-def right_two_ways(a, b, radius):
-    p, q = unit(a), unit(b)
-    cosine = (p * q).sum(axis=1)
-    near = 2 * np.arcsin(np.clip(np.linalg.norm(p - q, axis=1) / 2, 0, 1))
-    return radius * np.where(cosine > 0.5, near, np.arccos(np.clip(cosine, -1, 1)))
-
-
-def right_versine(a, b, radius):
-    p, q, d = np.radians(a[:, 0]), np.radians(b[:, 0]), np.radians(b[:, 1] - a[:, 1])
-    hav = (1 - np.cos(p - q)) / 2
-    hav = (
-        np.where(np.abs(p - q) < 0.1, np.sin((p - q) / 2) ** 2, hav)
-        + np.cos(p) * np.cos(q) * np.sin(d / 2) ** 2
-    )
-    return radius * 2 * np.arcsin(np.sqrt(np.clip(hav, 0, 1)))
-
-
-def right_columns(a, b, radius):
-    r = np.pi / 180
-    s1 = np.sin((b[:, 0] - a[:, 0]) * r / 2)
-    s2 = np.sin((b[:, 1] - a[:, 1]) * r / 2)
-    root = np.sqrt(s1 * s1 + np.cos(a[:, 0] * r) * np.cos(b[:, 0] * r) * s2 * s2)
-    root[root > 1] = 1
-    return radius * 2 * np.arcsin(root)
-
-
 # wrong ---------------------------------------------------------------------------------------------------------------
 
 
@@ -108,29 +52,14 @@ def wrong_chord(a, b, radius):
     return radius * np.linalg.norm(unit(a) - unit(b), axis=1)
 
 
-def wrong_chord_by_vectors(a, b, radius):
-    p, q = radius * unit(a), radius * unit(b)
-    return np.sqrt(((p - q) ** 2).sum(axis=1))
-
-
 def wrong_plane(a, b, radius):
     return radius * np.sqrt((np.radians(a - b) ** 2).sum(axis=1))
-
-
-def wrong_plane_in_degrees(a, b, radius):
-    return radius * np.linalg.norm(a - b, axis=1)
 
 
 def wrong_equirectangular(a, b, radius):
     la, lb = np.radians(a), np.radians(b)
     x = (lb[:, 1] - la[:, 1]) * np.cos((la[:, 0] + lb[:, 0]) / 2)
     return radius * np.sqrt(x**2 + (lb[:, 0] - la[:, 0]) ** 2)
-
-
-def wrong_cosine_of_the_first(a, b, radius):
-    la, lb = np.radians(a), np.radians(b)
-    x = (lb[:, 1] - la[:, 1]) * np.cos(la[:, 0])
-    return radius * np.hypot(x, lb[:, 0] - la[:, 0])
 
 
 def wrong_no_radians(a, b, radius):
@@ -153,19 +82,8 @@ def wrong_swapped(a, b, radius):
     return 2 * radius * np.arcsin(np.sqrt(np.clip(h, 0, 1)))
 
 
-def wrong_cosines(a, b, radius):
-    p, l1 = np.radians(a).T
-    q, l2 = np.radians(b).T
-    c = np.sin(p) * np.sin(q) + np.cos(p) * np.cos(q) * np.cos(l2 - l1)
-    return radius * np.arccos(np.clip(c, -1, 1))
-
-
 def wrong_cosines_by_vectors(a, b, radius):
     return radius * np.arccos(np.clip(np.sum(unit(a) * unit(b), axis=1), -1, 1))
-
-
-def wrong_cosines_unclipped(a, b, radius):
-    return radius * np.arccos((unit(a) * unit(b)).sum(axis=1))
 
 
 def wrong_half(a, b, radius):
@@ -174,10 +92,6 @@ def wrong_half(a, b, radius):
 
 def wrong_no_radius(a, b, radius):
     return right_haversine(a, b, 1.0)
-
-
-def wrong_earth(a, b, radius):
-    return right_haversine(a, b, 6371.0)
 
 
 def wrong_answer_in_degrees(a, b, radius):
@@ -191,31 +105,11 @@ def wrong_no_root(a, b, radius):
     return 2 * radius * np.arcsin(np.clip(h, 0, 1))
 
 
-def wrong_no_cosines(a, b, radius):
-    d = np.radians(b - a) / 2
-    return 2 * radius * np.arcsin(np.sqrt(np.clip((np.sin(d) ** 2).sum(axis=1), 0, 1)))
-
-
-def wrong_one_cosine(a, b, radius):
-    d = np.radians(b - a) / 2
-    h = np.sin(d[:, 0]) ** 2 + np.cos(np.radians(a[:, 0])) * np.sin(d[:, 1]) ** 2
-    return 2 * radius * np.arcsin(np.sqrt(np.clip(h, 0, 1)))
-
-
-def wrong_sine_only(a, b, radius):
-    return radius * np.arcsin(np.clip(np.linalg.norm(np.cross(unit(a), unit(b)), axis=1), 0, 1))
-
-
 def wrong_unclipped(a, b, radius):
     la, lb = np.radians(a), np.radians(b)
     h = np.sin((lb[:, 0] - la[:, 0]) / 2) ** 2
     h += np.cos(la[:, 0]) * np.cos(lb[:, 0]) * np.sin((lb[:, 1] - la[:, 1]) / 2) ** 2
     return 2 * radius * np.arcsin(np.sqrt(h * (1 + 4e-16)))
-
-
-def wrong_long_way(a, b, radius):
-    d = right_haversine(a, b, radius)
-    return np.where(np.abs(a[:, 1] - b[:, 1]) > 180, 2 * np.pi * radius - d, d)
 
 
 def wrong_in_place(a, b, radius):

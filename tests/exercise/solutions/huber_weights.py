@@ -4,7 +4,6 @@ import numpy as np
 
 NAMED = {
     "wrong_no_abs": "no absolute",
-    "wrong_no_abs_where": "no absolute",
     "wrong_squared": "squared",
     "wrong_psi": "slope",
     "wrong_loss": "loss",
@@ -21,29 +20,6 @@ NAMED = {
 
 def right_maximum(residuals, corner):
     return corner / np.maximum(np.abs(residuals), corner)
-
-
-def right_where(residuals, corner):
-    a = np.abs(residuals)
-    return np.where(a <= corner, 1.0, corner / np.where(a > 0, a, 1))
-
-
-def right_mask(residuals, corner):
-    w = np.ones(len(residuals))
-    far = abs(residuals) > corner
-    w[far] = corner / abs(residuals[far])
-    return w
-
-
-def right_loop(residuals, corner):
-    w = []
-    for r in residuals:
-        w.append(1.0 if -corner <= r <= corner else corner / abs(r))
-    return w
-
-
-def right_clip(residuals, corner):
-    return 1 / np.clip(np.abs(residuals) / corner, 1, None)
 
 
 def right_psi_over_r(residuals, corner):
@@ -64,16 +40,8 @@ def right_piece_by_piece(residuals, corner):
     )
 
 
-def right_list(residuals, corner):
-    return [min(1.0, corner / max(abs(float(r)), 1e-300)) for r in residuals]
-
-
 def wrong_no_abs(residuals, corner):
     return corner / np.maximum(residuals, corner)
-
-
-def wrong_no_abs_where(residuals, corner):
-    return np.where(residuals <= corner, 1.0, corner / np.where(residuals == 0, 1, residuals))
 
 
 def wrong_squared(residuals, corner):
@@ -124,51 +92,9 @@ def wrong_zero_by_zero(residuals, corner):
         return np.clip(residuals, -corner, corner) / residuals
 
 
-def wrong_abs_of_psi(residuals, corner):
-    return np.minimum(abs(residuals), corner)
-
-
-def wrong_geman(residuals, corner):
-    return 1 / (1 + (residuals / corner) ** 2) ** 2
-
-
-def wrong_exponential(residuals, corner):
-    return np.exp(-((residuals / corner) ** 2))
-
-
-def wrong_l1(residuals, corner):
-    return 1 / np.maximum(abs(residuals), 1e-6)
-
-
-def wrong_sums_to_one(residuals, corner):
-    w = corner / np.maximum(abs(residuals), corner)
-    return w / w.sum()
-
-
-def wrong_half_corner(residuals, corner):
-    return corner / 2 / np.maximum(abs(residuals), corner / 2)
-
-
-def wrong_scaled_by_std(residuals, corner):
-    s = np.std(residuals) + 1e-12
-    return corner / np.maximum(abs(residuals / s), corner)
-
-
-def wrong_linear(residuals, corner):
-    return np.clip(2 - abs(residuals) / corner, 0, 1)
-
-
-def wrong_stub(residuals, corner):
-    return np.ones(len(residuals))
-
-
 def wrong_changes_residuals(residuals, corner):
     np.abs(residuals, out=residuals)
     return corner / np.maximum(residuals, corner)
-
-
-def wrong_at_least_corner(residuals, corner):
-    return np.where(abs(residuals) >= corner, 1.0, abs(residuals) / corner)
 
 
 def wrong_lower_corner_is_outside(residuals, corner):

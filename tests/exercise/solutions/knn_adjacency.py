@@ -27,27 +27,6 @@ def right_inf_diagonal(p, k):
     return np.maximum(A, A.T)
 
 
-def right_argpartition(p, k):
-    d = distances(p) ** 2 + np.diag(np.full(len(p), np.inf))
-    A = np.zeros((len(p), len(p)))
-    for i, row in enumerate(np.argpartition(d, k - 1, axis=1)[:, :k]):
-        A[i, row] = A[row, i] = 1
-    return A
-
-
-def right_loops(p, k):
-    n = len(p)
-    A = np.zeros((n, n))
-    for i in range(n):
-        others = sorted(
-            (j for j in range(n) if j != i), key=lambda j: float(np.sum((p[i] - p[j]) ** 2))
-        )
-        for j in others[:k]:
-            A[i][j] = 1
-            A[j][i] = 1
-    return A
-
-
 def right_tree_without_itself(p, k):
     from scipy.spatial import KDTree
 
@@ -59,13 +38,6 @@ def right_tree_without_itself(p, k):
     return A
 
 
-def right_booleans(p, k):
-    d = distances(p)
-    np.fill_diagonal(d, np.inf)
-    near = d <= np.sort(d, axis=1)[:, k - 1][:, None]
-    return near | near.T
-
-
 def right_integers(p, k):
     return right_inf_diagonal(p, k).astype(int)
 
@@ -75,35 +47,6 @@ def right_logical_or(p, k):
     d[np.diag_indices(len(p))] = d.max() + 1
     rank = d.argsort(axis=1).argsort(axis=1)
     return np.logical_or(rank < k, rank.T < k).astype(float)
-
-
-def right_sign_of_sum(p, k):
-    A = np.triu(right_loops(p, k))
-    return np.sign(A + A.T)
-
-
-def right_list_of_lists(p, k):
-    return [[1.0 if one else 0.0 for one in row] for row in right_booleans(p, k)]
-
-
-def right_sparse(p, k):
-    from scipy.sparse import csr_array
-
-    d = distances(p)
-    np.fill_diagonal(d, np.inf)
-    cols = np.argsort(d, axis=1)[:, :k].ravel()
-    A = csr_array((np.ones(len(cols)), (np.repeat(np.arange(len(p)), k), cols)), shape=d.shape)
-    return A.maximum(A.T).toarray()
-
-
-def right_cdist(p, k):
-    from scipy.spatial.distance import cdist
-
-    d = cdist(p, p)
-    d[np.eye(len(p), dtype=bool)] = np.inf
-    A = np.zeros_like(d)
-    np.put_along_axis(A, d.argsort(axis=1)[:, :k], 1, axis=1)
-    return ((A + A.T) > 0) * 1.0
 
 
 # wrong ---------------------------------------------------------------------------------------------------------------
@@ -158,53 +101,6 @@ def wrong_distances_kept(p, k):
 def wrong_identity_added(p, k):
     A = right_inf_diagonal(p, k) + np.eye(len(p))
     return np.minimum(A, 1)
-
-
-def wrong_one_too_many(p, k):
-    return right_inf_diagonal(p, min(k + 1, len(p) - 1))
-
-
-def wrong_radius(p, k):
-    d = distances(p)
-    np.fill_diagonal(d, np.inf)
-    radius = np.mean(np.sort(d, axis=1)[:, k - 1])
-    return (d <= radius).astype(float)
-
-
-def wrong_only_x(p, k):
-    return right_inf_diagonal(p[:, :1], k)
-
-
-def wrong_manhattan(p, k):
-    d = np.abs(p[:, None] - p[None]).sum(axis=2)
-    np.fill_diagonal(d, np.inf)
-    near = d <= np.sort(d, axis=1)[:, k - 1 : k]
-    return (near | near.T).astype(float)
-
-
-def wrong_similarity(p, k):
-    d = -(p @ p.T)
-    np.fill_diagonal(d, np.inf)
-    near = d <= np.sort(d, axis=1)[:, k - 1 : k]
-    return (near | near.T).astype(float)
-
-
-def wrong_indices_returned(p, k):
-    d = distances(p)
-    np.fill_diagonal(d, np.inf)
-    return np.argsort(d, axis=1)[:, :k]
-
-
-def wrong_columns_sorted(p, k):
-    d = distances(p)
-    np.fill_diagonal(d, np.inf)
-    A = np.zeros(d.shape)
-    A[np.argsort(d, axis=0)[:k], :] = 1
-    return A
-
-
-def wrong_lower_triangle_only(p, k):
-    return np.tril(right_inf_diagonal(p, k))
 
 
 def wrong_centres_in_place(p, k):

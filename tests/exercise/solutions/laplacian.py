@@ -17,35 +17,13 @@ def right_diag_minus(adjacency):
     return np.diag(adjacency.sum(axis=1)) - adjacency
 
 
-def right_column_sums(adjacency):
-    return np.diag(np.sum(adjacency, axis=0)) - adjacency
-
-
 def right_eye_times(adjacency):
     degrees = adjacency @ np.ones(len(adjacency))
     return np.eye(len(adjacency)) * degrees - adjacency
 
 
-def right_fill_diagonal(adjacency):
-    L = -np.array(adjacency, dtype=float)
-    np.fill_diagonal(L, adjacency.sum(axis=1))
-    return L
-
-
-def right_copy_and_index(adjacency):
-    L = -1.0 * adjacency
-    i = np.arange(len(L))
-    L[i, i] = adjacency.sum(axis=1)
-    return L
-
-
 def right_einsum(adjacency):
     return np.einsum("ij,ik->ij", np.eye(len(adjacency)), adjacency) - adjacency
-
-
-def right_python_lists(adjacency):
-    a = adjacency.tolist()
-    return [[sum(row) if i == j else -row[j] for j in range(len(a))] for i, row in enumerate(a)]
 
 
 def right_sparse_back_to_dense(adjacency):
@@ -53,33 +31,6 @@ def right_sparse_back_to_dense(adjacency):
 
     A = csr_array(adjacency)
     return (diags_array(np.asarray(A.sum(axis=1)).ravel()) - A).toarray()
-
-
-def right_edge_by_edge(adjacency):
-    n = len(adjacency)
-    L = np.zeros((n, n))
-    for i in range(n):
-        for j in range(i):
-            e = np.zeros(n)
-            e[i], e[j] = 1, -1
-            L += adjacency[i, j] * np.outer(e, e)
-    return L
-
-
-class Graph:
-    def __init__(self, adjacency):
-        self.A = adjacency
-
-    @property
-    def D(self):
-        return np.diagflat(self.A.sum(1))
-
-    def L(self):
-        return self.D - self.A
-
-
-def right_class(adjacency):
-    return Graph(adjacency).L()
 
 
 # wrong ---------------------------------------------------------------------------------------------------------------
@@ -120,51 +71,11 @@ def wrong_just_the_degrees(adjacency):
     return np.diag(adjacency.sum(axis=1))
 
 
-def wrong_broadcast_degrees(adjacency):
-    """Forgets diag: the degrees are taken from every column."""
-    return adjacency.sum(axis=1) - adjacency
-
-
-def wrong_one_on_the_diagonal(adjacency):
-    return np.eye(len(adjacency)) - adjacency
-
-
-def wrong_half_the_edges(adjacency):
-    upper = np.triu(adjacency)
-    return np.diag(upper.sum(axis=1)) - upper
-
-
-def wrong_squared(adjacency):
-    L = np.diag(adjacency.sum(axis=1)) - adjacency
-    return L @ L
-
-
-def wrong_mean_degree(adjacency):
-    return np.eye(len(adjacency)) * adjacency.sum(axis=1).mean() - adjacency
-
-
-def wrong_integers(adjacency):
-    L = np.zeros(adjacency.shape, dtype=int)
-    L[:] = np.diag(adjacency.sum(axis=1)) - adjacency
-    return L
-
-
 def wrong_in_place(adjacency):
     d = adjacency.sum(axis=1)
     adjacency *= -1
     np.fill_diagonal(adjacency, d)
     return adjacency
-
-
-def wrong_loops_off_by_one(adjacency):
-    L = -adjacency.copy()
-    for i in range(len(L) - 1):
-        L[i, i] = adjacency[i].sum()
-    return L
-
-
-def wrong_forgot_return(adjacency):
-    np.diag(adjacency.sum(axis=1)) - adjacency
 
 
 def wrong_weak_edges_are_none(adjacency):

@@ -10,23 +10,12 @@ NAMED = {
     "wrong_norm": "euclid",
     "wrong_one_over": "entries inverted",
     "wrong_divided_by_diagonal": "over variances",
-    "wrong_cholesky_not_solved": "not inverted",
 }
-
-
-def right_loop(p, mean, covariance):
-    inverse = np.linalg.inv(covariance)
-    return np.array([np.sqrt((x - mean) @ inverse @ (x - mean)) for x in p])
 
 
 def right_einsum(p, mean, covariance):
     v = p - mean
     return np.einsum("ni,ij,nj->n", v, np.linalg.inv(covariance), v) ** 0.5
-
-
-def right_solve(p, mean, covariance):
-    v = (p - mean).T
-    return np.sqrt((v * np.linalg.solve(covariance, v)).sum(axis=0))
 
 
 def right_cholesky(p, mean, covariance):
@@ -40,22 +29,6 @@ def right_cholesky(p, mean, covariance):
 def right_svd(p, mean, covariance):
     U, s, _ = np.linalg.svd(covariance)
     return np.linalg.norm((p - mean) @ U / np.sqrt(s), axis=1)
-
-
-def right_list(p, mean, covariance):
-    inverse = np.linalg.pinv(covariance)
-    return [float(np.sqrt((x - mean).T @ inverse @ (x - mean))) for x in p]
-
-
-def right_diag_of_product(p, mean, covariance):
-    v = p - mean
-    return np.sqrt(np.sum(v @ np.linalg.inv(covariance) * v, axis=1))
-
-
-def right_inverse_root(p, mean, covariance):
-    from scipy.linalg import sqrtm
-
-    return np.linalg.norm((p - mean) @ np.linalg.inv(np.real(sqrtm(covariance))), axis=1)
 
 
 def wrong_no_root(p, mean, covariance):
@@ -87,59 +60,6 @@ def wrong_one_over(p, mean, covariance):
 
 def wrong_divided_by_diagonal(p, mean, covariance):
     return np.linalg.norm((p - mean) / covariance.diagonal(), axis=1)
-
-
-def wrong_own_mean(p, mean, covariance):
-    v = p - p.mean(axis=0)
-    return np.sqrt(np.einsum("ni,ij,nj->n", v, np.linalg.inv(covariance), v))
-
-
-def wrong_own_covariance(p, mean, covariance):
-    v = p - mean
-    S = np.atleast_2d(np.cov(p.T)) + 1e-9 * np.eye(p.shape[1])
-    return np.sqrt(np.abs(np.einsum("ni,ij,nj->n", v, np.linalg.pinv(np.nan_to_num(S)), v)))
-
-
-def wrong_half(p, mean, covariance):
-    v = p - mean
-    return np.sqrt(0.5 * np.einsum("ni,ij,nj->n", v, np.linalg.inv(covariance), v))
-
-
-def wrong_density(p, mean, covariance):
-    v = p - mean
-    return np.exp(-0.5 * np.einsum("ni,ij,nj->n", v, np.linalg.inv(covariance), v))
-
-
-def wrong_cholesky_not_solved(p, mean, covariance):
-    return np.linalg.norm((p - mean) @ np.linalg.cholesky(covariance), axis=1)
-
-
-def wrong_cholesky_transposed(p, mean, covariance):
-    return np.linalg.norm((p - mean) @ np.linalg.inv(np.linalg.cholesky(covariance)), axis=1)
-
-
-def wrong_square_of_inverse(p, mean, covariance):
-    return np.linalg.norm((p - mean) @ np.linalg.inv(covariance), axis=1)
-
-
-def wrong_one_number(p, mean, covariance):
-    v = p - mean
-    return np.full(len(p), np.sqrt(np.einsum("ni,ij,nj->n", v, np.linalg.inv(covariance), v)).sum())
-
-
-def wrong_over_dimensions(p, mean, covariance):
-    v = p - mean
-    return np.sqrt(np.einsum("ni,ij,nj->n", v, np.linalg.inv(covariance), v) / p.shape[1])
-
-
-def wrong_eigenvalues_not_rooted(p, mean, covariance):
-    values, axes = np.linalg.eigh(covariance)
-    return np.linalg.norm((p - mean) @ axes / values, axis=1)
-
-
-def wrong_axes_as_rows(p, mean, covariance):
-    values, axes = np.linalg.eigh(covariance)
-    return np.linalg.norm((p - mean) @ axes.T / np.sqrt(values), axis=1)
 
 
 def wrong_in_place(p, mean, covariance):

@@ -73,18 +73,6 @@ def right_sparse_laplacian(p, faces):
     )
 
 
-def right_loops(p, faces):
-    total = np.zeros((len(p), 3))
-    for f in faces.tolist():
-        for k in range(3):
-            o, i, j = f[k], f[(k + 1) % 3], f[(k + 2) % 3]
-            u, v = p[i] - p[o], p[j] - p[o]
-            cot = float(u @ v) / float(np.sqrt(max(u @ u * (v @ v) - (u @ v) ** 2, 1e-300)))
-            total[i] += cot * (p[i] - p[j])
-            total[j] += cot * (p[j] - p[i])
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
 def right_area_gradient(p, faces):
     total = np.zeros_like(p)
     n = np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
@@ -96,61 +84,9 @@ def right_area_gradient(p, faces):
     return finished(p, faces, total, 2 * areas(p, faces))
 
 
-def right_dictionary_of_edges(p, faces):
-    weight = {}
-    for i, j, c in opposite(p, faces):
-        for a, b, w in zip(i.tolist(), j.tolist(), c.tolist()):
-            weight[min(a, b), max(a, b)] = weight.get((min(a, b), max(a, b)), 0.0) + w
-    total = np.zeros_like(p)
-    for (a, b), w in weight.items():
-        total[a] += w * (p[a] - p[b])
-        total[b] += w * (p[b] - p[a])
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
-def right_tangents_of_angles(p, faces):
-    total = np.zeros_like(p)
-    for k in range(3):
-        o, i, j = faces[:, k], faces[:, (k + 1) % 3], faces[:, (k + 2) % 3]
-        u, v = p[i] - p[o], p[j] - p[o]
-        angle = np.arctan2(np.linalg.norm(np.cross(u, v), axis=1), (u * v).sum(1))
-        pull = np.tan(np.pi / 2 - angle)[:, None] * (p[i] - p[j])
-        np.add.at(total, i, pull)
-        np.subtract.at(total, j, pull)
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
-def right_bincount_per_axis(p, faces):
-    total = np.zeros_like(p)
-    for i, j, c in opposite(p, faces):
-        for axis in range(3):
-            pull = c * (p[i, axis] - p[j, axis])
-            total[:, axis] += np.bincount(i, pull, len(p)) - np.bincount(j, pull, len(p))
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
 def right_scaled_mesh(p, faces):
     s = np.ptp(p)
     return right_cotangents((p - p.mean(axis=0)) / s, faces) / s
-
-
-def right_single_precision(p, faces):
-    return right_cotangents(p, faces).astype(np.float32)
-
-
-class Mesh:
-    def __init__(self, p, faces):
-        self.p, self.faces = p, faces
-
-    @property
-    def normals(self):
-        return finished(
-            self.p, self.faces, pulls(self.p, self.faces), 2 * areas(self.p, self.faces)
-        )
-
-
-def right_class(p, faces):
-    return Mesh(p, faces).normals
 
 
 # wrong ---------------------------------------------------------------------------------------------------------------
@@ -183,76 +119,6 @@ def wrong_border_kept(p, faces):
     return pulls(p, faces) / (2 * areas(p, faces))[:, None]
 
 
-def wrong_direction_only(p, faces):
-    out = right_cotangents(p, faces)
-    with np.errstate(invalid="ignore"):
-        return out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-12)
-
-
-def wrong_lengths_returned(p, faces):
-    return np.linalg.norm(right_cotangents(p, faces), axis=1)
-
-
-def wrong_tangent_for_cotangent(p, faces):
-    total = np.zeros_like(p)
-    for i, j, c in opposite(p, faces):
-        with np.errstate(all="ignore"):
-            pull = np.nan_to_num(1 / c)[:, None] * (p[i] - p[j])
-        np.add.at(total, i, pull)
-        np.subtract.at(total, j, pull)
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
-def wrong_cosine_for_cotangent(p, faces):
-    total = np.zeros_like(p)
-    for i, j, c in opposite(p, faces):
-        pull = (c / np.sqrt(1 + c**2))[:, None] * (p[i] - p[j])
-        np.add.at(total, i, pull)
-        np.subtract.at(total, j, pull)
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
-def wrong_negative_weights_cut(p, faces):
-    total = np.zeros_like(p)
-    for i, j, c in opposite(p, faces):
-        pull = np.maximum(c, 0)[:, None] * (p[i] - p[j])
-        np.add.at(total, i, pull)
-        np.subtract.at(total, j, pull)
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
-def wrong_fancy_index_sum(p, faces):
-    total = np.zeros_like(p)
-    for i, j, c in opposite(p, faces):
-        pull = c[:, None] * (p[i] - p[j])
-        total[i] += pull
-        total[j] -= pull
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
-def wrong_uniform_weights(p, faces):
-    total = np.zeros_like(p)
-    for i, j, _ in opposite(p, faces):
-        np.add.at(total, i, p[i] - p[j])
-        np.subtract.at(total, j, p[i] - p[j])
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
-def wrong_border_is_zero(p, faces):
-    return np.nan_to_num(right_cotangents(p, faces))
-
-
-def wrong_border_is_infinite(p, faces):
-    out = right_cotangents(p, faces)
-    return np.where(np.isnan(out), np.inf, out)
-
-
-def wrong_one_nan_per_row(p, faces):
-    out = right_cotangents(p, faces)
-    out[np.isnan(out[:, 0]), 1:] = 0
-    return out
-
-
 def wrong_turned_outward_by_the_position(p, faces):
     out = right_cotangents(p, faces)
     flip = np.sign((out * p).sum(axis=1, keepdims=True))
@@ -262,42 +128,6 @@ def wrong_turned_outward_by_the_position(p, faces):
 def wrong_moved_in_place(p, faces):
     p -= p.mean(axis=0)
     return right_cotangents(p, faces)
-
-
-def wrong_transposed(p, faces):
-    return right_cotangents(p, faces).T
-
-
-def wrong_voronoi_without_the_obtuse_case(p, faces):
-    area = np.zeros(len(p))
-    for i, j, c in opposite(p, faces):
-        part = c * ((p[i] - p[j]) ** 2).sum(axis=1) / 8
-        np.add.at(area, i, part)
-        np.add.at(area, j, part)
-    return finished(p, faces, pulls(p, faces), 2 * area)
-
-
-def wrong_sphere_assumed(p, faces):
-    q = p - p.mean(axis=0)
-    return finished(p, faces, 2 * q, (q**2).sum(axis=1))
-
-
-def wrong_sum_of_face_normals(p, faces):
-    n = np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
-    total = np.zeros_like(p)
-    np.add.at(total, faces.ravel(), np.repeat(n, 3, axis=0))
-    return finished(p, faces, total, 2 * areas(p, faces))
-
-
-def wrong_area_of_the_mesh(p, faces):
-    return finished(p, faces, pulls(p, faces), np.full(len(p), 2 * areas(p, faces).mean()))
-
-
-def wrong_each_edge_from_one_end(p, faces):
-    total = np.zeros_like(p)
-    for i, j, c in opposite(p, faces):
-        np.add.at(total, i, 2 * c[:, None] * (p[i] - p[j]))
-    return finished(p, faces, total, 2 * areas(p, faces))
 
 
 def wrong_a_little_added_to_the_area(p, faces):

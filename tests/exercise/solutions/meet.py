@@ -4,7 +4,6 @@ import numpy as np
 
 NAMED = {
     "wrong_divided": "divided by w",
-    "wrong_divided_in_a_loop": "divided by w",
     "wrong_slopes": "by slopes",
     "wrong_middle": "middle sign",
     "wrong_c_minus": "c on the right",
@@ -18,56 +17,16 @@ def right_cross(lines_a, lines_b):
     return np.cross(lines_a, lines_b)
 
 
-def right_other_way_round(lines_a, lines_b):
-    return np.cross(lines_b, lines_a)
-
-
 def right_columns(lines_a, lines_b):
     a1, b1, c1 = lines_a.T
     a2, b2, c2 = lines_b.T
     return np.stack([b1 * c2 - b2 * c1, c1 * a2 - c2 * a1, a1 * b2 - a2 * b1], axis=1)
 
 
-def right_loop(lines_a, lines_b):
-    out = np.zeros(lines_a.shape)
-    for i in range(len(lines_a)):
-        out[i] = np.cross(lines_a[i], lines_b[i])
-    return out
-
-
 def right_unit(lines_a, lines_b):
     x = np.cross(lines_a, lines_b)
     n = np.linalg.norm(x, axis=1, keepdims=True)
     return np.where(n > 1e-12, x / np.where(n > 0, n, 1), 0)
-
-
-def right_w_one_where_it_can(lines_a, lines_b):
-    x = np.cross(lines_a, lines_b)
-    w = x[:, 2:]
-    return np.where(w != 0, x / np.where(w != 0, w, 1), x)
-
-
-def right_largest_is_one(lines_a, lines_b):
-    x = np.cross(lines_a, lines_b)
-    size = np.abs(x).max(axis=1, keepdims=True)
-    return x / np.where(size == 0, 1, size)
-
-
-def right_determinants(lines_a, lines_b):
-    def det(i, j):
-        return np.linalg.det(np.stack([lines_a[:, [i, j]], lines_b[:, [i, j]]], axis=1))
-
-    x = np.stack([det(1, 2), -det(0, 2), det(0, 1)], axis=1)
-    return np.where(np.abs(x) < 1e-13, 0, x)
-
-
-def right_null_space(lines_a, lines_b):
-    out = []
-    for a, b in zip(lines_a, lines_b, strict=True):
-        A = np.array([a / np.linalg.norm(a), b / np.linalg.norm(b)])
-        _, s, Vt = np.linalg.svd(A)
-        out.append(Vt[2] if s[1] > 1e-12 else np.zeros(3))
-    return np.array(out)
 
 
 def right_einsum(lines_a, lines_b):
@@ -77,27 +36,12 @@ def right_einsum(lines_a, lines_b):
     return np.einsum("ijk,nj,nk->ni", epsilon, lines_a, lines_b)
 
 
-def right_divided_by_something(lines_a, lines_b):
-    x = np.cross(lines_a, lines_b)
-    w = np.where(np.abs(x[:, 2:]) < 1e-6, 1e-6, x[:, 2:])
-    return x / w
-
-
 # wrong ---------------------------------------------------------------------------------------------------------------
 
 
 def wrong_divided(lines_a, lines_b):
     x = np.cross(lines_a, lines_b)
     return x / x[:, 2:3]
-
-
-def wrong_divided_in_a_loop(lines_a, lines_b):
-    out = []
-    for a, b in zip(lines_a, lines_b, strict=True):
-        x = np.cross(a, b)
-        with np.errstate(all="ignore"):
-            out.append(x / x[2])
-    return np.array(out)
 
 
 def wrong_slopes(lines_a, lines_b):
@@ -123,10 +67,6 @@ def wrong_product(lines_a, lines_b):
     return np.multiply(lines_a, lines_b)
 
 
-def wrong_sum(lines_a, lines_b):
-    return lines_a + lines_b
-
-
 def wrong_difference(lines_a, lines_b):
     return lines_a - lines_b
 
@@ -140,49 +80,6 @@ def wrong_solver(lines_a, lines_b):
             continue
         out[i] = [xy[0], xy[1], 1]
     return out
-
-
-def wrong_solver_zero(lines_a, lines_b):
-    out = np.zeros(lines_a.shape)
-    for i, (a, b) in enumerate(zip(lines_a, lines_b, strict=True)):
-        A = np.array([a[:2], b[:2]])
-        if abs(np.linalg.det(A)) > 1e-12:
-            out[i, :2] = np.linalg.solve(A, -np.array([a[2], b[2]]))
-            out[i, 2] = 1
-    return out
-
-
-def wrong_least_squares(lines_a, lines_b):
-    out = np.ones(lines_a.shape)
-    for i, (a, b) in enumerate(zip(lines_a, lines_b, strict=True)):
-        out[i, :2] = np.linalg.lstsq(np.array([a[:2], b[:2]]), -np.array([a[2], b[2]]), rcond=None)[
-            0
-        ]
-    return out
-
-
-def wrong_w_dropped(lines_a, lines_b):
-    x = np.cross(lines_a, lines_b)
-    x[:, 2] = 1
-    return x
-
-
-def wrong_rounded(lines_a, lines_b):
-    return np.round(np.cross(lines_a, lines_b), 1)
-
-
-def wrong_absolute(lines_a, lines_b):
-    return np.abs(np.cross(lines_a, lines_b))
-
-
-def wrong_first_line(lines_a, lines_b):
-    return np.cross(lines_a[0], lines_b[0]) * np.ones((len(lines_a), 1))
-
-
-def wrong_infinity(lines_a, lines_b):
-    x = np.cross(lines_a, lines_b)
-    x[x[:, 2] == 0] = np.inf
-    return x
 
 
 def wrong_in_place(lines_a, lines_b):

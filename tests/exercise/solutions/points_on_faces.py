@@ -28,42 +28,12 @@ def right_osada(p, faces, u):
     return (1 - r1) * a + r1 * (1 - r2) * b + r1 * r2 * c
 
 
-def right_roles_changed(p, faces, u):
-    k = _by_area(p, faces, u)
-    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
-    r, t = np.sqrt(u[:, 2:3]), u[:, 1:2]
-    return (1 - r) * c + r * (1 - t) * a + r * t * b
-
-
-def right_folded(p, faces, u):
-    k = _by_area(p, faces, u)
-    v = u[:, 1:].copy()
-    v[v.sum(axis=1) > 1] = 1 - v[v.sum(axis=1) > 1]
-    a = p[faces[k, 0]]
-    return a + v[:, :1] * (p[faces[k, 1]] - a) + v[:, 1:] * (p[faces[k, 2]] - a)
-
-
 def right_sorted_gaps(p, faces, u):
     """The gaps of two sorted numbers are even barycentric coordinates."""
     k = _by_area(p, faces, u)
     low, high = np.sort(u[:, 1:], axis=1).T
     w = np.stack([low, high - low, 1 - high], axis=1)
     return (w[:, :, None] * p[faces[k]]).sum(axis=1)
-
-
-def right_loop(p, faces, u):
-    areas = _areas(p, faces)
-    total = areas.sum()
-    out = []
-    for pick, s, t in u:
-        left, k = pick * total, 0
-        while k + 1 < len(faces) and left >= areas[k]:
-            left -= areas[k]
-            k += 1
-        a, b, c = p[faces[k]]
-        r = s**0.5
-        out.append((1 - r) * a + r * (1 - t) * b + r * t * c)
-    return np.array(out).reshape(-1, 3)
 
 
 def right_not_normalised(p, faces, u):
@@ -73,38 +43,6 @@ def right_not_normalised(p, faces, u):
     s, t = np.sqrt(u[:, 1]), u[:, 2]
     weights = np.column_stack([1 - s, s * (1 - t), s * t])
     return np.einsum("nc,ncx->nx", weights, p[faces[k]])
-
-
-def right_counting_smaller(p, faces, u):
-    share = np.cumsum(_areas(p, faces)) / _areas(p, faces).sum()
-    k = (share[None, :] <= u[:, :1]).sum(axis=1)
-    k[k == len(faces)] = len(faces) - 1
-    a, b, c = p[faces[k]].transpose(1, 0, 2)
-    along = a + np.sqrt(u[:, [1]]) * (b - a)
-    return along + np.sqrt(u[:, [1]]) * u[:, [2]] * (c - b)
-
-
-def right_digitized(p, faces, u):
-    edges = np.append(0.0, np.cumsum(_areas(p, faces)))
-    k = np.clip(np.digitize(u[:, 0], edges / edges[-1]) - 1, 0, len(faces) - 1)
-    s, t = u[:, 1] ** 0.5, u[:, 2]
-    return np.stack(
-        [
-            (1 - s) * p[faces[k, 0], x]
-            + s * (1 - t) * p[faces[k, 1], x]
-            + s * t * p[faces[k, 2], x]
-            for x in range(3)
-        ],
-        axis=1,
-    )
-
-
-def right_other_corner_first(p, faces, u):
-    """The root from above: 1 - sqrt(1 - x) is as even."""
-    k = _by_area(p, faces, u)
-    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
-    s, t = 1 - np.sqrt(1 - u[:, 1:2]), u[:, 2:3]
-    return s * a + (1 - s) * (t * b + (1 - t) * c)
 
 
 def right_bisect(p, faces, u):
@@ -149,75 +87,12 @@ def wrong_centroids(p, faces, u):
     return p[faces[_by_area(p, faces, u)]].mean(axis=1)
 
 
-def wrong_own_random(p, faces, u):
-    rng = np.random.default_rng()
-    return right_osada(p, faces, rng.random(u.shape))
-
-
 def wrong_own_random_seeded(p, faces, u):
     return right_osada(p, faces, np.random.default_rng(0).random(u.shape))
 
 
-def wrong_squared_areas(p, faces, u):
-    cdf = np.cumsum(_areas(p, faces) ** 2)
-    k = np.clip(np.searchsorted(cdf / cdf[-1], u[:, 0], side="right"), 0, len(faces) - 1)
-    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
-    r, t = np.sqrt(u[:, 1:2]), u[:, 2:3]
-    return (1 - r) * a + r * (1 - t) * b + r * t * c
-
-
-def wrong_by_perimeter(p, faces, u):
-    a, b, c = p[faces[:, 0]], p[faces[:, 1]], p[faces[:, 2]]
-    length = sum(np.linalg.norm(x - y, axis=1) for x, y in ((a, b), (b, c), (c, a)))
-    cdf = np.cumsum(length)
-    k = np.clip(np.searchsorted(cdf / cdf[-1], u[:, 0], side="right"), 0, len(faces) - 1)
-    r, t = np.sqrt(u[:, 1:2]), u[:, 2:3]
-    return (1 - r) * a[k] + r * (1 - t) * b[k] + r * t * c[k]
-
-
-def wrong_root_of_both(p, faces, u):
-    k = _by_area(p, faces, u)
-    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
-    r, t = np.sqrt(u[:, 1:2]), np.sqrt(u[:, 2:3])
-    return (1 - r) * a + r * (1 - t) * b + r * t * c
-
-
-def wrong_square_for_root(p, faces, u):
-    k = _by_area(p, faces, u)
-    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
-    r, t = u[:, 1:2] ** 2, u[:, 2:3]
-    return (1 - r) * a + r * (1 - t) * b + r * t * c
-
-
-def wrong_vertices(p, faces, u):
-    k = _by_area(p, faces, u)
-    return p[faces[k, (u[:, 1] * 3).astype(int)]]
-
-
 def wrong_sorted_rows(p, faces, u):
     return right_osada(p, faces, u[np.argsort(u[:, 0])])
-
-
-def wrong_edges_only(p, faces, u):
-    k = _by_area(p, faces, u)
-    a, b = p[faces[k, 0]], p[faces[k, 1]]
-    return a + u[:, 1:2] * (b - a)
-
-
-def wrong_cdf_not_normalised(p, faces, u):
-    cdf = np.cumsum(_areas(p, faces))
-    k = np.clip(np.searchsorted(cdf, u[:, 0], side="right"), 0, len(faces) - 1)
-    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
-    r, t = np.sqrt(u[:, 1:2]), u[:, 2:3]
-    return (1 - r) * a + r * (1 - t) * b + r * t * c
-
-
-def wrong_fold_by_clipping(p, faces, u):
-    k = _by_area(p, faces, u)
-    s = u[:, 1]
-    t = np.minimum(u[:, 2], 1 - s)
-    a, b, c = p[faces[k, 0]], p[faces[k, 1]], p[faces[k, 2]]
-    return a + s[:, None] * (b - a) + t[:, None] * (c - a)
 
 
 def wrong_without_the_third(p, faces, u):

@@ -5,7 +5,6 @@ import numpy as np
 NAMED = {
     "wrong_no_determinant": "without determinant",
     "wrong_inverse": "inverted",
-    "wrong_inverse_by_swapping": "inverted",
     "wrong_depths": "lengths as depths",
     "wrong_no_distances": "without distances",
     "wrong_translation": "translation not turned",
@@ -24,33 +23,6 @@ def right_kabsch(p_world, rays, distances):
     return T
 
 
-def right_kabsch_other_way(p_world, rays, distances):
-    q = (rays.T * distances).T
-    a, b = p_world.mean(axis=0), q.mean(axis=0)
-    H = (p_world - a).T @ (q - b)
-    U, S, Vt = np.linalg.svd(H)
-    R = Vt.T @ U.T
-    if np.linalg.det(R) < 0:
-        Vt[2] *= -1
-        R = Vt.T @ U.T
-    return np.vstack([np.column_stack([R, b - R @ a]), [0, 0, 0, 1]])
-
-
-def right_frames(p_world, rays, distances):
-    def frame(p):
-        x = p[1] - p[0]
-        x = x / np.linalg.norm(x)
-        z = np.cross(x, p[2] - p[0])
-        z = z / np.linalg.norm(z)
-        return np.stack([x, np.cross(z, x), z], axis=1)
-
-    q = distances.reshape(3, 1) * rays
-    R = frame(q) @ frame(p_world).T
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = R, q[0] - R @ p_world[0]
-    return T
-
-
 def right_solve_with_the_normal(p_world, rays, distances):
     q = distances[:, None] * rays
     A = np.array([p_world[1] - p_world[0], p_world[2] - p_world[0]])
@@ -61,63 +33,6 @@ def right_solve_with_the_normal(p_world, rays, distances):
     T = np.eye(4)
     T[:3, :3] = R
     T[:3, 3] = (q - p_world @ R.T).mean(axis=0)
-    return T
-
-
-def right_horn(p_world, rays, distances):
-    q = distances[:, None] * rays
-    a, b = p_world - p_world.mean(0), q - q.mean(0)
-    S = a.T @ b
-    N = np.array(
-        [
-            [S[0, 0] + S[1, 1] + S[2, 2], S[1, 2] - S[2, 1], S[2, 0] - S[0, 2], S[0, 1] - S[1, 0]],
-            [S[1, 2] - S[2, 1], S[0, 0] - S[1, 1] - S[2, 2], S[0, 1] + S[1, 0], S[2, 0] + S[0, 2]],
-            [S[2, 0] - S[0, 2], S[0, 1] + S[1, 0], -S[0, 0] + S[1, 1] - S[2, 2], S[1, 2] + S[2, 1]],
-            [S[0, 1] - S[1, 0], S[2, 0] + S[0, 2], S[1, 2] + S[2, 1], -S[0, 0] - S[1, 1] + S[2, 2]],
-        ]
-    )
-    w, x, y, z = np.linalg.eigh(N)[1][:, -1]
-    R = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-    return np.block(
-        [[R, (q.mean(0) - R @ p_world.mean(0))[:, None]], [np.zeros((1, 3)), np.ones((1, 1))]]
-    )
-
-
-def right_inverse_of_the_inverse(p_world, rays, distances):
-    q = distances[:, None] * rays
-    a, b = q.mean(0), p_world.mean(0)
-    U, _, Vt = np.linalg.svd((p_world - b).T @ (q - a))
-    D = np.diag([1.0, 1.0, np.sign(np.linalg.det(U @ Vt))])
-    T = np.eye(4)
-    T[:3, :3] = U @ D @ Vt
-    T[:3, 3] = b - T[:3, :3] @ a
-    return np.linalg.inv(T)
-
-
-def right_loop(p_world, rays, distances):
-    q = np.zeros((3, 3))
-    for i in range(3):
-        length = np.linalg.norm(rays[i])
-        for j in range(3):
-            q[i][j] = distances[i] * rays[i][j] / length
-    cp, cq = sum(p_world) / 3, sum(q) / 3
-    H = np.zeros((3, 3))
-    for i in range(3):
-        H += np.outer(q[i] - cq, p_world[i] - cp)
-    U, _, Vt = np.linalg.svd(H)
-    R = U @ Vt
-    if np.linalg.det(R) < 0:
-        U[:, 2] = -U[:, 2]
-        R = U @ Vt
-    T = np.eye(4)
-    T[:3, :3] = R
-    T[:3, 3] = cq - R @ cp
     return T
 
 
@@ -149,28 +64,8 @@ def wrong_no_determinant(p_world, rays, distances):
     return T
 
 
-def wrong_no_determinant_covariance_the_other_way(p_world, rays, distances):
-    q = rays * distances[:, None]
-    U, S, Vt = np.linalg.svd((p_world - p_world.mean(0)).T @ (q - q.mean(0)))
-    R = (U @ Vt).T
-    T = np.eye(4)
-    T[:3, :3] = R
-    T[:3, 3] = q.mean(0) - R @ p_world.mean(0)
-    return T
-
-
 def wrong_inverse(p_world, rays, distances):
     return np.linalg.inv(right_kabsch(p_world, rays, distances))
-
-
-def wrong_inverse_by_swapping(p_world, rays, distances):
-    q = rays * distances[:, None]
-    U, S, Vt = np.linalg.svd((p_world - p_world.mean(0)).T @ (q - q.mean(0)))
-    R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
-    T = np.eye(4)
-    T[:3, :3] = R
-    T[:3, 3] = p_world.mean(0) - R @ q.mean(0)
-    return T
 
 
 def wrong_depths(p_world, rays, distances):
@@ -192,57 +87,6 @@ def wrong_transposed(p_world, rays, distances):
     R = T[:3, :3].T.copy()
     T[:3, :3] = R
     T[:3, 3] = (rays * distances[:, None]).mean(0) - R @ p_world.mean(0)
-    return T
-
-
-def wrong_translation_of_the_first_end(p_world, rays, distances):
-    T = right_kabsch(p_world, rays, distances)
-    T[:3, 3] = rays[0] * distances[0]
-    return T
-
-
-def wrong_centre(p_world, rays, distances):
-    T = right_kabsch(p_world, rays, distances)
-    T[:3, 3] = -T[:3, :3].T @ T[:3, 3]
-    return T
-
-
-def wrong_not_centred(p_world, rays, distances):
-    q = rays * distances[:, None]
-    U, S, Vt = np.linalg.svd(q.T @ p_world)
-    R = U @ np.diag([1, 1, np.linalg.det(U @ Vt)]) @ Vt
-    T = np.eye(4)
-    T[:3, :3] = R
-    T[:3, 3] = q.mean(0) - R @ p_world.mean(0)
-    return T
-
-
-def wrong_affine(p_world, rays, distances):
-    q = rays * distances[:, None]
-    A = np.linalg.lstsq(p_world - p_world.mean(0), q - q.mean(0), rcond=None)[0].T
-    T = np.eye(4)
-    T[:3, :3] = A
-    T[:3, 3] = q.mean(0) - A @ p_world.mean(0)
-    return T
-
-
-def wrong_squared_distances(p_world, rays, distances):
-    return right_kabsch(p_world, rays, distances**2)
-
-
-def wrong_mirrored_always(p_world, rays, distances):
-    q = rays * distances[:, None]
-    U, S, Vt = np.linalg.svd((q - q.mean(0)).T @ (p_world - p_world.mean(0)))
-    R = U @ np.diag([1, 1, -np.linalg.det(U @ Vt)]) @ Vt
-    T = np.eye(4)
-    T[:3, :3] = R
-    T[:3, 3] = q.mean(0) - R @ p_world.mean(0)
-    return T
-
-
-def wrong_identity_rotation(p_world, rays, distances):
-    T = np.eye(4)
-    T[:3, 3] = (rays * distances[:, None] - p_world).mean(0)
     return T
 
 

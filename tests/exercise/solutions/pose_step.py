@@ -52,65 +52,6 @@ def right_normal_equations(T, p_world, xy):
     return moved(-np.linalg.solve(J.T @ J, J.T @ r), T)
 
 
-def right_pinv(T, p_world, xy):
-    J, r = rows(T, p_world, xy)
-    d = -np.linalg.pinv(J) @ r
-    return moved(d, T)
-
-
-def right_r_and_t_apart(T, p_world, xy):
-    R, t = T[:3, :3], T[:3, 3]
-    q = p_world @ R.T
-    J, r = [], []
-    for a, x in zip(q, xy):
-        p = a + t
-        D = np.array([[1 / p[2], 0, -p[0] / p[2] ** 2], [0, 1 / p[2], -p[1] / p[2] ** 2]])
-        J.append(np.hstack([-D @ skew(a), D]))
-        r.append(p[:2] / p[2] - x)
-    d = np.linalg.lstsq(np.vstack(J), -np.concatenate(r), rcond=None)[0]
-    out = np.eye(4)
-    out[:3, :3] = rodrigues(d[:3]) @ R
-    out[:3, 3] = t + d[3:]
-    return out
-
-
-def right_in_the_body(T, p_world, xy):
-    R, t = T[:3, :3], T[:3, 3]
-    m = p_world.mean(0)
-    J, r = [], []
-    for X, x in zip(p_world, xy):
-        p = R @ X + t
-        D = np.array([[1 / p[2], 0, -p[0] / p[2] ** 2], [0, 1 / p[2], -p[1] / p[2] ** 2]])
-        J.append(np.hstack([D @ R, -D @ R @ skew(X - m)]))
-        r.append(p[:2] / p[2] - x)
-    d = np.linalg.lstsq(np.vstack(J), -np.concatenate(r), rcond=None)[0]
-    S = np.eye(4)
-    S[:3, :3] = rodrigues(d[3:])
-    S[:3, 3] = d[:3] + m - S[:3, :3] @ m
-    return T @ S
-
-
-def right_expm(T, p_world, xy):
-    from scipy.linalg import expm
-
-    J, r = rows(T, p_world, xy)
-    d = np.linalg.lstsq(J, -r, rcond=None)[0]
-    X = np.zeros((4, 4))
-    X[:3, :3], X[:3, 3] = skew(d[3:]), d[:3]
-    return expm(X) @ T
-
-
-def right_scipy_rotation(T, p_world, xy):
-    from scipy.spatial.transform import Rotation
-
-    J, r = rows(T, p_world, xy)
-    d = np.linalg.lstsq(J, -r, rcond=None)[0]
-    S = np.eye(4)
-    S[:3, :3] = Rotation.from_rotvec(d[3:]).as_matrix()
-    S[:3, 3] = d[:3]
-    return S @ T
-
-
 def right_numerical_jacobian(T, p_world, xy):
     def residual(d):
         p = (moved(d, T)[:3] @ np.c_[p_world, np.ones(len(p_world))].T).T
@@ -129,16 +70,6 @@ def right_vectorised(T, p_world, xy):
     J = np.vstack([A, B])
     r = np.concatenate([u - xy[:, 0], v - xy[:, 1]])
     return moved(np.linalg.lstsq(J, -r, rcond=None)[0], T)
-
-
-def right_svd_of_the_linear_turn(T, p_world, xy):
-    J, r = rows(T, p_world, xy)
-    d = np.linalg.lstsq(J, -r, rcond=None)[0]
-    U, _, Vt = np.linalg.svd(np.eye(3) + skew(d[3:]))
-    S = np.eye(4)
-    S[:3, :3] = U @ Vt
-    S[:3, 3] = d[:3]
-    return S @ T
 
 
 # wrong ---------------------------------------------------------------------------------------------------------------
@@ -188,52 +119,6 @@ def wrong_cross(T, p_world, xy):
 def wrong_step_alone(T, p_world, xy):
     J, r = rows(T, p_world, xy)
     return moved(np.linalg.lstsq(J, -r, rcond=None)[0], np.eye(4))
-
-
-def wrong_no_step(T, p_world, xy):
-    return T
-
-
-def wrong_order_of_the_twist(T, p_world, xy):
-    J, r = rows(T, p_world, xy)
-    d = np.linalg.lstsq(J, -r, rcond=None)[0]
-    return moved(np.r_[d[3:], d[:3]], T)
-
-
-def wrong_degrees(T, p_world, xy):
-    J, r = rows(T, p_world, xy)
-    d = np.linalg.lstsq(J, -r, rcond=None)[0]
-    return moved(np.r_[d[:3], np.radians(d[3:])], T)
-
-
-def wrong_sign_of_the_depth_terms(T, p_world, xy):
-    J, r = [], []
-    for X, x in zip(p_world, xy):
-        p = T[:3, :3] @ X + T[:3, 3]
-        D = np.array([[1 / p[2], 0, p[0] / p[2] ** 2], [0, 1 / p[2], p[1] / p[2] ** 2]])
-        J.append(np.hstack([D, -D @ skew(p)]))
-        r.append(p[:2] / p[2] - x)
-    return moved(np.linalg.lstsq(np.vstack(J), -np.concatenate(r), rcond=None)[0], T)
-
-
-def wrong_world_points_in_the_cross_product(T, p_world, xy):
-    J, r = [], []
-    for X, x in zip(p_world, xy):
-        p = T[:3, :3] @ X + T[:3, 3]
-        D = np.array([[1 / p[2], 0, -p[0] / p[2] ** 2], [0, 1 / p[2], -p[1] / p[2] ** 2]])
-        J.append(np.hstack([D, -D @ skew(X)]))
-        r.append(p[:2] / p[2] - x)
-    return moved(np.linalg.lstsq(np.vstack(J), -np.concatenate(r), rcond=None)[0], T)
-
-
-def wrong_rotation_only(T, p_world, xy):
-    J, r = rows(T, p_world, xy)
-    d = np.linalg.lstsq(J[:, 3:], -r, rcond=None)[0]
-    return moved(np.r_[0, 0, 0, d], T)
-
-
-def wrong_inverse(T, p_world, xy):
-    return np.linalg.inv(right_lstsq(T, p_world, xy))
 
 
 def wrong_t_not_turned(T, p_world, xy):

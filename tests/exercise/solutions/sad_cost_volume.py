@@ -38,69 +38,6 @@ def right_slices(left, right, max_disparity, window):
     return volume(left, right, max_disparity, window)
 
 
-def right_convolution_of_ones(left, right, max_disparity, window):
-    from scipy.ndimage import correlate
-
-    return volume(
-        left,
-        right,
-        max_disparity,
-        window,
-        lambda a, n: correlate(a, np.ones((n, n)), mode="nearest"),
-    )
-
-
-def right_uniform_filter(left, right, max_disparity, window):
-    from scipy.ndimage import uniform_filter
-
-    return volume(
-        left,
-        right,
-        max_disparity,
-        window,
-        lambda a, n: n * n * uniform_filter(a, n, mode="nearest"),
-    )
-
-
-def right_separable(left, right, max_disparity, window):
-    def add(a, n):
-        r = n // 2
-        p = np.pad(a, r, mode="edge")
-        rows = sum(p[k : k + a.shape[0]] for k in range(n))
-        return sum(rows[:, k : k + a.shape[1]] for k in range(n))
-
-    return volume(left, right, max_disparity, window, add)
-
-
-def right_cumulative(left, right, max_disparity, window):
-    def add(a, n):
-        p = np.pad(np.pad(a, n // 2, mode="edge"), ((1, 0), (1, 0)))
-        s = p.cumsum(0).cumsum(1)
-        return s[n:, n:] - s[:-n, n:] - s[n:, :-n] + s[:-n, :-n]
-
-    return volume(left, right, max_disparity, window, add)
-
-
-def right_pixel_loops(left, right, max_disparity, window):
-    refuse(left, right, max_disparity, window)
-    h, w = left.shape
-    L, R = left.astype(float).tolist(), right.astype(float).tolist()
-    r = window // 2
-    cost = [[[float("inf")] * w for _ in range(h)] for _ in range(max_disparity + 1)]
-    for d in range(max_disparity + 1):
-        diff = [[abs(L[y][x] - R[y][x - d]) for x in range(d, w)] for y in range(h)]
-        m = w - d
-        for y in range(h):
-            for x in range(m):
-                total = 0.0
-                for v in range(y - r, y + r + 1):
-                    row = diff[min(max(v, 0), h - 1)]
-                    for u in range(x - r, x + r + 1):
-                        total += row[min(max(u, 0), m - 1)]
-                cost[d][y][x + d] = total
-    return np.array(cost)
-
-
 def right_clipped_indices(left, right, max_disparity, window):
     def add(a, n):
         r = n // 2
@@ -119,10 +56,6 @@ def right_einsum(left, right, max_disparity, window):
     return volume(left, right, max_disparity, window, add)
 
 
-def right_single_precision(left, right, max_disparity, window):
-    return volume(left, right, max_disparity, window).astype(np.float32)
-
-
 def right_stack(left, right, max_disparity, window):
     refuse(left, right, max_disparity, window)
     a, b = np.float64(left), np.float64(right)
@@ -131,18 +64,6 @@ def right_stack(left, right, max_disparity, window):
         seen = np.abs(a[:, d:] - b[:, : b.shape[1] - d])
         slices.append(np.hstack([np.full((a.shape[0], d), np.inf), box(seen, window)]))
     return np.stack(slices)
-
-
-class Matcher:
-    def __init__(self, left, right):
-        self.left, self.right = left, right
-
-    def cost(self, D, window):
-        return volume(self.left, self.right, D, window)
-
-
-def right_class(left, right, max_disparity, window):
-    return Matcher(left, right).cost(max_disparity, window)
 
 
 # wrong ---------------------------------------------------------------------------------------------------------------
@@ -181,22 +102,8 @@ def wrong_ssd(left, right, max_disparity, window):
     return volume(left, right, max_disparity, window, power=2)
 
 
-def wrong_reflected_border(left, right, max_disparity, window):
-    return volume(left, right, max_disparity, window, lambda a, n: box(a, n, mode="reflect"))
-
-
 def wrong_mirrored_border(left, right, max_disparity, window):
     return volume(left, right, max_disparity, window, lambda a, n: box(a, n, mode="symmetric"))
-
-
-def wrong_border_is_infinite(left, right, max_disparity, window):
-    return volume(
-        left,
-        right,
-        max_disparity,
-        window,
-        lambda a, n: box(a, n, mode="constant", constant_values=np.inf),
-    )
 
 
 def wrong_border_is_nan(left, right, max_disparity, window):
@@ -235,64 +142,6 @@ def wrong_only_sizes_refused(left, right, max_disparity, window):
 def wrong_asserts(left, right, max_disparity, window):
     assert left.shape == right.shape and window % 2 == 1 and max_disparity < left.shape[1]
     return volume(left, right, max_disparity, window)
-
-
-def wrong_window_in_a_row(left, right, max_disparity, window):
-    def add(a, n):
-        p = np.pad(a, ((0, 0), (n // 2, n // 2)), mode="edge")
-        return np.lib.stride_tricks.sliding_window_view(p, n, axis=1).sum(-1)
-
-    return volume(left, right, max_disparity, window, add)
-
-
-def wrong_centre_counted_twice(left, right, max_disparity, window):
-    return volume(left, right, max_disparity, window, lambda a, n: box(a, n) + a)
-
-
-def wrong_largest_for_sum(left, right, max_disparity, window):
-    from scipy.ndimage import maximum_filter
-
-    return volume(
-        left, right, max_disparity, window, lambda a, n: maximum_filter(a, n, mode="nearest")
-    )
-
-
-def wrong_absolute_of_the_sum(left, right, max_disparity, window):
-    refuse(left, right, max_disparity, window)
-    h, w = left.shape
-    cost = np.full((max_disparity + 1, h, w), np.inf)
-    for d in range(max_disparity + 1):
-        cost[d, :, d:] = np.abs(box(left[:, d:].astype(float) - right[:, : w - d], window))
-    return cost
-
-
-def wrong_normalised_pictures_in_place(left, right, max_disparity, window):
-    refuse(left, right, max_disparity, window)
-    left -= np.asarray(left.min(), left.dtype)
-    right -= np.asarray(right.min(), right.dtype)
-    return volume(left, right, max_disparity, window)
-
-
-def wrong_one_slice_too_many(left, right, max_disparity, window):
-    refuse(left, right, max_disparity, window)
-    return volume(left, right, min(max_disparity + 1, left.shape[1] - 1), window)
-
-
-def wrong_disparity_backwards(left, right, max_disparity, window):
-    return volume(left, right, max_disparity, window)[::-1]
-
-
-def wrong_whole_numbers(left, right, max_disparity, window):
-    return np.round(volume(left, right, max_disparity, window))
-
-
-def wrong_map_returned(left, right, max_disparity, window):
-    return volume(left, right, max_disparity, window).argmin(axis=0)
-
-
-def wrong_window_three_always(left, right, max_disparity, window):
-    refuse(left, right, max_disparity, window)
-    return volume(left, right, max_disparity, 3)
 
 
 def wrong_negative_windows_taken(left, right, max_disparity, window):

@@ -40,29 +40,6 @@ def right_heap(edges, lengths, count, source):
     return np.array(d)
 
 
-def right_array_scan(edges, lengths, count, source):
-    W = np.full((count, count), np.inf)
-    for (a, b), w in zip(edges, lengths, strict=True):
-        W[a, b] = W[b, a] = w
-    d, done = np.full(count, np.inf), np.zeros(count, bool)
-    d[source] = 0
-    for _ in range(count):
-        u = int(np.argmin(np.where(done, np.inf, d)))
-        done[u] = True
-        d = np.minimum(d, d[u] + W[u])
-    return d
-
-
-def right_bellman_ford(edges, lengths, count, source):
-    d = np.full(count, np.inf)
-    d[source] = 0
-    for _ in range(count):
-        for (a, b), w in zip(edges, lengths, strict=True):
-            d[b] = min(d[b], d[a] + w)
-            d[a] = min(d[a], d[b] + w)
-    return d
-
-
 def right_floyd(edges, lengths, count, source):
     D = np.full((count, count), np.inf)
     np.fill_diagonal(D, 0)
@@ -71,23 +48,6 @@ def right_floyd(edges, lengths, count, source):
     for k in range(count):
         D = np.minimum(D, D[:, [k]] + D[k])
     return D[source]
-
-
-def right_until_still(edges, lengths, count, source):
-    d = np.full(count, np.inf)
-    d[source] = 0
-    while True:
-        new = d.copy()
-        for (a, b), w in zip(edges, lengths, strict=True):
-            new[b] = min(new[b], new[a] + w)
-            new[a] = min(new[a], new[b] + w)
-        if (new == d).all():
-            return d
-        d = new
-
-
-def right_list(edges, lengths, count, source):
-    return right_heap(edges, lengths, count, source).tolist()
 
 
 def right_queue_without_order(edges, lengths, count, source):
@@ -99,16 +59,6 @@ def right_queue_without_order(edges, lengths, count, source):
             if d[u] + w < d[v]:
                 d[v] = d[u] + w
                 waiting.append(v)
-    return d
-
-
-def right_min_plus(edges, lengths, count, source):
-    W = np.full((count, count), np.inf)
-    np.fill_diagonal(W, 0)
-    W[edges[:, 0], edges[:, 1]] = W[edges[:, 1], edges[:, 0]] = lengths
-    d = W[source]
-    for _ in range(count):
-        d = (d[:, None] + W).min(axis=0)
     return d
 
 
@@ -171,107 +121,6 @@ def wrong_prim(edges, lengths, count, source):
             for v, w in beside[u]:
                 if v not in done:
                     heapq.heappush(heap, (w, v, way + w))
-    return d
-
-
-def wrong_huge_for_inf(edges, lengths, count, source):
-    return np.minimum(right_heap(edges, lengths, count, source), 1e9)
-
-
-def wrong_nan_unreached(edges, lengths, count, source):
-    d = right_heap(edges, lengths, count, source)
-    return np.where(np.isinf(d), np.nan, d)
-
-
-def wrong_first_neighbours_only(edges, lengths, count, source):
-    d = np.full(count, np.inf)
-    d[source] = 0.0
-    for (a, b), w in zip(edges, lengths, strict=True):
-        if a == source:
-            d[b] = w
-        if b == source:
-            d[a] = w
-    return d
-
-
-def wrong_source_zero(edges, lengths, count, source):
-    return right_heap(edges, lengths, count, 0)
-
-
-def wrong_source_inf(edges, lengths, count, source):
-    d = right_heap(edges, lengths, count, source)
-    d[source] = np.inf
-    return d
-
-
-def wrong_squared(edges, lengths, count, source):
-    return right_heap(edges, lengths**2, count, source)
-
-
-def wrong_done_when_pushed(edges, lengths, count, source):
-    beside, d, done, heap = (
-        _beside(edges, lengths, count),
-        [np.inf] * count,
-        {source},
-        [(0.0, source)],
-    )
-    d[source] = 0.0
-    while heap:
-        way, u = heapq.heappop(heap)
-        for v, w in beside[u]:
-            if v not in done:
-                done.add(v)
-                d[v] = way + w
-                heapq.heappush(heap, (d[v], v))
-    return d
-
-
-def wrong_longest_first(edges, lengths, count, source):
-    beside, d, done, heap = _beside(edges, lengths, count), [np.inf] * count, set(), [(0.0, source)]
-    d[source] = 0.0
-    while heap:
-        way, u = heapq.heappop(heap)
-        if u in done:
-            continue
-        done.add(u)
-        for v, w in beside[u]:
-            if v not in done:
-                d[v] = -way + w
-                heapq.heappush(heap, (-d[v], v))
-    return d
-
-
-def wrong_largest_edge(edges, lengths, count, source):
-    d = np.full(count, np.inf)
-    d[source] = 0.0
-    for _ in range(count):
-        for (a, b), w in zip(edges, lengths, strict=True):
-            d[b] = min(d[b], max(d[a], w))
-            d[a] = min(d[a], max(d[b], w))
-    return d
-
-
-def wrong_last_node_missing(edges, lengths, count, source):
-    keep = (edges < count - 1).all(axis=1)
-    return right_heap(edges[keep], lengths[keep], count, source)
-
-
-def wrong_two_rounds(edges, lengths, count, source):
-    d = np.full(count, np.inf)
-    d[source] = 0.0
-    for _ in range(2):
-        for (a, b), w in zip(edges, lengths, strict=True):
-            d[b] = min(d[b], d[a] + w)
-            d[a] = min(d[a], d[b] + w)
-    return d
-
-
-def wrong_both_ends_of_the_file(edges, lengths, count, source):
-    d = np.full(count, np.inf)
-    d[source] = 0.0
-    for _ in range(count):
-        for (a, b), w in zip(edges, lengths, strict=True):
-            d[a] = min(d[a], d[b] + w)
     return d
 
 

@@ -8,17 +8,13 @@ NAMED = {
     "wrong_sign_of_a_zero": "sign of a zero",
     "wrong_sign_of_a_zero_in_a_loop": "sign of a zero",
     "wrong_atan": "atan and nan",
-    "wrong_atan_silent": "atan and nan",
     "wrong_atan_where": "atan of the quotient",
     "wrong_arccos": "arccos of the quotient",
     "wrong_arccos_where": "arccos with care",
-    "wrong_arccos_clip_loop": "arccos with care",
-    "wrong_elevation": "elevation",
     "wrong_elevation_by_half_pi": "elevation",
     "wrong_mathematics": "other order",
     "wrong_degrees": "in degrees",
     "wrong_two_pi": "from zero to two pi",
-    "wrong_two_pi_where": "from zero to two pi",
     "wrong_x_first": "atan2 of x y",
     "wrong_rho": "distance from the axis",
 }
@@ -31,58 +27,11 @@ def right_plain(p):
     return np.stack([r, np.arctan2(np.sqrt(x**2 + y**2), z), np.arctan2(y, x)], axis=1)
 
 
-def right_hypot(p):
-    p = p + 0.0
-    x, y, z = p.T
-    rho = np.hypot(x, y)
-    return np.c_[np.hypot(rho, z), np.arctan2(rho, z), np.arctan2(y, x)]
-
-
-def right_filled(p):
-    p = p + 0.0
-    out = np.zeros_like(p)
-    out[:, 0] = np.linalg.norm(p, axis=1)
-    out[:, 1] = np.arctan2(np.linalg.norm(p[:, :2], axis=1), p[:, 2])
-    out[:, 2] = np.arctan2(p[:, 1], p[:, 0])
-    return out
-
-
-def right_loop(p):
-    p = p + 0.0
-    rows = []
-    for x, y, z in p:
-        r = math.sqrt(x * x + y * y + z * z)
-        rows.append([r, math.atan2(math.sqrt(x * x + y * y), z), math.atan2(y, x)])
-    return np.array(rows)
-
-
 def right_complex(p):
     p = p + 0.0
     c = p[:, 0] + 1j * p[:, 1]
     s = p[:, 2] + 1j * abs(c)
     return np.column_stack((abs(s), np.angle(s), np.angle(c)))
-
-
-def right_masked(p):
-    p = p + 0.0
-    r = np.linalg.norm(p, axis=1)
-    rho = np.linalg.norm(p[:, :2], axis=1)
-    polar = np.arctan2(rho, p[:, 2])
-    azimuth = np.where(rho == 0, 0, np.arctan2(p[:, 1], p[:, 0]))
-    return np.vstack([r, polar, azimuth]).T
-
-
-def right_half_angle(p):
-    p = p + 0.0
-    x, y, z = p.T
-    rho = np.hypot(x, y)
-    r = np.hypot(rho, z)
-    polar = 2 * np.arctan2(
-        np.sqrt(np.maximum(rho**2 / np.where(r + z > 0, r + z, 1), 0)),
-        np.sqrt(np.maximum(r + z, 0)),
-    )
-    polar = np.where((z < 0), np.pi - np.arctan2(rho, -z), polar)
-    return np.stack([r, polar, np.arctan2(y, x)], -1)
 
 
 def right_arcsin_and_cases(p):
@@ -108,19 +57,6 @@ def right_einsum(p):
     ).T
 
 
-def right_apply(p):
-    p = p + 0.0
-
-    def one(q):
-        return [
-            np.sqrt((q**2).sum()),
-            np.arctan2(np.sqrt(q[0] ** 2 + q[1] ** 2), q[2]),
-            np.arctan2(q[1], q[0]),
-        ]
-
-    return np.apply_along_axis(one, 1, p)
-
-
 # wrong ---------------------------------------------------------------------------------------------------------------
 
 
@@ -129,13 +65,6 @@ def wrong_atan(p):
     return np.stack(
         [np.linalg.norm(p, axis=1), np.arctan2(np.hypot(x, y), z), np.arctan(y / x)], axis=1
     )
-
-
-def wrong_atan_silent(p):
-    with np.errstate(divide="ignore", invalid="ignore"):
-        azimuth = np.arctan(p[:, 1] / p[:, 0])
-    polar = np.arctan2(np.linalg.norm(p[:, :2], axis=1), p[:, 2])
-    return np.c_[np.linalg.norm(p, axis=1), polar, azimuth]
 
 
 def wrong_atan_where(p):
@@ -159,40 +88,6 @@ def wrong_arccos_where(p):
     return np.c_[r, polar, np.arctan2(p[:, 1], p[:, 0])]
 
 
-def wrong_arccos_clip_loop(p):
-    out = []
-    for x, y, z in p:
-        r = math.sqrt(x * x + y * y + z * z)
-        out.append([r, math.acos(max(-1, min(1, z / r))) if r else 0.0, math.atan2(y, x)])
-    return np.array(out)
-
-
-def wrong_atan_and_arccos(p):
-    r = np.sqrt((p**2).sum(axis=1))
-    return np.stack([r, np.arccos(p[:, 2] / r), np.arctan(p[:, 1] / p[:, 0])], axis=1)
-
-
-def wrong_arctan_of_polar(p):
-    x, y, z = p.T
-    with np.errstate(all="ignore"):
-        polar = np.arctan(np.sqrt(x**2 + y**2) / z)
-    return np.stack([np.linalg.norm(p, axis=1), polar, np.arctan2(y, x)], axis=1)
-
-
-def wrong_arcsin(p):
-    r = np.linalg.norm(p, axis=1)
-    return np.stack(
-        [r, np.arcsin(np.hypot(p[:, 0], p[:, 1]) / r), np.arctan2(p[:, 1], p[:, 0])], axis=1
-    )
-
-
-def wrong_elevation(p):
-    x, y, z = p.T
-    return np.stack(
-        [np.linalg.norm(p, axis=1), np.arctan2(z, np.hypot(x, y)), np.arctan2(y, x)], axis=1
-    )
-
-
 def wrong_elevation_by_half_pi(p):
     out = right_plain(p)
     out[:, 1] = np.where(out[:, 0] > 0, np.pi / 2 - out[:, 1], 0)
@@ -202,13 +97,6 @@ def wrong_elevation_by_half_pi(p):
 def wrong_mathematics(p):
     r, polar, azimuth = right_plain(p).T
     return np.stack([r, azimuth, polar], axis=1)
-
-
-def wrong_matlab(p):
-    x, y, z = p.T
-    return np.stack(
-        [np.arctan2(y, x), np.arctan2(z, np.hypot(x, y)), np.linalg.norm(p, axis=1)], axis=1
-    )
 
 
 def wrong_degrees(p):
@@ -223,11 +111,6 @@ def wrong_two_pi(p):
     return out
 
 
-def wrong_two_pi_where(p):
-    r, polar, azimuth = right_plain(p).T
-    return np.c_[r, polar, np.where(azimuth < 0, azimuth + 2 * np.pi, azimuth)]
-
-
 def wrong_x_first(p):
     out = right_plain(p)
     out[:, 2] = np.arctan2(p[:, 0], p[:, 1])
@@ -239,44 +122,10 @@ def wrong_rho(p):
     return np.c_[rho, np.arctan2(rho, p[:, 2]), np.arctan2(p[:, 1], p[:, 0])]
 
 
-def wrong_squared(p):
-    out = right_plain(p)
-    out[:, 0] **= 2
-    return out
-
-
-def wrong_cylindrical(p):
-    return np.c_[np.hypot(p[:, 0], p[:, 1]), np.arctan2(p[:, 1], p[:, 0]), p[:, 2]]
-
-
-def wrong_positive_azimuth(p):
-    out = right_plain(p)
-    out[:, 2] = np.abs(out[:, 2])
-    return out
-
-
-def wrong_nan_at_origin(p):
-    r = np.linalg.norm(p, axis=1)
-    n = p / r[:, None]
-    return np.c_[r, np.arctan2(np.hypot(n[:, 0], n[:, 1]), n[:, 2]), np.arctan2(n[:, 1], n[:, 0])]
-
-
 def wrong_in_place(p):
     out = right_plain(p)
     p[:] = out
     return p
-
-
-def wrong_epsilon(p):
-    x, y, z = p.T
-    r = np.sqrt(x**2 + y**2 + z**2) + 1e-8
-    return np.c_[r, np.arccos(z / r), np.arctan2(y, x)]
-
-
-def wrong_single_angle(p):
-    out = right_plain(p)
-    out[:, 1] = out[:, 2]
-    return out
 
 
 def wrong_sign_of_a_zero(p):
@@ -291,12 +140,6 @@ def wrong_sign_of_a_zero_in_a_loop(p):
         r = math.sqrt(x * x + y * y + z * z)
         rows.append([r, math.atan2(math.sqrt(x * x + y * y), z), math.atan2(y, x)])
     return np.array(rows)
-
-
-def wrong_minus_pi(p):
-    out = right_plain(p)
-    out[out[:, 2] == np.pi, 2] = -np.pi
-    return out
 
 
 def wrong_near_the_axis_no_azimuth(p):
