@@ -58,7 +58,7 @@ def _compared(look: MapLook) -> Caption:
         return say("Shift 0: both pictures lie on each other as they are.", place="compare")
     fresh = int((look.now.disparity == d).sum())
     return say(
-        "Shift {d}: {fresh} fit better here than at any smaller shift.",
+        "Shift {d}: {fresh} cost less here than at any smaller shift.",
         d=d,
         fresh=counted(fresh, "pixel"),
         place="compare",

@@ -26,7 +26,7 @@ FOOT, HIGH = -0.95, 1.5  # where the tape begins, and about how high it is
 DOT = 0.017
 COLUMN = Chart("Column", unit="px")
 WRONG = Chart("Wrong columns", unit="%")
-BLOCK = 6  # pixels in which a pixel is drawn, so that it stays sharp
+SHARP = 480  # pixels across: so many at least, so that a column stays sharp
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,8 +110,9 @@ def draw(look: TapeLook) -> Scene:
     h = pictures.left.shape[0]
     rows = np.clip(np.arange(v - ROWS // 2, v + ROWS // 2 + 1), 0, h - 1)
     tall = WIDE * ROWS / w
+    block = max(1, SHARP // w)
     strip = Picture(
-        blocks(pictures.pair.left[rows], BLOCK, BLOCK),
+        blocks(pictures.pair.left[rows], block, block),
         "left row",
         WIDE,
         motion(FACING, np.array([LEFT_EDGE + WIDE / 2, 0.0, TOP - tall / 2])),
@@ -171,7 +172,8 @@ def _tape(look: TapeLook, w: int) -> Primitive:
     shown[:, now.columns :] = np.nan
     top = float(np.percentile(now.tape.costs, 90))
     high = _rows_of_shift(len(shown), w)
-    large = blocks(shown, BLOCK * high, BLOCK)
+    block = max(1, SHARP // w)
+    large = blocks(shown, block * high, block)
     field = Field(large, 0.0, max(top, 1e-6), "Cost", "grey levels")
     middle = FOOT + WIDE / w * high * len(shown) / 2
     return Picture(
