@@ -199,7 +199,7 @@ def _net(look: RigLook, now: Off) -> Scene:
     chart = Chart("Depth over jump", "measured jump", "m", x_unit="px")
     around = np.linspace(max(jump - 1.1, 0.5 * jump), jump + 1.1, 91)
     tangent = FARTHEST - FARTHEST / jump * (around - jump)
-    words = "Measured with {error} of error, the board at 20 m seems {found} away."
+    words = "With an error of {error} the far board seems {found} away."
     return scene | {
         "measured": SHIFT.scalar(jump + now.error, "measured jump"),
         "depth/whole": chart.whole(around, rig.depth(around), "Z = f B / d", "source"),

@@ -27,14 +27,6 @@ WAYS = {
     (1, -1): "down and left",
     (-1, 1): "up and right",
 }
-PLACES = {
-    Stage.COMPARE: "compare",
-    Stage.AGGREGATE: "window",
-    Stage.PATHS: "paths",
-    Stage.CHECK: "check",
-    Stage.REFINE: "refine",
-    Stage.SMOOTH: "median",
-}
 
 
 def caption(look: MapLook) -> Caption:
@@ -55,13 +47,12 @@ def caption(look: MapLook) -> Caption:
 def _compared(look: MapLook) -> Caption:
     d = look.now.done - 1
     if d == 0:
-        return say("Shift 0: both pictures lie on each other as they are.", place="compare")
+        return say("Shift 0: both pictures lie on each other as they are.")
     fresh = int((look.now.disparity == d).sum())
     return say(
         "Shift {d}: {fresh} cost less here than at any smaller shift.",
         d=d,
         fresh=counted(fresh, "pixel"),
-        place="compare",
     )
 
 
@@ -84,15 +75,16 @@ def _aggregated(look: MapLook) -> Caption:
 def _path(look: MapLook) -> Caption:
     now, before = look.now, sure(look.before)
     words = f"Path {{k}} of 8, {WAYS[sure(now.direction)]}: "
+    place = "paths" if now.done == 1 else ""
     if math.isnan(now.wrong):
         words += "the energy falls from {was} to {is_now} per pixel."
         if now.energy > before.energy:
             words = words.replace("falls", "goes")
         was, is_now = number(before.energy, 4), number(now.energy, 4)
-        return say(words, k=now.done, was=was, is_now=is_now, place="paths")
+        return say(words, k=now.done, was=was, is_now=is_now, place=place)
     words += "wrong pixels {was} → {wrong}."
     was, wrong = share(before.wrong, 1), share(now.wrong, 1)
-    return say(words, k=now.done, was=was, wrong=wrong, place="paths")
+    return say(words, k=now.done, was=was, wrong=wrong, place=place)
 
 
 def _checked(look: MapLook) -> Caption:

@@ -146,8 +146,8 @@ def draw(look: TapeLook) -> Scene:
         ends = between(true[:-1], true[1:])[np.isfinite(true).all(axis=1)[:-1]]
         scene["truth"] = Segments(ends, "truth", 2.0, name="truth")
     off, alone = wrong(look, now.path.astype(float)), wrong(look, tape.alone.astype(float))
-    scene["wrong/path"] = WRONG.scalar(100 * off, "by the path")
-    scene["wrong/alone"] = WRONG.scalar(100 * alone, "each by itself", "wrong")
+    scene["wrong/path"] = WRONG.scalar(100 * off, "path")
+    scene["wrong/alone"] = WRONG.scalar(100 * alone, "alone", "wrong")
     if not np.isfinite(off):
         return scene | {"caption": say("The path has walked {n} columns.", n=now.columns)}
     return scene | {

@@ -134,8 +134,8 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="spheres",
         title="Three balls",
-        line="One pixel alone matches by chance: 74 % are wrong. Windows of 3 × 3 leave 12 %,"
-        " the paths 2 %. The check finds four fifths of what is hidden.",
+        line="One pixel alone often matches by chance. Windows of 3 × 3 leave 12 % wrong, and the"
+        " paths 2 %. The check finds most of what is hidden.",
         params=HOME,
     ),
     Preset(

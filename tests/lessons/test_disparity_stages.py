@@ -3,7 +3,7 @@ values.
 """
 
 from dataclasses import replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import pytest
@@ -15,13 +15,19 @@ from lessons.disparity.lesson import lesson
 from lessons.disparity.presets import BASELINES, JUMP, NET, PATH, PRICES, ROW, SINGLE, WINDOWS
 from lessons.disparity.row import BLOCK
 from lessons.disparity.study import WINDOWS as SIDES
-from tests.lessons.disparity_runs import states, timeline
+from tests.lessons.disparity_runs import states as states_of
+from tests.lessons.disparity_runs import timeline
 from workbench.algorithms.stereo.cost_volume import sad_cost_volume
 from workbench.algorithms.stereo.disparity import Stage
 from workbench.run.timeline import Timeline
-from workbench.scene import Label, Picture, Points, Scene, Segments
+from workbench.scene import Label, Mesh, Picture, Points, Scalar, Scene, Segments
 
 Kind = TypeVar("Kind")
+
+
+def states(params: Input) -> Any:
+    """The states of a stage, with its params and its subject."""
+    return states_of(params)
 
 
 def part(scene: Scene, path: str, kind: type[Kind]) -> Kind:
@@ -130,7 +136,7 @@ class TestKnobAtAllValues:
         for k, state in enumerate(found):
             d = state.disparity[60]
             post, wall = d.max(), np.median(d[d < d.max() - 1])
-            width = timeline(BASELINES)[k].scene["band"]
+            width = part(timeline(BASELINES)[k].scene, "band", Scalar)
             assert width.value == pytest.approx(post - wall, abs=0.05)
 
 
@@ -141,8 +147,8 @@ class TestFromAbove:
 
     def test_a_cell_reaches_from_one_pixel_more_to_one_pixel_less(self):
         scene = timeline(NET)[8].scene
-        corners = scene["cell/20"].p
-        foot = scene["left eye"].ends[..., 2].max()
+        corners = part(scene, "cell/20", Mesh).p
+        foot = part(scene, "left eye", Segments).ends[..., 2].max()
         high = (corners[:, 2] - foot) * 30.0 / 2.3
         assert high.min() == pytest.approx(16.0)
         assert high.max() == pytest.approx(80.0 / 3.0)
@@ -162,7 +168,7 @@ def test_an_own_pair_of_450_by_375_pixels_is_shown_step_by_step(tmp_path):
     found = Timeline(lesson, params).complete()
     assert found.stopped is None
     assert len(found) == 78
-    assert np.median(found[-1].state.disparity[:, 64:]) == pytest.approx(20.0, abs=0.05)
+    assert np.median(found.states()[-1].disparity[:, 64:]) == pytest.approx(20.0, abs=0.05)
     for stage in ("row", "path", "windows"):
         own = Timeline(lesson, replace(params, stage=stage)).complete()
         assert own.stopped is None, stage

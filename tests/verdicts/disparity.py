@@ -285,17 +285,13 @@ LINES = {
     "baselines": (Claim("The right camera moves away", None),),
     "spheres": (
         Claim(
-            "74 % are wrong",
-            of_preset(lambda run, k, _: abs(wrong(run, of_stage(run, Stage.COMPARE)) - 74) < 1),
-        ),
-        Claim(
-            "leave 12 %",
+            "leave 12 % wrong",
             of_preset(lambda run, k, _: abs(wrong(run, of_stage(run, Stage.AGGREGATE)) - 12) < 1),
         ),
         Claim("the paths 2 %", lambda run, k, _: abs(wrong(run, CHOSEN) - 2) <= 0.7),
         Claim(
-            "The check finds four fifths of what is hidden",
-            lambda run, k, _: abs(hidden_given_up(run, CHOSEN + 1) - 0.8) < 0.04,
+            "The check finds most of what is hidden",
+            lambda run, k, _: hidden_given_up(run, CHOSEN + 1) > 0.7,
         ),
     ),
     "textureless": (
