@@ -97,9 +97,9 @@ def eyes(left: tuple[float, float], apart: float) -> dict[str, Primitive]:
     """Return two cameras as small triangles that look upwards, with their names."""
     scene: dict[str, Primitive] = {}
     shape = np.array([[0.0, 0.0], [-0.05, -0.09], [0.05, -0.09], [0.0, 0.0]])
-    for side, x, role in (("left", 0.0, "target"), ("right", apart, "source")):
+    for side, x in (("left", 0.0), ("right", apart)):
         at = np.array(left) + np.array([x, 0.0])
-        color: Role = "target" if role == "target" else "source"
+        color: Role = "target" if side == "left" else "source"
         p = stand(at + shape, 0.01)
         scene[f"{side} eye"] = Segments(between(p[:-1], p[1:]), color, 3.0)
         name = stand(at + np.array([-0.16 if side == "left" else 0.17, -0.05]))
@@ -234,8 +234,8 @@ def _rays(rig: Rig) -> dict[str, Primitive]:
         depth = min(NET_FAR, rig.f_baseline * 1.15 / column)
         right.append([(1.0, 0.0), (1.0 - column * depth / rig.f_baseline, depth)])
     scene: dict[str, Primitive] = {}
-    for path, rays, color in (("left rays", left, "target"), ("right rays", right, "source")):
-        role: Role = "target" if color == "target" else "source"
+    for path, rays in (("left rays", left), ("right rays", right)):
+        role: Role = "target" if path == "left rays" else "source"
         ends = np.array(NET) + np.array(rays) * [NET_APART, NET_REACH / NET_FAR]
         scene[path] = Segments(stand(ends), role, 1.2, opacity=0.6, name="rays between two pixels")
     return scene

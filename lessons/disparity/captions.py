@@ -1,7 +1,7 @@
 """Captions of the whole pair: what a step did, with the number that changed."""
 
 import math
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -90,7 +90,7 @@ def _path(look: MapLook) -> Caption:
 def _checked(look: MapLook) -> Caption:
     now, pair = look.now, look.subject.pair
     words = "Where left and right disagree by over 1 px, the pixel is given up: {lost}"
-    values = {"lost": share(now.unknown, 1)}
+    values: dict[str, Any] = {"lost": share(now.unknown, 1)}
     truth, visible = pair.disparity, pair.visible
     if visible is not None and truth is not None and (np.isfinite(truth) & ~visible).any():
         hidden = np.isnan(now.disparity[np.isfinite(truth) & ~visible]).mean()
@@ -132,7 +132,7 @@ def _of_depth(look: MapLook) -> Caption:
     d = chosen(look)
     if not pictures.metric:
         here = "is unknown"
-        values = {}
+        values: dict[str, Any] = {}
         if math.isfinite(d):
             here, values = "has d = {d}", {"d": pixels(d)}
         return say(
@@ -142,7 +142,8 @@ def _of_depth(look: MapLook) -> Caption:
             **values,
         )
     depth, true = float(look.now.depth[v, u]), float(pictures.true_depth[v, u])
-    words, values = f"Pixel ({u}, {v}) is unknown and stays so.", {}
+    words = f"Pixel ({u}, {v}) is unknown and stays so."
+    values = {}
     if math.isinf(depth):
         words = f"Pixel ({u}, {v}) has d = 0: it is infinitely far, not missing."
     elif math.isfinite(depth):
@@ -176,7 +177,7 @@ def _of_error(look: MapLook) -> Caption:
     if look.params.disparity_error and at == list(flat):
         found = (length(abs(float(np.median(off)))) for off in flat.values())
         words += f" Measured: {', '.join(found)}."
-    values = {"error": pixels(error)}
+    values: dict[str, Any] = {"error": pixels(error)}
     off = depth_errors(pictures, now.depth)
     if len(off):
         words += " Half of all points are within {half} of the truth."

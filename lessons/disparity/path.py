@@ -142,8 +142,9 @@ def draw(look: TapeLook) -> Scene:
     }
     truth = pictures.pair.disparity
     if truth is not None:
-        true = at(np.arange(w), truth[v])
-        ends = between(true[:-1], true[1:])[np.isfinite(true).all(axis=1)[:-1]]
+        known = np.flatnonzero(np.isfinite(truth[v]))
+        true = at(known, truth[v][known])
+        ends = between(true[:-1], true[1:])
         scene["truth"] = Segments(ends, "truth", 2.0, name="truth")
     off, alone = wrong(look, now.path.astype(float)), wrong(look, tape.alone.astype(float))
     scene["wrong/path"] = WRONG.scalar(100 * off, "path")

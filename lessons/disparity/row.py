@@ -5,6 +5,7 @@ the same pixels.
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -38,6 +39,7 @@ KINDS = {
     "bare wall": ("plain wall", (62, 60)),
     "stripes": ("repeated pattern", (80, 60)),
 }
+COLORS: dict[str, Role] = {"texture": "truth", "bare wall": "target", "stripes": "wrong"}
 CROSSING = Chart("Distance of the crossing", "the window has moved", "m", x_unit="px")
 THREE = Chart("Three curves", "the window has moved", "grey levels", x_unit="px")
 SHIFT, MOVED = Chart("Shift", unit="px"), Chart("Window moved", unit="px")
@@ -149,7 +151,7 @@ def draw(look: RowLook) -> Scene:
     strips = strips_of(look)
     costs, words = now.costs, "Shift {d}: no partner so far left."
     cost = float(costs[now.d])
-    values = {"d": now.d}
+    values: dict[str, Any] = {"d": now.d}
     if math.isfinite(cost):
         words = "Shift {d}: the cost is {cost}; the lowest so far is {lowest} at {best}."
         values |= {"cost": number(cost), "best": now.best}
@@ -310,7 +312,7 @@ def _charts(look: RowLook) -> dict[str, Primitive]:
             scene["crossing/mark"] = crossing.mark(-now.d, here, "here", "source", steps="moved")
     if pictures.left.shape == SIZE[::-1] and look.params.cost == "SAD":
         for name, costs in three_curves(look.params).items():
-            color: Role = {"texture": "truth", "bare wall": "target", "stripes": "wrong"}[name]
+            color = COLORS[name]
             scene[f"three/{name}"] = three.whole(-shifts_of(costs), costs[::-1], name, color)
         if math.isfinite(cost := float(now.costs[now.d])):
             scene["three/mark"] = three.mark(-now.d, cost, "here", "source", steps="moved")

@@ -43,7 +43,7 @@ from workbench.scene import (
 WINDOWS = (1, 3, 5, 7, 9, 11, 15, 21)
 PRICES = (0.0, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)
 BASELINES = (0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.25, 0.3)
-NOISES = (4.0, 8.0)
+NOISES: dict[float, Role] = {4.0: "target", 8.0: "wrong"}
 PRICED: dict[str, Role] = {
     "repeated pattern": "wrong",
     "plain wall": "target",
@@ -51,7 +51,6 @@ PRICED: dict[str, Role] = {
 }
 UNCERTAIN = 0.5  # pixels: the error of a jump for which depths are judged
 POST, WALL = 1.1, 3.0  # metres: the distances in the scene of posts
-EDGE = 77  # the column where a post begins
 SIDE, WIDTH = 0.83, 1.56  # of the two pictures: how far aside, and how wide
 EYES, APART, REACH = (0.66, -0.95), 0.5, 1.75
 OF_WINDOW = Chart(
@@ -216,8 +215,7 @@ def _of_window(look: StudyLook) -> Scene:
     if not math.isfinite(now.share):
         return scene | {"caption": say("A window of {window} on a side.", window=window)}
     if look.params.scene != "Motorcycle" and look.params.left is None:
-        for noise, color in zip(NOISES, ("target", "wrong"), strict=True):
-            role: Role = "target" if color == "target" else "wrong"
+        for noise, role in NOISES.items():
             curve = wrong_over_windows(look.params.scene, noise, look.params.seed)
             words = f"noise of {noise:.0f} grey levels"
             scene[f"windows/{noise:.0f}"] = OF_WINDOW.whole(
