@@ -7,14 +7,17 @@ from lessons.disparity.above import Off, Rig, Seen
 from lessons.disparity.inputs import Input
 from lessons.disparity.matching import State
 from lessons.disparity.pairs import Pictures
-from lessons.disparity.presets import BASELINES, BOARDS, DEPTH, HOME, JUMP, NET, NOISY_WINDOWS
+from lessons.disparity.presets import BASELINES, BOARDS, DEPTH, JUMP, NET, NOISY_WINDOWS, SINGLE
+from lessons.disparity.row import Slid
 from lessons.disparity.study import Tried
-from lessons.disparity.truth import flat_parts
-from workbench.algorithms.stereo.disparity import Stage
+from lessons.disparity.truth import flat_parts, judged
+from workbench.algorithms.stereo.cost_volume import sad_cost_volume
+from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.certain import sure
 from workbench.lesson import Choice, Question, States
 from workbench.numerals import length, percent, pixels
 
+Rows = States[Input, Pictures, Slid]
 Maps = States[Input, Pictures, State]
 Tries = States[Input, Pictures, Tried]
 
@@ -33,12 +36,14 @@ def _why_quarter(states: States[Input, Rig, Seen]) -> str:
     )
 
 
-def single(states: Maps) -> float:
+def single(states: Rows) -> float:
     """Return the share of wrong pixels (%) where each takes its own best shift."""
-    return 100.0 * [one for one in states if one.stage is Stage.COMPARE][-1].wrong
+    pictures = states.subject
+    cost = sad_cost_volume(pictures.left, pictures.right, pictures.max_disparity, 1)
+    return 100.0 * judged(pictures, winner_takes_all(cost).astype(float))[0]
 
 
-def _why_single(states: Maps) -> str:
+def _why_single(states: Rows) -> str:
     return (
         f"{single(states):.0f} %. Thirty-two grey values compete for each pixel, and with noise"
         " one of the wrong ones is often the most alike."
@@ -172,8 +177,8 @@ QUESTIONS: tuple[Question, ...] = (
         " them is over 1 px off?",
         answer=single,
         why=_why_single,
-        params=HOME,
-        start=0,
+        params=SINGLE,
+        start=31,
         step=31,
         unit="%",
         tolerance=10.0,
