@@ -25,12 +25,17 @@ DOT = 0.03
 COLUMN = 120  # of the left picture, in which the point is seen
 WIDTH = 160  # pixels of a picture
 RAIL = (-0.32, -0.3)  # where the left camera is drawn, metres of the drawing
-APART, REACH = 0.64, 1.4  # how far the right camera is drawn from it, and how long the rail
+# how far the right camera is drawn from it, and how long the rail
+APART = 0.64
+REACH = 1.4
 STRIPS = {"left": -0.66, "right": -0.92}
 NET = (-0.75, -1.12)
-NET_APART, NET_REACH, NET_FAR = 1.5, 2.3, 30.0
+NET_APART = 1.5
+NET_REACH = 2.3
+NET_FAR = 30.0
 JUMP = Chart("Jump over distance", "distance", "px", x_range=(0.0, 21.0), x_unit="m")
-DISTANCE, SHIFT = Chart("Distance", unit="m"), Chart("Jump", unit="px")
+DISTANCE = Chart("Distance", unit="m")
+SHIFT = Chart("Jump", unit="px")
 MEASURED = Chart("Error of the jump", unit="px")
 
 
@@ -195,7 +200,8 @@ def _net(look: RigLook, now: Off) -> Scene:
         return scene | {
             "caption": say("Every jump is made {error} larger.", error=pixels(now.error))
         }
-    jump, found = float(rig.jump(FARTHEST)), moved[FARTHEST]
+    jump = float(rig.jump(FARTHEST))
+    found = moved[FARTHEST]
     chart = Chart("Depth over jump", "measured jump", "m", x_unit="px")
     around = np.linspace(max(jump - 1.1, 0.5 * jump), jump + 1.1, 91)
     tangent = FARTHEST - FARTHEST / jump * (around - jump)
@@ -226,7 +232,8 @@ def _crossing(rig: Rig, column: float, jump: float) -> np.ndarray:
 
 def _rays(rig: Rig) -> dict[str, Primitive]:
     """Return the rays between neighbouring pixels of both cameras, as far as they meet."""
-    left, right = [], []
+    left = []
+    right = []
     for column in np.arange(-1.5, 2.0):
         depth = min(NET_FAR, rig.f_baseline * 1.2 / max(column, 1e-9))
         left.append([(0.0, 0.0), (column * depth / rig.f_baseline, depth)])

@@ -57,13 +57,15 @@ def _compared(look: MapLook) -> Caption:
 
 
 def _aggregated(look: MapLook) -> Caption:
-    window, cost = look.params.window, look.params.cost
+    window = look.params.window
+    cost = look.params.cost
     words = f"{cost} over {window} × {window} pixels: a whole window must fit, not one pixel"
     if window == 1:
         words = "A window of one pixel sums nothing"
     if look.before is None or math.isnan(look.now.wrong):
         return say(f"{words}.", place="window")
-    was, wrong = look.before.wrong, look.now.wrong
+    was = look.before.wrong
+    wrong = look.now.wrong
     return say(
         f"{words}. Wrong pixels {{was}} → {{wrong}}.",
         was=share(was, 1),
@@ -73,25 +75,30 @@ def _aggregated(look: MapLook) -> Caption:
 
 
 def _path(look: MapLook) -> Caption:
-    now, before = look.now, sure(look.before)
+    now = look.now
+    before = sure(look.before)
     words = f"Path {{k}} of 8, {WAYS[sure(now.direction)]}: "
     place = "paths" if now.done == 1 else ""
     if math.isnan(now.wrong):
         words += "the energy falls from {was} to {is_now} per pixel."
         if now.energy > before.energy:
             words = words.replace("falls", "goes")
-        was, is_now = number(before.energy, 4), number(now.energy, 4)
+        was = number(before.energy, 4)
+        is_now = number(now.energy, 4)
         return say(words, k=now.done, was=was, is_now=is_now, place=place)
     words += "wrong pixels {was} → {wrong}."
-    was, wrong = share(before.wrong, 1), share(now.wrong, 1)
+    was = share(before.wrong, 1)
+    wrong = share(now.wrong, 1)
     return say(words, k=now.done, was=was, wrong=wrong, place=place)
 
 
 def _checked(look: MapLook) -> Caption:
-    now, pair = look.now, look.subject.pair
+    now = look.now
+    pair = look.subject.pair
     words = "Where left and right disagree by over 1 px, the pixel is given up: {lost}"
     values: dict[str, Any] = {"lost": share(now.unknown, 1)}
-    truth, visible = pair.disparity, pair.visible
+    truth = pair.disparity
+    visible = pair.visible
     if visible is not None and truth is not None and (np.isfinite(truth) & ~visible).any():
         hidden = np.isnan(now.disparity[np.isfinite(truth) & ~visible]).mean()
         words += " of all, {hidden} of what the right camera cannot see"
@@ -127,21 +134,25 @@ def _smoothed(look: MapLook) -> Caption:
 
 
 def _of_depth(look: MapLook) -> Caption:
-    pictures, params = look.subject, look.params
-    camera, (u, v) = pictures.pair.camera, pictures.pixel
+    pictures = look.subject
+    params = look.params
+    camera = pictures.pair.camera
+    u, v = pictures.pixel
     d = chosen(look)
     if not pictures.metric:
         here = "is unknown"
         values: dict[str, Any] = {}
         if math.isfinite(d):
-            here, values = "has d = {d}", {"d": pixels(d)}
+            here = "has d = {d}"
+            values = {"d": pixels(d)}
         return say(
             f"Pixel ({u}, {v}) {here}. The cameras are not known: give own_focal_length and"
             " own_baseline for metres. Until then the size of the cloud is made up.",
             place="depth",
             **values,
         )
-    depth, true = float(look.now.depth[v, u]), float(pictures.true_depth[v, u])
+    depth = float(look.now.depth[v, u])
+    true = float(pictures.true_depth[v, u])
     words = f"Pixel ({u}, {v}) is unknown and stays so."
     values = {}
     if math.isinf(depth):
@@ -160,13 +171,15 @@ def _of_depth(look: MapLook) -> Caption:
 
 
 def _of_error(look: MapLook) -> Caption:
-    pictures, now = look.subject, look.now
+    pictures = look.subject
+    now = look.now
     if not pictures.metric:
         return _of_relative_error(look)
     known = np.isfinite(now.depth) & (now.depth <= pictures.far)
     if not known.any():
         return say("No pixel has a depth, so there is no error to show.", tone="wrong")
-    error, baseline = now.disparity_error, pictures.pair.camera.baseline
+    error = now.disparity_error
+    baseline = pictures.pair.camera.baseline
     flat = flat_parts(pictures, now.depth)
     at = [float(z) for z in np.percentile(now.depth[known], [2, 98])]
     if 1 < len(flat) <= 4 and max(flat) > 1.2 * min(flat):
@@ -187,7 +200,8 @@ def _of_error(look: MapLook) -> Caption:
 
 def _of_relative_error(look: MapLook) -> Caption:
     """Say by which part of itself a depth moves, for which no camera has to be known."""
-    error, d = look.now.disparity_error, look.now.disparity
+    error = look.now.disparity_error
+    d = look.now.disparity
     known = d[np.isfinite(d) & (d > 0)]
     if not len(known):
         return say("No pixel has a disparity above 0, so there is no error to show.", tone="wrong")
@@ -210,7 +224,8 @@ def _tone(look: MapLook) -> Tone:
     found, true = known_depths(look.subject, look.now.depth)
     if not len(found):
         return "info"
-    params, relative = look.params, float(np.median(np.abs(found / true - 1.0)))
+    params = look.params
+    relative = float(np.median(np.abs(found / true - 1.0)))
     if relative > 0.1 or look.now.wrong > 0.2:
         asked_for = (
             params.mistake != "none" or params.disparity_error != 0 or params.smoothness == 0

@@ -15,7 +15,8 @@ from workbench.numerals import brief, fixed
 from workbench.scene import PALETTE, Chart, Field, Picture, Primitive, Table
 
 BINS = 12
-PIXELS, COST = Chart("Pixels", unit="%"), Chart("Cost per pixel")
+PIXELS = Chart("Pixels", unit="%")
+COST = Chart("Cost per pixel")
 
 
 def beside(look: MapLook) -> dict[str, Primitive]:
@@ -39,7 +40,8 @@ def _pictures(look: MapLook) -> dict[str, Primitive]:
         )
     d = look.now.done - 1 if look.now.stage is Stage.COMPARE else chosen(look)
     if math.isfinite(d):
-        pair, window = pictures.pair, look.params.window
+        pair = pictures.pair
+        window = look.params.window
         frame = PALETTE["highlight"]
         image = side_by_side(pair.left, pair.right, pictures.pixel, round(d), window, frame=frame)
         shown["windows"] = Picture(
@@ -65,7 +67,8 @@ def _numbers(look: MapLook) -> dict[str, Primitive]:
 
 def _curves(look: MapLook) -> dict[str, Primitive]:
     pictures = look.subject
-    camera, (u, v) = pictures.pair.camera, pictures.pixel
+    camera = pictures.pair.camera
+    u, v = pictures.pixel
     x = np.arange(pictures.max_disparity + 1.0)
     marks = (chosen(look),) if math.isfinite(chosen(look)) else ()
     chart = Chart("Cost at the followed pixel", "disparity in px", "cost")
@@ -123,7 +126,8 @@ def _error_curves(look: MapLook) -> dict[str, Primitive]:
 
 def _table(look: MapLook) -> Table:
     pictures = look.subject
-    camera, (u, v) = pictures.pair.camera, pictures.pixel
+    camera = pictures.pair.camera
+    u, v = pictures.pixel
     depth = float(look.now.depth[v, u])
     rows = [
         ("disparity", _px(chosen(look))),

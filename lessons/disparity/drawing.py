@@ -48,7 +48,8 @@ def draw(look: MapLook) -> Scene:
 
 def _cameras(pictures: Pictures) -> dict[str, Primitive]:
     h, w = pictures.left.shape
-    camera, K_right = pictures.pair.camera, pictures.pair.camera.K
+    camera = pictures.pair.camera
+    K_right = pictures.pair.camera.K
     K_right[0, 2] += camera.doffs
     T_world_right = motion(R_UPRIGHT, np.array([pictures.scale * camera.baseline, 0.0, 0.0]))
     return {
@@ -89,27 +90,28 @@ def _cloud(look: MapLook) -> dict[str, Primitive]:
 
 
 def _cloud_color(look: MapLook, seen: np.ndarray) -> tuple[Color, str]:
-    truth, camera = look.subject.pair.disparity, look.subject.pair.camera
+    truth = look.subject.pair.disparity
+    camera = look.subject.pair.camera
     if look.now.uncertainty is None:
         return look.subject.pair.left[seen], "points so far"
     if not look.subject.metric:
         off = 100.0 * look.now.uncertainty[seen] / look.now.depth[seen]
         return Field.magnitude(off, "Depth error, of the depth", "%"), CLOUD_BY_ERROR
     if truth is None:
-        off, title = (
-            look.now.uncertainty[seen],
-            f"Depth error of {brief(look.now.disparity_error)} px",
-        )
+        off = look.now.uncertainty[seen]
+        title = f"Depth error of {brief(look.now.disparity_error)} px"
     else:
         true_depth = camera.f * camera.baseline / np.maximum(truth + camera.doffs, 1e-9)
-        off, title = np.abs(look.now.depth - true_depth)[seen], "Depth error"
+        off = np.abs(look.now.depth - true_depth)[seen]
+        title = "Depth error"
     return Field.magnitude(off, title, "m"), CLOUD_BY_ERROR
 
 
 def _bars(look: MapLook, seen: np.ndarray) -> Segments:
     """Return error bars along the rays of some of the points."""
     pictures = look.subject
-    camera, error = pictures.pair.camera, look.now.disparity_error
+    camera = pictures.pair.camera
+    error = look.now.disparity_error
     v, u = np.nonzero(seen)
     some = np.linspace(0, len(u) - 1, min(BARS, len(u))).astype(int)
     d = camera.f * camera.baseline / look.now.depth[v[some], u[some]]
@@ -132,7 +134,8 @@ def _bars(look: MapLook, seen: np.ndarray) -> Segments:
 def _followed(look: MapLook) -> dict[str, Primitive]:
     """Show the ray of the followed pixel, its candidates, the one chosen, and the true one."""
     pictures = look.subject
-    camera, (u, v) = pictures.pair.camera, pictures.pixel
+    camera = pictures.pair.camera
+    u, v = pictures.pixel
     depths = _depth(look, np.arange(pictures.max_disparity + 1.0))
     shown = np.isfinite(depths) & (depths <= pictures.far) & np.isfinite(look.now.costs)
     scene: dict[str, Primitive] = {

@@ -115,7 +115,9 @@ def steps(
     penalties = None
     if params.smoothness > 0:
         penalties = functools.partial(usual_penalties, smoothness=params.smoothness)
-    left, right, most = pictures.left, pictures.right, pictures.max_disparity
+    left = pictures.left
+    right = pictures.right
+    most = pictures.max_disparity
     return match(left, right, most, params.window, penalties, compare, choose)
 
 

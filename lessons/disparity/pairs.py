@@ -76,7 +76,8 @@ class Pictures:
 
         By census, on one row in four.
         """
-        left, right = self.left[::4], self.right[::4]
+        left = self.left[::4]
+        right = self.right[::4]
         return _agreeing(left, right, self.max_disparity), _agreeing(
             right, left, self.max_disparity
         )
@@ -106,12 +107,15 @@ def pictures_of(params: Input) -> Pictures:
         raise InputError(
             f"an own pair is two files: give both {called('left')} and {called('right')}"
         )
-    metric, shrink = True, 1
+    metric = True
+    shrink = 1
     if params.left is not None:
-        pair, shrink = _own(params), params.shrink
+        pair = _own(params)
+        shrink = params.shrink
         metric = params.own_focal_length > 0 and params.own_baseline > 0
     elif params.scene == "Motorcycle":
-        pair, shrink = _motorcycle(params), params.shrink
+        pair = _motorcycle(params)
+        shrink = params.shrink
     else:
         pair = made(params)
     h, w = pair.left.shape[:2]
@@ -165,7 +169,8 @@ def _far(pair: StereoPair, max_disparity: int) -> float:
 
 def made(params: Input) -> StereoPair:
     """Return the two pictures that made cameras take of a made scene."""
-    noise, seed = params.noise, params.seed
+    noise = params.noise
+    seed = params.seed
     return taken(params.scene, params.focal_length, params.baseline, noise=noise, seed=seed)
 
 
@@ -189,9 +194,11 @@ def _own(params: Input) -> StereoPair:
     assert params.left is not None
     assert params.right is not None
     known = params.own_focal_length > 0 and params.own_baseline > 0
-    f, baseline = 1.0, MADE_UP_BASELINE
+    f = 1.0
+    baseline = MADE_UP_BASELINE
     if known:
-        f, baseline = params.own_focal_length, params.own_baseline
+        f = params.own_focal_length
+        baseline = params.own_baseline
     pair = read_pair(params.left, params.right, f, baseline, params.doffs)
     if not known:
         pair = replace(pair, camera=replace(pair.camera, f=float(pair.left.shape[1])))

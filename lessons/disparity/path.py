@@ -20,9 +20,14 @@ from workbench.lesson import Look, say
 from workbench.scene import Chart, Field, Label, Picture, Points, Primitive, Scene, Segments
 
 EVERY = 4  # columns a step
-LEFT_EDGE, WIDE = -1.6, 3.2
-ROWS, TOP = 15, 1.05  # of the strip above the tape
-FOOT, HIGH = -0.95, 1.5  # where the tape begins, and about how high it is
+LEFT_EDGE = -1.6
+WIDE = 3.2
+# of the strip above the tape
+ROWS = 15
+TOP = 1.05
+# where the tape begins, and about how high it is
+FOOT = -0.95
+HIGH = 1.5
 DOT = 0.017
 COLUMN = Chart("Column", unit="px")
 WRONG = Chart("Wrong columns", unit="%")
@@ -93,7 +98,8 @@ def cheapest(tape: Tape, columns: int) -> np.ndarray:
 
 def wrong(look: TapeLook, shifts: np.ndarray) -> float:
     """Return the share of the columns walked, seen by both, whose shift is over 1 px off."""
-    pair, v = look.subject.pair, look.subject.pixel[1]
+    pair = look.subject.pair
+    v = look.subject.pixel[1]
     if pair.disparity is None or pair.visible is None:
         return float("nan")
     n = look.now.columns
@@ -104,8 +110,10 @@ def wrong(look: TapeLook, shifts: np.ndarray) -> float:
 
 def draw(look: TapeLook) -> Scene:
     """Return the row, the tape of costs below it, and the path through them."""
-    now, pictures = look.now, look.subject
-    tape, v = now.tape, pictures.pixel[1]
+    now = look.now
+    pictures = look.subject
+    tape = now.tape
+    v = pictures.pixel[1]
     n_shifts, w = tape.costs.shape
     h = pictures.left.shape[0]
     rows = np.clip(np.arange(v - ROWS // 2, v + ROWS // 2 + 1), 0, h - 1)
@@ -146,7 +154,8 @@ def draw(look: TapeLook) -> Scene:
         true = at(known, truth[v][known])
         ends = between(true[:-1], true[1:])
         scene["truth"] = Segments(ends, "truth", 2.0, name="truth")
-    off, alone = wrong(look, now.path.astype(float)), wrong(look, tape.alone.astype(float))
+    off = wrong(look, now.path.astype(float))
+    alone = wrong(look, tape.alone.astype(float))
     scene["wrong/path"] = WRONG.scalar(100 * off, "path")
     scene["wrong/alone"] = WRONG.scalar(100 * alone, "alone", "wrong")
     if not np.isfinite(off):

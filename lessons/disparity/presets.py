@@ -36,7 +36,11 @@ PRICES = Input(stage="penalties", scene="repeated pattern", pixel=(80, 60))
 BASELINES = Input(stage="baselines", scene="posts")
 NET = Input(stage="one pixel", focal_length=640.0, baseline=0.125)
 
-LAST_CHOICE, CHECKED, SMOOTHED, DEPTH, LAST = -6, -5, -3, -2, -1
+LAST_CHOICE = -6
+CHECKED = -5
+SMOOTHED = -3
+DEPTH = -2
+LAST = -1
 """Where the last choice, the check, the last map, the depths and their error are, from the end of
 every run of the whole map.
 """

@@ -55,7 +55,8 @@ def near_edges(states: Tries, k: int) -> tuple[float, float]:
     disparity.
     """
     pair = states.subject.pair
-    truth, visible = sure(pair.disparity), sure(pair.visible)
+    truth = sure(pair.disparity)
+    visible = sure(pair.visible)
     jump = scipy.ndimage.maximum_filter(truth, 3) - scipy.ndimage.minimum_filter(truth, 3) > 2.0
     near = scipy.ndimage.maximum_filter(jump, (21, 21))
     wrong = (np.abs(states[k].disparity - truth) > 1.0) & visible
@@ -82,7 +83,8 @@ def hidden_at(states: Tries, baseline: float) -> float:
 
 
 def _why_baseline(states: Tries) -> str:
-    was, now = hidden_at(states, 0.1), hidden_at(states, 0.2)
+    was = hidden_at(states, 0.1)
+    now = hidden_at(states, 0.2)
     return (
         f"{percent(was, 1)} became {percent(now, 1)}. The depths of the rest are twice as exact:"
         " a longer baseline is a trade, not a gain."
@@ -97,7 +99,8 @@ def at_20(states: States[Input, Rig, Off], error: float) -> float:
 
 
 def _why_nearer(states: States[Input, Rig, Off]) -> str:
-    far, other = 20.0 - at_20(states, 1.0), at_20(states, -1.0) - 20.0
+    far = 20.0 - at_20(states, 1.0)
+    other = at_20(states, -1.0) - 20.0
     return (
         f"Its 4 px became 5, and Z = f B / d with f B = 80 made of 20 m 80 / 5 = 16 m: it came"
         f" {length(far)} nearer. The formula Z² / (f B), which says 5 m, is the tangent. One pixel"
@@ -113,7 +116,8 @@ def boards(states: Maps) -> dict[float, float]:
 
 def mean_depths(states: Maps) -> tuple[float, float]:
     """Return the mean of the boards' depths, and the depth of their mean disparity, metres."""
-    found, camera = boards(states), states.subject.pair.camera
+    found = boards(states)
+    camera = states.subject.pair.camera
     fB = camera.f * camera.baseline
     mean = float(np.mean([fB / z for z in found.values()]))
     return float(np.mean(list(found.values()))), fB / mean

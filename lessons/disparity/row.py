@@ -24,16 +24,22 @@ from workbench.scene import Chart, Label, Picture, Points, Primitive, Role, Scen
 
 # Columns to the right, rows down, seen from -y.
 FACING = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-LEFT_EDGE, WIDE = -1.6, 2.15  # metres of the drawing: where the strips begin, and their width
+# metres of the drawing: where the strips begin, and their width
+LEFT_EDGE = -1.6
+WIDE = 2.15
 TOPS = {"left": 1.08, "right": 0.5}
 TALL = 0.42  # of a strip
 CHART = (-0.95, 0.85)  # where the cost 0 is, and how high the largest is drawn
-LAYER, DOT = 0.006, 0.02
+LAYER = 0.006
+DOT = 0.02
 BLOCK = 12  # pixels in which a pixel of a strip is drawn, so that it stays sharp
-BESIDE, AFTER = 6, 8  # columns that are shown left of the last partner, and right of the pixel
+# columns that are shown left of the last partner, and right of the pixel
+BESIDE = 6
+AFTER = 8
 PLATE = (1.14, 0.78, 0.84)  # the whole left picture: its middle to the right and up, and its width
 EYES = (0.86, -0.95)
-APART, REACH = 0.5, 1.1
+APART = 0.5
+REACH = 1.1
 KINDS = {
     "texture": ("spheres", (54, 80)),
     "bare wall": ("plain wall", (62, 60)),
@@ -42,8 +48,10 @@ KINDS = {
 COLORS: dict[str, Role] = {"texture": "truth", "bare wall": "target", "stripes": "wrong"}
 CROSSING = Chart("Distance of the crossing", "the window has moved", "m", x_unit="px")
 THREE = Chart("Three curves", "the window has moved", "grey levels", x_unit="px")
-SHIFT, MOVED = Chart("Shift", unit="px"), Chart("Window moved", unit="px")
-COST, AWAY = Chart("Cost"), Chart("Distance", unit="m")
+SHIFT = Chart("Shift", unit="px")
+MOVED = Chart("Window moved", unit="px")
+COST = Chart("Cost")
+AWAY = Chart("Distance", unit="m")
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,10 +90,12 @@ def run(
 
 def costs_of_row(pictures: Pictures, compare: CostVolume, window: int) -> np.ndarray:
     """Return the costs (d, w) of the followed row, from as many rows as they depend on."""
-    v, more = pictures.pixel[1], window // 2 + 2
+    v = pictures.pixel[1]
+    more = window // 2 + 2
     first = max(0, v - more)
     rows = slice(first, v + more + 1)
-    left, right = pictures.left[rows], pictures.right[rows]
+    left = pictures.left[rows]
+    right = pictures.right[rows]
     return compare(left, right, pictures.max_disparity, window)[:, v - first]
 
 
@@ -128,7 +138,8 @@ def on_strip(at: np.ndarray) -> np.ndarray:
 
 def strips_of(look: Look[Input, Pictures, Slid]) -> Strips:
     """Return what is shown of the row in both pictures."""
-    pictures, (u, v) = look.subject, look.subject.pixel
+    pictures = look.subject
+    u, v = look.subject.pixel
     h, w = pictures.left.shape
     half = look.params.window // 2
     first = max(0, u - pictures.max_disparity - BESIDE)
@@ -147,9 +158,11 @@ def strips_of(look: Look[Input, Pictures, Slid]) -> Strips:
 
 def draw(look: RowLook) -> Scene:
     """Return both strips, the cost curve below them, and the two rays that cross."""
-    now, pictures = look.now, look.subject
+    now = look.now
+    pictures = look.subject
     strips = strips_of(look)
-    costs, words = now.costs, "Shift {d}: no partner so far left."
+    costs = now.costs
+    words = "Shift {d}: no partner so far left."
     cost = float(costs[now.d])
     values: dict[str, Any] = {"d": now.d}
     if math.isfinite(cost):
@@ -200,7 +213,8 @@ def _height(look: RowLook, costs: np.ndarray) -> np.ndarray:
 
 def _curve(look: RowLook, strips: Strips) -> dict[str, Primitive]:
     """Return the cost of the shifts tried so far, each below the column that it compares."""
-    now, u = look.now, look.subject.pixel[0]
+    now = look.now
+    u = look.subject.pixel[0]
     shifts = np.flatnonzero(np.isfinite(now.known))
     foot = CHART[0]
     ends = strips.column(np.array([u - len(now.costs) + 1.0, u]))
@@ -242,7 +256,8 @@ def _curve(look: RowLook, strips: Strips) -> dict[str, Primitive]:
 
 def _plate(look: RowLook) -> dict[str, Primitive]:
     """Return the whole left picture, and which row of it is looked at."""
-    pictures, (u, v) = look.subject, look.subject.pixel
+    pictures = look.subject
+    u, v = look.subject.pixel
     h, w = pictures.left.shape
     right, up, width = PLATE
     width = min(width, 0.63 * w / h)
@@ -263,7 +278,8 @@ def _crossed(look: RowLook) -> dict[str, Primitive]:
     The drawing is sheared so that the left ray points straight up, and stretched across: lines stay
     straight and cross where they do.
     """
-    pictures, now = look.subject, look.now
+    pictures = look.subject
+    now = look.now
     camera = pictures.pair.camera
     depths = camera.depth(np.arange(now.d + 1.0))
     near = depths[(depths <= pictures.far) & np.isfinite(now.known)]
@@ -295,7 +311,8 @@ def _crossed(look: RowLook) -> dict[str, Primitive]:
 
 def _charts(look: RowLook) -> dict[str, Primitive]:
     """Return how far away the rays cross at each shift, and the curves of three kinds of place."""
-    pictures, now = look.subject, look.now
+    pictures = look.subject
+    now = look.now
     scene: dict[str, Primitive] = {}
     shifts = np.arange(len(now.costs), dtype=float)
     crossing, three = (replace(chart, x_range=(-shifts[-1], 0.0)) for chart in (CROSSING, THREE))

@@ -20,7 +20,10 @@ T_WORLD_LEFT = motion(R_UPRIGHT, np.zeros(3))
 NEARER = 1.0  # metres towards the eye: in front of the cloud, whatever strays in it
 LARGEST = (2.1, 1.575)
 """Metres, across and down, that a picture may have."""
-LEFT, RIGHT, ABOVE, BELOW = -1.09, 1.09, 0.775, -0.96
+LEFT = -1.09
+RIGHT = 1.09
+ABOVE = 0.775
+BELOW = -0.96
 LEAST_FRAME = 2.5  # pixels
 LAYER = 0.004  # metres from a picture to the lines on it, and from these to those before them
 
@@ -30,10 +33,8 @@ def standing(look: MapLook) -> dict[str, Primitive]:
     pictures = look.subject
     top = float(pictures.max_disparity)
     field = Field(look.now.disparity.astype(np.float32), 0.0, top, "Disparity", "px")
-    left, right = (
-        _upright(pictures.pair.left, "left picture", LEFT, ABOVE),
-        _upright(pictures.pair.right, "right picture", RIGHT, ABOVE),
-    )
+    left = _upright(pictures.pair.left, "left picture", LEFT, ABOVE)
+    right = _upright(pictures.pair.right, "right picture", RIGHT, ABOVE)
     below = _upright(field, "Disparity of the left picture (grey: unknown)", LEFT, BELOW)
     return {
         "left/picture": left,
@@ -68,7 +69,8 @@ def _row(look: MapLook, left: Picture, right: Picture) -> dict[str, Primitive]:
     sought, and found.
     """
     pictures = look.subject
-    (u, v), w = pictures.pixel, pictures.left.shape[1]
+    u, v = pictures.pixel
+    w = pictures.left.shape[1]
     ends = between(
         left.places(np.array([-0.5, v]), LAYER), right.places(np.array([w - 0.5, v]), LAYER)
     )
@@ -105,5 +107,6 @@ def _seen(pictures: Pictures) -> bool:
 def _frame(
     look: MapLook, picture: Picture, u: float, v: float, color: Role, name: str = ""
 ) -> Segments:
-    half, middle = max(look.params.window / 2, LEAST_FRAME), np.array([u, v])
+    half = max(look.params.window / 2, LEAST_FRAME)
+    middle = np.array([u, v])
     return Segments(picture.box(middle - half, middle + half, 3 * LAYER), color, 3.0, name=name)

@@ -50,9 +50,15 @@ PRICED: dict[str, Role] = {
     "spheres": "truth",
 }
 UNCERTAIN = 0.5  # pixels: the error of a jump for which depths are judged
-POST, WALL = 1.1, 3.0  # metres: the distances in the scene of posts
-SIDE, WIDTH = 0.83, 1.56  # of the two pictures: how far aside, and how wide
-EYES, APART, REACH = (0.66, -0.95), 0.5, 1.75
+# metres: the distances in the scene of posts
+POST = 1.1
+WALL = 3.0
+# of the two pictures: how far aside, and how wide
+SIDE = 0.83
+WIDTH = 1.56
+EYES = (0.66, -0.95)
+APART = 0.5
+REACH = 1.75
 OF_WINDOW = Chart(
     "Wrong pixels and window", "side of the window", "%", x_range=(0.0, 22.0), x_unit="px"
 )
@@ -108,7 +114,8 @@ def run(
 
 def _with(params: Input, baseline: float) -> StereoPair:
     """Return the scene's pair with another baseline."""
-    noise, seed = params.noise, params.seed
+    noise = params.noise
+    seed = params.seed
     scene = "posts" if params.scene == "Motorcycle" else params.scene
     return taken(scene, params.focal_length, baseline, noise=noise, seed=seed)
 
@@ -140,7 +147,8 @@ def smoothed(cost: np.ndarray, price: float) -> np.ndarray:
 def wrong_over_windows(scene: str, noise: float, seed: int) -> np.ndarray:
     """Return the share of wrong pixels (%) at each of WINDOWS, without paths."""
     pair = taken(scene, 150.0, 0.1, noise=noise, seed=seed)
-    left, right = grey(pair.left), grey(pair.right)
+    left = grey(pair.left)
+    right = grey(pair.right)
     return np.array(
         [_off(pair, winner_takes_all(sad_cost_volume(left, right, 31, w))) for w in WINDOWS]
     )
@@ -179,7 +187,8 @@ def _named(picture: Picture, words: str, color: Role = "neutral") -> Label:
 
 def maps(look: StudyLook) -> dict[str, Primitive]:
     """Return the left picture beside the map, with its wrong pixels marked."""
-    pictures, now = look.subject, look.now
+    pictures = look.subject
+    now = look.now
     pair = pictures.pair
     field = Field(now.disparity, 0.0, float(pictures.max_disparity), "Disparity", "px")
     shown = field.rgb().copy()
@@ -189,7 +198,8 @@ def maps(look: StudyLook) -> dict[str, Primitive]:
         shown[off & pair.visible] = PALETTE["wrong"]
         shown[~pair.visible] = 128
         words = f"map: {percent(now.share, 1)} wrong (orange-red), hidden grey"
-    left, right = _picture(pair.left, "left picture", -SIDE), _picture(shown, "map", SIDE)
+    left = _picture(pair.left, "left picture", -SIDE)
+    right = _picture(shown, "map", SIDE)
     spot = left.places(np.array([pictures.pixel]), 2 * LAYER)
     return {
         "left/picture": left,
@@ -202,11 +212,13 @@ def maps(look: StudyLook) -> dict[str, Primitive]:
 
 
 def _of_window(look: StudyLook) -> Scene:
-    now, pictures = look.now, look.subject
+    now = look.now
+    pictures = look.subject
     scene = maps(look)
     left = scene["left/picture"]
     assert isinstance(left, Picture)
-    half, middle = now.value / 2, np.array(pictures.pixel)
+    half = now.value / 2
+    middle = np.array(pictures.pixel)
     box = left.box(middle - half, middle + half, 2 * LAYER)
     scene["left/window"] = Segments(box, "highlight", 3.0, name="the window")
     scene["window"] = TURNED.scalar(now.value, "window")
@@ -257,14 +269,16 @@ def _of_price(look: StudyLook) -> Scene:
 
 
 def _of_baseline(look: StudyLook) -> Scene:
-    now, params = look.now, look.params
+    now = look.now
+    params = look.params
     pair = _with(params, now.value)
     shown = pair.left.copy()
     assert pair.visible is not None
     shown[~pair.visible] = PALETTE["wrong"]
     left = _picture(shown, "left picture", -SIDE)
     pairs = [_with(params, baseline) for baseline in BASELINES]
-    x, here = np.array(BASELINES), now.value
+    x = np.array(BASELINES)
+    here = now.value
     scene: Scene = {
         "left/picture": left,
         "left/name": _named(
@@ -299,7 +313,8 @@ def shadow(look: StudyLook) -> dict[str, Primitive]:
 
     Across, the drawing is stretched.
     """
-    params, now = look.params, look.now
+    params = look.params
+    now = look.now
     if params.scene != "posts":
         return {}
     fB = params.focal_length * now.value

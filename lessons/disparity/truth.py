@@ -10,7 +10,8 @@ def judged(pictures: Pictures, disparity: np.ndarray) -> tuple[float, float, flo
     pixels.
     """
     unknown = float(np.isnan(disparity).mean())
-    truth, visible = pictures.pair.disparity, pictures.pair.visible
+    truth = pictures.pair.disparity
+    visible = pictures.pair.visible
     if truth is None or visible is None or not visible.any():
         return np.nan, np.nan, unknown
     off = np.abs(disparity - truth)[visible]
@@ -39,7 +40,8 @@ def flat_parts(pictures: Pictures, depth: np.ndarray) -> dict[float, np.ndarray]
     """Return, for every depth that hundreds of pixels share exactly, how far theirs is off, metres;
     empty without truth.
     """
-    visible, true = pictures.pair.visible, np.round(pictures.true_depth, 9)
+    visible = pictures.pair.visible
+    true = np.round(pictures.true_depth, 9)
     if visible is None:
         return {}
     depths, counts = np.unique(true[visible & np.isfinite(true)], return_counts=True)

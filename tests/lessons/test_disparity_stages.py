@@ -40,11 +40,13 @@ class TestRow:
     def test_a_dot_stands_below_the_window_that_it_belongs_to(self):
         for d in (0, 7, 15, 31):
             scene = timeline(ROW)[d].scene
-            window, here = part(scene, "right/window", Segments), part(scene, "costs/here", Points)
+            window = part(scene, "right/window", Segments)
+            here = part(scene, "costs/here", Points)
             assert here.p[0, 0] == pytest.approx(window.ends[..., 0].mean(), abs=1e-9)
 
     def test_the_costs_are_drawn_as_high_as_they_are(self):
-        found, scene = states(ROW), timeline(ROW)[31].scene
+        found = states(ROW)
+        scene = timeline(ROW)[31].scene
         p = part(scene, "costs", Points).p
         costs = found[31].costs
         assert np.corrcoef(p[:, 2], costs)[0, 1] == pytest.approx(1.0)
@@ -59,12 +61,14 @@ class TestRow:
     def test_a_row_costs_what_the_whole_volume_says(self):
         for params in (SINGLE, ROW, replace(ROW, window=9), replace(ROW, pixel=(54, 1))):
             found = states(params)
-            pictures, (u, v) = found.subject, found.subject.pixel
+            pictures = found.subject
+            u, v = found.subject.pixel
             whole = sad_cost_volume(pictures.left, pictures.right, 31, params.window)[:, v, u]
             assert np.allclose(found[0].costs, whole)
 
     def test_the_strips_show_the_pixels_themselves(self):
-        scene, pictures = timeline(ROW)[15].scene, states(ROW).subject
+        scene = timeline(ROW)[15].scene
+        pictures = states(ROW).subject
         strip = part(scene, "left/strip", Picture).rgb()
         u, v = pictures.pixel
         first = u - 31 - 6
@@ -78,8 +82,8 @@ class TestRow:
         assert "no partner" in timeline(replace(ROW, pixel=(10, 60)))[20].caption.text
 
     def test_a_students_costs_are_used(self):
-        def doubled(left, right, max_disparity, window):
-            return 2 * sad_cost_volume(left, right, max_disparity, window)
+        def doubled(left, right, *rest):
+            return 2 * sad_cost_volume(left, right, *rest)
 
         for params in (ROW, PATH, WINDOWS):
             mine = Timeline(lesson, params, {"cost_volume": doubled}).complete()
@@ -91,7 +95,8 @@ class TestRow:
 class TestPath:
     def test_no_other_path_of_the_row_is_cheaper(self):
         found = states(PATH)
-        tape, path = found[-1].tape, found[-1].path
+        tape = found[-1].tape
+        path = found[-1].path
         P1, P2 = tape.penalties
 
         def price(shifts: np.ndarray) -> float:
@@ -135,7 +140,8 @@ class TestKnobAtAllValues:
         found = states(BASELINES)
         for k, state in enumerate(found):
             d = state.disparity[60]
-            post, wall = d.max(), np.median(d[d < d.max() - 1])
+            post = d.max()
+            wall = np.median(d[d < d.max() - 1])
             width = part(timeline(BASELINES)[k].scene, "band", Scalar)
             assert width.value == pytest.approx(post - wall, abs=0.05)
 

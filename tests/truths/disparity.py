@@ -26,7 +26,8 @@ def wrong(run: Run, k: int) -> float:
 
 
 def true_depth(pair) -> np.ndarray:
-    camera, d = pair.camera, pair.disparity + pair.camera.doffs
+    camera = pair.camera
+    d = pair.disparity + pair.camera.doffs
     return np.where(d > 0, camera.f * camera.baseline / np.where(d > 0, d, 1.0), np.inf)
 
 
@@ -34,7 +35,8 @@ def depths_off(run: Run, k: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the errors of the depths, metres, and the true ones, where both are known and
     finite.
     """
-    true, depth = true_depth(run.subject.pair), run.states[k].depth
+    true = true_depth(run.subject.pair)
+    depth = run.states[k].depth
     known = np.isfinite(depth) & np.isfinite(true)
     return np.abs(depth[known] - true[known]), true[known]
 
@@ -43,7 +45,8 @@ def slice_of(run: Run, d: int) -> np.ndarray:
     """Return what each left pixel costs at a shift: grey differences, or as the run has them."""
     if run.params.cost != "SAD":
         return run.states[d].piece
-    left, right = run.subject.left, run.subject.right
+    left = run.subject.left
+    right = run.subject.right
     cost = np.full(left.shape, np.inf)
     cost[:, d:] = np.abs(left[:, d:] - right[:, : left.shape[1] - d])
     return cost
@@ -81,7 +84,8 @@ def near_an_edge(run: Run, k: int = CHOSEN) -> tuple[float, float]:
     """Return the share of the wrong pixels, and of all, that have a jump of the true disparity
     within 10 px.
     """
-    truth, visible = run.subject.pair.disparity, run.subject.pair.visible
+    truth = run.subject.pair.disparity
+    visible = run.subject.pair.visible
     jump = np.zeros(truth.shape, bool)
     for axis in (0, 1):
         step = np.abs(np.diff(truth, axis=axis)) > 2.0
@@ -102,7 +106,8 @@ def pair_of(params) -> Any:
 
 def found_at(run: Run, step: int) -> dict[float, float]:
     """Return the median depth found of what truly stands at 1, 5 and 20 m."""
-    pair, depth = run.subject.pair, run.states[step].depth
+    pair = run.subject.pair
+    depth = run.states[step].depth
     true = np.round(true_depth(pair), 6)
     return {
         z: float(np.median(depth[(true == z) & pair.visible & np.isfinite(depth)]))
@@ -117,7 +122,8 @@ def hidden_share(pair) -> float:
 
 def cost_at(run: Run, d: int) -> float:
     """Return the sum of grey differences of the followed pixel's window at a shift."""
-    (u, v), half = run.subject.pixel, run.params.window // 2
+    u, v = run.subject.pixel
+    half = run.params.window // 2
     rows = slice(v - half, v + half + 1)
     left = run.subject.left[rows, u - half : u + half + 1]
     right = run.subject.right[rows, u - d - half : u - d + half + 1]
@@ -131,7 +137,8 @@ def lowest_until(run: Run, d: int) -> int:
 
 def wrong_along(run: Run, k: int, shifts: np.ndarray) -> float:
     """Return the share of a row's columns so far that are over 1 px off, of those both see."""
-    pair, n = run.subject.pair, run.states[k].columns
+    pair = run.subject.pair
+    n = run.states[k].columns
     v = run.subject.pixel[1]
     off = np.abs(shifts[:n] - pair.disparity[v, :n])[pair.visible[v, :n]]
     return float((off > 1.0).mean())

@@ -57,7 +57,8 @@ def right(run: Run, k: int) -> bool | None:
 
 
 def first_order(run: Run, k: int, found: re.Match[str]) -> bool:
-    e, fB = number(found["e"]), run.subject.f * run.subject.pair.camera.baseline
+    e = number(found["e"])
+    fB = run.subject.f * run.subject.pair.camera.baseline
     pairs = [part.split(" by ") for part in found["list"].split(", ")]
     return all(
         np.isclose(metres(moved), metres(z) ** 2 / fB * e, rtol=0.03, atol=6e-4)
@@ -89,7 +90,8 @@ CAPTIONS = (
 
 def chosen(run: Run, k: int) -> tuple[float, float, float]:
     """Return disparity, depth and true depth of the followed pixel."""
-    state, (u, v) = run.states[k], run.subject.pixel
+    state = run.states[k]
+    u, v = run.subject.pixel
     return (
         float(state.disparity[v, u]),
         float(state.depth[v, u]),
@@ -121,9 +123,12 @@ def depth_of(run: Run, k: int) -> float:
 
 def alone(run: Run, k: int) -> float:
     """The shift of the lowest sum of grey differences, for each column by itself."""
-    (_, v), half = run.subject.pixel, run.params.window // 2
-    left, right_ = run.subject.left, run.subject.right
-    w, shifts = left.shape[1], range(run.subject.max_disparity + 1)
+    _, v = run.subject.pixel
+    half = run.params.window // 2
+    left = run.subject.left
+    right_ = run.subject.right
+    w = left.shape[1]
+    shifts = range(run.subject.max_disparity + 1)
     padded = [np.pad(one, half, mode="edge") for one in (left, right_)]
     best = []
     for u in range(run.states[k].columns):
@@ -134,7 +139,8 @@ def alone(run: Run, k: int) -> float:
             # beyond the border of what is compared, its last column counts again
             columns = np.clip(np.arange(u - half, u + half + 1), d, w - 1)
             rows = slice(v, v + 2 * half + 1)
-            a, b = padded[0][rows][:, columns + half], padded[1][rows][:, columns - d + half]
+            a = padded[0][rows][:, columns + half]
+            b = padded[1][rows][:, columns - d + half]
             costs.append(np.abs(a - b).sum())
         best.append(int(np.argmin(costs)))
     return wrong_along(run, k, np.array(best, float))
@@ -221,11 +227,11 @@ def flat(run: Run, k: int, found: re.Match[str]) -> bool:
     """The curve of the bare wall stays low at every shift, far below the median cost where there is
     texture.
     """
-    costs, textured = run.states[of_stage(run, Stage.AGGREGATE)].costs, run.subject
-    left, right_ = (
-        textured.left[:, 40:46],
-        textured.right[:, 20:26],
-    )  # other parts of the wall, not each other's
+    costs = run.states[of_stage(run, Stage.AGGREGATE)].costs
+    textured = run.subject
+    # other parts of the wall, not each other's
+    left = textured.left[:, 40:46]
+    right_ = textured.right[:, 20:26]
     return bool(
         np.nanmax(costs) < 9 * 0.5 * np.abs(left - right_).mean()
         and np.nanmin(costs) > 0.4 * np.nanmedian(costs)
@@ -428,7 +434,8 @@ def means(run: Run, k: int, found: re.Match[str]) -> bool:
 
 
 def more_hidden(run: Run, k: int, found: re.Match[str]) -> bool:
-    was, now = 100 * hidden(run, 2), 100 * hidden(run, 6)
+    was = 100 * hidden(run, 2)
+    now = 100 * hidden(run, 6)
     return says(found["was"], was) and says(found["is"], now) and 1.5 < now / was < 2.5
 
 
@@ -444,7 +451,8 @@ def beside_edges(run: Run, k: int, found: re.Match[str]) -> bool:
 
 
 def by_chance(run: Run, k: int, found: re.Match[str]) -> bool:
-    pair, pictures = run.subject.pair, run.subject
+    pair = run.subject.pair
+    pictures = run.subject
     slices = []
     for d in range(32):
         cost = np.full(pictures.left.shape, np.inf)
