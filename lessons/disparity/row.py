@@ -225,8 +225,7 @@ def _curve(look: RowLook, strips: Strips) -> dict[str, Primitive]:
             "cost of each shift", stand(np.array([LEFT_EDGE + 0.22, foot + CHART[1]])), "highlight"
         ),
     }
-    every = 5 if len(now.costs) <= 40 else 10
-    for d in range(0, len(now.costs), every):
+    for d in range(0, len(now.costs), 10):
         text = f"d = {d}" if d == 0 else str(d)
         at = stand(np.array([float(strips.column(u - d)), foot - 0.09]))
         scene[f"axis/{d}"] = Label(text, at, "neutral")
