@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from lessons.disparity.captions import distance
-from lessons.disparity.state import State
+from lessons.disparity.matching import MapLook, chosen
 from workbench.algorithms.stereo.disparity import Stage
 from workbench.data.windows import side_by_side
 from workbench.geometry.cameras.stereo import depth_interval
@@ -15,90 +15,104 @@ from workbench.numerals import brief, fixed
 from workbench.scene import PALETTE, Chart, Field, Picture, Primitive, Table
 
 BINS = 12
-PIXELS, COST = Chart("Pixels", unit="%"), Chart("Cost per pixel")
+PIXELS = Chart("Pixels", unit="%")
+COST = Chart("Cost per pixel")
 
 
-def beside(state: State) -> dict[str, Primitive]:
+def beside(look: MapLook) -> dict[str, Primitive]:
     """Return pictures, curves, numbers and the table of one step."""
-    return {**_pictures(state), **_numbers(state), **_curves(state), "followed": _table(state)}
+    return {**_pictures(look), **_numbers(look), **_curves(look), "followed": _table(look)}
 
 
-def _pictures(state: State) -> dict[str, Primitive]:
-    setup = state.setup
+def _pictures(look: MapLook) -> dict[str, Primitive]:
+    pictures = look.subject
     shown: dict[str, Primitive] = {}
-    if state.piece is not None:
-        costs = np.where(np.isfinite(state.piece), state.piece, np.nan).astype(np.float32)
+    if look.now.piece is not None:
+        costs = np.where(np.isfinite(look.now.piece), look.now.piece, np.nan).astype(np.float32)
         shown["map/slice"] = Picture(
             Field.magnitude(costs, "Cost", percent=98),
-            f"Slice d = {state.done - 1} of the cost volume",
+            f"Slice d = {look.now.done - 1} of the cost volume",
         )
-    elif setup.pair.disparity is not None:
-        off = (state.disparity - setup.pair.disparity).astype(np.float32)
+    elif pictures.pair.disparity is not None:
+        off = (look.now.disparity - pictures.pair.disparity).astype(np.float32)
         shown["map/error"] = Picture(
             Field(off, -3.0, 3.0, "Error to truth", "px", "diverging"), "Error to truth"
         )
-    d = state.done - 1 if state.stage is Stage.COMPARE else state.chosen
+    d = look.now.done - 1 if look.now.stage is Stage.COMPARE else chosen(look)
     if math.isfinite(d):
-        pair, window = setup.pair, setup.params.window
+        pair = pictures.pair
+        window = look.params.window
         frame = PALETTE["highlight"]
-        image = side_by_side(pair.left, pair.right, setup.pixel, round(d), window, frame=frame)
+        image = side_by_side(pair.left, pair.right, pictures.pixel, round(d), window, frame=frame)
         shown["windows"] = Picture(
             image, f"Left window, and right window {round(d)} px further left"
         )
     return shown
 
 
-def _numbers(state: State) -> dict[str, Primitive]:
-    return {
-        "wrong": PIXELS.scalar(100 * state.wrong, "over 1 px off", "truth"),
-        "unknown": PIXELS.scalar(100 * state.unknown, "unknown", "correspondence"),
-        "lowest": COST.scalar(state.lowest, "mean lowest cost", "other"),
-        "energy": COST.scalar(state.energy, "energy E(D)"),
+def _numbers(look: MapLook) -> dict[str, Primitive]:
+    pair = look.subject.pair
+    known: dict[str, Primitive] = {}
+    if pair.disparity is not None and pair.visible is not None:
+        hidden = np.isfinite(pair.disparity) & ~pair.visible
+        given_up = 100 * float(np.isnan(look.now.disparity[hidden]).mean()) if hidden.any() else 0.0
+        known["hidden"] = PIXELS.scalar(given_up, "hidden", "other")
+    return known | {
+        "wrong": PIXELS.scalar(100 * look.now.wrong, "over 1 px off", "truth"),
+        "unknown": PIXELS.scalar(100 * look.now.unknown, "unknown", "correspondence"),
+        "lowest": COST.scalar(look.now.lowest, "mean lowest cost", "other"),
+        "energy": COST.scalar(look.now.energy, "energy E(D)"),
     }
 
 
-def _curves(state: State) -> dict[str, Primitive]:
-    setup = state.setup
-    camera, (u, v) = setup.pair.camera, setup.pixel
-    x = np.arange(setup.max_disparity + 1.0)
-    marks = (state.chosen,) if math.isfinite(state.chosen) else ()
+def _curves(look: MapLook) -> dict[str, Primitive]:
+    pictures = look.subject
+    camera = pictures.pair.camera
+    u, v = pictures.pixel
+    x = np.arange(pictures.max_disparity + 1.0)
+    marks = (chosen(look),) if math.isfinite(chosen(look)) else ()
     chart = Chart("Cost at the followed pixel", "disparity in px", "cost")
-    shown: dict[str, Primitive] = {"costs": chart.curve(x, state.costs, "cost", marks=marks)}
-    if setup.pair.disparity is not None and 0 <= setup.pair.disparity[v, u] <= setup.max_disparity:
-        true = setup.pair.disparity[v, u : u + 1]
-        shown["costs/truth"] = chart.dots(true, np.interp(true, x, state.costs), "truth", "truth")
-    if state.stage is None and setup.metric:
-        d = x[x + camera.doffs >= max(camera.f * camera.baseline / setup.far, 0.5)]
+    shown: dict[str, Primitive] = {"costs": chart.curve(x, look.now.costs, "cost", marks=marks)}
+    if (
+        pictures.pair.disparity is not None
+        and 0 <= pictures.pair.disparity[v, u] <= pictures.max_disparity
+    ):
+        true = pictures.pair.disparity[v, u : u + 1]
+        shown["costs/truth"] = chart.dots(
+            true, np.interp(true, x, look.now.costs), "truth", "truth"
+        )
+    if look.now.stage is None and pictures.metric:
+        d = x[x + camera.doffs >= max(camera.f * camera.baseline / pictures.far, 0.5)]
         if len(d):
-            depth = setup.f * camera.baseline / (d + camera.doffs)
+            depth = pictures.f * camera.baseline / (d + camera.doffs)
             law = Chart("Depth over disparity", "disparity in px", "m")
             shown["law"] = law.curve(d, depth, "Z = f B / d", marks=marks)
-    if state.uncertainty is not None and setup.metric:
-        shown |= _error_curves(state)
+    if look.now.uncertainty is not None and pictures.metric:
+        shown |= _error_curves(look)
     return shown
 
 
-def _error_curves(state: State) -> dict[str, Primitive]:
+def _error_curves(look: MapLook) -> dict[str, Primitive]:
     """Return the predicted error over depth, and beside it the measured one where the truth is
     known.
     """
-    setup = state.setup
-    camera = setup.pair.camera
-    known = np.isfinite(state.depth) & (state.depth <= setup.far)
+    pictures = look.subject
+    camera = pictures.pair.camera
+    known = np.isfinite(look.now.depth) & (look.now.depth <= pictures.far)
     if not known.any():
         return {}
     chart = Chart("Depth error over depth", "depth in m", "m")
-    z = np.linspace(0.0, float(state.depth[known].max()), 60)[1:]
-    predicted = z * z / (setup.f * camera.baseline) * state.disparity_error
-    name = f"Z² / (f B) · {brief(state.disparity_error)} px"
+    z = np.linspace(0.0, float(look.now.depth[known].max()), 60)[1:]
+    predicted = z * z / (pictures.f * camera.baseline) * look.now.disparity_error
+    name = f"Z² / (f B) · {brief(look.now.disparity_error)} px"
     shown: dict[str, Primitive] = {"error/predicted": chart.curve(z, predicted, name)}
-    if setup.pair.visible is None:
+    if pictures.pair.visible is None:
         return shown
-    known &= setup.pair.visible & np.isfinite(setup.true_depth)
+    known &= pictures.pair.visible & np.isfinite(pictures.true_depth)
     if known.sum() < 10 * BINS:
         return shown
-    true = setup.true_depth[known]
-    off = np.abs(state.depth[known] - true)
+    true = pictures.true_depth[known]
+    off = np.abs(look.now.depth[known] - true)
     edges = np.unique(np.quantile(true, np.linspace(0, 1, BINS + 1)))
     bins = np.clip(np.searchsorted(edges, true, "right") - 1, 0, max(len(edges) - 2, 0))
     middles = [
@@ -110,26 +124,28 @@ def _error_curves(state: State) -> dict[str, Primitive]:
     return shown
 
 
-def _table(state: State) -> Table:
-    setup = state.setup
-    camera, (u, v) = setup.pair.camera, setup.pixel
-    depth = float(state.depth[v, u])
+def _table(look: MapLook) -> Table:
+    pictures = look.subject
+    camera = pictures.pair.camera
+    u, v = pictures.pixel
+    depth = float(look.now.depth[v, u])
     rows = [
-        ("disparity", _px(state.chosen)),
-        ("depth", distance(depth) if setup.metric else "f and baseline are not known"),
+        ("disparity", _px(chosen(look))),
+        ("depth", distance(depth) if pictures.metric else "f and baseline are not known"),
     ]
-    if setup.metric and 0 < depth < math.inf:
-        error = state.disparity_error or 1.0
-        d = np.array([setup.f * camera.baseline / depth])
+    if pictures.metric and 0 < depth < math.inf:
+        error = look.now.disparity_error or 1.0
+        d = np.array([pictures.f * camera.baseline / depth])
         near, far = (
-            float(z[0]) for z in depth_interval(d, setup.f, camera.baseline, disparity_error=error)
+            float(z[0])
+            for z in depth_interval(d, pictures.f, camera.baseline, disparity_error=error)
         )
         rows.append((f"± {brief(error)} px", f"{distance(near)} to {distance(far)}"))
-    if setup.pair.disparity is not None:
-        true = float(setup.pair.disparity[v, u])
+    if pictures.pair.disparity is not None:
+        true = float(pictures.pair.disparity[v, u])
         seen = (
             ""
-            if setup.pair.visible is None or setup.pair.visible[v, u]
+            if pictures.pair.visible is None or pictures.pair.visible[v, u]
             else ", hidden from the right camera"
         )
         rows.append(
@@ -137,7 +153,7 @@ def _table(state: State) -> Table:
                 "truth",
                 "unknown"
                 if math.isnan(true)
-                else f"{_px(true)}, {distance(float(setup.true_depth[v, u]))}{seen}",
+                else f"{_px(true)}, {distance(float(pictures.true_depth[v, u]))}{seen}",
             )
         )
     return Table(f"Left pixel ({u}, {v})", ("", "value"), tuple(rows))

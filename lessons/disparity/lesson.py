@@ -6,134 +6,61 @@ or the pixel must be left out. Depth is one over disparity, so its error grows w
 the distance.
 """
 
-import functools
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
+from lessons.disparity import above, drawing, matching, path, row, study
+from lessons.disparity.cameras import VIEW, VIEWS
+from lessons.disparity.inputs import Input
+from lessons.disparity.pairs import Pictures, pictures_of
+from lessons.disparity.presets import PRESETS, SWEEPS
+from lessons.disparity.questions import QUESTIONS
+from workbench.algorithms.stereo import cost_volume as costs
+from workbench.algorithms.stereo import disparity_map
+from workbench.geometry.cameras import stereo
+from workbench.lesson import Lesson, Look, Slot
+from workbench.scene import Scene
 
-from lessons.disparity.draw import draw
-from lessons.disparity.pairs import setup_of
-from lessons.disparity.presets import PRESETS, QUESTIONS
-from lessons.disparity.stage import VIEW
-from lessons.disparity.state import Figures, Params, Setup, State
-from lessons.disparity.truth import judged
-from workbench.algorithms.stereo.cost_volume import (
-    CostVolume,
-    census_cost_volume,
-    ncc_cost_volume,
-    sad_cost_volume,
-    ssd_cost_volume,
-)
-from workbench.algorithms.stereo.disparity import (
-    Choose,
-    DepthOf,
-    Matching,
-    Stage,
-    match,
-    reconstruct,
-    usual_penalties,
-)
-from workbench.algorithms.stereo.disparity_map import winner_takes_all
-from workbench.algorithms.stereo.semiglobal import energy
-from workbench.geometry.cameras.stereo import depth_from_disparity
-from workbench.lesson import Lesson, Sweep
+Subject = Pictures | above.Rig
+State = matching.State | above.State | row.Slid | path.Walked | study.Tried
+STAGES = {"row": row, "path": path, "windows": study, "penalties": study, "baselines": study}
 
-OTHER_COSTS: dict[str, CostVolume] = {
-    "SSD": ssd_cost_volume,
-    "census": census_cost_volume,
-    "NCC": ncc_cost_volume,
-}
 
-USUAL_ERROR = 0.5
-"""Pixels: the disparity error whose effect is shown where no other was asked for."""
+def setup(params: Input) -> Subject:
+    """Return the pair of pictures, or two cameras alone.
+
+    Raises:
+        InputError: If own files are no pair, or the cost volume would be too large.
+    """
+    return above.rig_of(params) if params.stage in ("jump", "one pixel") else pictures_of(params)
 
 
 def run(
-    params: Params,
+    params: Input,
+    subject: Subject,
     *,
-    depth: DepthOf = depth_from_disparity,
-    cost_volume: CostVolume = sad_cost_volume,
-    choose: Choose = winner_takes_all,
+    depth: Slot = stereo.depth_from_disparity,
+    cost_volume: Slot = costs.sad_cost_volume,
+    choose: Slot = disparity_map.winner_takes_all,
 ) -> Iterator[State]:
-    """Yield the steps from two pictures to a depth cloud; `cost_volume` is used where the knob says
-    SAD.
-    """
-    setup = setup_of(params)
-    compare = OTHER_COSTS.get(params.cost, cost_volume)
-    penalties = (
-        functools.partial(usual_penalties, smoothness=params.smoothness)
-        if params.smoothness > 0
-        else None
-    )
-    steps = match(
-        setup.left, setup.right, setup.max_disparity, params.window, penalties, compare, choose
-    )
-    yield from states_of(setup, steps, depth)
-
-
-def states_of(setup: Setup, steps: Iterator[Matching], depth_of: DepthOf) -> Iterator[State]:
-    """Yield a state per step of the matching, then two of the depths."""
-    state, before = None, None
-    for now in steps:
-        state = _of_matching(setup, now, depth_of, before)
-        before = Figures(
-            wrong=state.wrong, error=state.error, unknown=state.unknown, energy=state.energy
+    """Yield the steps of a stage."""
+    if isinstance(subject, above.Rig):
+        yield from above.run(params, subject)
+    elif params.stage == "whole map":
+        yield from matching.run(
+            params, subject, depth=depth, cost_volume=cost_volume, choose=choose
         )
-        yield state
-    assert state is not None
-    params, camera = setup.params, setup.pair.camera
-    disparity = state.disparity + params.disparity_error
-    shown = abs(params.disparity_error) or USUAL_ERROR
-    wrong, error, unknown = judged(setup, disparity)
-    last = replace(
-        state,
-        stage=None,
-        disparity=disparity,
-        before=before,
-        wrong=wrong,
-        error=error,
-        unknown=unknown,
-    )
-    for depths in reconstruct(disparity + camera.doffs, setup.f, camera.baseline, shown, depth_of):
-        yield replace(
-            last, depth=depths.depth, uncertainty=depths.uncertainty, disparity_error=shown
-        )
+    else:
+        yield from STAGES[params.stage].run(params, subject, cost_volume)
 
 
-def _of_matching(setup: Setup, now: Matching, depth_of: DepthOf, before: Figures | None) -> State:
-    u, v = setup.pixel
-    comparing = now.stage is Stage.COMPARE
-    costs = np.full(setup.max_disparity + 1, np.nan)
-    costs[: len(now.cost)] = now.cost[:, v, u]
-    costs[~np.isfinite(costs)] = np.nan
-    piece = now.cost[-1].astype(np.float32) if comparing else None
-    camera = setup.pair.camera
-    wrong, error, unknown = judged(setup, now.disparity)
-    return State(
-        setup=setup,
-        stage=now.stage,
-        disparity=now.disparity,
-        depth=depth_of(now.disparity + camera.doffs, setup.f, camera.baseline),
-        costs=costs,
-        piece=piece,
-        done=now.done,
-        direction=now.direction,
-        jumps=now.jumps,
-        lowest=_mean_lowest(now) if comparing else np.nan,
-        energy=np.nan if now.summed is None else energy(now.summed, now.disparity, *now.jumps),
-        before=before,
-        wrong=wrong,
-        error=error,
-        unknown=unknown,
-    )
-
-
-def _mean_lowest(now: Matching) -> float:
-    chosen = np.clip(np.nan_to_num(now.disparity), 0, len(now.cost) - 1).astype(np.int64)
-    lowest = np.take_along_axis(now.cost, chosen[None], axis=0)[0]
-    return float(np.mean(lowest, where=np.isfinite(lowest)))
+def draw(look: Look) -> Scene:
+    """Return the picture of one step."""
+    if isinstance(look.subject, above.Rig):
+        return above.draw(look)
+    if isinstance(look.now, matching.State):
+        return drawing.draw(look)
+    return STAGES[look.params.stage].draw(look)
 
 
 lesson = Lesson(
@@ -142,17 +69,19 @@ lesson = Lesson(
     summary="Shift one picture over the other until they agree. How far each pixel moved tells "
     "how far away it is.",
     page=Path(__file__).with_name("page.md"),
-    params=Params,
+    params=Input,
+    setup=setup,
     run=run,
     draw=draw,
     order=1300,
     chapter="See",
-    minutes=20,
+    minutes=22,
     needs=("epipolar",),
     view=VIEW,
+    views=VIEWS,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=15,
-    sweeps=(Sweep("window", (1, 3, 7, 13, 21)),),
+    sweeps=SWEEPS,
     telling="Cost at the followed pixel",
 )

@@ -2,15 +2,16 @@
 
 import numpy as np
 
-from lessons.disparity.state import Setup, State
+from lessons.disparity.pairs import Pictures
 
 
-def judged(setup: Setup, disparity: np.ndarray) -> tuple[float, float, float]:
+def judged(pictures: Pictures, disparity: np.ndarray) -> tuple[float, float, float]:
     """Return the share of wrong pixels, the mean error of the right ones, and the share of unknown
     pixels.
     """
     unknown = float(np.isnan(disparity).mean())
-    truth, visible = setup.pair.disparity, setup.pair.visible
+    truth = pictures.pair.disparity
+    visible = pictures.pair.visible
     if truth is None or visible is None or not visible.any():
         return np.nan, np.nan, unknown
     off = np.abs(disparity - truth)[visible]
@@ -18,34 +19,35 @@ def judged(setup: Setup, disparity: np.ndarray) -> tuple[float, float, float]:
     return float((off > 1.0).mean()), float(off[right].mean()) if right.any() else np.nan, unknown
 
 
-def known_depths(state: State) -> tuple[np.ndarray, np.ndarray]:
+def known_depths(pictures: Pictures, depth: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the depths found and the true ones, metres, of the pixels where both are known and
     finite.
     """
-    true = state.setup.true_depth
-    known = np.isfinite(state.depth) & np.isfinite(true)
-    return state.depth[known], true[known]
+    true = pictures.true_depth
+    known = np.isfinite(depth) & np.isfinite(true)
+    return depth[known], true[known]
 
 
-def depth_errors(state: State) -> np.ndarray:
+def depth_errors(pictures: Pictures, depth: np.ndarray) -> np.ndarray:
     """Return how far the depths that are known are from the true ones, metres; empty without
     truth.
     """
-    found, true = known_depths(state)
+    found, true = known_depths(pictures, depth)
     return np.abs(found - true)
 
 
-def flat_parts(state: State) -> dict[float, np.ndarray]:
+def flat_parts(pictures: Pictures, depth: np.ndarray) -> dict[float, np.ndarray]:
     """Return, for every depth that hundreds of pixels share exactly, how far theirs is off, metres;
     empty without truth.
     """
-    visible, true = state.setup.pair.visible, np.round(state.setup.true_depth, 9)
+    visible = pictures.pair.visible
+    true = np.round(pictures.true_depth, 9)
     if visible is None:
         return {}
     depths, counts = np.unique(true[visible & np.isfinite(true)], return_counts=True)
     parts = {}
-    for depth in depths[counts > 300]:
-        here = visible & (true == depth) & np.isfinite(state.depth)
+    for z in depths[counts > 300]:
+        here = visible & (true == z) & np.isfinite(depth)
         if here.any():
-            parts[float(depth)] = state.depth[here] - depth
+            parts[float(z)] = depth[here] - z
     return parts

@@ -5,6 +5,7 @@ case does not matter.
 GIVEAWAYS = {
     "quarter": (r"board at 20 m", r"1, 5,? (and )?20 m", r"20 m, true 4\.2"),
     "nearer": (r"20 m by", r"\b[45](\.0+)? m nearer", r"80 / 5", r"quadratic, not linear"),
+    "single": (r"74(\.\d)? %", r"three quarters (of|are)"),
     "averages": (
         r"mean (of the depths|depth) is (further|larger|greater)",
         r"depths? averages? (too )?far",

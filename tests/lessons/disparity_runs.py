@@ -5,23 +5,28 @@ from functools import cache
 
 import numpy as np
 
-from lessons.disparity.lesson import lesson, run
-from lessons.disparity.state import Params, State
+from lessons.disparity.inputs import Input
+from lessons.disparity.lesson import lesson
+from lessons.disparity.matching import State
+from lessons.disparity.pairs import Pictures
 from tests.runs import finished
 from workbench.algorithms.stereo.disparity import Stage
+from workbench.lesson import States
 from workbench.run.timeline import Timeline
 
+Maps = States[Input, Pictures, State]
 
-def timeline(params: Params) -> Timeline:
+
+def timeline(params: Input) -> Timeline:
     return finished(lesson.name, params)
 
 
 @cache
-def states(params: Params) -> tuple[State, ...]:
-    return tuple(run(params))
+def states(params: Input) -> Maps:
+    return Timeline(lesson, params).states()
 
 
-def preset(name: str) -> tuple[State, ...]:
+def preset(name: str) -> Maps:
     return states(lesson.preset(name).params)
 
 
@@ -30,19 +35,25 @@ def of_stage(states: Sequence[State], stage: Stage) -> State:
     return [state for state in states if state.stage is stage][-1]
 
 
-def truth_of(state: State) -> np.ndarray:
-    assert state.setup.pair.disparity is not None
-    return state.setup.pair.disparity
+def truth_of(found: Maps) -> np.ndarray:
+    assert found.subject.pair.disparity is not None
+    return found.subject.pair.disparity
 
 
-def visible_in(state: State) -> np.ndarray:
-    assert state.setup.pair.visible is not None
-    return state.setup.pair.visible
+def visible_in(found: Maps) -> np.ndarray:
+    assert found.subject.pair.visible is not None
+    return found.subject.pair.visible
 
 
-def off_in(state: State, rows: slice, columns: slice) -> float:
+def chosen_of(found: Maps, step: int) -> float:
+    """The disparity of the followed pixel."""
+    u, v = found.subject.pixel
+    return float(found[step].disparity[v, u])
+
+
+def off_in(found: Maps, state: State, part: tuple[slice, slice]) -> float:
     """Return the share of a part of the map that is over 1 px off."""
-    return float((np.abs(state.disparity - truth_of(state)) > 1.0)[rows, columns].mean())
+    return float((np.abs(state.disparity - truth_of(found)) > 1.0)[part].mean())
 
 
 BARE_PART = (slice(30, 90), slice(46, 88))

@@ -1,0 +1,357 @@
+"""The stages of one knob: the map at all windows, at all prices of a jump, or the shadow at all
+baselines.
+"""
+
+import functools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from lessons.disparity.above import eyes, stand
+from lessons.disparity.inputs import Input
+from lessons.disparity.matching import OTHER_COSTS
+from lessons.disparity.pairs import Pictures, taken
+from lessons.disparity.row import DOT, FACING, LAYER
+from lessons.disparity.truth import judged
+from workbench.algorithms.stereo.cost_volume import CostVolume, sad_cost_volume
+from workbench.algorithms.stereo.disparity import usual_penalties
+from workbench.algorithms.stereo.disparity_map import winner_takes_all
+from workbench.algorithms.stereo.semiglobal import semi_global
+from workbench.captions import fixed as decimals
+from workbench.captions import metres, number, pixels, share
+from workbench.data.views.stereo import StereoPair, grey
+from workbench.geometry.motions import motion
+from workbench.geometry.polylines import fan
+from workbench.lesson import Look, say
+from workbench.numerals import percent
+from workbench.scene import (
+    PALETTE,
+    Chart,
+    Field,
+    Label,
+    Mesh,
+    Picture,
+    Points,
+    Primitive,
+    Role,
+    Scene,
+    Segments,
+)
+
+WINDOWS = (1, 3, 5, 7, 9, 11, 15, 21)
+PRICES = (0.0, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)
+BASELINES = (0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.25, 0.3)
+NOISES: dict[float, Role] = {4.0: "target", 8.0: "wrong"}
+PRICED: dict[str, Role] = {
+    "repeated pattern": "wrong",
+    "plain wall": "target",
+    "spheres": "truth",
+}
+UNCERTAIN = 0.5  # pixels: the error of a jump for which depths are judged
+# metres: the distances in the scene of posts
+POST = 1.1
+WALL = 3.0
+# of the two pictures: how far aside, and how wide
+SIDE = 0.83
+WIDTH = 1.56
+EYES = (0.66, -0.95)
+APART = 0.5
+REACH = 1.75
+OF_WINDOW = Chart(
+    "Wrong pixels and window", "side of the window", "%", x_range=(0.0, 22.0), x_unit="px"
+)
+OF_PRICE = Chart(
+    "Wrong pixels and price", "price of a jump, in usual costs", "%", x_range=(0.0, 4.0)
+)
+OF_BASELINE = Chart(
+    "A trade", "distance between the cameras", "%", x_range=(0.04, 0.31), x_unit="m"
+)
+WRONG = Chart("Wrong pixels", unit="%")
+HIDDEN = Chart("Hidden pixels", unit="%")
+BAND = Chart("Width of the band", unit="px")
+TURNED = Chart("Value")
+
+
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """A knob at one of its values, the map found then (NaN: not sought), and two shares of it.
+
+    Attributes:
+        value: The window (px), the price (usual costs), or the baseline (m).
+        disparity: The map, pixels.
+        share: Of the pixels that both see, those over 1 px off; or of all, those that are hidden.
+        sigma: With a baseline: the part of itself by which half a pixel moves the wall's depth.
+    """
+
+    value: float
+    disparity: np.ndarray
+    share: float
+    sigma: float = math.nan
+
+
+StudyLook = Look[Input, Pictures, Tried]
+
+
+def run(
+    params: Input, pictures: Pictures, cost_volume: CostVolume = sad_cost_volume
+) -> Iterator[Tried]:
+    """Yield the knob at one value after the other."""
+    if params.stage == "baselines":
+        for baseline in BASELINES:
+            pair = _with(params, baseline)
+            yield Tried(baseline, _true(pair), hidden(pair), _sigma(pair))
+        return
+    compare = OTHER_COSTS.get(params.cost, cost_volume)
+    most = pictures.max_disparity
+    for value in WINDOWS if params.stage == "windows" else PRICES:
+        window, price = (value, 0.0) if params.stage == "windows" else (params.window, value)
+        cost = compare(pictures.left, pictures.right, most, int(window))
+        found = smoothed(cost, price).astype(np.float32)
+        yield Tried(float(value), found, judged(pictures, found)[0])
+
+
+def _with(params: Input, baseline: float) -> StereoPair:
+    """Return the scene's pair with another baseline."""
+    noise = params.noise
+    seed = params.seed
+    scene = "posts" if params.scene == "Motorcycle" else params.scene
+    return taken(scene, params.focal_length, baseline, noise=noise, seed=seed)
+
+
+def _true(pair: StereoPair) -> np.ndarray:
+    assert pair.disparity is not None
+    return pair.disparity.astype(np.float32)
+
+
+def hidden(pair: StereoPair) -> float:
+    """Return the share of left pixels that the right camera does not see."""
+    assert pair.visible is not None
+    return 1.0 - float(pair.visible.mean())
+
+
+def _sigma(pair: StereoPair) -> float:
+    return WALL / (pair.camera.f * pair.camera.baseline) * UNCERTAIN
+
+
+def smoothed(cost: np.ndarray, price: float) -> np.ndarray:
+    """Return the map of the lowest costs, after eight paths where a jump has a price."""
+    if price > 0:
+        for paths in semi_global(cost, *usual_penalties(cost, price)):
+            cost = paths.total
+    return winner_takes_all(cost)
+
+
+@functools.lru_cache(maxsize=16)
+def wrong_over_windows(scene: str, noise: float, seed: int) -> np.ndarray:
+    """Return the share of wrong pixels (%) at each of WINDOWS, without paths."""
+    pair = taken(scene, 150.0, 0.1, noise=noise, seed=seed)
+    left = grey(pair.left)
+    right = grey(pair.right)
+    return np.array(
+        [_off(pair, winner_takes_all(sad_cost_volume(left, right, 31, w))) for w in WINDOWS]
+    )
+
+
+@functools.lru_cache(maxsize=16)
+def wrong_over_prices(scene: str, noise: float, seed: int) -> np.ndarray:
+    """Return the share of wrong pixels (%) at each of PRICES, with a window of 3."""
+    pair = taken(scene, 150.0, 0.1, noise=noise, seed=seed)
+    cost = sad_cost_volume(grey(pair.left), grey(pair.right), 31, 3)
+    return np.array([_off(pair, smoothed(cost, price)) for price in PRICES])
+
+
+def _off(pair: StereoPair, disparity: np.ndarray) -> float:
+    assert pair.disparity is not None
+    return 100.0 * float((np.abs(disparity - pair.disparity) > 1.0)[pair.visible].mean())
+
+
+def draw(look: StudyLook) -> Scene:
+    """Return the picture of one value."""
+    if look.params.stage == "baselines":
+        return _of_baseline(look)
+    return _of_window(look) if look.params.stage == "windows" else _of_price(look)
+
+
+def _picture(image: np.ndarray, title: str, x: float, *, width: float = WIDTH) -> Picture:
+    """Return a picture upright before the eye."""
+    h, w = image.shape[:2]
+    return Picture(image, title, min(width, 1.5 * w / h), motion(FACING, np.array([x, 0.0, 0.05])))
+
+
+def _named(picture: Picture, words: str, color: Role = "neutral") -> Label:
+    w, h = picture.size
+    return Label(words, picture.places(np.array([w / 2, -0.04 * h])), color)
+
+
+def maps(look: StudyLook) -> dict[str, Primitive]:
+    """Return the left picture beside the map, with its wrong pixels marked."""
+    pictures = look.subject
+    now = look.now
+    pair = pictures.pair
+    field = Field(now.disparity, 0.0, float(pictures.max_disparity), "Disparity", "px")
+    shown = field.rgb().copy()
+    words = "map of the jumps"
+    if pair.disparity is not None and pair.visible is not None:
+        off = np.abs(now.disparity - pair.disparity) > 1.0
+        shown[off & pair.visible] = PALETTE["wrong"]
+        shown[~pair.visible] = 128
+        words = f"map: {percent(now.share, 1)} wrong (orange-red), hidden grey"
+    left = _picture(pair.left, "left picture", -SIDE)
+    right = _picture(shown, "map", SIDE)
+    spot = left.places(np.array([pictures.pixel]), 2 * LAYER)
+    return {
+        "left/picture": left,
+        "left/name": _named(left, "left picture", "target"),
+        "left/edge": Segments(left.border(LAYER), "target", 2.5),
+        "left/pixel": Points(spot, "highlight", 0.6 * DOT),
+        "map/picture": right,
+        "map/name": _named(right, words),
+    }
+
+
+def _of_window(look: StudyLook) -> Scene:
+    now = look.now
+    pictures = look.subject
+    scene = maps(look)
+    left = scene["left/picture"]
+    assert isinstance(left, Picture)
+    half = now.value / 2
+    middle = np.array(pictures.pixel)
+    box = left.box(middle - half, middle + half, 2 * LAYER)
+    scene["left/window"] = Segments(box, "highlight", 3.0, name="the window")
+    scene["window"] = TURNED.scalar(now.value, "window")
+    scene["wrong"] = WRONG.scalar(100 * now.share, "wrong pixels", "truth")
+    window = pixels(now.value)
+    if not math.isfinite(now.share):
+        return scene | {"caption": say("A window of {window} on a side.", window=window)}
+    if look.params.scene != "Motorcycle" and look.params.left is None:
+        for noise, role in NOISES.items():
+            curve = wrong_over_windows(look.params.scene, noise, look.params.seed)
+            words = f"noise of {noise:.0f} grey levels"
+            scene[f"windows/{noise:.0f}"] = OF_WINDOW.whole(
+                np.array(WINDOWS, float), curve, words, role
+            )
+    scene["windows/mark"] = OF_WINDOW.mark(
+        now.value, 100 * now.share, "here", "source", steps="window"
+    )
+    return scene | {
+        "caption": say(
+            "A window of {window} on a side: {wrong} of the pixels are wrong.",
+            window=window,
+            wrong=share(now.share, 1),
+        )
+    }
+
+
+def _of_price(look: StudyLook) -> Scene:
+    now = look.now
+    scene = maps(look)
+    scene["price"] = TURNED.scalar(now.value, "price")
+    scene["wrong"] = WRONG.scalar(100 * now.share, "wrong pixels", "truth")
+    price = decimals(now.value, 1)
+    if not math.isfinite(now.share):
+        return scene | {"caption": say("A jump costs {price} usual costs.", price=price)}
+    for name, role in PRICED.items():
+        curve = wrong_over_prices(name, 4.0, look.params.seed)
+        scene[f"prices/{name}"] = OF_PRICE.whole(np.array(PRICES), curve, name, role)
+    scene["prices/mark"] = OF_PRICE.mark(
+        now.value, 100 * now.share, "here", "source", steps="price"
+    )
+    return scene | {
+        "caption": say(
+            "A jump costs {price} usual costs: {wrong} of the pixels are wrong.",
+            price=price,
+            wrong=share(now.share, 1),
+        )
+    }
+
+
+def _of_baseline(look: StudyLook) -> Scene:
+    now = look.now
+    params = look.params
+    pair = _with(params, now.value)
+    shown = pair.left.copy()
+    assert pair.visible is not None
+    shown[~pair.visible] = PALETTE["wrong"]
+    left = _picture(shown, "left picture", -SIDE)
+    pairs = [_with(params, baseline) for baseline in BASELINES]
+    x = np.array(BASELINES)
+    here = now.value
+    scene: Scene = {
+        "left/picture": left,
+        "left/name": _named(
+            left, f"left picture: {percent(now.share, 1)} hidden (orange-red)", "target"
+        ),
+        "left/edge": Segments(left.border(LAYER), "target", 2.5),
+        **shadow(look),
+        "baseline": TURNED.scalar(here, "baseline"),
+        "hidden": HIDDEN.scalar(100 * now.share, "hidden", "wrong"),
+        "sigma": HIDDEN.scalar(100 * now.sigma, "error of the depth", "target"),
+        "trade/hidden": OF_BASELINE.whole(
+            x, np.array([100 * hidden(one) for one in pairs]), "hidden, of all pixels", "wrong"
+        ),
+        "trade/sigma": OF_BASELINE.whole(
+            x, np.array([100 * _sigma(one) for one in pairs]), "½ px, of the wall's depth", "target"
+        ),
+        "trade/mark": OF_BASELINE.mark(here, 100 * now.share, "here", "wrong", steps="baseline"),
+        "caption": say(
+            "Cameras {baseline} apart: {hidden} hidden, and half a pixel is {sigma} of the wall's"
+            " depth.",
+            baseline=metres(here),
+            hidden=share(now.share, 1),
+            sigma=share(now.sigma, 1),
+        ),
+    }
+    return scene
+
+
+def shadow(look: StudyLook) -> dict[str, Primitive]:
+    """Return both cameras, a post and the wall from above, and what of the wall only the left
+    camera sees.
+
+    Across, the drawing is stretched.
+    """
+    params = look.params
+    now = look.now
+    if params.scene != "posts":
+        return {}
+    fB = params.focal_length * now.value
+    jumps = fB / POST, fB / WALL
+    wide = APART * now.value / BASELINES[-1]
+    foot = np.array(EYES)
+
+    def at(x: float, z: float) -> np.ndarray:
+        return foot + np.array([x, REACH * z / WALL])
+
+    edge = at(0.16, POST)
+    behind_left = foot + (edge - foot) * WALL / POST
+    eye = foot + np.array([wide, 0.0])
+    behind_right = eye + (edge - eye) * WALL / POST
+    corners = np.array([edge, behind_right, behind_left])
+    between_them = (behind_left + behind_right) / 2
+    return eyes(EYES, wide) | {
+        "wall": Segments(
+            stand(np.array([[at(-0.4, WALL), at(0.9, WALL)]])), "neutral", 4.0, name="wall"
+        ),
+        "post": Segments(
+            stand(np.array([[edge, edge + np.array([0.3, 0.0])]]), 0.01),
+            "neutral",
+            7.0,
+            name="post",
+        ),
+        "left ray": Segments(
+            stand(np.array([[foot, behind_left]])), "target", 2.5, name="left ray"
+        ),
+        "right ray": Segments(
+            stand(np.array([[eye, behind_right]])), "source", 2.5, name="right ray"
+        ),
+        "shadow": Mesh(stand(corners, 0.004), fan(3), "wrong", opacity=0.35, name="seen by one"),
+        "shadow/name": Label(
+            f"left camera only: {number(jumps[0] - jumps[1])} px",
+            stand(between_them + np.array([0.0, 0.1])),
+            "wrong",
+        ),
+        "band": BAND.scalar(jumps[0] - jumps[1], "width of the band", "wrong"),
+    }
