@@ -130,6 +130,6 @@ class Story:
         found: dict[str, None] = {}
         for scene in self.scenes:
             found |= dict.fromkeys(place.run for place in scene.beats)
-            if '<div class="what-if"' in scene.html:
+            if '<div class="what-if' in scene.html:
                 break
         return tuple(found)
