@@ -225,8 +225,15 @@ const storyWords = {
     const at = storyChart.named(run, page.k, storyStage.place.chart?.split(",")[0] ?? "")?.plot?.x;
     const values = one && at ? this.valuesOf(one) : [];
     if (!values.length) return null;
-    return at.ticks.map((tick, i) => [nearest(values, tick), at.words[i]])
-      .filter(([k], i, all) => i === 0 || k !== all[i - 1][0]);
+    const places = at.ticks.map((tick, i) => [nearest(values, tick), at.words[i]]);
+    const kept = [], gap = 0.07 * (values.length - 1), end = Math.max(...places.map(([k]) => k));
+    for (const place of places.sort(([a], [b]) => a - b)) {
+      const near = kept.length && place[0] - kept.at(-1)[0] < gap;
+      if (near && place[0] < end) continue;
+      if (near && kept.length > 1) kept.pop();
+      if (!kept.length || place[0] > kept.at(-1)[0]) kept.push(place);
+    }
+    return kept.length > 1 ? kept : null;  // an axis of something else says nothing of the steps
   },
 };
 
