@@ -12,7 +12,6 @@ STRIPES = Input(scene="repeated pattern", smoothness=0.0, pixel=(80, 60))
 POSTS = Input(scene="posts", pixel=(73, 60))
 LARGE = Input(smoothness=0.0, noise=8.0, window=21, pixel=(120, 20))
 HALF = Input(scene="planes", baseline=0.05, pixel=(80, 50))
-PLANES = Input(scene="planes", pixel=(80, 50))
 DOUBLE = Input(scene="planes", baseline=0.2, pixel=(80, 50))
 BOARDS = Input(
     scene="boards at three depths",

@@ -101,16 +101,16 @@ def main() -> None:
                 live = moved(chromium, f"{server.address}/?lesson={name}", given.moves)
                 still = moved(chromium, f"{site}/{name}/", given.moves)
                 for number, taken in live.items():
-                    show(name, number, taken, still.get(number, []))
+                    show(f"{name:14}{number:34}", taken, still.get(number, []))
     finally:
         server.stop()
 
 
-def show(lesson: str, number: str, live: list[float], site: list[float]) -> None:
+def show(title: str, live: list[float], site: list[float]) -> None:
     """Print a row."""
     columns = [np.percentile(one, at) if one else np.nan for one in (live, site) for at in (50, 95)]
     row = "".join(f"{one:7.0f}" for one in columns)
-    print(f"{lesson:14}{number:34}{row}{columns[0] / columns[2]:7.1f}", flush=True)
+    print(f"{title}{row}{columns[0] / columns[2]:7.1f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ from workbench.lesson import States
 from workbench.run.timeline import Timeline
 
 Maps = States[Input, Pictures, State]
+PLANES = Input(scene="planes", pixel=(80, 50))
 
 
 def timeline(params: Input) -> Timeline:

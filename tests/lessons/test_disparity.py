@@ -21,7 +21,6 @@ from lessons.disparity.presets import (
     LAST_CHOICE,
     MOTORCYCLE,
     ONE_PIXEL,
-    PLANES,
     POSTS,
     STRIPES,
 )
@@ -30,6 +29,7 @@ from lessons.disparity.study import hidden
 from lessons.disparity.truth import depth_errors
 from tests.lessons.disparity_runs import (
     BARE_PART,
+    PLANES,
     STRIPED_PART,
     chosen_of,
     of_stage,

@@ -17,9 +17,8 @@ from lessons.disparity.presets import (
     LAST,
     LAST_CHOICE,
     MOTORCYCLE,
-    PLANES,
 )
-from tests.lessons.disparity_runs import states, timeline
+from tests.lessons.disparity_runs import PLANES, states, timeline
 from workbench.algorithms.stereo.cost_volume import sad_cost_volume
 from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.errors import InputError
