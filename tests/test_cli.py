@@ -40,7 +40,7 @@ def nothing_is_served(monkeypatch) -> None:
     def enter(server):
         raise AssertionError(f"served at {server.address}")
 
-    monkeypatch.setattr("workbench.recording.replay.Replay.__enter__", enter)
+    monkeypatch.setattr("workbench.recording.replay.ReplayServer.__enter__", enter)
 
 
 def missing(path: Path, good: bytes) -> None:

@@ -200,7 +200,8 @@ def test_a_new_recording_of_an_old_run_has_the_same_content(tmp_path, lesson):
     assert before.captions == after.captions
     assert set(before.scalars) == set(after.scalars)
     for name in before.scalars:
-        np.testing.assert_array_equal(before.scalars[name], after.scalars[name])
+        # the last bit hangs on which instructions the processor's linear algebra takes
+        np.testing.assert_array_max_ulp(before.scalars[name], after.scalars[name], maxulp=4)
 
 
 @pytest.mark.parametrize("name", ["equal", "transforms"])

@@ -79,7 +79,8 @@ def sites(names: Sequence[str]) -> Iterator[str]:
 class Quiet(http.server.SimpleHTTPRequestHandler):
     """A file server that says nothing."""
 
-    def log_message(self, *_: object) -> None: ...
+    def log_message(self, format: str, *args: object) -> None:  # noqa: A002
+        pass
 
 
 def main() -> None:

@@ -28,7 +28,7 @@ def test_end_goes_on_to_the_run_s_own_end_while_it_is_computed_and_then_to_the_t
     assert me.page.evaluate("page.k === page.known() - 1")
 
 
-def test_keys_work_with_caps_lock_and_reach_every_experiment(visit):
+def test_keys_work_with_caps_lock_and_reach_twenty_experiments(visit):
     presets = [preset.name for preset in catalog()["disparity"].presets]
     me = visit("?lesson=disparity&step=3")
     me.page.wait_for_function("page.run && page.k === 3")
@@ -40,7 +40,7 @@ def test_keys_work_with_caps_lock_and_reach_every_experiment(visit):
     me.page.keyboard.press("?")
     said = me.page.locator("#large").inner_text()
     assert "experiments 1 to 10" in said
-    assert "experiments 11 to 18" in said
+    assert f"experiments 11 to {min(len(presets), 20)}" in said
 
 
 def test_what_has_an_effect_stands_first_and_no_hint_covers_a_label(visit):

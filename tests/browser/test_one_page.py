@@ -38,7 +38,7 @@ def test_a_reload_comes_back_to_the_place_and_what_was_answered_stays(visit):
 
 
 def test_the_scene_is_large_and_the_controls_do_not_move(visit):
-    me = visit("?lesson=disparity", width=1440, height=900)
+    me = visit("?lesson=disparity&step=3", width=1440, height=900)
     me.page.wait_for_function("document.querySelectorAll('.tile').length > 1")
     view = me.page.locator("#view").bounding_box()
     assert view is not None
