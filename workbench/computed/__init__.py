@@ -27,7 +27,7 @@ sends, so `page.told`, `page.came` and the exercise's report take them as they a
                                   "kinds", "arrays", "stage"?, "fresh"?}, arrays
         # a negative step counts from the last known one; call it once per step that is shown, and
         # give every result to the page: what was sent once is not sent again
-    runner.click([x, y, z], [x, y, z])   -> {"field": value, ...}   # what a click in the scene
+    runner.click(12, [x, y, z], [x, y, z])  -> {"field": value, ...}  # what a click in a step
                                          # sets: its ray's origin and direction; run() with them
     runner.use("align_rigid", text)      -> {"trouble": "", "name", "source": {"name", "html"}}
         # the student's function drives all runs from now on, with the reference's as ghost;

@@ -14,6 +14,9 @@ from workbench.exercise.model import Exercise, exercise_in
 from workbench.exercise.submission import Submission, read_submission
 from workbench.lesson import Lesson, catalog, course
 
+HIDDEN = "hidden"
+"""The folder, in that of a lesson's exercises, of the files with checks that are not public."""
+
 
 def exercises() -> dict[str, Exercise]:
     """Return the exercises of all lessons by name, in course order.
@@ -39,7 +42,7 @@ def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
     """
     listed = catalog().get(lesson.name)
     return (
-        _exercises_in(lesson)
+        exercises_in_folder(lesson)
         if listed is None or listed.params is not lesson.params
         else usable()[lesson.name]
     )
@@ -54,7 +57,7 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
     """
     found, places = dict[str, tuple[Exercise, ...]](), dict[str, str]()
     for name, lesson in course().items():
-        found[name] = _exercises_in(lesson)
+        found[name] = exercises_in_folder(lesson)
         for exercise in found[name]:
             if exercise.name in places:
                 raise InputError(
@@ -71,7 +74,7 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
 def _not_taken(lesson: Lesson, places: dict[str, str]) -> tuple[Exercise, ...]:
     kept: list[Exercise] = []
     try:
-        for exercise in _exercises_in(lesson):
+        for exercise in exercises_in_folder(lesson):
             if exercise.name in places:
                 _leave_out(
                     f"exercise {exercise.name} of",
@@ -89,7 +92,12 @@ def _not_taken(lesson: Lesson, places: dict[str, str]) -> tuple[Exercise, ...]:
     return tuple(kept)
 
 
-def _exercises_in(lesson: Lesson) -> tuple[Exercise, ...]:
+def exercises_in_folder(lesson: Lesson) -> tuple[Exercise, ...]:
+    """Return the exercises in a lesson's folder, whatever other lessons there are.
+
+    Raises:
+        InputError: If one says too little, or its slot or its preset is none of the lesson's.
+    """
     package, _, _ = lesson.params.__module__.rpartition(".")
     if not package or importlib.util.find_spec(f"{package}.exercises") is None:
         return ()

@@ -24,7 +24,7 @@ from workbench.exercise import (
     partial,
     worst,
 )
-from workbench.exercise.sandbox import StudentError
+from workbench.exercise.student import StudentError
 
 
 @contract(

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
-from workbench.data.files import read_image, shipped, shipped_image
-from workbench.data.files.arrays import read_arrays
+from workbench.data.files import read_image, shipped_array, shipped_image
 from workbench.data.views.stereo_scenes import SCENES, look, rays
 from workbench.errors import InputError
 from workbench.geometry.cameras.stereo import StereoCamera
@@ -78,9 +77,7 @@ def motorcycle_pair() -> StereoPair:
     truth, GCPR 2014.
     """
     left, right = (shipped_image(f"motorcycle_{side}.png") for side in ("left", "right"))
-    disparity = read_arrays(shipped("motorcycle_disp.npz").read_bytes(), "motorcycle_disp.npz")[
-        "arr_0"
-    ]
+    disparity = shipped_array("motorcycle_disp.npz")
     camera = StereoCamera(f=994.978, cx=311.193, cy=254.877, baseline=0.193001, doffs=31.086)
     d = np.where(np.isfinite(disparity), disparity, np.nan).astype(float)
     return StereoPair(left, right, camera, d, in_both(d))
