@@ -87,7 +87,7 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
         mesh = _one_mesh(loaded, path.name) if isinstance(loaded, trimesh.Scene) else loaded
         p, faces = (
             np.array(mesh.vertices, float),
-            np.array(getattr(mesh, "faces", np.empty((0, 3))), np.int64),
+            np.array(getattr(mesh, "faces", np.empty((0, 3))), np.intp),
         )
     except InputError:
         raise

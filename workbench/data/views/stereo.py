@@ -145,7 +145,7 @@ def in_both(disparity: Float[np.ndarray, "h w"], tolerance: float = 1.0) -> Bool
     """
     h, w = disparity.shape
     known = np.isfinite(disparity)
-    partner = np.rint(np.arange(w) - np.where(known, disparity, 0)).astype(np.int64)
+    partner = np.rint(np.arange(w) - np.where(known, disparity, 0)).astype(np.intp)
     inside = known & (partner >= 0) & (partner < w)
     cell: Int[np.ndarray, "h w"] = np.arange(h)[:, None] * w + np.clip(partner, 0, w - 1)
     nearest = np.full(h * w, -np.inf)
