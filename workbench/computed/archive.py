@@ -7,6 +7,7 @@ the repository.
 """
 
 import ast
+import importlib
 import importlib.metadata
 import io
 import json
@@ -57,12 +58,15 @@ def files_of(lessons: Iterable[Lesson]) -> dict[str, bytes]:
         if course().get(lesson.name) is not lesson:
             raise InputError(f"lesson {lesson.name} is none of the course: it is not computed here")
         folders.append(folder)
+        if (folder / "stored.py").is_file():  # what it cannot compute in a browser
+            stored = importlib.import_module(f"lessons.{lesson.name}.stored").files()
+            found |= {f"lessons/{lesson.name}/{name}": made for name, made in stored.items()}
         found[f"lessons/{lesson.name}/page.md"] = b""  # a lesson wants one, a run reads none
     for folder in folders:
         files |= {file for file in folder.rglob("*.py") if not _left_out(file)}
     found |= {str(file.relative_to(ROOT)): file.read_bytes() for file in files}
-    stored = samples.STORED.relative_to(ROOT)
-    found |= {f"{stored}/{name}": content for name, content in samples.stored_files().items()}
+    place = samples.STORED.relative_to(ROOT)
+    found |= {f"{place}/{name}": content for name, content in samples.stored_files().items()}
     told = {lesson.name: [_told(one, lesson) for one in _shown(lesson)] for lesson in lessons}
     found[str(EXERCISES.relative_to(ROOT))] = json.dumps(told).encode()
     return found

@@ -18,7 +18,6 @@ implicit disambiguation of marching cubes, The Visual Computer 10, 1994, on the 
 
 import functools
 import itertools
-import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -86,6 +85,26 @@ def marching_squares(
                 ends.append(names[axis, y, x])
             found.append(np.stack(ends, axis=1))
     return low, high, np.concatenate(found)
+
+
+def closed_lines(segments: Int[np.ndarray, "s 2"]) -> list[Int[np.ndarray, " n"]]:
+    """Return segments joined to lines that end where they began: vertices in the order of the
+    segments, none twice.
+
+    Raises:
+        ValueError: If a line is open, as those are that reach the border of their grid.
+    """
+    after = dict(segments.tolist())
+    lines = []
+    while after:
+        start = min(after)
+        line = [start]
+        while (vertex := after.pop(line[-1], None)) != start:
+            if vertex is None:
+                raise ValueError("a line does not end where it began")
+            line.append(vertex)
+        lines.append(np.array(line, np.intp))
+    return lines
 
 
 def _crossed_edges(inside: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -170,20 +189,20 @@ def _loops(case: int) -> list[list[Edge]]:
 
 def _filled(loop: list[Edge]) -> list[Triangle]:
     """Return a loop as triangles: of all ways without a new side on a face of the cell, where the
-    next cell may have one too, that whose longest side is shortest, vertices in the middles.
+    next cell may have one too, the one of largest area, vertices in the middles of edges.
+
+    So do the tables in use; other ways make the surface of voxels up to 0.7 % smaller.
     """
-    sides = {frozenset(pair) for pair in zip(loop, loop[1:] + loop[:1], strict=True)}
+    turned = (loop[k:] + loop[:k] for k in range(len(loop)))
+    loop = min(turned, key=_steps)  # a turned pattern is filled in the turned way
+    sides = {frozenset(pair) for pair in itertools.pairwise([*loop, loop[0]])}
 
-    def new_sides(way: list[Triangle]) -> set[frozenset[Edge]]:
+    def is_inner(way: list[Triangle]) -> bool:
         pairs = (pair for triangle in way for pair in itertools.combinations(triangle, 2))
-        return {frozenset(pair) for pair in pairs} - sides
+        return not any(_share_a_face(*pair) for pair in pairs if frozenset(pair) not in sides)
 
-    inner = [
-        way
-        for way in _triangulations(loop)
-        if not any(_share_a_face(*sorted(side)) for side in new_sides(way))
-    ]
-    return min(inner, key=lambda way: max(map(_length, new_sides(way)), default=0.0))
+    ways = [way for way in _triangulations(loop) if is_inner(way)]
+    return max(reversed(ways), key=lambda way: round(sum(map(_area, way)), 9))
 
 
 def _triangulations(loop: list[Edge]) -> Iterator[list[Triangle]]:
@@ -198,12 +217,25 @@ def _triangulations(loop: list[Edge]) -> Iterator[list[Triangle]]:
                 yield [(loop[0], loop[k], loop[-1]), *before, *behind]
 
 
-def _length(side: frozenset[Edge]) -> float:
-    """Return how long a side is between the middles of two edges, in edges of the cell."""
-    middles = [[(corner >> k & 1) + 0.5 * (k == axis) for k in range(3)] for corner, axis in side]
-    return round(math.dist(*middles), 9)
+@functools.cache
+def _middle(edge: Edge) -> np.ndarray:
+    corner, axis = edge
+    return np.array([(corner >> k & 1) + 0.5 * (k == axis) for k in range(3)])
 
 
+def _steps(loop: list[Edge]) -> list[float]:
+    """Return the lengths of the sides of a loop but the last."""
+    ends = [_middle(edge) for edge in loop]
+    return [round(float(np.linalg.norm(b - a)), 9) for a, b in itertools.pairwise(ends)]
+
+
+@functools.cache
+def _area(triangle: Triangle) -> float:
+    a, b, c = (_middle(edge) for edge in triangle)
+    return 0.5 * float(np.linalg.norm(np.cross(b - a, c - a)))
+
+
+@functools.cache
 def _share_a_face(one: Edge, other: Edge) -> bool:
     ends = [{corner, corner | 1 << axis} for corner, axis in (one, other)]
     return any(ends[0] | ends[1] <= set(face) for face in _faces())
