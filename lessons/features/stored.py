@@ -1,4 +1,4 @@
-"""SIFT's keypoints of the motorcycle's pictures as a file, for a browser, which has no scikit-image.
+"""SIFT's keypoints of the motorcycle as a file, for a browser, which has no scikit-image.
 
 What is published for a browser has the file that `files` returns; elsewhere there is none, and
 keypoints are computed.

@@ -102,8 +102,8 @@ def exercises_in_folder(lesson: Lesson) -> tuple[Exercise, ...]:
     if not package or importlib.util.find_spec(f"{package}.exercises") is None:
         return ()
     folder = importlib.import_module(f"{package}.exercises")
-    names = [f"{folder.__name__}.{info.name}" for info in pkgutil.iter_modules(folder.__path__)]
-    found = [exercise_in(importlib.import_module(name), lesson.name) for name in names]
+    names = [info.name for info in pkgutil.iter_modules(folder.__path__) if not info.ispkg]
+    found = [_exercise(folder.__name__, name, lesson) for name in names]
     slots = lesson.form.slots
     for exercise in found:
         if exercise.contract.slot not in slots:
@@ -119,6 +119,15 @@ def exercises_in_folder(lesson: Lesson) -> tuple[Exercise, ...]:
     return tuple(
         sorted(found, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name))
     )
+
+
+def _exercise(folder: str, name: str, lesson: Lesson) -> Exercise:
+    module = importlib.import_module(f"{folder}.{name}")
+    beside = importlib.util.find_spec(f"{folder}.{HIDDEN}")
+    place = f"{folder}.{HIDDEN}.{name}"
+    is_there = beside is not None and importlib.util.find_spec(place) is not None
+    hidden = importlib.import_module(place) if is_there else None
+    return exercise_in(module, lesson.name, hidden)
 
 
 def _leave_out(what: str, lesson: Lesson, why: str) -> None:
