@@ -4,6 +4,7 @@ writes a line of JSON per run.
 
 import json
 import math
+import sys
 import time
 from typing import Any
 
@@ -48,7 +49,7 @@ def main(wanted: list[str]) -> None:
                 made = summary(runner, run)
             except Exception as error:  # the others are told all the same
                 made = {"run": f"{lesson} {run}", "error": f"{type(error).__name__}: {error}"}
-            print(json.dumps(made), flush=True)
+            sys.stdout.write(f"{json.dumps(made)}\n")
 
 
 if "given" in globals():

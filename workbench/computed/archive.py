@@ -1,5 +1,5 @@
 """The archive that a page's worker unpacks: the core, lessons, and the two small packages that they
-need.
+need. Pyodide's own numpy (2.0 or later) and scipy (1.14 or later) are all that it needs besides.
 
 It holds no hidden checks: they are files of their own, which are left out. An exercise that keeps
 some in its own file is left out as a whole. References and alternatives can be read in it, as in
@@ -31,8 +31,6 @@ LEFT_OUT = {"authoring", "handout", "notebook.py", "publish", "recording", "view
 """Parts of the workbench that no run, page data or judge imports."""
 PACKAGES = ("jaxtyping", "wadler_lindig")
 """Pure Python that the core imports, and Pyodide does not have."""
-NEEDS = ("numpy", "scipy")
-"""Packages of Pyodide that the worker loads; SciPy 1.14 or later."""
 
 
 def write(path: Path, lessons: Iterable[Lesson]) -> None:

@@ -34,7 +34,15 @@ MOST_BYTES = 128 * 2**20
 
 
 def open_lesson(name: str) -> "Runner":
-    """Return what runs a lesson of the archive, at its default params."""
+    """Return what runs a lesson of the archive, at its default params.
+
+    Examples:
+        >>> runner = open_lesson("rotations")
+        >>> while runner.more(40.0):
+        ...     pass
+        >>> runner.told()["finished"], runner.step(0)[0]["k"]
+        (True, 0)
+    """
     lesson = importlib.import_module(f"lessons.{name}.lesson").lesson
     exercises = json.loads(EXERCISES.read_text()) if EXERCISES.is_file() else {}
     return Runner(lesson, exercises.get(name, ()))
@@ -51,7 +59,8 @@ class Runner:
     def __init__(self, lesson: Lesson, exercises: Sequence[Mapping[str, Any]] = ()):
         self.lesson = self._driven = lesson
         self._exercises = list(exercises)
-        self._wire, self._aim = PageWire(Maker(Writer)), Aim()
+        self._wire = PageWire(Maker(Writer))
+        self._aim = Aim()
         self._number = 0
         self._aim.open(lesson, lesson.params())
         self.run({})
@@ -104,8 +113,9 @@ class Runner:
             from workbench.exercise.driven import calls_it, first_difference
 
             more |= {"mark": first_difference(timeline.known()), "called": calls_it(timeline)}
-        known, finished = len(timeline), timeline.finished
-        return self._updates.run(timeline.params, known=known, finished=finished, more=more)
+        return self._updates.run(
+            timeline.params, known=len(timeline), finished=timeline.finished, more=more
+        )
 
     def step(self, index: int) -> tuple[dict[str, Any], bytes]:
         """Return what the page lacks of a known step: a text, and the bytes of its scene.

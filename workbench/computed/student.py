@@ -69,7 +69,9 @@ class InPlaceFunction(StudentFunction):
         file = self.submission.file
         try:
             with self._heard():
-                self._function = load(self.source, file, self.name, {}, builtins_of_students())
+                self._function = load(
+                    self.source, file, self.name, {}, names=builtins_of_students()
+                )
         except BaseException as error:
             raise self.raised(told(error, file), loading=True) from None
 

@@ -20,7 +20,10 @@ class StudentError(InputError):
         self, message: str, kind: str, error: str = "", line: int = 0, errors: tuple[str, ...] = ()
     ):
         super().__init__(message)
-        self.kind, self.error, self.line, self.errors = kind, error, line, errors or (error,)
+        self.kind = kind
+        self.error = error
+        self.line = line
+        self.errors = errors or (error,)
 
 
 class StudentFunction:
@@ -39,7 +42,7 @@ class StudentFunction:
 
     def __init__(self, submission: Submission, name: str):
         self.submission = submission
-        self.name, self.__name__ = name, name
+        self.name = self.__name__ = name
         self.changed_inputs = False
 
     @property
@@ -76,7 +79,8 @@ class StudentFunction:
         """
         error = str(reply["error"])[:80]
         said = str(reply.get("message", ""))[:500]
-        names, line = reply.get("errors"), reply.get("line")
+        names = reply.get("errors")
+        line = reply.get("line")
         errors = tuple(str(name)[:80] for name in names[:12]) if isinstance(names, list) else ()
         line = line if isinstance(line, int) and not isinstance(line, bool) else 0
         where = f"{self.submission.file}, line {line}: " if line else f"{self.submission.file}: "

@@ -51,8 +51,8 @@ def level_lines(
     ends = [np.empty((0, 2, 2))]
     for level in levels:
         low, high, segments = marching_squares(values > level)
-        f_low, f_high = values[tuple(low.T)], values[tuple(high.T)]
-        along = (level - f_low) / (f_high - f_low)
+        f_low = values[tuple(low.T)]
+        along = (level - f_low) / (values[tuple(high.T)] - f_low)
         ends.append((low + along[:, None] * (high - low))[segments])
     return low_corner + spacing * np.concatenate(ends)[..., ::-1]
 
@@ -69,6 +69,7 @@ def level_surface(
         return np.empty((0, 3)), np.empty((0, 3), dtype=np.intp)
     below, above, faces = marching_cubes(values < 0)
     start = grid.low + grid.spacing / 2
-    f_below, f_above = values[tuple(below.T)].astype(float), values[tuple(above.T)].astype(float)
+    f_below = values[tuple(below.T)].astype(float)
+    f_above = values[tuple(above.T)].astype(float)
     p = edge_crossings(start + grid.spacing * below, start + grid.spacing * above, f_below, f_above)
     return p, faces

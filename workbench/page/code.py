@@ -82,8 +82,9 @@ def _highlighted(source: str) -> list[str]:
     at = [0] * len(lines)
     for row, start, end, css in _marked(lines):
         start = max(start, at[row])
-        plain, marked = lines[row][at[row] : start], lines[row][start:end]
-        made[row] += escape(plain) + (f'<span class="{css}">{escape(marked)}</span>' * bool(marked))
+        made[row] += escape(lines[row][at[row] : start])
+        if start < end:
+            made[row] += f'<span class="{css}">{escape(lines[row][start:end])}</span>'
         at[row] = max(end, start)
     return [html + escape(line[k:]) for html, line, k in zip(made, lines, at, strict=True)]
 
@@ -95,7 +96,8 @@ def _marked(lines: list[str]) -> Iterator[tuple[int, int, int, str]]:
             css = _CSS.get(token.type)
             if token.type == tokenize.NAME and keyword.iskeyword(token.string):
                 css = "k"
-            first, last = token.start[0] - 1, token.end[0] - 1
+            first = token.start[0] - 1
+            last = token.end[0] - 1
             for row in range(first, last + 1) if css else ():
                 start = token.start[1] if row == first else 0
                 end = token.end[1] if row == last else len(lines[row])

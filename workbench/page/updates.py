@@ -20,7 +20,8 @@ class RunUpdates:
     """
 
     def __init__(self, number: int, steps: Steps):
-        self.number, self.steps = number, steps
+        self.number = number
+        self.steps = steps
         self._sent: set[int] = set()  # numbers of things of this run that the page has
         self._told: Any = None  # what was last said of the run
         self._told_steps = 0  # up to where its series were
@@ -60,7 +61,8 @@ class RunUpdates:
         new: dict[str, Any] = {"tell": "run", "run": self.number, **said}
         if self._told is None or known > self._told_steps:
             new |= self.steps.series(self._told_steps, known)
-        self._told, self._told_steps = said, known
+        self._told = said
+        self._told_steps = known
         return new
 
     def step(self, k: int, more: Mapping[str, Any], wrong: int = 0) -> dict[str, Any]:

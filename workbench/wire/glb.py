@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float32, Int, UInt8
 
-_UINT32, _FLOAT32, _UINT8 = 5125, 5126, 5121
+_UINT32 = 5125
+_FLOAT32 = 5126
+_UINT8 = 5121
 # without a material a GLB is all metal, and shows its surroundings instead of its colours
 _MATT = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 1.0}}
 
@@ -30,7 +32,6 @@ def glb_of(
     for part in parts:
         views.append({"buffer": 0, "byteOffset": at, "byteLength": part.nbytes})
         at += part.nbytes
-    low, high = parts[1].min(axis=0).tolist(), parts[1].max(axis=0).tolist()
     primitive = {"attributes": {"POSITION": 1, "COLOR_0": 2}, "indices": 0, "mode": 4}
     head = {
         "asset": {"version": "2.0"},
@@ -43,7 +44,7 @@ def glb_of(
         "bufferViews": views,
         "accessors": [
             _accessor(0, _UINT32, faces.size, type="SCALAR"),
-            _accessor(1, _FLOAT32, len(p), type="VEC3", min=low, max=high),
+            _accessor(1, _FLOAT32, len(p), type="VEC3", **_reach(parts[1])),
             _accessor(2, _UINT8, len(p), type="VEC4", normalized=True),
         ],
     }
@@ -51,6 +52,10 @@ def glb_of(
     body = b"".join(part.tobytes() for part in parts)  # whole 4 bytes: all its numbers are rows
     chunks = _chunk(b"JSON", text + b" " * (-len(text) % 4)) + _chunk(b"BIN\0", body)
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def _reach(p: np.ndarray) -> dict[str, list[float]]:
+    return {"min": p.min(axis=0).tolist(), "max": p.max(axis=0).tolist()}
 
 
 def _accessor(view: int, component: int, count: int, **more: Any) -> dict[str, Any]:

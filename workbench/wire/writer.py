@@ -68,7 +68,8 @@ class PlainScene:
 
     def taken(self) -> Heard:
         """Return what was said; then nothing is."""
-        heard, self._heard = self._heard, []
+        heard = self._heard
+        self._heard = []
         return heard
 
     def say(self, said: Said, arrays: list[memoryview] | None = None) -> None:
@@ -85,7 +86,7 @@ class PlainScene:
 
     def add_light_hemisphere(self, name: str, *, position: Any, **props: Any) -> None:
         """Add a plain sky."""
-        self._node("HemisphereLightMessage", name, props, position)
+        self._node("HemisphereLightMessage", name, props, position=position)
 
     def add_frame(self, name: str, **sizes: float) -> None:
         """Add three axes at the origin."""
@@ -94,7 +95,7 @@ class PlainScene:
 
     def add_grid(self, name: str, *, position: Any, **props: Any) -> None:
         """Add a grid."""
-        self._node("GridMessage", name, _GRID | {"scale": 1.0} | props, position)
+        self._node("GridMessage", name, _GRID | {"scale": 1.0} | props, position=position)
 
     def add_point_cloud(
         self, name: str, points: np.ndarray, colors: np.ndarray, **props: Any
@@ -123,16 +124,17 @@ class PlainScene:
         """Add what a glTF file holds."""
         self._node("GlbMessage", name, {"glb_data": glb_data, "scale": 1.0} | props)
 
-    def add_image(
-        self, name: str, image: np.ndarray, render_width: float, render_height: float, **props: Any
-    ) -> None:
-        """Add an image; it is PNG, where viser makes it JPEG."""
+    def add_image(self, name: str, image: np.ndarray, *size: float, **props: Any) -> None:
+        """Add an image of a width and a height; it is PNG, where viser makes it JPEG."""
         position = props.pop("position", None)
-        size = {"render_width": render_width, "render_height": render_height, "scale": 1.0}
+        width, height = size
+        shown = {"render_width": width, "render_height": height, "scale": 1.0}
         picture = {"_format": "png", "_data": plain_png(image)}
-        self._node("ImageMessage", name, picture | size | props, position)
+        self._node("ImageMessage", name, picture | shown | props, position=position)
 
-    def _node(self, kind: str, name: str, props: Mapping[str, Any], position: Any = None) -> None:
+    def _node(
+        self, kind: str, name: str, props: Mapping[str, Any], *, position: Any = None
+    ) -> None:
         arrays: list[memoryview] = []
 
         def plain(value: Any) -> Any:

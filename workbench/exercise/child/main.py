@@ -145,7 +145,12 @@ def main() -> None:
 
 
 def load(
-    source: str, file: str, name: str, modules: dict[str, str], names: dict[str, Any] | None = None
+    source: str,
+    file: str,
+    name: str,
+    modules: dict[str, str],
+    *,
+    names: dict[str, Any] | None = None,
 ) -> Callable[..., Any]:
     """Run the student's file and return the function asked for; `names` are its builtins."""
     module = types.ModuleType("student")

@@ -53,7 +53,8 @@ def marching_cubes(
     cells = np.argwhere((pattern > 0) & (pattern < 255))
     triangles, begins = _triangle_table()
     of_cell = pattern[tuple(cells.T)]
-    first, count = begins[of_cell], begins[of_cell + 1] - begins[of_cell]
+    first = begins[of_cell]
+    count = begins[of_cell + 1] - first
     cell = np.repeat(np.arange(len(cells)), count)
     row = np.arange(len(cell)) - np.repeat(np.cumsum(count) - count, count) + first[cell]
     corner, axis = triangles[row].transpose(2, 0, 1)  # of each vertex: where its edge begins
@@ -70,7 +71,7 @@ def marching_squares(
     Examples:
         >>> low, high, segments = marching_squares(np.array([[True, False], [True, False]]))
         >>> low.tolist(), high.tolist(), segments.tolist()
-        ([[0, 0], [1, 0]], [[0, 1], [1, 1]], [[0, 1]])
+        ([[0, 0], [1, 0]], [[0, 1], [1, 1]], [[1, 0]])
     """
     low, high, names = _crossed_edges(inside)
     corners = [np.array([c & 1, c >> 1]) for c in range(4)]
@@ -110,7 +111,9 @@ def closed_lines(segments: Int[np.ndarray, "s 2"]) -> list[Int[np.ndarray, " n"]
 def _crossed_edges(inside: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return both ends of every edge that is crossed, and by axis and first end its number."""
     names = np.full((inside.ndim, *inside.shape), -1, np.intp)
-    low, high, count = [], [], 0
+    low: list[np.ndarray] = []
+    high: list[np.ndarray] = []
+    count = 0
     for axis in range(inside.ndim):
         first = np.argwhere(np.diff(inside, axis=axis))
         names[axis][tuple(first.T)] = count + np.arange(len(first))
@@ -163,7 +166,8 @@ def _faces() -> list[tuple[int, ...]]:
     """Return the corners of a cell's six faces, counterclockwise seen from outside."""
     faces = []
     for axis in range(3):
-        second, third = 1 << (axis + 1) % 3, 1 << (axis + 2) % 3
+        second = 1 << (axis + 1) % 3
+        third = 1 << (axis + 2) % 3
         square = tuple((c & 1) * second | (c >> 1) * third for c in _SQUARE)
         faces += [tuple(c | 1 << axis for c in square), square[::-1]]
     return faces
