@@ -41,8 +41,17 @@ def said(node: Node) -> tuple[Any, Any]:
     return told, pose
 
 
-def assert_alike(scene: Scene, view: View, viser: Maker, ours: Maker) -> None:
-    theirs, mine = viser.nodes(scene, view), ours.nodes(scene, view)
+class Both:
+    """Makes nodes by viser and by the writer."""
+
+    def __init__(self) -> None:
+        self.viser = Maker()
+        self.ours = Maker(Writer)
+
+
+def assert_alike(scene: Scene, view: View, both: Both) -> None:
+    theirs = both.viser.nodes(scene, view)
+    mine = both.ours.nodes(scene, view)
     assert list(mine) == list(theirs)
     for name, node in theirs.items():
         assert said(mine[name]) == said(node), name
@@ -50,25 +59,25 @@ def assert_alike(scene: Scene, view: View, viser: Maker, ours: Maker) -> None:
 
 @pytest.mark.parametrize("scene", KINDS, ids=range(len(KINDS)))
 def test_a_primitive_is_written_as_viser_says_it(scene):
-    assert_alike(scene, VIEWS[1], Maker(), Maker(Writer))
+    assert_alike(scene, VIEWS[1], Both())
 
 
 @pytest.mark.parametrize("view", VIEWS, ids=range(len(VIEWS)))
 def test_a_stage_is_written_as_viser_says_it(view):
-    viser, ours = Maker(), Maker(Writer)
-    assert_alike({}, view, viser, ours)
+    both = Both()
+    assert_alike({}, view, both)
     plain = [
         [{key: v for key, v in told.items() if key != "owner"} for told in maker.stage(view).light]
-        for maker in (viser, ours)
+        for maker in (both.viser, both.ours)
     ]
     assert json.loads(json.dumps(plain[0])) == json.loads(json.dumps(plain[1]))
 
 
 def assert_run_alike(lesson: Any, params: Any) -> None:
     steps = Timeline(lesson, params).complete().known()
-    viser, ours = Maker(), Maker(Writer)
+    both = Both()
     for k in sorted({round(k) for k in np.linspace(0, len(steps) - 1, STEPS)}):
-        assert_alike(steps[k].scene, lesson.view_of(params), viser, ours)
+        assert_alike(steps[k].scene, lesson.view_of(params), both)
 
 
 @pytest.mark.parametrize("name", catalog())
@@ -80,7 +89,8 @@ def test_a_lessons_default_run_is_written_as_viser_says_it(name):
 def test_a_glb_is_what_trimeshs_own_reader_takes_it_for():
     rng = np.random.default_rng(0)
     p = rng.normal(size=(5, 3)).astype(np.float32)
-    faces, colors = np.array([[0, 1, 2], [2, 3, 4]]), rng.integers(0, 256, (5, 4)).astype(np.uint8)
+    faces = np.array([[0, 1, 2], [2, 3, 4]])
+    colors = rng.integers(0, 256, (5, 4)).astype(np.uint8)
     scene: Any = trimesh.load(
         trimesh.util.wrap_as_stream(glb_of(p, faces, colors)), file_type="glb", process=False
     )
