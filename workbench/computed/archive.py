@@ -74,7 +74,7 @@ def _left_out(file: Path) -> bool:
     parts = file.relative_to(ROOT).parts
     if parts[0] == "workbench":
         return parts[1] in LEFT_OUT
-    return HIDDEN in parts
+    return HIDDEN in parts or (parts[2] == "exercises" and _keeps_hidden_checks(file))
 
 
 def _keeps_hidden_checks(file: Path) -> bool:
