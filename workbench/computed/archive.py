@@ -1,5 +1,7 @@
-"""The archive that a page's worker unpacks: the core, lessons, and the two small packages that they
-need. Pyodide's own numpy (2.0 or later) and scipy (1.14 or later) are all that it needs besides.
+"""The archive that a page's worker unpacks: the core and lessons.
+
+Pyodide's own numpy (2.0 or later) and scipy (1.14 or later) are all that it needs besides:
+`unchecked` stands for jaxtyping in it.
 
 It holds no hidden checks: they are files of their own, which are left out. An exercise that keeps
 some in its own file is left out as a whole. References and alternatives can be read in it, as in
@@ -8,14 +10,14 @@ the repository.
 
 import ast
 import importlib
-import importlib.metadata
 import io
 import json
 import zipfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from workbench.computed import unchecked
 from workbench.computed.runner import EXERCISES
 from workbench.data.files import samples
 from workbench.errors import InputError
@@ -29,8 +31,6 @@ ROOT = Path(__file__).resolve().parents[2]
 """Where the packages of ours are."""
 LEFT_OUT = {"authoring", "handout", "notebook.py", "publish", "recording", "viewer", "cli.py"}
 """Parts of the workbench that no run, page data or judge imports."""
-PACKAGES = ("jaxtyping", "wadler_lindig")
-"""Pure Python that the core imports, and Pyodide does not have."""
 
 
 def write(path: Path, lessons: Iterable[Lesson]) -> None:
@@ -48,7 +48,7 @@ def files_of(lessons: Iterable[Lesson]) -> dict[str, bytes]:
     Raises:
         InputError: If a lesson is not one of the course: a worker imports it by its name.
     """
-    found = dict(_of_packages())
+    found = {"jaxtyping.py": Path(unchecked.__file__).read_bytes()}
     folders = [ROOT / "workbench"]
     files = {ROOT / "lessons" / "__init__.py"}
     for lesson in lessons:
@@ -103,10 +103,3 @@ def _told(exercise: Exercise, lesson: Lesson) -> dict[str, Any]:
         "preset": preset,
         "title": lesson.preset(preset).title if preset else "",
     }
-
-
-def _of_packages() -> Iterator[tuple[str, bytes]]:
-    for package in PACKAGES:
-        for file in importlib.metadata.files(package) or ():
-            if file.suffix == ".py" or file.name == "METADATA" or "licen" in str(file).lower():
-                yield str(file), Path(str(file.locate())).read_bytes()

@@ -14,6 +14,7 @@ import numpy as np
 import scipy
 
 from workbench import knobs
+from workbench.computed.lean import is_browser, without_rare_parts
 from workbench.errors import InputError
 from workbench.lesson import Lesson
 from workbench.machinery.images import png_address
@@ -43,6 +44,8 @@ def open_lesson(name: str) -> "Runner":
         >>> runner.told()["finished"], runner.step(0)[0]["k"]
         (True, 0)
     """
+    if is_browser():
+        without_rare_parts()
     lesson = importlib.import_module(f"lessons.{name}.lesson").lesson
     exercises = json.loads(EXERCISES.read_text()) if EXERCISES.is_file() else {}
     return Runner(lesson, exercises.get(name, ()))
