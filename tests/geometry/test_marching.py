@@ -3,6 +3,7 @@ and what scikit-image finds.
 """
 
 import itertools
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -103,13 +104,55 @@ def test_bits_have_the_area_that_scikit_image_gives_them():
     )
 
 
-def test_the_table_has_the_patterns_of_the_paper():
+def test_the_table_parts_inside_from_outside_in_every_pattern_and_keeps_inside_corners_apart():
     triangles, begins = _triangle_table()
-    counts = np.diff(begins)
-    assert counts[0] == counts[255] == 0
-    assert [counts[0b1], counts[0b11], counts[0b111], counts[0b1111]] == [1, 2, 3, 2]
-    assert counts[0b0000_0110] == 2, "two corners of one face that touch nowhere: two triangles"
-    assert len(triangles) == begins[-1]
+    for case in range(256):
+        sides = Counter(
+            (int(triangle[i]), int(triangle[i - 2]))
+            for triangle in triangles[begins[case] : begins[case + 1]]
+            for i in range(3)
+        )
+        rim = {side for side in sides if side[::-1] not in sides}
+        assert set(sides.values()) <= {1}, case
+        # what is left of the triangles' sides is what the rule draws on the faces of the cell
+        assert rim == {side for face in FACES for side in drawn_on(face, case)}, case
+        inner = {frozenset(side) for side in sides} - {frozenset(side) for side in rim}
+        assert not any(one_face_has(*side) for side in inner), "the next cell may have it too"
+
+
+FACES = [
+    [0b000, 0b001, 0b011, 0b010],
+    [0b100, 0b110, 0b111, 0b101],
+    [0b000, 0b100, 0b101, 0b001],
+    [0b010, 0b011, 0b111, 0b110],
+    [0b000, 0b010, 0b110, 0b100],
+    [0b001, 0b101, 0b111, 0b011],
+]
+"""The corners of a cell's faces, clockwise seen from outside."""
+
+
+def drawn_on(face: list[int], case: int) -> list[tuple[int, int]]:
+    """The segments, from edge to edge, that cut off each run of inside corners of a face."""
+    inside = [bool(case >> corner & 1) for corner in face]
+    segments = []
+    for i in range(4):
+        if inside[i] and not inside[i - 1]:
+            last = next(k for k in range(i, i + 4) if not inside[(k + 1) % 4])
+            ends = (face[i - 1], face[i]), (face[last % 4], face[(last + 1) % 4])
+            segments.append((edge_between(*ends[1]), edge_between(*ends[0])))
+    return segments
+
+
+def edge_between(a: int, b: int) -> int:
+    axis = (a ^ b).bit_length() - 1
+    begins = [corner for corner in range(8) if not corner >> axis & 1]
+    return 4 * axis + begins.index(min(a, b))
+
+
+def one_face_has(one: int, other: int) -> bool:
+    """Whether two edges are on one face of the cell."""
+    on = [{edge_between(a, b) for a, b in itertools.pairwise([*face, face[0]])} for face in FACES]
+    return any({one, other} <= edges for edges in on)
 
 
 @given(SHAPES)
