@@ -24,7 +24,7 @@ def presets(pyodide: Path, folder: Path, lessons: list[Lesson]) -> int:
     core = make_archive(folder / "core.zip")
     new = 0
     runners = {lesson.name: Runner(lesson) for lesson in lessons}
-    for there in lines_of(pyodide, core, "summarised.py", [f"{name} *" for name in runners]):
+    for there in lines_of(pyodide, core, "summarised.py", words=[f"{name} *" for name in runners]):
         run = there["run"]
         lesson, _, name = run.partition(" ")
         found = differences(summary(runners[lesson], name), there)

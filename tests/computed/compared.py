@@ -32,7 +32,7 @@ def make_archive(path: Path, tasks: Iterable[Task] = ()) -> Path:
     return path
 
 
-def lines_of(pyodide: Path, core: Path, script: str, words: Iterable[str] = ()) -> Iterator[Any]:
+def lines_of(pyodide: Path, core: Path, script: str, *, words: Iterable[str] = ()) -> Iterator[Any]:
     """Yield what a script of this folder writes in Pyodide, a value of JSON in each line.
 
     Raises:

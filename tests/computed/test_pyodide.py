@@ -26,7 +26,7 @@ def core(tmp_path_factory) -> Path:
 
 def test_default_runs_tell_there_what_they_tell_here(pyodide, core):
     names = list(catalog())
-    there = {one["run"]: one for one in lines_of(pyodide, core, "summarised.py", names)}
+    there = {one["run"]: one for one in lines_of(pyodide, core, "summarised.py", words=names)}
     assert list(there) == [f"{name} default" for name in names]
     found = {
         name: differences(summary(open_lesson(name), "default"), there[f"{name} default"])

@@ -83,7 +83,8 @@ for name in {list(catalog())!r}:
 
 
 def test_a_run_is_told_as_a_live_page_is_told_and_nothing_twice():
-    runner, reader = open_lesson("icp"), Reader()
+    runner = open_lesson("icp")
+    reader = Reader()
     begun = runner.run({"start_angle": 120.0})
     assert begun["params"]["start_angle"] == 120.0
     assert runner.more(0.0), "one step at least, and there are more"
@@ -126,7 +127,8 @@ def test_a_click_sets_what_it_picks():
 @pytest.mark.parametrize("name", TEXTS)
 def test_a_students_text_is_judged_in_the_words_of_check(name):
     lesson = find("icp")
-    runner, text = Runner(lesson), TEXTS[name]
+    runner = Runner(lesson)
+    text = TEXTS[name]
     mine = runner.judge("align_rigid", text)
     task = runner._exercise("align_rigid")
     given = Submission("my_align_rigid.py", text)
