@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from workbench.computed import archive
-from workbench.data.files import shipped_image
+from workbench.data.files import shipped_array, shipped_image
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_of
 from workbench.exercise.starter import starter
@@ -107,6 +107,7 @@ print(runner.timeline.stopped)
 
 def test_stored_pictures_are_the_samples(core, tmp_path, monkeypatch):
     wanted = {name: shipped_image(name) for name in archive.samples.PICTURES}
+    numbers = shipped_array("motorcycle_disp.npz")
     with zipfile.ZipFile(core) as packed:
         for name in packed.namelist():
             if name.startswith("workbench/data/files/stored/"):
@@ -114,6 +115,7 @@ def test_stored_pictures_are_the_samples(core, tmp_path, monkeypatch):
     monkeypatch.setattr(archive.samples, "STORED", tmp_path)
     for name, image in wanted.items():
         np.testing.assert_array_equal(shipped_image(name), image)
+    np.testing.assert_array_equal(shipped_array("motorcycle_disp.npz"), numbers)
 
 
 def test_a_lesson_that_is_none_of_the_course_is_refused(tmp_path):
