@@ -6,7 +6,7 @@ tie, or grows from a rounding, comes out otherwise; nothing of it is a defect of
 
 TIE = "equal costs are told apart by rounding: a pixel or two in 10,000 find another shift"
 SIGN = "an eigenvector's sign, or a basis of equal eigenvalues, is not determined"
-ORDER = "the order of the two poses of a plane hangs on the sign of its axes"
+LOWEST = "at the lowest error already: rounding decides whether another step lowers it"
 GROWN = "training: a rounding grows over hundreds of updates"
 DIVERGES = "steps that jump: a rounding grows from jump to jump"
 HALF = "a number of which half a unit is left to round"
@@ -44,9 +44,9 @@ DIFFERENT = {
     "learning euler": GROWN,
     "learning mean": GROWN,
     "learning quaternion-matrix": GROWN,
-    "pose frontal": ORDER,
-    "pose marker": ORDER,
-    "pose tiny": ORDER,
+    "pose frontal": LOWEST,
+    "pose marker": LOWEST,
+    "pose tiny": LOWEST,
     "representations neural": GROWN,
     "representations plain": GROWN,
     "representations rabbit": GROWN,
