@@ -5,7 +5,8 @@ tie, or grows from a rounding, comes out otherwise; nothing of it is a defect of
 """
 
 TIE = "equal costs are told apart by rounding: a pixel or two in 10,000 find another shift"
-SIGN = "an eigenvector's sign, or a basis of equal eigenvalues, is not determined"
+SIGN = "a basis of equal eigenvalues is not determined"
+PIECES = "a vector with one value on each piece: rounding puts the nodes of a piece in order"
 LOWEST = "at the lowest error already: rounding decides whether another step lowers it"
 GROWN = "training: a rounding grows over hundreds of updates"
 DIVERGES = "steps that jump: a rounding grows from jump to jump"
@@ -38,9 +39,8 @@ DIFFERENT = {
     "fitting basin-jumps": DIVERGES,
     "fitting jumps": DIVERGES,
     "graphs cotangent": SIGN,
-    "graphs neck": SIGN,
     "graphs sphere": SIGN,
-    "graphs split": SIGN,
+    "graphs split": PIECES,
     "learning euler": GROWN,
     "learning mean": GROWN,
     "learning quaternion-matrix": GROWN,
