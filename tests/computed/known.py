@@ -4,7 +4,6 @@ Sums are rounded in another order there (other instructions, another BLAS). What
 tie, or grows from a rounding, comes out otherwise; nothing of it is a defect of the lesson.
 """
 
-TIE = "equal costs are told apart by rounding: a pixel or two in 10,000 find another shift"
 SIGN = "a basis of equal eigenvalues is not determined"
 PIECES = "a vector with one value on each piece: rounding puts the nodes of a piece in order"
 LOWEST = "at the lowest error already: rounding decides whether another step lowers it"
@@ -14,22 +13,6 @@ HALF = "a number of which half a unit is left to round"
 CHANCE = "two of 2,000 matches are as near as others: RANSAC has other pairs to draw from"
 
 DIFFERENT = {
-    "disparity baseline-double": TIE,
-    "disparity baseline-half": TIE,
-    "disparity default": TIE,
-    "disparity exchanged": TIE,
-    "disparity occlusion": TIE,
-    "disparity one-pixel": TIE,
-    "disparity repeated": TIE,
-    "disparity repeated-paths": TIE,
-    "disparity rows-off": TIE,
-    "disparity sky": TIE,
-    "disparity spheres": TIE,
-    "disparity textureless": TIE,
-    "disparity textureless-smooth": TIE,
-    "disparity window-21": TIE,
-    "disparity window-3": TIE,
-    "disparity windows": TIE,
     "epipolar forward": HALF,
     "epipolar refined-f": HALF,
     "epipolar sideways": HALF,

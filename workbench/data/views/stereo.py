@@ -33,7 +33,8 @@ class StereoPair:
 
 def grey(picture: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w"]:
     """Return the brightness of an RGB picture, 0 .. 255 (weights of ITU-R BT.601)."""
-    return picture @ np.array([0.299, 0.587, 0.114])
+    r, g, b = np.moveaxis(picture.astype(float), -1, 0)
+    return 0.299 * r + 0.587 * g + 0.114 * b  # a product of matrices rounds otherwise elsewhere
 
 
 def synthetic_pair(
