@@ -27,8 +27,11 @@ def make_archive(path: Path, tasks: Iterable[Task] = ()) -> Path:
     if listed:
         with zipfile.ZipFile(path, "a") as core:
             core.writestr("tasks.json", json.dumps(listed))
-            for file in ROOT.glob("lessons/*/exercises/hidden/*.py"):
-                core.write(file, file.relative_to(ROOT))
+            there = set(core.namelist())
+            for file in ROOT.glob("lessons/*/exercises/**/*.py"):
+                name = str(file.relative_to(ROOT))
+                if name not in there:
+                    core.write(file, name)
     return path
 
 

@@ -9,7 +9,7 @@ The paper lists 15 patterns up to symmetry. An ambiguous face, two of whose corn
 opposite each other, it cuts in one way in some and in the other way in others, which leaves holes.
 In this table every face keeps its inside corners apart, so that two cells cut the face that they
 share alike, and the surface is closed. Where nothing is ambiguous the table has Lewiner's triangles
-in his order.
+in his order, as scikit-image (BSD-3-Clause) makes them.
 
 References: Lorensen and Cline, Marching cubes: a high resolution 3D surface construction
 algorithm, SIGGRAPH 1987, sections 4 and 5; Duerst, Additional reference to marching cubes, Computer
