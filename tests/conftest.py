@@ -5,6 +5,7 @@ all.
 import functools
 import inspect
 import os
+import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -84,6 +85,19 @@ def shared_data() -> Path:
     if not folder.is_dir():
         pytest.skip("real data (../shared/data) is not beside the project")
     return folder
+
+
+@pytest.fixture(scope="session")
+def pyodide() -> Path:
+    """The folder of a Pyodide release, with numpy and scipy: WORKBENCH_PYODIDE, or beside the
+    project.
+    """
+    folder = Path(os.environ.get("WORKBENCH_PYODIDE", ROOT.parent / "shared" / "pyodide"))
+    if not (folder / "pyodide-lock.json").is_file():
+        pytest.skip(f"no Pyodide in {folder}; WORKBENCH_PYODIDE names a folder with a release")
+    if shutil.which("node") is None:
+        pytest.skip("node, which runs Pyodide here, is not installed")
+    return folder.resolve()
 
 
 @pytest.fixture(scope="session")

@@ -69,10 +69,21 @@ ALLOWED = {
     ),
     "workbench.page.toy": {"workbench.data.rabbit_outline"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
+    "workbench.computed": (
+        LESSON
+        | {
+            "workbench.computed",
+            "workbench.page",
+            "workbench.wire",
+            "workbench.exercise",
+            "workbench.data.files.samples",
+        }
+    ),
     "workbench.publish": (
         LESSON
         | {
             "workbench.publish",
+            "workbench.computed",
             "workbench.page",
             "workbench.story",
             "workbench.exercise",

@@ -274,7 +274,7 @@ def many_turns(params: Input, scans: Scans, axes_target: np.ndarray) -> Turns:
     """
     is_fresh = params.target is None and params.fresh
     rng, count = np.random.default_rng(params.seed), FRESH_TURNS if is_fresh else TURNS
-    turns = scipy.spatial.transform.Rotation.random(count, rng=rng).as_matrix()
+    turns = scipy.spatial.transform.Rotation.random(count, rng).as_matrix()
     R, brought = sure(scans.T_target_source)[:3, :3], []
     for Q in turns:
         p_source = scans.p_source

@@ -83,7 +83,7 @@ def reference(subject: Subject) -> np.ndarray:
 @functools.lru_cache(maxsize=2)
 def _fine(p: bytes, faces: bytes, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return geodesics.with_points_on_edges(
-        np.frombuffer(p).reshape(-1, 3), np.frombuffer(faces, np.int64).reshape(-1, 3), count
+        np.frombuffer(p).reshape(-1, 3), np.frombuffer(faces, np.intp).reshape(-1, 3), count
     )
 
 
@@ -172,7 +172,7 @@ def _mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
     return Subject(
         name=name,
         p=p,
-        faces=np.ascontiguousarray(faces, np.int64),
+        faces=np.ascontiguousarray(faces, np.intp),
         edges=edges,
         lengths=lengths,
         source=int(np.argmax(p @ TOWARDS_EYE)),

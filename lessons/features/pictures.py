@@ -11,6 +11,7 @@ import numpy as np
 
 from lessons.features.scans import Matcher, chosen
 from lessons.features.state import PIXELS, Params, Pictured
+from lessons.features.stored import keypoints
 from lessons.features.turned_pictures import (
     motorcycle_levels,
     places_in_turned,
@@ -21,7 +22,7 @@ from workbench.data.files import stamp
 from workbench.errors import InputError
 from workbench.geometry.features.keypoints import gradient, patches, strongest
 from workbench.geometry.features.matching import nearest_both_ways
-from workbench.geometry.features.sift import Sift, sift, turned_patch
+from workbench.geometry.features.sift import Sift, turned_patch
 from workbench.knobs import called
 
 Response = Callable[[np.ndarray], np.ndarray]
@@ -88,7 +89,7 @@ def picture_steps(
 @functools.lru_cache(maxsize=8)
 def _sift(levels: bytes, shape: tuple[int, int]) -> Sift:
     """Return the keypoints of a picture, found once: they cost more than all else."""
-    return sift(np.frombuffer(levels).reshape(shape))
+    return keypoints(np.frombuffer(levels).reshape(shape))
 
 
 def _turned(image: np.ndarray, by: Sift, k: int) -> np.ndarray:

@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from workbench.data.files import shipped_image
+from workbench.geometry.fields.marching import closed_lines, marching_squares
 
 
 @functools.lru_cache(maxsize=4)
@@ -19,10 +20,11 @@ def horse(count: int, reach: float) -> Float[np.ndarray, "n 2"]:
         count: How many.
         reach: The largest coordinate, metres.
     """
-    from skimage.measure import find_contours
-
-    inside = shipped_image("horse.png")[..., 0] < 128
-    outline = max(find_contours(inside.astype(float), 0.5), key=len)[:, ::-1] * [1.0, -1.0]
+    low, high, segments = marching_squares(shipped_image("horse.png")[..., 0] < 128)
+    line = max(closed_lines(segments), key=len)[::-1]
+    outline = (low + high)[line] / 2.0
+    lowest = np.lexsort(outline.T[::-1])[-1]
+    outline = np.roll(outline, -lowest, axis=0)[[*range(len(outline)), 0], ::-1] * [1.0, -1.0]
     along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(outline, axis=0), axis=1))]
     at = np.linspace(0.0, along[-1], count, endpoint=False)
     p = np.column_stack([np.interp(at, along, outline[:, k]) for k in range(2)])

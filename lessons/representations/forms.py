@@ -174,7 +174,7 @@ def _marched(bits: np.ndarray, grid: Grid) -> tuple[np.ndarray, np.ndarray]:
     return (
         marched_surface(bits, grid)
         if bits.any()
-        else (np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+        else (np.empty((0, 3)), np.empty((0, 3), dtype=np.intp))
     )
 
 

@@ -184,7 +184,7 @@ def test_an_unknown_preset_is_refused_in_one_line(monkeypatch):
     with pytest.raises(
         InputError, match=r"^exercise match: lesson icp has no preset 'hoem'; did you mean home"
     ):
-        finding._exercises_in(lesson)
+        finding.exercises_in_folder(lesson)
 
 
 def test_a_run_that_does_not_call_the_function_says_so():

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from workbench.exercise.model import Function, number
-from workbench.exercise.sandbox import StudentError
+from workbench.exercise.student import StudentError
 
 MOST_SHOWN = 12
 """How many numbers a call may have that is shown to the student."""

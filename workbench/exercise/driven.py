@@ -13,7 +13,7 @@ import numpy as np
 from workbench.exercise.candidate import Candidate
 from workbench.exercise.model import Exercise, Function
 from workbench.exercise.naming import values_alike
-from workbench.exercise.sandbox import StudentError
+from workbench.exercise.student import StudentError
 from workbench.form import Form, Look
 from workbench.lesson import Lesson
 from workbench.run.timeline import Step, Timeline

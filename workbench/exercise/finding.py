@@ -14,6 +14,9 @@ from workbench.exercise.model import Exercise, exercise_in
 from workbench.exercise.submission import Submission, read_submission
 from workbench.lesson import Lesson, catalog, course
 
+HIDDEN = "hidden"
+"""The folder, in that of a lesson's exercises, of the files with checks that are not public."""
+
 
 def exercises() -> dict[str, Exercise]:
     """Return the exercises of all lessons by name, in course order.
@@ -39,7 +42,7 @@ def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
     """
     listed = catalog().get(lesson.name)
     return (
-        _exercises_in(lesson)
+        exercises_in_folder(lesson)
         if listed is None or listed.params is not lesson.params
         else usable()[lesson.name]
     )
@@ -54,7 +57,7 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
     """
     found, places = dict[str, tuple[Exercise, ...]](), dict[str, str]()
     for name, lesson in course().items():
-        found[name] = _exercises_in(lesson)
+        found[name] = exercises_in_folder(lesson)
         for exercise in found[name]:
             if exercise.name in places:
                 raise InputError(
@@ -71,7 +74,7 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
 def _not_taken(lesson: Lesson, places: dict[str, str]) -> tuple[Exercise, ...]:
     kept: list[Exercise] = []
     try:
-        for exercise in _exercises_in(lesson):
+        for exercise in exercises_in_folder(lesson):
             if exercise.name in places:
                 _leave_out(
                     f"exercise {exercise.name} of",
@@ -89,13 +92,18 @@ def _not_taken(lesson: Lesson, places: dict[str, str]) -> tuple[Exercise, ...]:
     return tuple(kept)
 
 
-def _exercises_in(lesson: Lesson) -> tuple[Exercise, ...]:
+def exercises_in_folder(lesson: Lesson) -> tuple[Exercise, ...]:
+    """Return the exercises in a lesson's folder, whatever other lessons there are.
+
+    Raises:
+        InputError: If one says too little, or its slot or its preset is none of the lesson's.
+    """
     package, _, _ = lesson.params.__module__.rpartition(".")
     if not package or importlib.util.find_spec(f"{package}.exercises") is None:
         return ()
     folder = importlib.import_module(f"{package}.exercises")
-    names = [f"{folder.__name__}.{info.name}" for info in pkgutil.iter_modules(folder.__path__)]
-    found = [exercise_in(importlib.import_module(name), lesson.name) for name in names]
+    names = [info.name for info in pkgutil.iter_modules(folder.__path__) if not info.ispkg]
+    found = [_exercise(folder.__name__, name, lesson) for name in names]
     slots = lesson.form.slots
     for exercise in found:
         if exercise.contract.slot not in slots:
@@ -111,6 +119,15 @@ def _exercises_in(lesson: Lesson) -> tuple[Exercise, ...]:
     return tuple(
         sorted(found, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name))
     )
+
+
+def _exercise(folder: str, name: str, lesson: Lesson) -> Exercise:
+    module = importlib.import_module(f"{folder}.{name}")
+    beside = importlib.util.find_spec(f"{folder}.{HIDDEN}")
+    place = f"{folder}.{HIDDEN}.{name}"
+    is_there = beside is not None and importlib.util.find_spec(place) is not None
+    hidden = importlib.import_module(place) if is_there else None
+    return exercise_in(module, lesson.name, hidden)
 
 
 def _leave_out(what: str, lesson: Lesson, why: str) -> None:

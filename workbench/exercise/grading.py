@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from workbench.errors import one_line
 from workbench.exercise.candidate import Candidate
@@ -9,9 +10,12 @@ from workbench.exercise.forbidden import forbidden_use
 from workbench.exercise.judging import changed
 from workbench.exercise.model import Check, Exercise, Function, Mistake, Verdict, fail
 from workbench.exercise.naming import concerned, diagnose
-from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError, Wall
 from workbench.exercise.seeds import drawn_from
+from workbench.exercise.student import StudentError, StudentFunction
 from workbench.exercise.submission import Submission
+
+if TYPE_CHECKING:
+    from workbench.exercise.sandbox import Wall
 
 
 @dataclass(frozen=True)
@@ -55,7 +59,7 @@ class Report:
     mistake: Mistake | None = None
     concerned: frozenset[str] = frozenset()
     printed: str = field(default="", repr=False)
-    wall: Wall | None = None
+    wall: "Wall | None" = None
     seed: int | None = None
 
     @property
@@ -90,7 +94,7 @@ def grade_file(
     exercise: Exercise,
     *,
     hidden: bool = True,
-    wall: Wall | None = None,
+    wall: "Wall | None" = None,
     megabytes: int | None = None,
     seed: int | None = None,
 ) -> Report:
@@ -104,6 +108,8 @@ def grade_file(
     Raises:
         InputError: If the file cannot be read or does not load; the message names the line.
     """
+    from workbench.exercise.sandbox import CallBudget, SandboxedFunction  # a browser has none
+
     seconds = exercise.contract.seconds
     room = {} if megabytes is None else {"megabytes": megabytes}
     with SandboxedFunction(
@@ -122,8 +128,8 @@ def grade_function(
     file: str = "",
     seed: int | None = None,
 ) -> Report:
-    """Grade a callable: a student's function in its process, or one of ours; as `grade_file`."""
-    if isinstance(function, SandboxedFunction):
+    """Grade a callable: a student's function, or one of ours; as `grade_file`."""
+    if isinstance(function, StudentFunction):
         said = forbidden_use(function.submission, exercise)
         if said:
             return _refused(said, exercise, hidden, file=file, wall=function.wall, seed=seed)
@@ -139,7 +145,7 @@ def grade_function(
     failing = {outcome.check.name for outcome in outcomes if outcome.verdict.share < 1.0}
     calls = {name: candidate.calls for name, candidate in asked.items()}
     mistake = diagnose(calls, failing, exercise)
-    ours = not isinstance(function, SandboxedFunction)
+    ours = not isinstance(function, StudentFunction)
     return Report(
         exercise,
         file,
@@ -154,7 +160,7 @@ def grade_function(
 
 
 def _refused(
-    said: str, exercise: Exercise, hidden: bool, *, file: str, wall: Wall, seed: int | None
+    said: str, exercise: Exercise, hidden: bool, *, file: str, wall: "Wall | None", seed: int | None
 ) -> Report:
     """Return the report on a file that uses what is forbidden: every check says why."""
     run = [check for check in exercise.checks if check.public or hidden]

@@ -10,7 +10,7 @@ import numpy as np
 
 from workbench.exercise.candidate import Candidate
 from workbench.exercise.model import Function, Verdict, against, band, fail, full, number, partial
-from workbench.exercise.sandbox import StudentError
+from workbench.exercise.student import StudentError
 
 SKEWED = 1e-5  # how far R^T R may be from the identity: rounding, also of single precision
 

@@ -263,8 +263,13 @@ class Exercise:
         return sum(item.points for item in self.checks)
 
 
-def exercise_in(module: ModuleType, lesson: str) -> Exercise:
+def exercise_in(module: ModuleType, lesson: str, hidden: ModuleType | None = None) -> Exercise:
     """Return the exercise that a module defines by its decorators, in their order.
+
+    Args:
+        module: With the name of the exercise.
+        lesson: The name of its lesson.
+        hidden: Where more of its checks are, which students do not see.
 
     Raises:
         InputError: If it has no docstring, contract or check, or one name twice; names the file.
@@ -273,7 +278,7 @@ def exercise_in(module: ModuleType, lesson: str) -> Exercise:
     contracts = [
         item for item in own if isinstance(item, Contract) and _is_of(item.function, module)
     ]
-    checks = tuple(item for item in own if isinstance(item, Check) and _is_of(item.judge, module))
+    checks = _checks_in(module) + (() if hidden is None else _checks_in(hidden))
     name, task = module.__name__.rpartition(".")[2], " ".join((module.__doc__ or "").split())
     if [item.function.__name__ for item in contracts] != [name]:
         raise InputError(
@@ -299,6 +304,11 @@ def exercise_in(module: ModuleType, lesson: str) -> Exercise:
             if isinstance(item, Alternative) and _is_of(item.function, module)
         ),
     )
+
+
+def _checks_in(module: ModuleType) -> tuple[Check, ...]:
+    found = (item for item in vars(module).values() if isinstance(item, Check))
+    return tuple(item for item in found if _is_of(item.judge, module))
 
 
 def _is_of(function: Function, module: ModuleType) -> bool:

@@ -5,10 +5,9 @@ import stat
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from workbench.errors import InputError
-from workbench.exercise.reading import Reader
 
 MOST_BYTES = 1 << 20
 MOST_MODULES = 20
@@ -57,6 +56,14 @@ class Submission:
     extra_files: dict[str, tuple[Statement, ...]] = field(default_factory=dict)
 
 
+class Reads(Protocol):
+    """Reads a file's bytes."""
+
+    def read(self, file: str, content: bytes) -> dict[str, Any]:
+        """Return what `child.reading.read` finds in a file."""
+        ...
+
+
 def read_submission(path: Path) -> Submission:
     """Read a file of one's own, and what it imports from beside it.
 
@@ -68,12 +75,14 @@ def read_submission(path: Path) -> Submission:
         found = path.with_name(name)
         return content(found) if os.path.lexists(found) else None
 
+    from workbench.exercise.reading import Reader  # a browser has no processes
+
     with Reader() as reader:
         return submission(path.name, content(path), extra_file, reader)
 
 
 def submission(
-    file: str, data: bytes, extra_file: Callable[[str], bytes | None], reader: Reader
+    file: str, data: bytes, extra_file: Callable[[str], bytes | None], reader: Reads
 ) -> Submission:
     """Return what the bytes of a file are; `extra_file` gives those beside it by name, or None.
 

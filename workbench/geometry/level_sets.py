@@ -1,7 +1,6 @@
 """Where a field on a grid has a value: lines in the plane, and the surface where it is zero.
 
-Reference: Lorensen and Cline, Marching cubes, SIGGRAPH 1987. Lewiner et al., Efficient
-implementation of marching cubes' cases with topological guarantees, JGT 8(2), 2003.
+Reference: Lorensen and Cline, Marching cubes, SIGGRAPH 1987; `fields.marching` is the method.
 """
 
 from collections.abc import Callable
@@ -9,8 +8,8 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float, Int
 
+from workbench.geometry.fields.marching import marching_cubes, marching_squares
 from workbench.geometry.fields.voxels import Grid
-from workbench.geometry.polylines import segments
 
 EdgeCrossings = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 """edge_crossings(p_a, p_b, f_a, f_b) -> where the field is zero on each edge."""
@@ -38,20 +37,24 @@ def edge_crossings(
 def level_lines(
     values: Float[np.ndarray, "y x"],
     levels: Float[np.ndarray, " k"],
-    low: Float[np.ndarray, "2"],
+    low_corner: Float[np.ndarray, "2"],
     spacing: float,
 ) -> Float[np.ndarray, "n 2 2"]:
-    """Return the segments along which a field, a row for each y from `low`, has one of some values.
+    """Return the segments along which a field has one of some values; it has a row for each y from
+    `low_corner`.
 
     Examples:
         >>> values = np.array([[0.0, 1.0], [0.0, 1.0]])
         >>> level_lines(values, np.array([0.25]), np.zeros(2), 1.0).tolist()
-        [[[0.25, 1.0], [0.25, 0.0]]]
+        [[[0.25, 0.0], [0.25, 1.0]]]
     """
-    from skimage.measure import find_contours
-
-    lines = [segments(line) for level in levels for line in find_contours(values, level)]
-    return low + spacing * np.concatenate([np.empty((0, 2, 2)), *lines])[..., ::-1]
+    ends = [np.empty((0, 2, 2))]
+    for level in levels:
+        low, high, segments = marching_squares(values > level)
+        f_low = values[tuple(low.T)]
+        along = (level - f_low) / (values[tuple(high.T)] - f_low)
+        ends.append((low + along[:, None] * (high - low))[segments])
+    return low_corner + spacing * np.concatenate(ends)[..., ::-1]
 
 
 def level_surface(
@@ -60,22 +63,13 @@ def level_surface(
     """Return the surface where a field is zero, its faces outwards: towards positive values.
 
     Values stand at the cells' middles. Both arrays are empty where the field has one sign or the
-    grid is one cell thin. `edge_crossings` places the vertices on all edges at once; one that
-    marching cubes puts inside a cell, to keep ambiguous cells watertight, stays there.
+    grid is one cell thin. `edge_crossings` places the vertices on all edges at once.
     """
     if min(values.shape) < 2 or not values.min() < 0 <= values.max():
-        return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
-    from skimage.measure import marching_cubes
-
-    # Negative is inside: `descent` turns the faces outwards (skimage follows the left-hand rule).
-    # Read-only it refuses.
-    ijk, faces, _, _ = marching_cubes(values.copy(), 0.0, gradient_direction="descent")
-    ijk = ijk.astype(float)
-    below, above = np.floor(ijk).astype(np.int64), np.ceil(ijk).astype(np.int64)
-    edge = (below != above).sum(axis=1) == 1
+        return np.empty((0, 3)), np.empty((0, 3), dtype=np.intp)
+    below, above, faces = marching_cubes(values < 0)
     start = grid.low + grid.spacing / 2
-    p = start + grid.spacing * ijk
-    a, b = below[edge], above[edge]
-    f_a, f_b = values[tuple(a.T)].astype(float), values[tuple(b.T)].astype(float)
-    p[edge] = edge_crossings(start + grid.spacing * a, start + grid.spacing * b, f_a, f_b)
-    return p, faces.astype(np.int64)
+    f_below = values[tuple(below.T)].astype(float)
+    f_above = values[tuple(above.T)].astype(float)
+    p = edge_crossings(start + grid.spacing * below, start + grid.spacing * above, f_below, f_above)
+    return p, faces

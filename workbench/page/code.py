@@ -4,11 +4,20 @@ page.
 
 import ast
 import functools
-from collections.abc import Callable
+import io
+import keyword
+import tokenize
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from workbench.page.legend import escape
 from workbench.tracing import Moment, source_of
+
+_TEXTS = ("STRING", "FSTRING_START", "FSTRING_MIDDLE", "FSTRING_END")  # the last from Python 3.12
+_CSS = {tokenize.COMMENT: "c", tokenize.NUMBER: "m"} | {
+    getattr(tokenize, name): "s" for name in _TEXTS if hasattr(tokenize, name)
+}
+"""The class that a token has on a page."""
 
 
 def moment_data(moment: Moment) -> dict[str, Any]:
@@ -67,16 +76,31 @@ def _long_docstring(source: str) -> tuple[int, int]:
 
 
 def _highlighted(source: str) -> list[str]:
-    from pygments.lexers.python import PythonLexer
-    from pygments.token import Comment, Keyword, Number, String
+    """Return the lines of a source as HTML; of what is no Python, those after the error plain."""
+    lines = source.split("\n")
+    made = [""] * len(lines)
+    at = [0] * len(lines)
+    for row, start, end, css in _marked(lines):
+        start = max(start, at[row])
+        made[row] += escape(lines[row][at[row] : start])
+        if start < end:
+            made[row] += f'<span class="{css}">{escape(lines[row][start:end])}</span>'
+        at[row] = max(end, start)
+    return [html + escape(line[k:]) for html, line, k in zip(made, lines, at, strict=True)]
 
-    kinds = ((Comment, "c"), (Keyword, "k"), (String, "s"), (Number, "m"))
-    lines = [""]
-    for token, text in PythonLexer(stripnl=False, ensurenl=False).get_tokens(source):
-        css = next((css for kind, css in kinds if token in kind), None)
-        for i, part in enumerate(text.split("\n")):
-            if i:
-                lines.append("")
-            if part:
-                lines[-1] += f'<span class="{css}">{escape(part)}</span>' if css else escape(part)
-    return lines
+
+def _marked(lines: list[str]) -> Iterator[tuple[int, int, int, str]]:
+    """Yield what has a colour, in order: row, columns from and to before, and the class."""
+    try:
+        for token in tokenize.generate_tokens(io.StringIO("\n".join(lines)).readline):
+            css = _CSS.get(token.type)
+            if token.type == tokenize.NAME and keyword.iskeyword(token.string):
+                css = "k"
+            first = token.start[0] - 1
+            last = token.end[0] - 1
+            for row in range(first, last + 1) if css else ():
+                start = token.start[1] if row == first else 0
+                end = token.end[1] if row == last else len(lines[row])
+                yield row, start, end, css or ""
+    except (tokenize.TokenError, SyntaxError):  # what follows is no Python
+        return

@@ -2,7 +2,6 @@
 stood.
 """
 
-import base64
 import hashlib
 import threading
 import weakref
@@ -12,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from workbench.machinery.images import webp
+from workbench.machinery.images import webp_address
 from workbench.page.charts import chart_of, series_charts, series_of, table_html
 from workbench.page.code import moment_data, source_html
 from workbench.page.legend import bar_html, legend_html
@@ -27,12 +26,19 @@ class Steps:
 
     Each step is made once and shared by all who ask; any thread may ask.
 
+    Args:
+        timeline: The run.
+        address: Makes a picture's address of its pixels.
+
     Attributes:
         things: What repeats, by its number.
         bytes: What all data hold, about.
     """
 
-    def __init__(self, timeline: Timeline):
+    def __init__(
+        self, timeline: Timeline, address: Callable[[np.ndarray], str] = webp_address
+    ) -> None:
+        self._address = address
         self._run: Callable[[], Timeline | None] = lambda: timeline
         self.bytes = 0
         self.things: list[Any] = []
@@ -205,7 +211,17 @@ class Steps:
             bar = bar_html(image) if isinstance(image, Field) else ""
             content = rgb.shape, hashlib.sha256(rgb.tobytes()).digest(), picture.title, bar
             if content not in self._numbers:
-                self._number(_picture(rgb, picture.title, bar), content)
+                self._number(
+                    {
+                        "kind": "picture",
+                        "title": picture.title,
+                        "bar": bar,
+                        "url": self._address(rgb),
+                        "width": rgb.shape[1],
+                        "height": rgb.shape[0],
+                    },
+                    content,
+                )
             self._numbers[same] = self._numbers[content]
         return self._numbers[same]
 
@@ -230,15 +246,3 @@ def _coarse(field: Field) -> Field:
     """Return a field with 49 levels: the eye sees the same colours, the file is a third smaller."""
     level = (field.values - field.low) / (field.high - field.low)
     return replace(field, values=field.low + np.rint(48 * level) / 48 * (field.high - field.low))
-
-
-def _picture(image: np.ndarray, title: str, bar: str) -> dict[str, Any]:
-    data = base64.b64encode(webp(image)).decode()
-    return {
-        "kind": "picture",
-        "title": title,
-        "bar": bar,
-        "url": f"data:image/webp;base64,{data}",
-        "width": image.shape[1],
-        "height": image.shape[0],
-    }

@@ -67,6 +67,8 @@ def word_for(lesson: str, module: str) -> str:
         lesson: The lesson's name.
         module: The name of a module of the lesson: that of its Params, or of one of its exercises.
     """
+    if module.startswith("lessons."):  # the course, all of which is in the catalogue
+        return lesson
     package = module.partition(".exercises.")[0] + ".lesson" if ".exercises." in module else module
     file = getattr(sys.modules.get(package), "__file__", None)
     if lesson in catalog() or file is None:

@@ -11,13 +11,10 @@ from workbench.exercise.driven import StepPair, calls_it, first_difference
 from workbench.exercise.watching import WatchedFile
 from workbench.lesson import Lesson, View
 from workbench.machinery.authors import Blaming
-from workbench.page.lessons import files_of, values_of
-from workbench.page.steps import Steps
-from workbench.run import links
-from workbench.run.links import show_command
+from workbench.page.lessons import files_of
+from workbench.page.updates import RunUpdates
 from workbench.run.session import Session, Shown
 from workbench.run.timeline import Timeline
-from workbench.story.names import run_name
 from workbench.viewer.runs import SharedRuns
 from workbench.viewer.terminal import tell_terminal
 from workbench.wire.packing import PageWire
@@ -38,10 +35,7 @@ class PageUpdates:
     def __init__(self, runs: SharedRuns):
         self._runs, self._wire, self.aim = runs, PageWire(runs.maker), Aim()
         self.timeline: Timeline | None = None
-        self._steps: Steps | None = None  # of that run
-        self._sent: set[int] = set()  # numbers of things of this run that the page has
-        self._told: Any = None  # what was last said of the run
-        self._told_steps = 0  # up to where its series were
+        self._updates: RunUpdates | None = None  # of that run
         self._run = 0
         self._seen: Any = None  # what the page was shown last
         self._drawn: Any = None  # of which its scene is
@@ -49,7 +43,7 @@ class PageUpdates:
 
     def forget(self) -> None:
         """Hold no run any more."""
-        self.timeline = self._steps = self._seen = self._drawn = None
+        self.timeline = self._updates = self._seen = self._drawn = None
 
     def show(
         self, session: Session, look: Shown, *, tell: bool, watched: WatchedFile | None
@@ -66,18 +60,19 @@ class PageUpdates:
         timeline = look.timeline
         if timeline.failure is not None:
             tell_terminal(AuthorError(timeline.stopped or "", timeline.failure))
-        if self.timeline is not timeline or self._steps is None:
-            self.timeline, self._steps = timeline, self._runs.steps(timeline)
-            self._sent, self._told, self._told_steps, self._run = set(), None, 0, self._run + 1
+        if self.timeline is not timeline or self._updates is None:
+            self._run += 1
+            self.timeline = timeline
+            self._updates = RunUpdates(self._run, self._runs.steps(timeline))
         now = self._run, look.k, look.known > 0, look.caption, timeline is session.timeline
         new = now != self._seen
         drawn, trouble = (
             self._scene(look, current=timeline is session.timeline) if new else (None, None)
         )
-        told = [self._run_told(self._steps, look, watched)]
+        told = [self._run_told(self._updates, look, watched)]
         again = new or tell or trouble is not None
         if look.known and again:
-            told.append(self._step_told(self._steps, look, trouble))
+            told.append(self._step_told(self._updates, look, trouble))
         elif not look.known and trouble is None and look.caption.text and again:
             told.append({"tell": "trouble", "text": look.caption.text})
         self._seen = now if trouble is None else None
@@ -110,52 +105,26 @@ class PageUpdates:
             return None, str(error)
 
     def _run_told(
-        self, steps: Steps, look: Shown, watched: WatchedFile | None
+        self, updates: RunUpdates, look: Shown, watched: WatchedFile | None
     ) -> dict[str, Any] | None:
         """Return what is new of the run since it was last told, None when nothing is."""
-        params, lesson = look.params, look.lesson
-        is_watched = watched is not None and watched.lesson is lesson
-        said = {
-            "name": run_name(lesson, params),
-            "params": values_of(params),
-            "known": look.known,
-            "finished": look.finished,
-            "end": steps.end(),
-            "places": steps.places(),
-            "idle": look.timeline.idle(),
+        is_watched = watched is not None and watched.lesson is look.lesson
+        more = {
             "files": files_of(look.own),
-            "aside": look.own is not params,
+            "aside": look.own is not look.params,
             "mark": first_difference(look.timeline.known()) if is_watched else None,
             "called": calls_it(look.timeline) if is_watched else None,
-            "command": show_command(lesson, params),
-            "query": links.write(links.Place(lesson, params)),
         }
-        if said == self._told:
-            return None
-        new: dict[str, Any] = {"tell": "run", "run": self._run, **said}
-        if self._told is None or look.known > self._told_steps:
-            new |= steps.series(self._told_steps, look.known)
-        self._told, self._told_steps = said, look.known
-        return new
+        return updates.run(look.params, known=look.known, finished=look.finished, more=more)
 
-    def _step_told(self, steps: Steps, look: Shown, trouble: str | None) -> dict[str, Any]:
-        step = dict(steps.step(look.k))
-        if look.caption.text != step["caption"] or trouble:
-            step |= {
-                "caption": trouble or look.caption.text,
-                "tone": "wrong" if trouble else look.caption.tone,
-            }
-        wanted = steps.wanted(step)
-        code = steps.code(look.k)
-        if code is not None:
-            state = look.timeline[look.k].state
-            step["code"] = code | (
-                {"wrong": state.line} if isinstance(state, StepPair) and state.line else {}
-            )
-            wanted.append(code["source"])
-        new = {n: steps.things[n] for n in wanted if n not in self._sent}
-        self._sent |= set(new)
-        return {"tell": "step", "run": self._run, "k": look.k, "step": step, "things": new}
+    def _step_told(self, updates: RunUpdates, look: Shown, trouble: str | None) -> dict[str, Any]:
+        step = look.timeline[look.k]
+        more = {}
+        if trouble or look.caption.text != step.caption.text:
+            tone = "wrong" if trouble else look.caption.tone
+            more = {"caption": trouble or look.caption.text, "tone": tone}
+        wrong = step.state.line if isinstance(step.state, StepPair) else 0
+        return updates.step(look.k, more, wrong)
 
 
 def packed(message: Mapping[str, Any]) -> str:

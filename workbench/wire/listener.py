@@ -9,9 +9,7 @@ import viser
 from viser.infra._infra import WebsockMessageHandler
 
 from workbench.errors import InputError
-
-Said = dict[str, Any]
-"""A message of viser as plain data; an array in it is `{"__binary_index": i, "dtype": ...}`."""
+from workbench.wire.writer import Heard
 
 
 class _Wire(WebsockMessageHandler):
@@ -55,14 +53,14 @@ class Listener:
                 f"viser {viser.__version__} makes scenes in another way: install viser 1.1.1"
             ) from error
 
-    def heard(self, add: Callable[[viser.SceneApi], Any]) -> list[tuple[Said, list[memoryview]]]:
+    def heard(self, add: Callable[[viser.SceneApi], Any]) -> Heard:
         """Return what viser says when something is added to its scene: each message, and its
         arrays.
         """
         add(self._scene)
         return self._taken()
 
-    def _taken(self) -> list[tuple[Said, list[memoryview]]]:
+    def _taken(self) -> Heard:
         messages, self._wire.messages = self._wire.messages, []
         self._scene._handle_from_node_name.clear()  # the next node of the same name is a new one
         self._scene._children_from_node_name.clear()

@@ -9,17 +9,17 @@ import hashlib
 import json
 import threading
 import weakref
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from workbench.lesson import View
 from workbench.scene import Label, Scene, Spatial, in_space
-from workbench.wire.listener import Listener, Said
 from workbench.wire.primitives import AT_ORIGIN, NAME, Pose, add, place_of, pose_of
 from workbench.wire.stage import add_stage, axis_names
+from workbench.wire.writer import Heard, Said
 
 SCENE = "/scene/"
 """What the names of all that belongs to a step begin with; the rest is the stage."""
@@ -63,10 +63,37 @@ class StageNodes:
     light: tuple[Said, ...]
 
 
-class Maker:
-    """Makes nodes. One serves a process; any thread may ask."""
+class Hearing(Protocol):
+    """Hears what viser would say of a scene: viser's own API does, or what is written in its
+    place.
 
-    def __init__(self) -> None:
+    Attributes:
+        at_first: What is said of every scene.
+    """
+
+    at_first: Heard
+
+    def heard(self, add: Callable[[Any], Any]) -> Heard:
+        """Return what is said when something is added to a scene."""
+        ...
+
+
+def by_viser() -> Hearing:
+    """Return what hears viser's own scene API."""
+    from workbench.wire.listener import Listener  # a browser has no viser
+
+    return Listener()
+
+
+class Maker:
+    """Makes nodes. One serves a process; any thread may ask.
+
+    Args:
+        hearing: Makes what hears the scene; one for each thread.
+    """
+
+    def __init__(self, hearing: Callable[[], Hearing] = by_viser) -> None:
+        self._hearing = hearing
         self._own = (
             threading.local()
         )  # viser's scene API is one for each thread: nobody waits for a heavy scene of others
@@ -103,9 +130,9 @@ class Maker:
             nodes[f"/axis/{name}"] = self._word(name, small=True), place_of(place, None)
         return StageNodes(nodes, tuple(light))
 
-    def _listener(self) -> Listener:
+    def _listener(self) -> Hearing:
         if not hasattr(self._own, "listener"):
-            self._own.listener = Listener()
+            self._own.listener = self._hearing()
         return self._own.listener
 
     def _of(self, primitive: Spatial) -> dict[str, Node]:
@@ -136,9 +163,7 @@ class Maker:
             "Label", {"text": text, **({"small": True} if small else {})}, [], fade=fade
         )
 
-    def _nodes(
-        self, heard: list[tuple[Said, list[memoryview]]], fade: float = 1.0
-    ) -> tuple[dict[str, Node], list[Said]]:
+    def _nodes(self, heard: Heard, fade: float = 1.0) -> tuple[dict[str, Node], list[Said]]:
         """Return what was heard as nodes, and what was said of no node."""
         made: dict[str, tuple[Said, list[memoryview]]] = {}
         poses: dict[str, Pose] = {}

@@ -10,8 +10,6 @@ import json
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-import zstandard
-
 from workbench.lesson import View
 from workbench.run.timeline import Timeline
 from workbench.scene import Scene
@@ -122,6 +120,8 @@ def run_text(timeline: Timeline) -> str:
     """Return the scenes of a run as a page's script holds them: 8 bytes of length, then zstd, in
     base64.
     """
+    import zstandard  # a browser, which computes steps one by one, has none
+
     content = run_bytes(timeline)
     small = zstandard.ZstdCompressor(level=LEVEL).compress(content)
     return base64.b64encode(len(content).to_bytes(8, "little") + small).decode()

@@ -1,18 +1,16 @@
 """How each primitive is drawn by viser: what it is made of, and where it stands.
 
+A scene is viser's SceneApi, or `writer.PlainScene` where there is no viser.
+
 Everything is drawn in its full colours, in the frame of the primitive: how opaque it is, and before
 which backdrop, is the page's affair.
 """
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import trimesh
-import viser
-from trimesh.visual import TextureVisuals
-from trimesh.visual.material import PBRMaterial
 
 from workbench.scene import (
     PALETTE,
@@ -27,6 +25,10 @@ from workbench.scene import (
     color_rows,
     is_rigid,
 )
+from workbench.wire.glb import glb_of
+
+if TYPE_CHECKING:
+    import viser
 
 Pose = tuple[float, float, float, float, float, float, float]
 """A unit quaternion w, x, y, z and a position, metres."""
@@ -35,7 +37,7 @@ NAME = "/n"
 """What a primitive's node is called while it is made; a part of it has a name below."""
 
 
-def add(scene: viser.SceneApi, primitive: Spatial) -> None:
+def add(scene: "viser.SceneApi", primitive: Spatial) -> None:
     """Add a primitive to a scene of viser, at the origin; a Label and lines without a segment add
     nothing.
     """
@@ -78,7 +80,7 @@ def wxyz_of(R: np.ndarray) -> tuple[float, float, float, float]:
     return q[0] / length, q[1] / length, q[2] / length, q[3] / length
 
 
-def _points(scene: viser.SceneApi, points: Points) -> None:
+def _points(scene: "viser.SceneApi", points: Points) -> None:
     if not len(points.p):
         return
     scene.add_point_cloud(
@@ -92,7 +94,7 @@ def _points(scene: viser.SceneApi, points: Points) -> None:
     )
 
 
-def _segments(scene: viser.SceneApi, segments: Segments) -> None:
+def _segments(scene: "viser.SceneApi", segments: Segments) -> None:
     if not len(segments.ends):
         return
     colors = _colors(segments.color, len(segments.ends))
@@ -105,7 +107,7 @@ def _segments(scene: viser.SceneApi, segments: Segments) -> None:
     )
 
 
-def _mesh(scene: viser.SceneApi, mesh: Mesh) -> None:
+def _mesh(scene: "viser.SceneApi", mesh: Mesh) -> None:
     p = _placed(mesh, mesh.p).astype(np.float32)
     if isinstance(mesh.color, str):
         scene.add_mesh_simple(
@@ -122,15 +124,11 @@ def _mesh(scene: viser.SceneApi, mesh: Mesh) -> None:
         return
     colors = np.full((len(p), 4), 255, np.uint8)
     colors[:, :3] = as_light(color_rows(mesh.color, len(p)))
-    # without a material a GLB is all metal, and shows its surroundings instead of its colours
-    matt = PBRMaterial(metallicFactor=0.0, roughnessFactor=1.0, doubleSided=True)
-    visual = TextureVisuals(material=matt)
-    visual.vertex_attributes["color"] = colors
-    shape = trimesh.Trimesh(p, mesh.faces, visual=visual, process=False)
-    scene.add_mesh_trimesh(NAME, shape, cast_shadow=False, receive_shadow=False)
+    shape = glb_of(p, mesh.faces, colors)
+    scene.add_glb(NAME, shape, cast_shadow=False, receive_shadow=False)
 
 
-def _axes(scene: viser.SceneApi, axes: Axes) -> None:
+def _axes(scene: "viser.SceneApi", axes: Axes) -> None:
     ends = np.zeros((3, 2, 3), np.float32)
     ends[:, 1] = axes.length * np.eye(3)
     scene.add_arrows(
@@ -143,7 +141,7 @@ def _axes(scene: viser.SceneApi, axes: Axes) -> None:
     )
 
 
-def _camera(scene: viser.SceneApi, camera: Camera) -> None:
+def _camera(scene: "viser.SceneApi", camera: Camera) -> None:
     corners = _corners(camera)
     rim = np.stack([corners, np.roll(corners, -1, 0)], axis=1)
     spokes = np.stack([np.zeros((4, 3)), corners], axis=1)
@@ -182,14 +180,14 @@ def _corners(camera: Camera) -> np.ndarray:
     return camera.depth * uv1 @ np.linalg.inv(camera.K).T
 
 
-def _picture(scene: viser.SceneApi, picture: Picture) -> None:
+def _picture(scene: "viser.SceneApi", picture: Picture) -> None:
     image = picture.rgb()
     width = picture.width or 1.0
     height = width * image.shape[0] / image.shape[1]
     scene.add_image(NAME, image, width, height, cast_shadow=False, receive_shadow=False)
 
 
-_MAKERS: Mapping[type, Callable[[viser.SceneApi, Any], None]] = {
+_MAKERS: "Mapping[type, Callable[[viser.SceneApi, Any], None]]" = {
     Points: _points,
     Segments: _segments,
     Mesh: _mesh,

@@ -2,12 +2,14 @@
 names.
 """
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import viser
 
 from workbench.lesson import Lesson, View
+
+if TYPE_CHECKING:
+    import viser
 
 _PLANES = ("yz", "xz", "xy")
 
@@ -61,7 +63,7 @@ def camera_of(view: View) -> dict[str, Any]:
     }
 
 
-def add_stage(scene: viser.SceneApi, view: View) -> None:
+def add_stage(scene: "viser.SceneApi", view: View) -> None:
     """Add light, grid and axes of a view to a scene of viser.
 
     What is up is the camera's affair. The scene itself is not turned: the browser would take the
@@ -77,7 +79,7 @@ def add_stage(scene: viser.SceneApi, view: View) -> None:
         )
 
 
-def _add_grid(scene: viser.SceneApi, view: View, spacing: float) -> None:
+def _add_grid(scene: "viser.SceneApi", view: View, spacing: float) -> None:
     scene.add_grid(
         "/grid",
         plane=_PLANES[int(np.argmax(np.abs(view.up)))],  # type: ignore[arg-type]
@@ -95,7 +97,7 @@ def _add_grid(scene: viser.SceneApi, view: View, spacing: float) -> None:
     )
 
 
-def _add_light(scene: viser.SceneApi, view: View) -> None:
+def _add_light(scene: "viser.SceneApi", view: View) -> None:
     """Light a lesson by two lamps and a plain sky: shadows and mirrored surroundings are slow
     without a graphics card.
     """

@@ -7,7 +7,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float
 
-from lessons.distances.exercises import GRADERS, STUDENTS, values_verdict
+from lessons.distances.exercises import STUDENTS, values_verdict
 from workbench.exercise import (
     Function,
     Verdict,
@@ -16,7 +16,6 @@ from workbench.exercise import (
     contract,
     left_alone,
     mistake,
-    worst,
 )
 from workbench.geometry.points import metrics
 
@@ -90,32 +89,6 @@ def from_the_given_mean(candidate: Function) -> Verdict:
 def inputs_are_left_alone(candidate: Function) -> Verdict:
     """Points, mean and covariance are not changed."""
     return left_alone(candidate, found(candidate, scattered(STUDENTS + 1, 5, 3)))
-
-
-@check(2, public=False)
-def other_dimensions(candidate: Function) -> Verdict:
-    """In 1, 3 and 7 dimensions."""
-    return worst(
-        found(candidate, scattered(GRADERS() + d, 9, d), f"{d} dimensions: ") for d in (1, 3, 7)
-    )
-
-
-@check(2, public=False)
-def units_do_not_matter(candidate: Function) -> Verdict:
-    """One axis in millimetres changes no distance, nor do all in kilometres."""
-    p, mean, C = scattered(GRADERS() + 20, 8, 2)
-    units = np.array([1.0, 1000.0])
-    one = found(candidate, (p * units, mean * units, C * np.outer(units, units)))
-    return worst((one, found(candidate, (1e-3 * p, 1e-3 * mean, 1e-6 * C), "In kilometres: ")))
-
-
-@check(1, public=False)
-def one_point_and_many(candidate: Function) -> Verdict:
-    """One point, two points in two dimensions, and 3,000."""
-    return worst(
-        found(candidate, scattered(GRADERS() + 30 + n, n, 2), f"{n:,} points: ")
-        for n in (1, 2, 3000)
-    )
 
 
 @mistake(

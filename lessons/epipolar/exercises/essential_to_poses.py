@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 from jaxtyping import Float
 
-from lessons.epipolar.exercises import GRADERS, STUDENTS
+from lessons.epipolar.exercises import STUDENTS
 from workbench.exercise import (
     Function,
     Verdict,
@@ -164,38 +164,6 @@ def matrices_are_left_alone(candidate: Function) -> Verdict:
     """The matrix that comes in is not changed."""
     E, _ = some_motions(STUDENTS + 2, 1)[0]
     return left_alone(candidate, judged(candidate(E), essential.essential_to_poses(E)))
-
-
-@check(2, public=False)
-def other_matrices(candidate: Function) -> Verdict:
-    """So they are for other matrices, of very small and very large numbers too, and none of them
-    mirrors.
-    """
-    cases = [E for E, _ in some_motions(GRADERS(), 12)]
-    cases += [1e-6 * cases[0], -1e6 * cases[1]]
-    return worst(judged(candidate(E), essential.essential_to_poses(E)) for E in cases)
-
-
-@check(2, public=False)
-def with_noise(candidate: Function) -> Verdict:
-    """Of a matrix that is an essential one but for 0.3 % of noise, they are motions, and within 2.5
-    degrees.
-    """
-    rng, verdicts = np.random.default_rng(GRADERS() + 1), []
-    for E, _ in some_motions(GRADERS() + 1):
-        noisy = E + 0.003 * np.linalg.norm(E) * rng.normal(size=(3, 3))
-        verdicts.append(
-            judged(candidate(noisy), essential.essential_to_poses(E), good=2.5, fair=5.0)
-        )
-    return worst(verdicts)
-
-
-@check(1, public=False)
-def along_the_axes(candidate: Function) -> Verdict:
-    """Ahead, aside and up without a turn, as well."""
-    return worst(
-        judged(candidate(skew(t)), essential.essential_to_poses(skew(t))) for t in np.eye(3)
-    )
 
 
 W = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])

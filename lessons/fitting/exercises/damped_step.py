@@ -5,7 +5,7 @@ it where it lowers the sum of squares, and asks for a shorter one where it does 
 import numpy as np
 from jaxtyping import Float
 
-from lessons.fitting.exercises import GRADERS, STUDENTS, entries
+from lessons.fitting.exercises import STUDENTS, entries
 from workbench.algorithms.least_squares import descent as least_squares
 from workbench.exercise import (
     Function,
@@ -81,30 +81,6 @@ def with_damping(candidate: Function) -> Verdict:
 def inputs_are_left_alone(candidate: Function) -> Verdict:
     """Residuals and Jacobian are not changed."""
     return left_alone(candidate, judged(candidate, *problem(STUDENTS + 4), 0.5))
-
-
-@check(2, public=False)
-def other_units(candidate: Function) -> Verdict:
-    """An unknown counted in millimetres gets a step a thousand times as large, in kilometres a
-    thousandth.
-    """
-    residuals, jacobian = problem(GRADERS())
-    return worst(
-        judged(candidate, residuals, jacobian / [1.0, unit, 1.0], 0.2) for unit in (1000.0, 0.001)
-    )
-
-
-@check(2, public=False)
-def other_sizes(candidate: Function) -> Verdict:
-    """Other numbers of unknowns have their steps too, with little damping and with much; where r is
-    0 the step is 0.
-    """
-    sizes = ((5, 1, 0.0), (8, 2, 0.3), (40, 5, 2.0), (6, 6, 0.01), (9, 3, 1e-4), (9, 3, 1e5))
-    found = [
-        judged(candidate, *problem(GRADERS() + k, n, m), damping)
-        for k, (n, m, damping) in enumerate(sizes, 1)
-    ]
-    return worst([*found, judged(candidate, np.zeros(8), problem(GRADERS())[1][:8], 0.5)])
 
 
 def normal(jacobian: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ their weights from you, round by round: choose the preset drift.
 import numpy as np
 from jaxtyping import Float
 
-from lessons.fitting.exercises import GRADERS, STUDENTS, entries
+from lessons.fitting.exercises import STUDENTS, entries
 from workbench.algorithms.robust import estimators as robust
 from workbench.exercise import (
     Function,
@@ -74,32 +74,6 @@ def far_points_count_less(candidate: Function) -> Verdict:
 def residuals_are_left_alone(candidate: Function) -> Verdict:
     """The residuals that come in are not changed."""
     return left_alone(candidate, judged(candidate, some_residuals(STUDENTS + 3, 0.5), 0.5))
-
-
-@check(2, public=False)
-def all_on_one_side(candidate: Function) -> Verdict:
-    """Points below the plane are weighed as those above."""
-    r = np.abs(some_residuals(GRADERS(), 0.2))
-    return worst((judged(candidate, -r, 0.2), judged(candidate, r, 0.2)))
-
-
-@check(2, public=False)
-def other_corners(candidate: Function) -> Verdict:
-    """Other corners, single points, points at a corner, on the plane and very far off it have their
-    weights too.
-    """
-    cases = [
-        (some_residuals(GRADERS() + 1, 4.685, 30), 4.685),
-        (np.array([-2.5]), 1.345),
-        (np.array([0.0]), 0.1),
-    ]
-    cases += [
-        (np.array([-0.5, 0.5, 1e-9, -1e-9, 0.0]), 0.5),
-        (np.array([4e3, -9e2, 0.0]), 0.2),
-        (np.zeros(4), 0.3),
-    ]
-    cases.append((some_residuals(GRADERS() + 2, 1e-5), 1e-5))
-    return worst(judged(candidate, r, corner) for r, corner in cases)
 
 
 @mistake(

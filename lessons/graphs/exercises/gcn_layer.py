@@ -6,8 +6,7 @@ trains networks with your layer.
 import numpy as np
 from jaxtyping import Float
 
-from lessons.graphs.exercises import GRADERS, STUDENTS, matrix_verdict, weighted
-from workbench.data.networks import karate
+from lessons.graphs.exercises import STUDENTS, matrix_verdict, weighted
 from workbench.exercise import (
     Function,
     Verdict,
@@ -16,7 +15,6 @@ from workbench.exercise import (
     contract,
     left_alone,
     mistake,
-    worst,
 )
 from workbench.geometry.graphs import adjacency as graphs
 
@@ -32,17 +30,6 @@ def inputs(seed: int, count: int, a: int = 3, b: int = 4, chance: float = 0.5) -
     row = np.arange(count - 1)
     adjacency[row, row + 1] = adjacency[row + 1, row] = 1.0
     return adjacency, rng.normal(size=(count, a)), rng.normal(size=(a, b))
-
-
-def club(seed: int) -> Inputs:
-    """Return the karate club with features and weights by chance."""
-    rng = np.random.default_rng(seed)
-    known = karate()
-    return (
-        graphs.graph_of(known.edges, 34).toarray(),
-        rng.normal(size=(34, 5)),
-        rng.normal(size=(5, 2)),
-    )
 
 
 @contract(
@@ -113,42 +100,6 @@ def a_star(candidate: Function) -> Verdict:
 def inputs_are_left_alone(candidate: Function) -> Verdict:
     """The matrices that come in are not changed."""
     return left_alone(candidate, found(candidate, inputs(STUDENTS + 1, 8)))
-
-
-@check(2, public=False)
-def the_karate_club(candidate: Function) -> Verdict:
-    """34 members with five features each."""
-    return worst(found(candidate, club(GRADERS() + k)) for k in range(2))
-
-
-@check(2, public=False)
-def weighted_graphs(candidate: Function) -> Verdict:
-    """Edges have weights, and degrees are their sums, the loop's 1 among them."""
-    cases = ((6, 2, 5), (25, 4, 3), (40, 1, 1))
-    return worst(
-        found(candidate, inputs(GRADERS() + n, n, a, b), f"{n} nodes: ") for n, a, b in cases
-    )
-
-
-@check(1, public=False)
-def nodes_without_edges(candidate: Function) -> Verdict:
-    """A node without edges, or all there is, keeps its own features, through W and ReLU; small and
-    large weights count.
-    """
-    adjacency, x, w = inputs(GRADERS() + 20, 9)
-    adjacency[:, [0, 4]] = adjacency[[0, 4]] = 0.0
-    alone = np.zeros((3, 3))
-    wide = inputs(GRADERS() + 21, 12)[0] * np.exp(
-        np.random.default_rng(GRADERS()).normal(-3, 3, (12, 12))
-    )
-    return worst(
-        (
-            found(candidate, (alone[:1, :1], x[:1], w), "One node: "),
-            found(candidate, (wide + wide.T, np.vstack([x, x[:3]]), w), "Weights of all sizes: "),
-            found(candidate, (adjacency, x, w), "Two lone nodes: "),
-            found(candidate, (alone, x[:3], w), "No edges at all: "),
-        )
-    )
 
 
 def layer(gathers: np.ndarray, features: np.ndarray, weights: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ and cuts them.
 import numpy as np
 from jaxtyping import Float
 
-from lessons.graphs.exercises import GRADERS, STUDENTS, matrix_verdict
+from lessons.graphs.exercises import STUDENTS, matrix_verdict
 from workbench.exercise import (
     Function,
     Verdict,
@@ -15,10 +15,8 @@ from workbench.exercise import (
     contract,
     left_alone,
     mistake,
-    worst,
 )
 from workbench.geometry.graphs import adjacency as graphs
-from workbench.geometry.motions import exp_so3
 
 
 def cloud(seed: int, count: int, d: int = 3) -> np.ndarray:
@@ -26,13 +24,6 @@ def cloud(seed: int, count: int, d: int = 3) -> np.ndarray:
     rng = np.random.default_rng(seed)
     p = rng.normal(size=(count, d)) * np.where(np.arange(count) < count // 2, 0.2, 1.0)[:, None]
     return p + np.where(np.arange(count) < count // 2, 0.0, 1.5)[:, None]
-
-
-def with_a_pair(seed: int) -> np.ndarray:
-    """Return points of which two lie at one place, far from the others."""
-    p = cloud(seed, 12)
-    p[[4, 9]] = [20.0, 0.0, 0.0]
-    return p
 
 
 @contract(
@@ -100,43 +91,6 @@ def two_lumps(candidate: Function) -> Verdict:
 def points_are_left_alone(candidate: Function) -> Verdict:
     """The points that come in are not changed."""
     return left_alone(candidate, found(candidate, cloud(STUDENTS + 1, 15), 3))
-
-
-@check(2, public=False)
-def other_counts(candidate: Function) -> Verdict:
-    """One neighbour to all but one, few points and many."""
-    cases = ((2, 1), (10, 9), (30, 1), (60, 7))
-    return worst(
-        found(candidate, cloud(GRADERS() + n, n), k, f"{n} points, k = {k}: ") for n, k in cases
-    )
-
-
-@check(2, public=False)
-def moved_clouds(candidate: Function) -> Verdict:
-    """Turned, moved a kilometre, enlarged, made tiny or in another order it is the same; points may
-    have 1 or 5 numbers.
-    """
-    rng = np.random.default_rng(GRADERS())
-    p = cloud(GRADERS() + 1, 50)
-    away = 3.0 * p @ exp_so3(rng.normal(size=3)).T + 1000.0 * rng.normal(size=3)
-    cases = [(away, "Moved: "), (rng.permutation(p), "Other order: "), (1e-5 * p, "Tiny: ")]
-    cases += [(cloud(GRADERS() + 2 + d, 50, d), f"{d} numbers a point: ") for d in (2, 1, 5)]
-    return worst(found(candidate, q, 5, what) for q, what in cases)
-
-
-@check(1, public=False)
-def two_at_one_place(candidate: Function) -> Verdict:
-    """Of two points at one place each names the other, and not itself, of three both others."""
-    verdicts = [
-        found(candidate, with_a_pair(GRADERS() + k), 1, "Two at one place: ") for k in range(3)
-    ]
-    verdicts += [
-        found(candidate, with_a_pair(GRADERS() + k), 3, "Two at one place, k = 3: ")
-        for k in range(3)
-    ]
-    p = with_a_pair(GRADERS() + 3)
-    p[0] = p[9]
-    return worst([*verdicts, found(candidate, p, 2, "Three at one place: ")])
 
 
 def ranks(p: np.ndarray) -> np.ndarray:

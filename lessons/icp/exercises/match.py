@@ -5,7 +5,7 @@ draws your correspondences, and fits the motion to them.
 import numpy as np
 from jaxtyping import Float, Int
 
-from lessons.icp.exercises import GRADERS, STUDENTS, a_motion
+from lessons.icp.exercises import STUDENTS
 from workbench.algorithms.registration.icp import nearest
 from workbench.exercise import (
     Function,
@@ -19,10 +19,7 @@ from workbench.exercise import (
     mistake,
     number,
     partial,
-    refused,
-    worst,
 )
-from workbench.geometry.motions import apply
 
 
 @contract(
@@ -119,54 +116,6 @@ def two_scans(candidate: Function) -> Verdict:
 def clouds_are_left_alone(candidate: Function) -> Verdict:
     """The clouds that come in are not changed."""
     return left_alone(candidate, nearest_found(candidate, *two_clouds(STUDENTS + 1, 30, 40)))
-
-
-@check(2, public=False)
-def uneven_clouds(candidate: Function) -> Verdict:
-    """Few targets for many points, many for few, and single ones are all served, in a room and in a
-    town.
-    """
-    sizes = ((7, 300), (300, 7), (1, 20), (90, 90), (30, 1))
-    clouds = [two_clouds(GRADERS() + k, m, n) for k, (m, n) in enumerate(sizes)]
-    p_target, p_source = two_clouds(GRADERS() + 9, 60, 60)
-    return worst(
-        nearest_found(candidate, *pair) for pair in (*clouds, (2000 * p_target, 2000 * p_source))
-    )
-
-
-@check(1, public=False)
-def moved_clouds(candidate: Function) -> Verdict:
-    """Moving both clouds a thousand kilometres away and turning them changes no partner."""
-    verdicts = []
-    for k in range(3):
-        p_target, p_source = two_clouds(GRADERS() + 10 + k, 120, 100)
-        T = a_motion(np.random.default_rng(GRADERS() + k), 100.0, 1e6)
-        verdicts.append(
-            nearest_found(
-                candidate,
-                apply(T, p_target),
-                apply(T, p_source),
-                "Far from the origin. " + MATCH_HINT,
-            )
-        )
-    return worst(verdicts)
-
-
-@check(1, public=False)
-def double_points(candidate: Function) -> Verdict:
-    """Target points that occur twice do no harm."""
-    p_target, p_source = two_clouds(GRADERS() + 20, 40, 60)
-    return nearest_found(
-        candidate, np.vstack([p_target, p_target]), np.vstack([p_source, p_target])
-    )
-
-
-@check(1, public=False)
-def no_target(candidate: Function) -> Verdict:
-    """A target without points is refused."""
-    return refused(
-        candidate, np.empty((0, 3)), two_clouds(GRADERS(), 1, 5)[1], what="An empty target"
-    )
 
 
 @mistake(

@@ -7,7 +7,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float
 
-from lessons.learning.exercises import GRADERS, STUDENTS, entries_verdict
+from lessons.learning.exercises import STUDENTS, entries_verdict
 from workbench.exercise import (
     Function,
     Verdict,
@@ -16,7 +16,6 @@ from workbench.exercise import (
     contract,
     left_alone,
     mistake,
-    worst,
 )
 from workbench.geometry.points import shape_distances
 
@@ -92,30 +91,6 @@ def many_with_one_nearest(candidate: Function) -> Verdict:
 def clouds_are_left_alone(candidate: Function) -> Verdict:
     """The clouds that come in are not changed."""
     return left_alone(candidate, found(candidate, *clouds(STUDENTS + 2, 8, 8)))
-
-
-@check(2, public=False)
-def of_any_size(candidate: Function) -> Verdict:
-    """1 and 30 points, 30 and 1, 200 and 150, one and one."""
-    sizes = ((1, 30), (30, 1), (200, 150), (1, 1))
-    return worst(
-        found(candidate, *clouds(GRADERS() + n, n, m), f"{n} and {m} points: ") for n, m in sizes
-    )
-
-
-@check(1, public=False)
-def far_from_the_origin(candidate: Function) -> Verdict:
-    """A kilometre away the gradient is the same."""
-    p, q = clouds(GRADERS(), 15, 20)
-    return found(candidate, p + 1000.0, q + 1000.0)
-
-
-@check(1, public=False)
-def nothing_where_they_are_equal(candidate: Function) -> Verdict:
-    """Of a cloud to itself, in another order, the gradient is 0 everywhere."""
-    p, _ = clouds(GRADERS() + 3, 25, 1)
-    got = candidate(p, p[::-1].copy())
-    return entries_verdict(1 + got, np.ones_like(p), HINT, "Plus 1: ")
 
 
 def _nearest(p: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

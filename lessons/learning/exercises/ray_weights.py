@@ -5,7 +5,7 @@ of the lesson learns through your weights; the gradient is ours.
 import numpy as np
 from jaxtyping import Float
 
-from lessons.learning.exercises import GRADERS, STUDENTS, entries_verdict
+from lessons.learning.exercises import STUDENTS, entries_verdict
 from workbench.exercise import (
     Function,
     Verdict,
@@ -14,7 +14,6 @@ from workbench.exercise import (
     contract,
     left_alone,
     mistake,
-    worst,
 )
 from workbench.geometry.cameras import volume_rendering
 
@@ -79,34 +78,6 @@ def weights_and_what_passes_are_one(candidate: Function) -> Verdict:
 def densities_are_left_alone(candidate: Function) -> Verdict:
     """The densities that come in are not changed."""
     return left_alone(candidate, found(candidate, media(STUDENTS + 1, 3, 8), 0.2))
-
-
-@check(2, public=False)
-def few_and_many(candidate: Function) -> Verdict:
-    """One ray with one sample, one with 50, and 30 rays with 12."""
-    return worst(
-        found(candidate, media(GRADERS() + r, r, s), 0.15, f"{r} by {s}: ")
-        for r, s in ((1, 1), (1, 50), (30, 12), (7, 7))
-    )
-
-
-@check(2, public=False)
-def thick_and_thin(candidate: Function) -> Verdict:
-    """A wall, fog, nothing at all, and other spacings."""
-    density = media(GRADERS(), 4, 15)
-    cases = (
-        (density * 1e4, 0.1, "A wall: "),
-        (density * 1e-3, 0.1, "Fog: "),
-        (density, 2.0, "Spacing 2 m: "),
-        (density, 0.01, "Spacing 1 cm: "),
-    )
-    return worst(found(candidate, *case) for case in cases)
-
-
-@check(1, public=False)
-def empty_space(candidate: Function) -> Verdict:
-    """Where nothing is, nothing counts."""
-    return found(candidate, np.zeros((2, 9)), 0.3)
 
 
 def _stopped(density: np.ndarray, spacing: float) -> np.ndarray:

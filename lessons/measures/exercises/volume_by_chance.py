@@ -5,7 +5,7 @@ throws points into a box and draws your interval around your estimate.
 import numpy as np
 from jaxtyping import Bool
 
-from lessons.measures.exercises import GRADERS, STUDENTS, relative_verdict
+from lessons.measures.exercises import STUDENTS, relative_verdict
 from workbench.exercise import (
     Function,
     Verdict,
@@ -14,7 +14,6 @@ from workbench.exercise import (
     contract,
     left_alone,
     mistake,
-    refused,
     worst,
 )
 from workbench.geometry.points import sampling
@@ -101,39 +100,6 @@ def standard_error(candidate: Function) -> Verdict:
 def hits_are_left_alone(candidate: Function) -> Verdict:
     """The hits that come in are not changed."""
     return left_alone(candidate, both(candidate, hits(500, 200, STUDENTS), 1.0))
-
-
-@check(2, public=False)
-def other_boxes(candidate: Function) -> Verdict:
-    """Small and large boxes, few and many hits: both numbers follow."""
-    cases = ((200, 20, 0.03), (5000, 4800, 120.0), (10_000, 37, 1.0))
-    return worst(both(candidate, hits(n, count, GRADERS()), box) for n, count, box in cases)
-
-
-@check(1, public=False)
-def no_hit_and_no_miss(candidate: Function) -> Verdict:
-    """Without a hit the estimate is 0, without a miss the box, each with the error 0."""
-    verdicts = []
-    for inside, right in ((np.zeros(300, bool), 0.0), (np.ones(300, bool), 4.0)):
-        value, error = candidate(inside, 4.0)
-        what = "All throws hit" if right else "No throw hits"
-        verdicts.append(
-            relative_verdict(
-                f"{what}, estimate", float(value), right, SHARE_HINT, good=0.01, fair=0.5, size=4
-            )
-        )
-        verdicts.append(
-            relative_verdict(
-                f"{what}, error", float(error), 0.0, ERROR_HINT, good=0.01, fair=0.5, size=4
-            )
-        )
-    return worst(verdicts)
-
-
-@check(1, public=False)
-def no_throws(candidate: Function) -> Verdict:
-    """No points are refused with a ValueError."""
-    return refused(candidate, np.zeros(0, bool), 8.0, what="An empty array")
 
 
 def _share(inside: np.ndarray) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from jaxtyping import Float
 
-from lessons.pinhole.exercises import GRADERS, STUDENTS
+from lessons.pinhole.exercises import STUDENTS
 from workbench.exercise import (
     Function,
     Verdict,
@@ -16,15 +16,11 @@ from workbench.exercise import (
     beside,
     check,
     contract,
-    fail,
-    full,
     left_alone,
     mistake,
-    partial,
     worst,
 )
 from workbench.geometry.cameras import pinhole as cameras
-from workbench.geometry.motions import apply, exp_so3, inverse, motion
 
 
 @contract(
@@ -101,35 +97,6 @@ def camera_is_left_alone(candidate: Function) -> Verdict:
     """The motion that comes in is not changed."""
     eye, T_camera_world = next(some_cameras(STUDENTS + 2))
     return left_alone(candidate, placed(candidate(T_camera_world), eye))
-
-
-@check(3, public=False)
-def moves_with_the_world(candidate: Function) -> Verdict:
-    """Where the world is moved, the centre moves along."""
-    verdicts = []
-    for eye, T_camera_world in some_cameras(GRADERS()):
-        Q = motion(exp_so3(np.array([-0.9, 0.5, 1.3])), np.array([2.0, 7.0, -1.0]))
-        verdicts += [
-            placed(candidate(T_camera_world), eye),
-            placed(candidate(T_camera_world @ inverse(Q)), apply(Q, eye)),
-        ]
-    return worst(verdicts)
-
-
-@check(2, public=False)
-def special_cameras(candidate: Function) -> Verdict:
-    """The identity, a camera that is not turned, half a turn, and one a kilometre away are
-    found.
-    """
-    far = np.array([900.0, -300.0, 400.0])
-    T_turned = motion(exp_so3(np.array([0.3, 1.0, -0.6])), far)
-    cases = (np.eye(4), motion(np.eye(3), far), motion(np.diag([-1.0, -1.0, 1.0]), far), T_turned)
-    found = [placed(candidate(T), inverse(T)[:3, 3]) for T in cases]
-    right = sum(verdict.share == 1.0 for verdict in found)
-    if right == len(found):
-        return full(f"All {right} are found.")
-    said = f"{right} of {len(found)} are found. {worst(found).message}"
-    return partial(0.5, said) if right == 3 else fail(said)
 
 
 @mistake(

@@ -27,7 +27,7 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> WholeMap:
         # d grows, so the latest winner is the largest
         np.maximum(winner, better * number(d), out=winner)
         np.minimum(lowest, cost[d], out=lowest)
-    return winner.astype(np.int16 if number is np.uint8 else np.int64)
+    return winner.astype(np.int16 if number is np.uint8 else np.intp)
 
 
 def seen_from_right(cost: Real[np.ndarray, "d h w"]) -> Real[np.ndarray, "d h w"]:
@@ -65,7 +65,7 @@ def sub_pixel(cost: Real[np.ndarray, "d h w"], disparity: WholeMap) -> Float[np.
 
     Reference: Scharstein and Szeliski, IJCV 2002, section 3.4.
     """
-    middle = np.clip(disparity, 1, max(len(cost) - 2, 1)).astype(np.int64)
+    middle = np.clip(disparity, 1, max(len(cost) - 2, 1)).astype(np.intp)
     if len(cost) < 3:
         return disparity.astype(float)
     before, here, after = (

@@ -141,7 +141,7 @@ def energy(cost: Costs, disparity: Real[np.ndarray, "h w"], P1: float, P2: float
     known = np.isfinite(disparity)
     if not known.any():
         return 0.0
-    nearest = np.rint(np.where(known, disparity, 0)).astype(np.int64)
+    nearest = np.rint(np.where(known, disparity, 0)).astype(np.intp)
     matching = np.take_along_axis(cost, nearest[None], axis=0)[0][known]
     total = float(np.minimum(matching, _largest_finite(cost)).sum(dtype=float))
     for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):

@@ -161,7 +161,8 @@ def best_assignment(
         f, g = tight_potentials(cost, blurred_potentials(cost))
         cost = cost - f[:, None]
         cost -= g
-    return scipy.optimize.linear_sum_assignment(cost)
+    i, j = scipy.optimize.linear_sum_assignment(cost)
+    return i.astype(np.intp), j.astype(np.intp)  # int64 even where indices have 32 bits
 
 
 def best_plan(

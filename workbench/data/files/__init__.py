@@ -4,6 +4,7 @@
 - `formats`: points of ply, pcd, obj and text files.
 - `arrays`: npy and npz files; nothing in them is run or unpacks without bound.
 - `intrinsics`, `matches`, `edge_lists`: numbers in text files.
+- `samples`: the sample pictures of the course.
 - `rims`: the rim of something bright and round, found from a pixel inside.
 """
 
@@ -20,12 +21,11 @@ from workbench.data.files.reading import (
     read_mesh,
     read_pose,
     read_voxels,
-    shipped,
-    shipped_image,
     stamp,
     text_rows,
     word_rows,
 )
+from workbench.data.files.samples import shipped_array, shipped_image
 
 __all__ = [
     "IMAGES",
@@ -40,7 +40,7 @@ __all__ = [
     "read_mesh",
     "read_pose",
     "read_voxels",
-    "shipped",
+    "shipped_array",
     "shipped_image",
     "stamp",
     "text_rows",

@@ -87,7 +87,7 @@ def read_mesh(path: Path) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 
         mesh = _one_mesh(loaded, path.name) if isinstance(loaded, trimesh.Scene) else loaded
         p, faces = (
             np.array(mesh.vertices, float),
-            np.array(getattr(mesh, "faces", np.empty((0, 3))), np.int64),
+            np.array(getattr(mesh, "faces", np.empty((0, 3))), np.intp),
         )
     except InputError:
         raise
@@ -156,24 +156,12 @@ def read_image(path: Path) -> UInt8[np.ndarray, "h w *channels"]:
     path = Path(path)
     stamp(path)
     with opened_image(path, path.name) as image:
-        return _plain(image)
+        return plain_pixels(image)
 
 
-def shipped_image(name: str) -> UInt8[np.ndarray, "h w *channels"]:
-    """Return a picture of those that scikit-image has in its wheel, as `read_image` does."""
-    with opened_image(shipped(name), name) as image:
-        return _plain(image)
-
-
-def _plain(image: "Image.Image") -> np.ndarray:
+def plain_pixels(image: "Image.Image") -> np.ndarray:
+    """Return the pixels of an opened image, grey or RGB."""
     return np.array(image.convert("L" if image.mode in ("1", "L", "LA") else "RGB"))
-
-
-def shipped(name: str) -> Path:
-    """Return where scikit-image keeps a sample: to import its own readers takes 0.3 s."""
-    import skimage
-
-    return Path(skimage.__file__).with_name("data") / name
 
 
 @contextlib.contextmanager

@@ -7,7 +7,7 @@ import numpy as np
 import scipy
 from jaxtyping import Float, UInt8
 
-from workbench.data.files.reading import shipped_image
+from workbench.data.files.samples import shipped_image
 from workbench.errors import InputError
 from workbench.geometry.shapes.algebraic_fits import fit_algebraic
 

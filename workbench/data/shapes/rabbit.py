@@ -8,6 +8,8 @@ from functools import lru_cache
 import numpy as np
 from jaxtyping import Float, Int
 
+from workbench.geometry.fields.voxels import Grid
+from workbench.geometry.level_sets import level_surface
 from workbench.geometry.meshes import adjacency
 from workbench.geometry.motions import exp_so3
 
@@ -57,21 +59,13 @@ def rabbit_mesh(spacing: float = 0.03) -> tuple[Float[np.ndarray, "v 3"], Int[np
 
     Raises:
         ValueError: If the grid is too coarse for the ears (over 0.05 m), or finer than 0.01 m.
-
-    Reference: Lewiner et al., Efficient implementation of marching cubes' cases with topological
-    guarantees, 2003.
     """
     if not 0.01 <= spacing <= 0.05:
         raise ValueError(f"a grid of {spacing:g} m; the rabbit's mesh takes 0.01 to 0.05 m")
-    from skimage.measure import marching_cubes
-
-    counts = np.ceil((_HIGH - _LOW) / spacing).astype(int) + 1
-    grid = np.stack(np.meshgrid(*(np.arange(n) for n in counts), indexing="ij"), axis=-1).reshape(
-        -1, 3
-    )
-    values = rabbit_field(_LOW + spacing * grid)[0].reshape(counts)
-    p, faces, _, _ = marching_cubes(values, 0.0, spacing=(spacing,) * 3)
-    p, faces = _onto_surface(_LOW + p.astype(float)), faces.astype(np.int64)
+    x, y, z = (int(n) for n in np.ceil((_HIGH - _LOW) / spacing) + 1)
+    grid = Grid(_LOW - spacing / 2, np.full(3, spacing), (x, y, z))
+    p, faces = level_surface(rabbit_field(grid.centres())[0].reshape(grid.shape), grid)
+    p = _onto_surface(p)
     beside = adjacency(faces, len(p))
     degrees = beside.sum(axis=1)[:, None]
     for _ in range(_ROUNDS):

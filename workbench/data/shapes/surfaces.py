@@ -279,7 +279,7 @@ def _geodesic(frequency: int) -> tuple[Float[np.ndarray, "v 3"], Int[np.ndarray,
     i, j = np.array([(i, j) for i in range(frequency + 1) for j in range(frequency + 1 - i)]).T
     weights = np.stack([frequency - i - j, i, j], axis=1) / frequency
     p = np.einsum("wk,tkd->twd", weights, corners[triangles]).reshape(-1, 3)
-    row = np.empty((frequency + 1, frequency + 1), dtype=np.int64)
+    row = np.empty((frequency + 1, frequency + 1), dtype=np.intp)
     row[i, j] = np.arange(len(i))
     up, down = i + j < frequency, i + j < frequency - 1
     small = [

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
-from workbench.data.files import read_image, shipped, shipped_image
-from workbench.data.files.arrays import read_arrays
+from workbench.data.files import read_image, shipped_array, shipped_image
 from workbench.data.views.stereo_scenes import SCENES, look, rays
 from workbench.errors import InputError
 from workbench.geometry.cameras.stereo import StereoCamera
@@ -34,7 +33,8 @@ class StereoPair:
 
 def grey(picture: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w"]:
     """Return the brightness of an RGB picture, 0 .. 255 (weights of ITU-R BT.601)."""
-    return picture @ np.array([0.299, 0.587, 0.114])
+    r, g, b = np.moveaxis(picture.astype(float), -1, 0)
+    return 0.299 * r + 0.587 * g + 0.114 * b  # a product of matrices rounds otherwise elsewhere
 
 
 def synthetic_pair(
@@ -78,9 +78,7 @@ def motorcycle_pair() -> StereoPair:
     truth, GCPR 2014.
     """
     left, right = (shipped_image(f"motorcycle_{side}.png") for side in ("left", "right"))
-    disparity = read_arrays(shipped("motorcycle_disp.npz").read_bytes(), "motorcycle_disp.npz")[
-        "arr_0"
-    ]
+    disparity = shipped_array("motorcycle_disp.npz")
     camera = StereoCamera(f=994.978, cx=311.193, cy=254.877, baseline=0.193001, doffs=31.086)
     d = np.where(np.isfinite(disparity), disparity, np.nan).astype(float)
     return StereoPair(left, right, camera, d, in_both(d))
@@ -148,7 +146,7 @@ def in_both(disparity: Float[np.ndarray, "h w"], tolerance: float = 1.0) -> Bool
     """
     h, w = disparity.shape
     known = np.isfinite(disparity)
-    partner = np.rint(np.arange(w) - np.where(known, disparity, 0)).astype(np.int64)
+    partner = np.rint(np.arange(w) - np.where(known, disparity, 0)).astype(np.intp)
     inside = known & (partner >= 0) & (partner < w)
     cell: Int[np.ndarray, "h w"] = np.arange(h)[:, None] * w + np.clip(partner, 0, w - 1)
     nearest = np.full(h * w, -np.inf)

@@ -95,7 +95,7 @@ def look(
     The first thing is seen where no other is hit.
     """
     depth = np.full(v.shape[:-1], np.inf)
-    seen = np.zeros(v.shape[:-1], np.int64)
+    seen = np.zeros(v.shape[:-1], np.intp)
     points = []
     for k, thing in enumerate(things):
         hit, s, t = thing.hit(p_eye, v)

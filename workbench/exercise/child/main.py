@@ -1,4 +1,4 @@
-"""The student's side of the pipe: started as `python -I -S -B child.py SETTINGS`, never imported.
+"""The student's side of the pipe: started as `python -I -S -B child.py SETTINGS`.
 
 It bounds itself (`lockdown`), then loads the student's source and answers calls. It holds no
 expected answer, check or seed: those stay with the grader. What the student's code does to this
@@ -144,12 +144,22 @@ def main() -> None:
         answer(message)
 
 
-def load(source: str, file: str, name: str, modules: dict[str, str]) -> Callable[..., Any]:
-    """Run the student's file and return the function asked for."""
+def load(
+    source: str,
+    file: str,
+    name: str,
+    modules: dict[str, str],
+    *,
+    names: dict[str, Any] | None = None,
+) -> Callable[..., Any]:
+    """Run the student's file and return the function asked for; `names` are its builtins."""
     module = types.ModuleType("student")
     module.__file__ = file
+    if names is not None:
+        module.__dict__["__builtins__"] = names
     sys.modules["student"] = module
-    sys.meta_path.insert(0, Beside(modules))  # type: ignore[arg-type]
+    if modules:
+        sys.meta_path.insert(0, Beside(modules))  # type: ignore[arg-type]
     exec(compile(source, file, "exec"), module.__dict__)
     function = module.__dict__.get(name)
     if not callable(function):

@@ -10,7 +10,6 @@ import base64
 import io
 import json
 import re
-import resource
 import sys
 import tokenize
 from collections.abc import Iterator
@@ -34,6 +33,8 @@ class UnreadableError(Exception):
 
 def main() -> None:
     """Answer requests until there are no more."""
+    import resource  # a browser, which reads in place, has none
+
     resource.setrlimit(resource.RLIMIT_AS, (MEGABYTES << 20, MEGABYTES << 20))
     for line in sys.stdin.buffer:
         used = resource.getrusage(resource.RUSAGE_SELF)

@@ -7,7 +7,8 @@ the messages, `student` is the function as the grader calls it. What runs on the
 """
 
 from workbench.exercise.sandbox.budget import CallBudget
-from workbench.exercise.sandbox.function import SandboxedFunction, StudentError
+from workbench.exercise.sandbox.function import SandboxedFunction
 from workbench.exercise.sandbox.isolation import Wall, best, named
+from workbench.exercise.student import StudentError
 
 __all__ = ["CallBudget", "SandboxedFunction", "StudentError", "Wall", "best", "named"]

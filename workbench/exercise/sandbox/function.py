@@ -11,12 +11,12 @@ import time
 from pathlib import Path
 from typing import IO, Any
 
-from workbench.errors import InputError
 from workbench.exercise.child.wire import WireError
 from workbench.exercise.sandbox.budget import CallBudget
 from workbench.exercise.sandbox.isolation import START_SECONDS, Wall, anonymous, best
 from workbench.exercise.sandbox.pipe import Pipe
 from workbench.exercise.sandbox.waiting import waited
+from workbench.exercise.student import StudentError, StudentFunction
 from workbench.exercise.submission import Submission, read_submission
 
 MEGABYTES = 2048
@@ -24,24 +24,7 @@ LOAD_SECONDS = 10.0
 """How long a file may take to load."""
 
 
-class StudentError(InputError):
-    """The student's function gave no result; the message says what happened and where.
-
-    Args:
-        kind: `raised`, `timeout`, `died`, `result` (what came back is no value) or `load`.
-        error: The name of the exception that was raised, if one was.
-        line: The student's own line, 0 where it is not known.
-        errors: The names of the exception's class and of the classes it is one of.
-    """
-
-    def __init__(
-        self, message: str, kind: str, error: str = "", line: int = 0, errors: tuple[str, ...] = ()
-    ):
-        super().__init__(message)
-        self.kind, self.error, self.line, self.errors = kind, error, line, errors or (error,)
-
-
-class SandboxedFunction:
+class SandboxedFunction(StudentFunction):
     """A student's function; every call crosses to a process of its own, started when it is needed.
 
     Args:
@@ -65,10 +48,8 @@ class SandboxedFunction:
         wall: Wall | None = None,
         budget: CallBudget | None = None,
     ):
-        self.submission = given if isinstance(given, Submission) else read_submission(given)
-        self.name, self.__name__ = name, name
-        self.wall = best() if wall is None else wall
-        self.changed_inputs = False  # whether the last call changed what it was given
+        super().__init__(given if isinstance(given, Submission) else read_submission(given), name)
+        self.wall: Wall = best() if wall is None else wall
         self._seconds, self._megabytes = seconds, megabytes
         self._budget = budget
         self._lock = threading.Lock()  # one call at a time: several runs may share a function
@@ -95,11 +76,6 @@ class SandboxedFunction:
             )
             self.changed_inputs = reply.get("changed") is True
             return reply.get("value")
-
-    @property
-    def source(self) -> str:
-        """The text that is run."""
-        return self.submission.source
 
     def _called(self, request: dict[str, Any]) -> dict[str, Any]:
         seconds, how = self._budget.seconds if self._budget else self._seconds, ""
@@ -218,36 +194,15 @@ class SandboxedFunction:
                 f"{self.name}: something else than the result was written to the grader", "result"
             )
         if "error" in reply:
-            raise self._raised(reply, loading=request["do"] == "load")
+            loading = request["do"] == "load"
+            if loading:
+                self._end()
+            raise self.raised(reply, loading=loading)
         return reply
 
     def _lost(self) -> float:
         """Return how long the process has waited for a processor: not its fault."""
         return 0.0 if self._process is None else waited(self._process.pid)
-
-    def _raised(self, reply: dict[str, Any], loading: bool) -> StudentError:
-        error, said, line = (
-            str(reply["error"])[:80],
-            str(reply.get("message", ""))[:500],
-            reply.get("line"),
-        )
-        names = reply.get("errors")
-        errors = tuple(str(name)[:80] for name in names[:12]) if isinstance(names, list) else ()
-        line = line if isinstance(line, int) and not isinstance(line, bool) else 0
-        where = f"{self.submission.file}, line {line}: " if line else f"{self.submission.file}: "
-        if loading:
-            self._end()
-            return StudentError(
-                f"{where}the file does not load: {error}: {said}", "load", error, line
-            )
-        if error == "WireError":
-            return StudentError(
-                f"{where}{self.name} returned what is no result: {said}", "result", "", line
-            )
-        if error == "NotImplementedError":
-            return StudentError(f"{where}{self.name} is not written yet", "raised", error, line)
-        said = f"{where}{self.name} raised {error}" + (f": {said}" if said else "")
-        return StudentError(said, "raised", error, line, errors)
 
     def _too_long(self, doing: str, seconds: float) -> StudentError:
         if doing == "start":

@@ -32,8 +32,9 @@ def planar_motions(
 ) -> Float[np.ndarray, "*k 2 4 4"]:
     """Return the two T_camera_world that a homography of a plane leaves at its middle, by IPPE.
 
-    In no order. To first order about the middle of the points the two project alike; seen along the
-    plane's normal they are one. Points may be the same in all pictures; `xy` are normalised.
+    To first order about the middle of the points the two project alike; seen along the plane's
+    normal they are one. Their order hangs on their normals alone. Points may be the same in all
+    pictures; `xy` are normalised.
     Reference: Collins and Bartoli 2014, eq. 8 to 13 (J, its singular value, both rotations).
 
     Raises:
@@ -68,6 +69,7 @@ def planar_motions(
     R = nearest_rotation(
         R_ray[..., None, :, :] @ np.concatenate([columns, across[..., None]], axis=-1)
     )
+    R = _in_order(R, middle[..., 0])
     T = np.zeros((*R.shape[:-2], 4, 4))
     T[..., :3, :3] = R = R @ axes[..., None, :, :]
     T[..., :3, 3] = (
@@ -76,6 +78,18 @@ def planar_motions(
     )
     T[..., 3, 3] = 1.0
     return T
+
+
+def _in_order(R: np.ndarray, xy: np.ndarray) -> np.ndarray:
+    """Return both rotations of each plane in an order that hangs on the normals alone, towards the
+    camera: the one that is larger in the coordinate in which they differ most comes first.
+    """
+    ray = np.concatenate([xy, np.ones((*xy.shape[:-1], 1))], axis=-1)[..., None, :]
+    n = R[..., :, 2]
+    n = n * np.where((n * ray).sum(axis=-1, keepdims=True) > 0, -1.0, 1.0)
+    apart = n[..., 0, :] - n[..., 1, :]
+    most = np.take_along_axis(apart, np.abs(apart).argmax(axis=-1)[..., None], axis=-1)
+    return np.where(most[..., None, None] < 0, R[..., ::-1, :, :], R)
 
 
 def _turns_to(xy: np.ndarray) -> np.ndarray:

@@ -191,7 +191,7 @@ def _draw_segments(item: SegmentItem, eye: _Eye) -> _Fragments:
     uv, w, owner = uv[shown], w[shown], owner[shown]
     start, length = start[shown], (stop - start)[shown]
     steps = (
-        np.ceil(length * np.abs(uv[:, 1] - uv[:, 0]).max(axis=1, initial=0.0)).astype(np.int64) + 1
+        np.ceil(length * np.abs(uv[:, 1] - uv[:, 0]).max(axis=1, initial=0.0)).astype(np.intp) + 1
     )
     row, step = _ragged(steps)
     share = start[row] + (length / np.maximum(steps - 1, 1))[row] * step
@@ -231,7 +231,7 @@ def _stamp(uv, inverse_depth, owner, colors, width: int, eye: _Eye) -> _Fragment
         v = np.floor(uv[:, 1:] + dv[disc] + 0.5)
         inside = (u >= 0) & (u < eye.width) & (v >= 0) & (v < eye.height)
     row = np.nonzero(inside)[0]
-    pixel = (v[inside] * eye.width + u[inside]).astype(np.int64)
+    pixel = (v[inside] * eye.width + u[inside]).astype(np.intp)
     return _Fragments(pixel, inverse_depth[row], owner[row], colors, favour=FAVOUR)
 
 
@@ -247,8 +247,8 @@ def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
     w_u = ((w[:, 1] - w[:, 0]) * -edge[:, 2, 1] - (w[:, 2] - w[:, 0]) * edge[:, 0, 1]) / area
     w_v = ((w[:, 2] - w[:, 0]) * edge[:, 0, 0] - (w[:, 1] - w[:, 0]) * -edge[:, 2, 0]) / area
 
-    top = np.maximum(np.ceil(low[:, 1]), 0).astype(np.int64)
-    bottom = np.minimum(np.floor(high[:, 1]), eye.height - 1).astype(np.int64)
+    top = np.maximum(np.ceil(low[:, 1]), 0).astype(np.intp)
+    bottom = np.minimum(np.floor(high[:, 1]), eye.height - 1).astype(np.intp)
     triangle, v = _ragged(np.maximum(bottom - top + 1, 0))
     v = v + top[triangle]
     left, right = np.zeros(len(v)), np.full(len(v), eye.width - 1.0)
@@ -260,7 +260,7 @@ def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
         opens = rise * area[triangle] < 0  # the inside is to the right of this edge
         np.maximum(left, crossing - slack, out=left, where=opens & (rise != 0))
         np.minimum(right, crossing + slack, out=right, where=~opens & (rise != 0))
-    left, right = np.ceil(left).astype(np.int64), np.floor(right).astype(np.int64)
+    left, right = np.ceil(left).astype(np.intp), np.floor(right).astype(np.intp)
     span, u = _ragged(np.maximum(right - left + 1, 0))
     u = u + left[span]
     triangle, v = triangle[span], v[span]

@@ -11,6 +11,8 @@ import numpy as np
 import scipy
 from jaxtyping import Float
 
+from workbench.errors import InputError
+
 Image = Float[np.ndarray, "h w"]
 BINS = 36
 """Of the histogram of directions, after Lowe's section 5."""
@@ -27,8 +29,18 @@ class Sift:
 
 
 def sift(image: Image) -> Sift:
-    """Return the keypoints of a picture of 12 x 12 pixels or more, not doubled as Lowe's is."""
-    from skimage.feature import SIFT
+    """Return the keypoints of a picture of 12 x 12 pixels or more, not doubled as Lowe's is.
+
+    Raises:
+        InputError: If scikit-image is not here, such as in a browser.
+    """
+    try:
+        from skimage.feature import SIFT
+    except ModuleNotFoundError:
+        raise InputError(
+            "SIFT's keypoints of these pictures cannot be found in a browser; open the lesson on"
+            " your own computer"
+        ) from None
 
     found: Any = SIFT(upsampling=1, n_bins=BINS)  # what it holds is None until it has looked
     try:

@@ -82,12 +82,12 @@ def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
 
 def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
     """Return the distance to the nearest triangle, m, negative where a closed mesh winds around."""
-    near = np.asarray(mesh.middles.query(q)[1], dtype=np.int64).reshape(-1)
+    near = np.asarray(mesh.middles.query(q)[1], dtype=np.intp).reshape(-1)
     columns_of_q = np.ascontiguousarray(q.T)
     best = _squared_distances(columns_of_q, mesh.corners.take(near, axis=2))
     for start in range(0, len(q), _BLOCK):
         rows = np.arange(start, min(start + _BLOCK, len(q)))
-        box = np.zeros(len(rows), dtype=np.int64)
+        box = np.zeros(len(rows), dtype=np.intp)
         for level, (low, high) in enumerate(mesh.boxes):
             if level:
                 rows, box = np.repeat(rows, 2), (2 * box[:, None] + [0, 1]).ravel()

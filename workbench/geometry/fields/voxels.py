@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from workbench.geometry.fields.marching import marching_cubes
 from workbench.geometry.meshes.containment import crossings, spread_boxes
 
 Bits = Bool[np.ndarray, "x y z"]
@@ -79,7 +80,7 @@ def windings_on(p: Points, faces: Faces, grid: Grid) -> Int[np.ndarray, "x y z"]
     hit = (sign != 0) & (below > 0)
     at = np.ravel_multi_index((i[hit], j[hit], np.minimum(below[hit], nz) - 1), grid.shape)
     steps = np.bincount(at, sign[hit], nx * ny * nz).reshape(grid.shape)
-    return np.rint(np.cumsum(steps[:, :, ::-1], axis=2)[:, :, ::-1]).astype(np.int64)
+    return np.rint(np.cumsum(steps[:, :, ::-1], axis=2)[:, :, ::-1]).astype(np.intp)
 
 
 def occupied(p: Points, faces: Faces, grid: Grid) -> Bits:
@@ -126,12 +127,8 @@ def marched_surface(bits: Bits, grid: Grid) -> tuple[Points, Faces]:
     """
     if not bits.any():
         raise ValueError("no cell is full")
-    from skimage.measure import marching_cubes
-
-    field = np.pad(bits, 1).astype(np.float32)
-    # Full is high here: `ascent` turns the faces outwards (skimage follows the left-hand rule).
-    ijk, faces, _, _ = marching_cubes(field, 0.5, gradient_direction="ascent")
-    return grid.low + grid.spacing * (ijk.astype(float) - 0.5), faces.astype(np.int64)
+    low, high, faces = marching_cubes(np.pad(bits, 1))
+    return grid.low + grid.spacing * ((low + high - 1.0) / 2.0), faces
 
 
 def _steps(bits: Bits, axis: int) -> Int[np.ndarray, "a b c"]:

@@ -84,7 +84,7 @@ def edges_of(adjacency: Sparse) -> Int[np.ndarray, "e 2"]:
     once = np.unique(
         np.minimum(a, b)[a != b].astype(np.int64) * adjacency.shape[0] + np.maximum(a, b)[a != b]
     )
-    return np.stack(np.divmod(once, adjacency.shape[0]), axis=1)
+    return np.stack(np.divmod(once, adjacency.shape[0]), axis=1).astype(np.intp)
 
 
 def one_way_share(directed: Sparse) -> float:

@@ -96,6 +96,7 @@ def smallest_eigenpairs(
 ) -> tuple[Float[np.ndarray, " {count}"], Float[np.ndarray, "n {count}"]]:
     """Return the smallest eigenvalues, ascending, and unit eigenvectors of a semidefinite matrix.
 
+    The first entry of a vector that is more than half as large as its largest is positive.
     It is inverted at `shift` below 0: the closer to the eigenvalues, the fewer solves.
 
     Raises:
@@ -104,7 +105,7 @@ def smallest_eigenpairs(
     n = matrix.shape[0]
     if n <= DENSE or count >= n - 1:
         values, vectors = np.linalg.eigh(matrix.toarray())
-        return values[:count], vectors[:, :count]
+        return values[:count], _turned(vectors[:, :count])
     at = -SHIFT * float(matrix.diagonal().mean()) if shift is None else shift
     shifted = (matrix - at * scipy.sparse.eye_array(n)).tocsc()
     try:
@@ -124,7 +125,14 @@ def smallest_eigenpairs(
     except RuntimeError as error:
         raise np.linalg.LinAlgError(str(error)) from None
     order = np.argsort(values)
-    return values[order], vectors[:, order]
+    return values[order], _turned(vectors[:, order])
+
+
+def _turned(vectors: np.ndarray) -> np.ndarray:
+    """Return vectors with the sign that `smallest_eigenpairs` says, the same on every machine."""
+    sizes = np.abs(vectors)
+    first = (sizes > 0.5 * sizes.max(axis=0)).argmax(axis=0)
+    return vectors * np.where(vectors[first, np.arange(vectors.shape[1])] < 0, -1.0, 1.0)
 
 
 def _start(n: int) -> np.ndarray:

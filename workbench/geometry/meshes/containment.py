@@ -60,11 +60,11 @@ def windings(mesh: ColumnIndex, q: Queries) -> Int[np.ndarray, " n"]:
 
     Where the mesh is open it holds only below what is there of it.
     """
-    cell = np.floor((q[:, :2] - mesh.low) / mesh.size).astype(np.int64)
+    cell = np.floor((q[:, :2] - mesh.low) / mesh.size).astype(np.intp)
     over = ((cell >= 0) & (cell < mesh.cells)).all(axis=1)
     place = np.where(over, cell[:, 0] * mesh.cells + cell[:, 1], 0)
     counts = np.where(over, mesh.first[place + 1] - mesh.first[place], 0)
-    total = np.zeros(len(q), dtype=np.int64)
+    total = np.zeros(len(q), dtype=np.intp)
     tops = mesh.corners[:, :, 2].max(axis=1, initial=-np.inf)
     for rows in _blocks(counts):
         ray, k = spread_boxes(counts[rows, None])
@@ -88,7 +88,7 @@ def crossings(
     """Return 1 (up), -1 (down) or 0 for vertical lines through triangles, and their heights."""
     x, y = xy.T
     (ax, bx, cx), (ay, by, cy) = np.ascontiguousarray(corners[:, :, :2].transpose(2, 1, 0))
-    sign = np.zeros(len(xy), dtype=np.int64)
+    sign = np.zeros(len(xy), dtype=np.intp)
     for (ux, uy), (vx, vy) in (((ax, ay), (bx, by)), ((bx, by), (cx, cy)), ((cx, cy), (ax, ay))):
         above = vy > y
         spans = (uy > y) != above

@@ -18,7 +18,7 @@ def clustered(
     p: Points, faces: Faces, spacing: float
 ) -> tuple[Float[np.ndarray, "u 3"], Int[np.ndarray, "g 3"]]:
     """Return a mesh with all vertices of one cell at their mean; it need not be a surface."""
-    cell = np.floor((p - p.min(axis=0)) / spacing).astype(np.int64)
+    cell = np.floor((p - p.min(axis=0)) / spacing).astype(np.intp)
     _, name = np.unique(cell, axis=0, return_inverse=True)
     name = name.reshape(-1)
     count = np.bincount(name)

@@ -203,7 +203,7 @@ def distinct_rows(
     new = np.ones(len(rows), dtype=bool)
     in_order = rows[order]
     new[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
-    name = np.empty(len(rows), dtype=np.int64)
+    name = np.empty(len(rows), dtype=np.intp)
     name[order] = np.cumsum(new) - 1
     return order[new], name
 
@@ -311,7 +311,7 @@ def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " 
     b = np.concatenate([np.where(agree, arrives, leaves), np.where(agree, leaves, arrives)])
     links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(3 * f, 3 * f))
     count, fan = scipy.sparse.csgraph.connected_components(links, directed=False)
-    fan_vertex = np.zeros(count, dtype=np.int64)
+    fan_vertex = np.zeros(count, dtype=np.intp)
     fan_vertex[fan] = faces.T.ravel()
     return fan_vertex, fan
 
@@ -335,7 +335,7 @@ def edge_keys(half: Int[np.ndarray, "h 2"]) -> Int[np.ndarray, " h"]:
 
 
 def _split(keys: Int[np.ndarray, " e"]) -> Int[np.ndarray, "e 2"]:
-    return np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
+    return np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1).astype(np.intp)
 
 
 def _unit(v: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:

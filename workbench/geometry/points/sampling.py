@@ -82,7 +82,7 @@ def sobol(count: int, dimension: int) -> Int[np.ndarray, "n d"]:
     """
     if dimension > len(_SOBOL):
         raise ValueError(f"{dimension} dimensions; direction numbers are listed for {len(_SOBOL)}")
-    k = np.arange(count)
+    k = np.arange(count, dtype=np.int64)  # 32 bits are too few for the direction numbers
     gray = k ^ (k >> 1)
     points = np.zeros((count, dimension), dtype=np.int64)
     for axis, (degree, middle, m) in enumerate(_SOBOL[:dimension]):

@@ -1,0 +1,45 @@
+"""What the checks find of solutions, compared between this machine and Pyodide: also run there as a
+script, which writes a line of JSON per solution.
+"""
+
+import importlib
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from workbench.computed.runner import file_of
+from workbench.computed.student import InPlaceFunction, read_in_place
+from workbench.errors import InputError
+from workbench.exercise.finding import exercises_in_folder
+from workbench.exercise.grading import grade_function
+
+TASKS = Path("/app/tasks.json")
+"""In the archive of a test: [lesson, exercise, what the text is, its text] of each solution."""
+
+
+def judged(lesson: str, exercise: str, text: str) -> list[Any]:
+    """Return what all checks that are here find: of each its name, its share and its message, and
+    the mistake that was recognised.
+    """
+    found = exercises_in_folder(importlib.import_module(f"lessons.{lesson}.lesson").lesson)
+    task = next(one for one in found if one.name == exercise)
+    try:
+        student = InPlaceFunction(read_in_place(file_of(exercise), text), exercise)
+        report = grade_function(student, task)
+    except InputError as error:
+        return [str(error)]
+    mistake = None if report.mistake is None else report.mistake.name
+    verdicts = [(one.check.name, one.verdict) for one in report.outcomes]
+    return [mistake, *([name, made.share, made.message] for name, made in verdicts)]
+
+
+def main() -> None:
+    """Judge all tasks."""
+    for lesson, exercise, what, text in json.loads(TASKS.read_text()):
+        found = judged(lesson, exercise, text)
+        sys.stdout.write(f"{json.dumps([lesson, exercise, what, found])}\n")
+
+
+if "given" in globals():
+    main()

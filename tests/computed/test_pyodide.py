@@ -1,0 +1,47 @@
+"""The core in Pyodide: every lesson's default run tells what it tells here, and solutions get the
+verdicts that they get here; `python -m tests.computed` compares all presets and all solutions.
+"""
+
+from pathlib import Path
+
+import pytest
+
+from tests.computed.compared import differences, lines_of, make_archive, verdict
+from tests.computed.judged import judged
+from tests.computed.known import DIFFERENT, OTHERWISE_JUDGED
+from tests.computed.solutions import tasks_of
+from tests.computed.summarised import summary
+from workbench.computed.runner import open_lesson
+from workbench.lesson import catalog, find
+
+SAMPLED = ("icp", "graphs", "distances")
+"""Lessons whose solutions are judged: matrices, whole numbers, and shortest ways."""
+
+
+@pytest.fixture(scope="module")
+def core(tmp_path_factory) -> Path:
+    tasks = [task for name in SAMPLED for task in list(tasks_of(find(name)))[::4]]
+    return make_archive(tmp_path_factory.mktemp("computed") / "core.zip", tasks)
+
+
+def test_default_runs_tell_there_what_they_tell_here(pyodide, core):
+    names = list(catalog())
+    there = {one["run"]: one for one in lines_of(pyodide, core, "summarised.py", words=names)}
+    assert list(there) == [f"{name} default" for name in names]
+    found = {
+        name: differences(summary(open_lesson(name), "default"), there[f"{name} default"])
+        for name in names
+        if f"{name} default" not in DIFFERENT
+    }
+    assert {name: lines for name, lines in found.items() if lines} == {}
+
+
+def test_solutions_get_there_the_verdicts_that_they_get_here(pyodide, core):
+    texts = {task[:3]: task[3] for name in SAMPLED for task in tasks_of(find(name))}
+    found = list(lines_of(pyodide, core, "judged.py"))
+    assert len(found) > 30
+    assert {what.partition("_")[0] for _, _, what, _ in found} == {"right", "wrong"}
+    for lesson, exercise, what, there in found:
+        here = judged(lesson, exercise, texts[lesson, exercise, what])
+        if f"{exercise} {what}" not in OTHERWISE_JUDGED:
+            assert verdict(there) == verdict(here), (exercise, what)
