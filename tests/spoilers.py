@@ -46,7 +46,7 @@ from typing import Any
 from tests.runs import finished
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson, Preset, Question, catalog
-from workbench.story import has_story
+from workbench.story import ASKED, has_story
 from workbench.words.typeset import inline_html, page_html
 
 ATTRIBUTES = re.compile(r"\{[#.:\w][^{}]*\}|^:::.*$", re.MULTILINE)
@@ -69,7 +69,7 @@ class Passage:
 def passages(name: str) -> tuple[Passage, ...]:
     """Return every text of a lesson that is seen before a question is answered."""
     lesson = catalog()[name]
-    return tuple(_passages(lesson, lesson.text()))
+    return tuple(_passages(lesson, ASKED.sub("", lesson.text())))
 
 
 @functools.cache
@@ -92,7 +92,7 @@ def _passages(lesson: Lesson, page: str) -> Iterator[Passage]:
         yield Passage(f"preset {preset.name}", f"{preset.title}. {preset.line}", preset.params)
         shown = captions[preset.params, opens(lesson, preset)]
         yield Passage(f"caption where {preset.name} opens", shown, preset.params)
-    yield Passage("caption where the page opens", captions[default, lesson.first_step], default)
+    yield Passage("caption where the page opens", captions[default, lesson.opens], default)
     for question in lesson.questions:
         yield Passage(
             f"question {question.name}", plain(inline_html(question.text)), None, question.name
@@ -153,7 +153,7 @@ def facts(name: str) -> tuple[dict[tuple[Any, int], str], dict[str, float]]:
     """
     lesson = catalog()[name]
     opened = {(preset.params, opens(lesson, preset)) for preset in lesson.presets} | {
-        (lesson.params(), lesson.first_step)
+        (lesson.params(), lesson.opens)
     }
     captions: dict[tuple[Any, int], str] = {}
     answers: dict[str, float] = {}

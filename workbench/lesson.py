@@ -79,7 +79,9 @@ class Lesson(Generic[P, S]):
             None lets them.
         presets: Named runs worth seeing.
         questions: What a student predicts before looking.
-        first_step: Where the default run opens (negative counts from the end).
+        first_step: The step that shows most of the default run (negative counts from the end): its
+            still, and where presets open that name none.
+        opening: Where the default run opens; None is `first_step`.
         sweeps: Params whose runs are published at several values.
         telling: The chart or title of what tells most beside the scene: it is shown first.
         needs: Names of the lessons it builds on; they stand before it in the course.
@@ -105,6 +107,7 @@ class Lesson(Generic[P, S]):
     presets: tuple[Preset[P], ...] = ()
     questions: tuple[Question[P, S], ...] = ()
     first_step: int = 0
+    opening: int | None = None
     sweeps: tuple[Sweep, ...] = ()
     telling: str = ""
     needs: tuple[str, ...] = ()
@@ -118,6 +121,11 @@ class Lesson(Generic[P, S]):
         for wrong in self._mistakes():
             raise ValueError(f"lesson {self.name}{wrong}")
         self.text()
+
+    @property
+    def opens(self) -> int:
+        """The step at which the default run opens, negative from the end."""
+        return self.first_step if self.opening is None else self.opening
 
     def _mistakes(self) -> Iterator[str]:
         """Yield what is wrong with the values given: ends of lines that begin with its name."""

@@ -154,11 +154,11 @@ class Replay:
         """Return the step where it opens, negative from the end."""
         preset, last = self.lesson.preset_of(self.params), len(self.timeline) - 1
         is_default = self.params == self.lesson.params()  # which may be a preset too
-        step = (
-            self.lesson.first_step
-            if is_default or preset is None or preset.step is None
-            else preset.step
-        )
+        if is_default:
+            step = self.lesson.opens
+        else:
+            known = preset is not None and preset.step is not None
+            step = preset.step if known else self.lesson.first_step
         return min(max(step, -last - 1), last)
 
     @functools.cached_property

@@ -132,6 +132,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=9,
+    opening=0,
     sweeps=(Sweep("tilt", (2.0, 5.0, 10.0, 20.0, 30.0, 45.0)),),
     telling="Focal length",
 )

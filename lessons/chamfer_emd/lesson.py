@@ -78,6 +78,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=8,
+    opening=0,
     sweeps=(Sweep("lowers", ("both sides", "source to target", "target to source")),),
     telling="Left flow",
 )

@@ -111,6 +111,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=9,
+    opening=0,
     sweeps=(Sweep("system", ("cartesian", "cylindrical", "spherical", "homogeneous")),),
     telling="Along the walk",
 )

@@ -112,6 +112,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=GAUSSIAN,
+    opening=0,
     sweeps=(Sweep("vertices", (60, 120, 250, 500, 1000, 2000)),),
     telling="K and its truth",
 )

@@ -53,6 +53,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=6,
+    opening=0,
     sweeps=(Sweep("neighbours", ("4", "8", "16", "march")),),
     telling="Worst error so far",
 )

@@ -147,6 +147,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=7,
+    opening=0,
     sweeps=(Sweep("heading", (0.0, 20.0, 45.0, 60.0, 90.0)),),
     telling="Error of the pose",
 )

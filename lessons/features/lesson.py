@@ -53,6 +53,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=3,
+    opening=0,
     sweeps=(Sweep("radius", (0.05, 0.07, 0.1, 0.15, 0.25)),),
     telling="Right matches",
 )

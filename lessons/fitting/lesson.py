@@ -73,6 +73,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=3,
+    opening=0,
     sweeps=(Sweep("arc", (360.0, 180.0, 90.0, 60.0, 45.0)),),
     telling="Sum of squares",
 )

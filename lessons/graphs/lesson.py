@@ -62,6 +62,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=-1,
+    opening=0,
     sweeps=(Sweep("share", (0.5, 0.6, 0.7, 0.8, 0.9, 0.95)),),
     telling="Conductance of the cuts",
 )

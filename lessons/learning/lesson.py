@@ -54,6 +54,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=-1,
+    opening=0,
     sweeps=(Sweep("angle", ("one number", "half the angle", "cosine and sine")),),
     telling="Output over turn",
 )

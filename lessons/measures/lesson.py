@@ -143,6 +143,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=15,
+    opening=0,
     sweeps=(Sweep("flipped", (0.0, 0.01, 0.02, 0.05, 0.1, 0.2)),),
     telling="Volume",
 )

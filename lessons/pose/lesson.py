@@ -129,6 +129,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=1,
+    opening=0,
     sweeps=(Sweep("noise", (0.0, 0.5, 1.0, 2.0, 3.0)),),
     telling="Rotation error",
 )

@@ -64,6 +64,7 @@ lesson = Lesson(
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=5,
+    opening=0,
     sweeps=(Sweep("form", ("cloud", "mesh", "voxels", "distances", "octree", "patches")),),
     telling="Error for its bytes",
 )

@@ -18,7 +18,7 @@ from workbench.lesson import Lesson, Question, Sweep
 from workbench.notebook import Replay
 from workbench.publish.site import publish
 from workbench.run.timeline import Timeline
-from workbench.story import has_story
+from workbench.story import ASKED, has_story
 from workbench.viewer.server import Server
 
 WIDTH, HEIGHT = 1280, 720
@@ -198,7 +198,8 @@ def few(lesson: Lesson, folder: Path) -> Lesson:
     text = LINKED.sub(lambda found: found[0] if found[2] in kept else found[1], lesson.text())
     if has_story(lesson):  # whose scenes name runs that are left out here: its workbench alone
         text = f"# {lesson.title}\n\n{lesson.summary} [Look](run:{first or 'default'}).\n"
-    page.write_text(text)
+    question = asked(lesson).name if lesson.questions else ""
+    page.write_text(ASKED.sub(lambda found: found[0] if found[1] == question else "", text))
     sweeps = ()
     if lesson.sweeps:
         sweep = lesson.sweeps[0]

@@ -16,7 +16,7 @@ LESSONS = list(catalog().values())
 
 
 def first_words(lesson) -> str:
-    return Timeline(lesson, lesson.params()).complete()[lesson.first_step].caption.text
+    return Timeline(lesson, lesson.params()).complete()[lesson.opens].caption.text
 
 
 def test_the_course_leads_from_lesson_to_lesson_and_what_was_left_is_closed(visit, server):

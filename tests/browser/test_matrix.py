@@ -79,7 +79,7 @@ def opens_at(timeline: Timeline, step: int) -> int:
 
 def says_what_the_timeline_says(home: Home) -> None:
     run = here(home)
-    home.says(run[opens_at(run, home.lesson.first_step)].caption.text)
+    home.says(run[opens_at(run, home.lesson.opens)].caption.text)
     home.until(
         "n => page.known() === n && page.run.series.every((one) => one.values.length === n)",
         len(run),
@@ -303,7 +303,10 @@ def links_run_things(home: Home) -> None:
         )
         link.press("Enter")
         home.says(run[opens_at(run, at)].caption.text, opens_at(run, at))
-        home.find(f"button[data-run='{name}'][aria-pressed=true]").wait_for()
+        chosen = home.find(f"button[data-run='{name}'][aria-pressed=true]")
+        chosen.wait_for(
+            state="attached"
+        )  # where the text speaks of all experiments, their list is folded
 
 
 def a_question_is_answered_wrong_and_right(home: Home) -> None:

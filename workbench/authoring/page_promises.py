@@ -14,7 +14,7 @@ from workbench.page.article import LINK, TERM, article_html
 from workbench.story import has_story
 from workbench.words.typeset import page_of
 
-PARTS = ("Conventions", "Watch", "Predict", "Break it", "Your turn", "Pitfalls", "References")
+PARTS = ("Conventions", "Watch", "Break it", "Your turn", "Pitfalls", "References")
 """What a page without a story has, among other parts."""
 STORY_PARTS = ("Your turn", "Conventions", "Pitfalls", "References")
 """What a page with a story has beside its scenes."""

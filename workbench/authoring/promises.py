@@ -112,6 +112,7 @@ def the_default_run_ends_well(subject: Subject) -> Found:
         )
         yield few if len(run) < 2 else None
         yield opens(run, subject.who, lesson.first_step)
+        yield opens(run, subject.who, lesson.opens)
 
 
 @promise

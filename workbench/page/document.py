@@ -8,7 +8,7 @@ from typing import Any
 
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson
-from workbench.page.article import PLACE
+from workbench.page.article import PLACE, QUESTION
 from workbench.page.lessons import lesson_data
 from workbench.story import Story, story_data
 from workbench.words.typeset import math_font_css
@@ -49,9 +49,11 @@ STORY_SCRIPTS = (
 )
 """The scripts of the story, before `page.js`."""
 STORY_STYLES = ("story.css", "storystage.css")
+DRESS = ("dress.css", "dress.js")
+"""What a lesson without a story has of a story's look."""
 FONTS = ("source-serif-4-latin-wght-normal.woff2", "source-serif-4-latin-wght-italic.woff2")
 """The letters of the story, beside its styles."""
-STORY_FILES = (*STORY_STYLES, *FONTS, *STORY_SCRIPTS)
+STORY_FILES = (*STORY_STYLES, *FONTS, *STORY_SCRIPTS, *DRESS)
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 """Steps a second of Play, as a page offers them."""
 VERBS = (
@@ -96,28 +98,37 @@ def lesson_document(
         story: The lesson's story; only for a document with a root.
     """
     data = lesson_data(lesson) | ({} if home == "live" else {"knobs": []})
-    scripts = _scripts(home, told=story is not None)
+    told = story is not None
+    dressed = root is not None and not alone and not told
+    scripts = _scripts(home, told=told, dressed=dressed)
     constants = (
         {"LESSON": data}
         | ({} if story is None else {"STORY": story_data(lesson, story)})
         | dict(more or {})
     )
     heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
-    told = story is not None
     text = (
         _alone(heading, alone[1])
         if alone
         else _article(article, home, data, opening=opening, ending=ending, told=told)
     )
+    start = document_head(
+        heading,
+        lesson.summary,
+        root,
+        more=head,
+        math=root is not None or not alone,
+        told=told,
+        dressed=dressed,
+    )
     face = "story" if told else "bench"
-    math = root is not None or not alone
+    dress = " data-dress" if dressed else ""
     return (
-        f"{document_head(heading, lesson.summary, root, more=head, math=math, told=told)}"
-        f'<body{" class=alone" if alone else ""} data-home="{home}"'
-        f' data-lesson="{escape(lesson.name)}" data-face="{face}">'
+        f'{start}<body{" class=alone" if alone else ""} data-home="{home}"'
+        f' data-lesson="{escape(lesson.name)}" data-face="{face}"{dress}>'
         f"{_face(lesson, story)}"
         f'<a class="skip" href="#stage">To the stage</a><main>{_told(story)}{text}'
-        f'<div id="side">{_stage(still)}</div></main>'
+        f'<div id="side">{_stage(still, dressed=dressed)}</div></main>'
         + _third_parties(root)
         + f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"  # noqa: E501
         + "".join(_script(root, name) for name in scripts)
@@ -125,12 +136,13 @@ def lesson_document(
     )
 
 
-def _scripts(home: str, *, told: bool) -> tuple[str, ...]:
+def _scripts(home: str, *, told: bool, dressed: bool) -> tuple[str, ...]:
     *others, page = SCRIPTS
     return (
         *(LIVE if home == "live" else RECORDED),
         *others,
         *(STORY_SCRIPTS if told else ()),
+        *(DRESS[1:] if dressed else ()),
         page,
     )
 
@@ -188,7 +200,10 @@ def _article(
     article: str, home: str, data: dict[str, Any], *, opening: str, ending: str, told: bool
 ) -> str:
     """Return the text of the workbench; beside a story its experiments and exercises come first."""
-    questions = "".join(_question(question) for question in data["questions"])
+    cards = {question["name"]: _question(question) for question in data["questions"]}
+    placed = set(QUESTION.findall(article))
+    article = QUESTION.sub(lambda found: cards[found[1]], article)
+    questions = "".join(card for name, card in cards.items() if name not in placed)
     presets = "".join(
         f'<li><button type="button" data-run="{escape(preset["name"])}"'
         f' aria-pressed="false">{escape(preset["title"])}'
@@ -200,11 +215,17 @@ def _article(
         if presets
         else ""
     )
+    folded = (
+        '<details class="s-runs"><summary>All experiments</summary>'
+        f'<ul class="runs">{presets}</ul></details>'
+    )
+    spoken = all(f'data-run="{escape(preset["name"])}"' in article for preset in data["presets"])
     before, _, after = article.partition(PLACE)
     if told:
         words = f'<div class="wb">{before}</div>{chosen}{ending}<div class="wb">{after}</div>'
     else:
-        words = f'<div class="wb">{article.replace(PLACE, questions)}</div>{chosen}{ending}'
+        experiments = folded if spoken and presets else chosen
+        words = f'<div class="wb">{article.replace(PLACE, questions)}</div>{experiments}{ending}'
     return (
         f'<article id="article">{_top("Geometry workbench", _course(home))}{opening}{words}<section'
         ' class="s-run" id="this-run" hidden><h2>This run</h2></section><details'
@@ -234,7 +255,14 @@ def in_script(value: Any) -> str:
 
 
 def document_head(
-    title: str, summary: str, root: str | None, *, more: str, math: bool = True, told: bool = False
+    title: str,
+    summary: str,
+    root: str | None,
+    *,
+    more: str,
+    math: bool = True,
+    told: bool = False,
+    dressed: bool = False,
 ) -> str:
     """Return the head of a document of ours."""
     return (
@@ -244,7 +272,12 @@ def document_head(
         '<link rel="icon" href="data:,">'
         + "".join(
             _style(root, name)
-            for name in (*STYLES, *(STORY_STYLES if told else ()), *([MATH] if math else []))
+            for name in (
+                *STYLES,
+                *(STORY_STYLES if told else ()),
+                *(DRESS[:1] if told or dressed else ()),
+                *([MATH] if math else []),
+            )
         )
         + f"{more}</head>"
     )
@@ -258,7 +291,7 @@ def _lesson(home: str) -> str:
     return "?lesson=LESSON" if home == "live" else "../LESSON/index.html"
 
 
-def _stage(still: str) -> str:
+def _stage(still: str, *, dressed: bool) -> str:
     """Return the stage. What a home may lack has `data-needs`, the verbs of its source that it is
     shown with.
     """
@@ -273,8 +306,10 @@ def _stage(still: str) -> str:
         if still
         else ""
     )
+    opened = '<div id="open"><b></b> <span></span></div>' if dressed else ""
+    below = '<div id="main-chart" hidden></div><div id="places"></div>' if dressed else ""
     return (
-        '<section id="stage" aria-label="Stage"><div id="view"><div id="scene"'
+        f'<section id="stage" aria-label="Stage">{opened}<div id="view"><div id="scene"'
         f' aria-busy="true"></div>{picture}<div id="legend" role="group" aria-label="Legend"'
         ' tabindex="0"></div><div id="tools" role="group" aria-label="Tools"><button type="button"'
         ' id="move" data-needs="handles" aria-pressed="false" title="Handles in the scene (H)"'
@@ -287,7 +322,8 @@ def _stage(still: str) -> str:
         ' id="step" type="range" min="0" max="0" value="0" aria-label="Step"><output'
         ' id="count"></output><select id="speed" aria-label="Speed" title="Steps per'
         f' second"><option value="">Speed</option>{speeds}</select></div><p id="caption"'
-        ' role="status" aria-live="polite" tabindex="0"></p></section><div id="tiles" role="group"'
+        f' role="status" aria-live="polite" tabindex="0"></p>{below}</section>'
+        '<div id="tiles" role="group"'
         ' aria-label="Curves, pictures and code of this step"></div><div id="large" role="dialog"'
         ' aria-label="Enlarged" hidden></div>'
     )

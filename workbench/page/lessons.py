@@ -15,6 +15,7 @@ def lesson_data(lesson: Lesson) -> dict[str, Any]:
     return {
         "name": lesson.name,
         "title": lesson.title,
+        "summary": lesson.summary,
         "telling": lesson.telling,
         "knobs": [knob_data(field) for field in fields_of(lesson.params) if field.kind != "path"],
         "files": [

@@ -86,7 +86,7 @@ def _named_in_text(lesson: Lesson) -> set[str]:
 
 
 def _all_runs(lesson: Lesson) -> tuple[Run, ...]:
-    runs = [Run("default", "The default run", lesson.summary, lesson.params(), lesson.first_step)]
+    runs = [Run("default", "The default run", lesson.summary, lesson.params(), lesson.opens)]
     for preset in lesson.presets:
         runs.append(
             Run(

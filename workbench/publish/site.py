@@ -17,6 +17,7 @@ from workbench.machinery.version import __version__
 from workbench.moved import lessons_led_on, runs_led_on
 from workbench.page.course import FRONT_FILES
 from workbench.page.document import (
+    DRESS,
     FONTS,
     MATH,
     RECORDED,
@@ -158,7 +159,8 @@ def _publish(
         for name in (*STYLES, *FRONT_FILES, *RECORDED, *SCRIPTS)
     }
     shared |= {
-        f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (*STORY_STYLES, *STORY_SCRIPTS)
+        f"{PAGE}/{name}": bare(STATIC / name).encode()
+        for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS)
     }
     shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in FONTS}
     shared |= {f"{PAGE}/{MATH}": math_font_css().encode(), ".nojekyll": b""}

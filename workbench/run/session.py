@@ -77,7 +77,7 @@ class Session:
         )
         self.params = lesson.params()
         self.timeline = self._run(self.params)
-        self._start(f"lesson {lesson.name}", lesson.first_step)
+        self._start(f"lesson {lesson.name}", lesson.opens)
 
     # what is wanted -------------------------------------------------------------------------------
 
@@ -101,7 +101,7 @@ class Session:
             self._shown, self.slots = None, {}
         self._go(params)
         if step is None and params == lesson.params():
-            self._start(f"lesson {lesson.name}", lesson.first_step)
+            self._start(f"lesson {lesson.name}", lesson.opens)
         else:
             self._want(lesson.first_step if step is None else step)
 

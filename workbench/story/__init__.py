@@ -4,9 +4,10 @@ words.
 
 from workbench.story.data import story_data
 from workbench.story.model import StagePlace, StepName, Story, TextScene, Value
-from workbench.story.reading import bench_text, has_story, plain_text, story_of
+from workbench.story.reading import ASKED, bench_text, has_story, plain_text, story_of
 
 __all__ = [
+    "ASKED",
     "StagePlace",
     "StepName",
     "Story",

@@ -29,6 +29,10 @@ BEAT_TAGS = {
 }
 
 
+ASKED = re.compile(r"(?m)^::: \{\.ask #([\w-]+)\}\n:::\n?")
+"""Where a page without a story asks a question, by its name."""
+
+
 def has_story(lesson: Lesson) -> bool:
     """Tell whether page.md tells a story: whether a heading of it has a name in braces."""
     headings = re.findall(r"(?m)^#{1,2}\s.*\{[^{}\n]*#[\w-]+[^{}\n]*\}\s*$", lesson.text())
@@ -67,7 +71,7 @@ def plain_text(lesson: Lesson) -> str:
     such as a recording's.
     """
     if not has_story(lesson):
-        return lesson.text()
+        return ASKED.sub("", lesson.text())
     text = re.sub(rf"\[([^\]\n]+)\]{BRACES.pattern}", r"\1", lesson.text())
     text = re.sub(r"(?m)^:::.*\n?", "", text)
     return re.sub(rf"(?m)[ \t]*{BRACES.pattern}[ \t]*$", "", text)

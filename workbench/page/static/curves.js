@@ -3,9 +3,9 @@
 
 const CHART = { width: 340, height: 190, left: 52, right: 10, top: 8, bottom: 34 };
 
-// a whole chart; `marks` are vertical lines, `upto` hides what lies behind it on the x axis
-function plot({ title, xLabel, yLabel, curves, x: across, y: up }, marks, upto = Infinity) {
-  const { width, height, left, right, top, bottom } = CHART;
+// a whole chart; `marks` are vertical lines
+function plot({ title, xLabel, yLabel, curves, x: across, y: up }, marks, size = CHART) {
+  const { width, height, left, right, top, bottom } = size;
   const px = (x) => left + ((x - across.low) / (across.high - across.low)) * (width - left - right);
   const py = (y) => height - bottom - ((y - up.low) / (up.high - up.low)) * (height - top - bottom);
   const parts = [];
@@ -14,7 +14,7 @@ function plot({ title, xLabel, yLabel, curves, x: across, y: up }, marks, upto =
     `<text x="${left - 5}" y="${py(y) + 4}" text-anchor="end">${escape(up.words[i])}</text>`));
   across.ticks.forEach((x, i) => parts.push(
     `<text x="${px(x)}" y="${height - bottom + 14}" text-anchor="middle">${escape(across.words[i])}</text>`));
-  for (const curve of curves) parts.push(...drawn(cut(curve, upto), px, py));
+  for (const curve of curves) parts.push(...drawn(curve, px, py));
   for (const mark of marks) parts.push(stroke(mark, px, top, height - bottom));
   parts.push(`<text x="${(left + width) / 2}" y="${height - 4}" text-anchor="middle">${escape(xLabel)}</text>`,
     `<text transform="translate(11 ${(height - bottom) / 2}) rotate(-90)" text-anchor="middle">${escape(yLabel)}</text>`);

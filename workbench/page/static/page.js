@@ -158,6 +158,7 @@ document.addEventListener("DOMContentLoaded", () => {
   $("#pin").onclick = keys.others.i;
   if (!$("#set").hidden) keys.others.s = () => knobs.toggle();
   if (typeof story !== "undefined") story.start();
+  if (typeof dress !== "undefined") dress.start();
   source.start();
   page.theme(wanted);
 });

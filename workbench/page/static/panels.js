@@ -21,7 +21,7 @@ const panels = {
     if (line && !exercise.scrolled(body)) body.scrollTop = line.offsetTop - body.offsetTop - 0.5 * body.clientHeight;
   },
 
-  // {key, title, small: HTML, whole(): element} of everything that can be shown
+  // {key, title, small: HTML, whole(): element, and of charts chart(size): element} of everything that can be shown
   of(run, step) {
     if (!run || !step) return [];
     const found = [], charts = new Map();
@@ -51,12 +51,14 @@ const panels = {
     const curves = lines.map((l) => curve(l, "line", l.name));
     const data = { ...axes, title: [axes.head, said.join(" · ")].filter(Boolean).join(": ") || chart, xLabel: "step", curves };
     const marks = [page.k, ...exercise.marks(run)];
-    const whole = () => { // what is pinned is shown to its end: it has been seen
-      const drawn = plot({ ...data, curves: [...pinned, ...curves.map((c) => cut(c, upto))] }, marks);
+    // what is pinned is shown to its end: it has been seen
+    const framed = (size) => plot({ ...data, curves: [...pinned, ...curves.map((c) => cut(c, upto))] }, marks, size);
+    const whole = () => {
+      const drawn = framed();
       const more = element("button", { type: "button", textContent: "Show the whole run", onclick: () => { run.seen = true; this.show(); } });
       return element("div", {}, drawn, ...(run.seen || upto >= page.known() - 1 ? [] : [more]));
     };
-    return { key: `series ${chart}`, telling: chart === LESSON.telling, title: said.join(" · ") || chart, value: told.length === 1 ? told[0] : null, small: sparkline(data, marks, upto), whole };
+    return { key: `series ${chart}`, telling: chart === LESSON.telling, title: said.join(" · ") || chart, value: told.length === 1 ? told[0] : null, small: sparkline(data, marks, upto), chart: framed, whole };
   },
 
   thing(thing, i) {
@@ -68,11 +70,11 @@ const panels = {
     if (thing.kind === "plot") {
       const data = flattened(page.run, thing);
       return { key: `plot ${thing.name}`, telling: thing.title === LESSON.telling, title: thing.title,
-        small: sparkline(data, []), whole: () => plot(data, []) };
+        small: sparkline(data, []), chart: (size) => plot(data, [], size), whole: () => plot(data, []) };
     }
     if (thing.kind === "curves") {
       const marks = thing.curves.flatMap((c) => c.marks);
-      return { key: `curves ${thing.title}`, telling: thing.title.startsWith(LESSON.telling || "-"), title: thing.title, small: sparkline(thing, marks), whole: () => plot(thing, marks) };
+      return { key: `curves ${thing.title}`, telling: thing.title.startsWith(LESSON.telling || "-"), title: thing.title, small: sparkline(thing, marks), chart: (size) => plot(thing, marks, size), whole: () => plot(thing, marks) };
     }
     const whole = () => element("figure", {}, element("figcaption", { textContent: thing.title }),
       element("img", { src: thing.url, alt: thing.title, className: thing.width < 200 ? "pixels" : "" }),
@@ -94,9 +96,9 @@ const panels = {
   },
 
   // of one value the name may be cut off, but not the value
-  tile({ key, title, small, value }) {
+  tile({ key, title, small, value, telling, chart }) {
     const words = value ? `<span>${escape(value[0])}</span><b>${escape(value[1])}</b>` : `<span>${escape(title)}</span>`;
-    const button = element("button", { type: "button", className: "tile", title, innerHTML: `${small}<span>${words}</span>` });
+    const button = element("button", { type: "button", className: telling && chart ? "tile main" : "tile", title, innerHTML: `${small}<span>${words}</span>` });
     button.dataset.key = key;
     button.setAttribute("aria-pressed", String(key === this.large));
     button.onclick = () => this.enlarge(key === this.large ? null : key);
