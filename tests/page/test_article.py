@@ -79,9 +79,8 @@ def test_questions_stand_in_the_section_that_asks_to_predict(tmp_path):
 
 
 def test_a_question_stands_where_a_line_of_the_text_asks_it(tmp_path):
-    lesson = written(tmp_path, "# Fake\n\nBefore.\n\n::: {.ask #predict-end}\n:::\n\nAfter.\n")
-    name = next(question.name for question in lesson.questions)
-    lesson.page.write_text(lesson.text().replace("predict-end", name), encoding="utf-8")
+    name = fake.lesson.questions[0].name
+    lesson = written(tmp_path, f"# Fake\n\nBefore.\n\n::: {{.ask #{name}}}\n:::\n\nAfter.\n")
     text = article_html(lesson, address, "live")
     assert text.index("Before.") < text.index(f"<!-- question {name} -->") < text.index("After.")
     document = lesson_document(lesson, text, home="live", root="")
