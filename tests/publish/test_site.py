@@ -20,7 +20,7 @@ from workbench.page.document import (
     bare,
 )
 from workbench.page.steps import Steps
-from workbench.publish import runs, site
+from workbench.publish import runs, site, sizes
 from workbench.publish.pages import lesson_page
 from workbench.run.timeline import Timeline
 from workbench.scene import Caption
@@ -329,20 +329,20 @@ def replace_default(**values):
 def test_a_dead_link_or_something_heavy_fails(tmp_path, monkeypatch):
     (tmp_path / "a.html").write_text('<a href="b.html">x</a>')
     with pytest.raises(InputError, match=r"a\.html: the link b\.html leads nowhere"):
-        site.checked(tmp_path, ["a.html"])
+        sizes.checked(tmp_path, ["a.html"])
     (tmp_path / "b.html").write_text("x" * 400_000)
     with pytest.raises(InputError, match=r"b\.html with its styles and scripts has 0\.40 MB"):
-        site.checked(tmp_path, ["a.html", "b.html"])
+        sizes.checked(tmp_path, ["a.html", "b.html"])
     (tmp_path / "c.rrd").write_bytes(b"x" * 3_000_001)
     with pytest.raises(InputError, match=r"c\.rrd has 3\.00 MB, over the budget of 3\.00 MB"):
-        site.checked(tmp_path, ["c.rrd"])
+        sizes.checked(tmp_path, ["c.rrd"])
 
 
 def test_the_summary_counts_runs_and_no_other_scripts(published):
     out, files = published
-    told = site.sizes_told(out, list(files.items())).splitlines()
+    told = sizes.sizes_told(out, list(files.items())).splitlines()
     assert [line.partition(",")[0] for line in told[:-1]] == ["4 pages", "2 runs", "2 recordings"]
-    told = site.sizes_told(
+    told = sizes.sizes_told(
         out, [("x/runs/a.js", 2_000_000), ("x/runs/angle-0.js", 1_500_000)], {"x/runs/angle-0.js"}
     )
     assert "\n1 of these runs are of sweeps, 1.5 MB, the largest 1.50 MB\n" in told
@@ -369,5 +369,5 @@ def test_a_lesson_s_page_is_within_its_budget(name):
     told = has_story(lesson)
     files = (*STYLES, *RECORDED, *SCRIPTS, *((*STORY_STYLES, *STORY_SCRIPTS) if told else ()))
     shared = sum(len(bare(STATIC / file).encode()) for file in files) + len(math_font_css())
-    budget = site.TOLD_BUDGET if told else site.PAGE_BUDGET
+    budget = sizes.TOLD_BUDGET if told else sizes.PAGE_BUDGET
     assert len(lesson_page(lesson, known).encode()) + shared < budget - 6_000
