@@ -60,10 +60,12 @@ def computing(place: str, lessons: Iterable[Lesson], others: Iterable[str]) -> C
         InputError: If the place cannot be used.
     """
     python = python_from(place)
-    ours = course()
-    names = {lesson.name for lesson in lessons if ours.get(lesson.name) is lesson}
-    names |= set(others) & ours.keys()
+    known = course()
+    names = {lesson.name for lesson in lessons if known.get(lesson.name) is lesson}
+    names |= set(others) & known.keys()
     files = {f"{python.address}{name}": content for name, content in python.files.items()}
-    files[CORE] = archive.packed([ours[name] for name in sorted(names)])
-    files |= {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in COMPUTING}
+    files[CORE] = archive.packed([known[name] for name in sorted(names)])
+    *ours, editor = COMPUTING
+    files |= {f"{PAGE}/{name}": bare(STATIC / name).encode() for name in ours}
+    files[f"{PAGE}/{editor}"] = (STATIC / editor).read_bytes()
     return Computing(python, files, frozenset(names))

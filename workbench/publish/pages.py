@@ -77,9 +77,9 @@ def lesson_page(
     head = f'{head}<script src="../{LESSONS}"></script>'
     more: dict[str, Any] = {"RECORDED": known}
     if computes is not None:
-        style, script, *_ = COMPUTING
+        style, *scripts, _, _ = COMPUTING
         head += f'<link rel="stylesheet" href="../{PAGE}/{style}">'
-        head += f'<script src="../{PAGE}/{script}"></script>'
+        head += "".join(f'<script src="../{PAGE}/{script}"></script>' for script in scripts)
         more["PYTHON"] = computes
     return lesson_document(
         lesson,

@@ -98,8 +98,9 @@ def _address(place: str) -> str:
 
 def _lock(folder: Path) -> dict[str, Any]:
     """Return what the lock file says, held to what is used of it."""
+    content = _read(folder, LOCK)
     try:
-        lock = json.loads(_read(folder, LOCK))
+        lock = json.loads(content)
         version = lock["info"]["version"]
         packages = lock["packages"]
         fine = bool(_PLAIN.fullmatch(version)) and isinstance(packages, dict)

@@ -10,15 +10,20 @@ const compute = {
   live: false,       // whether the run that is open is computed here
   params: null,      // of the run that is open, or is on its way
   at: null,          // the step that is wanted of a run that is on its way
-  buttons: [],
+  buttons: [], whys: [],
   recordedSeen: false,  // whether a recorded run was seen since the last computed one
 
   offer() {
-    const made = () => element("button", { type: "button", className: "compute", onclick: () => this.start(),
-      title: "Loads Python into this page: then every knob moves, and your own function runs" });
-    this.buttons = [made(), made()];
-    $("#tools").append(this.buttons[0]);
-    $("#to-bench")?.before(this.buttons[1]);
+    const made = (put) => {
+      const button = element("button", { type: "button", className: "compute", onclick: () => this.start(),
+        title: "Loads Python into this page: then every knob moves, and your own function runs" });
+      const why = element("output", { className: "why" });
+      put(button, why);
+      this.whys.push(why);
+      return button;
+    };
+    this.buttons = [made((...both) => $("#tools").append(...both))];
+    if ($("#to-bench")) this.buttons.push(made((...both) => $("#to-bench").before(...both)));
     this.offered();
   },
 
@@ -35,7 +40,7 @@ const compute = {
   refused(text) {
     this.worker?.terminate();
     this.worker = null;
-    page.say(text, "wrong");
+    for (const why of this.whys) why.textContent = text;
     this.offered("Try again");
   },
 
@@ -44,26 +49,37 @@ const compute = {
       return this.refused("A browser lets no page compute that was opened from a disk. Behind any web server, such as python -m http.server, this one does.");
     if (typeof WebAssembly === "undefined" || typeof Worker === "undefined")
       return this.refused("This browser has no WebAssembly, and Python needs it. What is recorded plays all the same.");
-    this.guard();
-    this.count += 1;
     this.say("Python is coming …");
+    for (const why of this.whys) why.textContent = "";
+    this.guard().then(() => this.begun(), (error) => this.refused(error.message));
+  },
+
+  begun() {
+    this.count += 1;
     const from = new URL(PYTHON.from, location.href).href, core = new URL(PYTHON.core, location.href).href;
     const code = `import ${JSON.stringify(new URL("../page/computing.js", location.href).href)};`;
     const own = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
     const worker = this.worker = new Worker(own, { type: "module" });
-    worker.onmessage = ({ data: { tell, ...more } }) => worker === this.worker && this.heard[tell].call(this, more);
+    worker.onmessage = ({ data: { tell, ...more } }) => {
+      if (worker === this.worker && Object.hasOwn(this.heard, tell)) this.heard[tell].call(this, more);
+    };
     worker.onerror = (event) => this.refused(`Python cannot run here${event.message ? `: ${event.message}` : ""}. What is recorded plays all the same.`);
     this.post({ verb: "start", from, core, sizes: PYTHON.sizes, lesson: LESSON.name });
   },
 
-  // what runs here may ask Python's folder and no other place; a worker that is made of a blob keeps to it as well
-  guard() {
+  // what runs here may ask Python's folder and no other place; a worker that is made of a blob keeps to it as well, and words
+  // that it sends into the page bring no script with them. The scene's frame, which has scripts within, was there before.
+  async guard() {
     if (this.guarded) return;
+    await shelf.client();
+    const frame = stage.frame;
+    if (frame.contentDocument?.readyState !== "complete" || frame.contentDocument.URL === "about:blank")
+      await new Promise((done) => frame.addEventListener("load", done, { once: true }));
     this.guarded = true;
     const site = new URL("../", location.href).href, from = new URL(PYTHON.from, location.href).href;
     const places = [...new Set([`${site}python/`, from])].join(" ");
     document.head.append(element("meta", { httpEquiv: "Content-Security-Policy",
-      content: `connect-src ${places}; worker-src blob: ${site} ${from}; script-src ${site} ${from} blob: 'unsafe-inline' 'wasm-unsafe-eval'; object-src 'none'; form-action 'none'` }));
+      content: `connect-src ${places}; worker-src blob: ${site} ${from}; script-src ${site} ${from} blob: 'wasm-unsafe-eval'; img-src ${site} data: blob:; font-src ${site} data:; media-src 'none'; frame-src 'none'; object-src 'none'; base-uri 'none'; form-action 'none'` }));
   },
 
   // ends whatever runs, a loop without end too; Python comes again, from the browser's own store
@@ -100,7 +116,10 @@ const compute = {
       arriving.drew(scene);
     },
     picked({ values }) { this.change(values); },
-    trouble({ text }) { page.say(text, "wrong"); },
+    trouble({ text }) {
+      page.say(text, "wrong");
+      bench.failed(text);
+    },
     used(used) { bench.used(used); },
     report({ report }) { bench.told(report); },
   },
@@ -129,7 +148,7 @@ const compute = {
     handles.start();
     page.tools();
     if (typeof storyWords !== "undefined") storyWords.computes();
-    if (this.about.exercises.length) bench.made(this.about.exercises);
+    if (this.about.exercises.length) bench.made(this.about.exercises).catch((error) => page.say(error.message, "wrong"));
     this.named(page.run);
   },
 
@@ -165,8 +184,5 @@ const compute = {
     this.post({ verb: "begin", params, at });
   },
 };
-
-// the student's function: written here, run, judged, and kept in this browser
-const bench = { used() {}, told() {}, made() {}, idle() {} };
 
 addEventListener("load", () => compute.offer());

@@ -2,28 +2,9 @@
 // wanted next. From the page: {verb, ...}; to the page: {tell, ...}, as the live server tells a run and its steps.
 // A module: Pyodide has no other workers since its release 314.
 
-const GLUE = `
-import json, sys
-sys.path.insert(0, "/core")
-from workbench.computed.runner import open_lesson
-from workbench.errors import InputError
-runner = open_lesson(lesson)
-
-def call(verb, given):
-    try:
-        return json.dumps({"value": getattr(runner, verb)(*json.loads(given))})
-    except InputError as error:
-        return json.dumps({"trouble": str(error)})
-    except Exception as error:
-        return json.dumps({"trouble": f"{type(error).__name__}: {error}"})
-
-def step(k):
-    head, scene = runner.step(k)
-    return json.dumps(head), scene
-`;
 const SHARE = 40;  // milliseconds of computing between two looks at what is wanted
 
-let python, call;
+let python, calls;
 let wish = 0;        // number of the run that is wanted
 let run = null;      // {number, known, finished} as far as it has been told
 let wanted = null;   // the step that is wanted and has not been sent; negative from the end
@@ -33,7 +14,7 @@ const turn = () => new Promise((done) => setTimeout(done));  // what the page sa
 
 // asks Python; null where it says why not
 function asked(verb, ...given) {
-  const { value, trouble } = JSON.parse(call(verb, JSON.stringify(given)));
+  const { value, trouble } = JSON.parse(calls.call(verb, JSON.stringify(given)));
   if (trouble === undefined) return value;
   say({ tell: "trouble", text: trouble });
   return null;
@@ -64,6 +45,14 @@ function loading(from, sizes) {
   told();
 }
 
+// what is computed reaches nothing but this page: no net, no store of the browser, no other page or worker
+function closed() {
+  const theirs = ["fetch", "XMLHttpRequest", "WebSocket", "WebSocketStream", "WebTransport", "EventSource", "importScripts", "Worker",
+    "SharedWorker", "BroadcastChannel", "caches", "indexedDB", "cookieStore", "storage", "storageBuckets", "locks", "serviceWorker"];
+  for (const object of [self, navigator])
+    for (let one = object; one; one = Object.getPrototypeOf(one)) for (const name of theirs) delete one[name];
+}
+
 async function start({ from, core, sizes, lesson }) {
   loading(from, sizes);
   const archive = fetch(core).then((answer) => {
@@ -75,9 +64,9 @@ async function start({ from, core, sizes, lesson }) {
   python = await loadPyodide({ indexURL: from });
   await python.loadPackage(["numpy", "scipy"], { messageCallback() {} });
   python.unpackArchive(await archive, "zip", { extractDir: "/core" });
-  python.globals.set("lesson", lesson);
-  python.runPython(GLUE);
-  call = python.globals.get("call");
+  python.runPython("import sys; sys.path.insert(0, '/core')");
+  calls = python.pyimport("workbench.computed.calls").Calls(lesson);
+  closed();
   const about = asked("about");
   if (about) say({ tell: "ready", ...about });
 }
@@ -110,7 +99,7 @@ function show() {
   const k = wanted < 0 ? (finished ? Math.max(0, known + wanted) : null) : wanted <= last ? wanted : finished ? last : null;
   if (k === null || k < 0) return;
   wanted = null;
-  const pair = python.globals.get("step")(k), [head, bytes] = pair.toJs();
+  const pair = calls.step(k), [head, bytes] = pair.toJs();
   pair.destroy();
   const scene = bytes.slice().buffer;
   say({ ...JSON.parse(head), scene }, [scene]);
@@ -143,7 +132,7 @@ function rest() {
 }
 
 const verbs = { start, begin, seek, click, use, judge, rest };
-const failed = (error) => say({ tell: python && call ? "trouble" : "failed", text: String(error.message ?? error).trim().split("\n").pop().slice(0, 300) });
+const failed = (error) => say({ tell: calls ? "trouble" : "failed", text: String(error.message ?? error).trim().split("\n").pop().slice(0, 300) });
 self.onmessage = async ({ data: { verb, ...given } }) => {
   try { await verbs[verb](given); } catch (error) { failed(error); }
 };
