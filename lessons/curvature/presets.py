@@ -30,9 +30,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="paper",
         title="A ring of paper",
-        line=(
-            "Six triangles around a point. From an overlap through zero to a gap: saddle, flat, cone."
-        ),
+        line=("Six triangles around a point, from an overlap to a gap: a saddle, flat, a cone."),
         params=PAPER,
         step=CONE,
         view=SHEET,
