@@ -108,9 +108,7 @@ def _finer(state: State) -> dict[str, Primitive]:
         chart = Chart(f"Error of {letter} on finer meshes", "log₁₀ vertices", "log₁₀ error (%)")
         for name, error, role in ((way, ours, "source"), ("by fit", fit, "highlight")):
             y = np.log10(np.maximum(100 * error, FLOOR))
-            scene[f"finer {letter} {name}"] = chart.curve(
-                x, y, f"{letter} {name}", role, marks=True
-            )
+            scene[f"finer {letter} {name}"] = chart.curve(x, y, f"{letter} {name}", role)
     return scene
 
 

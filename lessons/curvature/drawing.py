@@ -51,7 +51,7 @@ def draw(state: State) -> Scene:
     elif stage == "gaussian":
         scene |= ring.cell(now)
     elif stage == "normal":
-        scene |= {"mean normals": _arrows(state)} | ring.pushes(now, arrow(state))
+        scene |= {"normals": _arrows(state)} | ring.pushes(now, arrow(state))
     elif stage == "principal":
         scene |= _crosses(state) | ring.circles(now)
     elif stage == "quadric":
@@ -107,5 +107,5 @@ def _crosses(state: State) -> dict[str, Primitive]:
     )
     for name, role, v in both:
         ends = between(p - half * v[rows], p + half * v[rows]) + 0.05 * half * n[:, None]
-        scene[f"along {name}"] = Segments(ends, role, 2, name=f"direction of {name}")
+        scene[f"ticks/{name}"] = Segments(ends, role, 2, name=f"direction of {name}")
     return scene

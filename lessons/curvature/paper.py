@@ -118,10 +118,10 @@ def _flat(now: Held) -> dict[str, Primitive]:
         "flat edges": Segments(
             np.concatenate([between(p[0], p[1:]), segments(p[1:])]), "neutral", 2.0
         ),
-        "cut": Segments(between(p[0], p[[1, -1]]), "source", 4.0, name="the edge that is cut"),
+        "cut": Segments(between(p[0], p[[1, -1]]), "other", 4.0, name="the edge that is cut"),
     }
     if now.gap == 0:
-        scene["gap words"] = Label("no gap", FLAT + np.array([0.0, -0.05, 1.12]), "source")
+        scene["gap words"] = Label("no gap", FLAT + np.array([0.0, -0.05, 1.12]), "other")
         return scene
     word = "gap" if now.gap > 0 else "overlap"
     # From the last edge on to the first one; the axis points at the viewer.
@@ -132,6 +132,7 @@ def _flat(now: Held) -> dict[str, Primitive]:
         now.gap,
         about=np.array([0.0, -1.0, 0.0]),
         radius=0.75,
+        color="other",
         text=f"{word} {abs(now.gap):.0f}°",
     )
 

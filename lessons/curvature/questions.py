@@ -85,7 +85,10 @@ def _seven(states: States) -> float:
 QUESTIONS: tuple[Question, ...] = (
     Question(
         name="seven",
-        text="Seven triangles with equal sides are put around one point. Laid flat, they have …",
+        text=(
+            "Seven triangles with equal sides are put around one point. Compared with a full "
+            "turn, their angles are …"
+        ),
         answer=_seven,
         why=lambda states: (
             "Seven angles of 60° make 420°, so the ring overlaps by 60°. Here six larger triangles"
@@ -93,11 +96,15 @@ QUESTIONS: tuple[Question, ...] = (
         ),
         params=PAPER,
         choices=(
-            Choice("a gap", why="Five of them leave a gap. Seven have more than a full turn."),
             Choice(
-                "neither", why="Six of them lie flat: 6 times 60° is 360°. The seventh is too much."
+                "60° too small",
+                why=("Five of them leave 60° open. Seven have more than a full turn."),
             ),
-            "an overlap",
+            Choice(
+                "just right",
+                why=("Six of them lie flat: 6 times 60° is 360°. The seventh is too much."),
+            ),
+            "60° too large",
         ),
         start=int(np.argmin(np.abs(paper.HAND))),
         step=int(np.argmin(np.abs(paper.HAND + 60.0))),
@@ -219,7 +226,7 @@ QUESTIONS: tuple[Question, ...] = (
                 ),
             ),
             Choice(
-                "neither",
+                "just right",
                 why=(
                     "The shape is the same, but H counts as positive where the surface bends away"
                     " from its normal, and the normal has turned."
