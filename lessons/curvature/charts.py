@@ -106,7 +106,11 @@ def _finer(state: State) -> dict[str, Primitive]:
         ("H", "from cotangents", study.H, study.H_fit),
     ):
         chart = Chart(f"Error of {letter} on finer meshes", "log₁₀ vertices", "log₁₀ error (%)")
-        for name, error, role in ((way, ours, "source"), ("by fit", fit, "highlight")):
+        both: tuple[tuple[str, np.ndarray, Role], ...] = (
+            (way, ours, "source"),
+            ("by fit", fit, "highlight"),
+        )
+        for name, error, role in both:
             y = np.log10(np.maximum(100 * error, FLOOR))
             scene[f"finer {letter} {name}"] = chart.curve(x, y, f"{letter} {name}", role)
     return scene

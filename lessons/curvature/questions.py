@@ -226,7 +226,7 @@ QUESTIONS: tuple[Question, ...] = (
                 ),
             ),
             Choice(
-                "just right",
+                "neither",
                 why=(
                     "The shape is the same, but H counts as positive where the surface bends away"
                     " from its normal, and the normal has turned."

@@ -13,7 +13,7 @@ from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
 
 LIFT = 0.03  # how far things float above the surface, in edges
-ASIDE = 2.3  # edges: how far to the right a ring is laid flat
+ASIDE = 1.0  # edges: how far to the right a ring is laid flat
 FARTHEST = 1.3  # metres from the vertex that a circle's centre is drawn
 CIRCLE = 2 * np.pi * np.arange(97) / 96
 

@@ -10,9 +10,10 @@ import numpy as np
 from lessons.curvature.inputs import Input
 from lessons.curvature.lesson import lesson
 from lessons.curvature.mesh import subject_of
-from lessons.curvature.state import State, beside_its_mesh
+from lessons.curvature.state import State, Step, beside_its_mesh
 from tests.geometry.by_faces import measured_face_by_face
 from tests.verdicts import Run
+from workbench.certain import as_a
 
 
 def shown(run: Run) -> Run:
@@ -26,7 +27,7 @@ def shown(run: Run) -> Run:
 def run_of(params: Input) -> Iterator[State]:
     """Yield the steps of a mesh, each beside it."""
     for step in lesson.form.states(params):
-        yield beside_its_mesh(params, subject_of(params), step)
+        yield beside_its_mesh(params, subject_of(params), as_a(Step, step))
 
 
 def facts(state):
