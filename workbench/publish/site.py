@@ -20,6 +20,7 @@ from workbench.page.document import (
     DRESS,
     FONTS,
     MATH,
+    MATH_FONT,
     RECORDED,
     SCRIPTS,
     STATIC,
@@ -55,7 +56,7 @@ from workbench.publish.runs import (
 )
 from workbench.recording import equal_content
 from workbench.run.timeline import Timelines
-from workbench.words.typeset import math_font_css
+from workbench.words.typeset import math_font, math_font_css
 
 PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = (
     300_000,
@@ -163,7 +164,11 @@ def _publish(
         for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS)
     }
     shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in FONTS}
-    shared |= {f"{PAGE}/{MATH}": math_font_css().encode(), ".nojekyll": b""}
+    shared |= {
+        f"{PAGE}/{MATH}": math_font_css(MATH_FONT).encode(),
+        f"{PAGE}/{MATH_FONT}": math_font(),
+        ".nojekyll": b"",
+    }
     shared |= {CLIENT: client_script().encode()}
     shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
     wanted = {COURSE_PAGE, LESSONS, *shared}
