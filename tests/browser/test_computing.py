@@ -131,7 +131,9 @@ def test_a_knob_moves_to_any_value_and_says_what_python_says(page):
     name = slider.locator("xpath=ancestor::fieldset").get_attribute("data-knob")
     slider.press("ArrowLeft")
     slider.press("ArrowLeft")
-    until(page, lambda: page.evaluate("String(page.run.id).startsWith('here') && page.run.finished"))
+    until(
+        page, lambda: page.evaluate("String(page.run.id).startsWith('here') && page.run.finished")
+    )
     page.locator("[data-act=last]").click()
     params = LESSON.validated(LESSON.params(**page.evaluate("page.run.params")))
     assert getattr(params, name) != getattr(LESSON.params(), name)

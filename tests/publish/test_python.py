@@ -116,7 +116,15 @@ def test_a_lock_file_that_names_what_it_should_not_is_refused(release, change):
 
 @pytest.mark.parametrize(
     "text",
-    ["", "{", "[]", "{}", '{"info": 3}', '{"info": {"version": "../.."}, "packages": {}}', "[" * 99999],
+    [
+        "",
+        "{",
+        "[]",
+        "{}",
+        '{"info": 3}',
+        '{"info": {"version": "../.."}, "packages": {}}',
+        "[" * 99999,
+    ],
 )
 def test_what_is_no_lock_file_is_refused(release, text):
     (release / python.LOCK).write_text(text)

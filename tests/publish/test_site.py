@@ -2,6 +2,7 @@ import base64
 import json
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 import zstandard
@@ -11,11 +12,9 @@ from tests.publish.conftest import TINY
 from workbench.errors import InputError
 from workbench.lesson import Sweep, View, catalog
 from workbench.page.document import (
-    RECORDED,
+    MATH,
     SCRIPTS,
     STATIC,
-    STORY_SCRIPTS,
-    STORY_STYLES,
     STYLES,
     bare,
 )
@@ -26,7 +25,6 @@ from workbench.run.timeline import Timeline
 from workbench.scene import Caption
 from workbench.story import has_story
 from workbench.wire.packing import run_text
-from workbench.words.typeset import math_font_css
 
 SMALL = replace(fake.lesson, presets=fake.lesson.presets[:1])
 
@@ -366,8 +364,9 @@ def test_a_lesson_s_page_is_within_its_budget(name):
     """Without what answers say, some thousand bytes, which need runs."""
     lesson = catalog()[name]
     known = runs.recorded(lesson, runs.runs_of(lesson)[0], root="../", runs="runs/", answers={})
-    told = has_story(lesson)
-    files = (*STYLES, *RECORDED, *SCRIPTS, *((*STORY_STYLES, *STORY_SCRIPTS) if told else ()))
-    shared = sum(len(bare(STATIC / file).encode()) for file in files) + len(math_font_css())
-    budget = sizes.TOLD_BUDGET if told else sizes.PAGE_BUDGET
-    assert len(lesson_page(lesson, known).encode()) + shared < budget - 6_000
+    page = lesson_page(lesson, known)
+    files = {Path(link).name for link in sizes.links_in(page) if link.startswith("../page/")}
+    assert {*STYLES, *SCRIPTS, MATH} < files
+    shared = sum(len(bare(STATIC / file).encode()) for file in files - {MATH})
+    budget = sizes.TOLD_BUDGET if has_story(lesson) else sizes.PAGE_BUDGET
+    assert len(page.encode()) + shared < budget - 6_000

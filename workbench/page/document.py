@@ -14,7 +14,7 @@ from workbench.story import Story, story_data
 from workbench.words.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
-MATH = "math.css"
+MATH, MATH_FONT = "math.css", "math.woff2"
 THIRD_PARTIES = "third-parties.txt"
 """Whose work is in our pages, and its licences."""
 STYLES = ("page.css", "ending.css", "course.css")

@@ -20,6 +20,7 @@ from workbench.page.document import (
     DRESS,
     FONTS,
     MATH,
+    MATH_FONT,
     RECORDED,
     SCRIPTS,
     STATIC,
@@ -58,7 +59,7 @@ from workbench.publish.runs import (
 from workbench.publish.sizes import COURSE_PAGE, checked
 from workbench.recording import equal_content
 from workbench.run.timeline import Timelines
-from workbench.words.typeset import math_font_css
+from workbench.words.typeset import math_font, math_font_css
 
 PICTURE = "picture.webp"
 
@@ -163,7 +164,11 @@ def _publish(
         for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS)
     }
     shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in FONTS}
-    shared |= {f"{PAGE}/{MATH}": math_font_css().encode(), ".nojekyll": b""}
+    shared |= {
+        f"{PAGE}/{MATH}": math_font_css(MATH_FONT).encode(),
+        f"{PAGE}/{MATH_FONT}": math_font(),
+        ".nojekyll": b"",
+    }
     shared |= {CLIENT: client_script().encode()}
     shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
     shared |= {} if computes is None else computes.files
