@@ -37,7 +37,10 @@ function loading(from, sizes) {
   self.fetch = async (what, how) => {
     const address = String(what.url ?? what);
     if (!address.startsWith(from)) return load(what, how);
-    const answer = await stored(address);
+    const answer = await stored(address).catch((error) => {
+      failed(error);  // Pyodide itself waits for ever for a file that does not come
+      throw error;
+    });
     done += sizes[address.slice(from.length)] ?? 0;
     told();
     return answer;
