@@ -179,12 +179,12 @@ def test_a_loop_without_end_is_ended_and_the_text_stays(page, bench):
     assert page.errors == []
 
 
-def test_a_second_visit_loads_nothing_and_has_the_text(context, page, bench, site):
+def test_a_second_visit_loads_nothing_and_has_the_text(page, bench, site):
     written(page, bench, FOREVER)
     until(page, lambda: page.evaluate("kept.get(bench.key('invert_rigid'))") == FOREVER)
     address, asked = site
     del asked[:]
-    again = context.new_page()
+    again = page.context.new_page()
     again.goto(address)
     began(again)
     assert not [path for path in asked if "/python/" in path], "at most: still the same?"

@@ -12,6 +12,11 @@ class Calls:
 
     Args:
         lesson: Its name.
+
+    Examples:
+        >>> calls = Calls("rotations")
+        >>> calls.call("use", '["none", "x = 1"]')
+        '{"trouble": "lesson rotations has no exercise \'none\'"}'
     """
 
     def __init__(self, lesson: str):
