@@ -8,7 +8,7 @@ import http.server
 import itertools
 import threading
 from collections.abc import Callable, Iterator
-from typing import Any, ClassVar
+from typing import Any
 
 import pytest
 
@@ -34,8 +34,6 @@ def invert_rigid(T_a_b):
 
 class Handler(QuietHandler):
     """A static server that knows what it has sent."""
-
-    extensions_map: ClassVar = {**QuietHandler.extensions_map, ".wasm": "application/wasm"}
 
     def __init__(self, *args: Any, asked: list[str], **more: Any):
         self.asked = asked

@@ -99,6 +99,7 @@ def _address(place: str) -> str:
 def _lock(folder: Path) -> dict[str, Any]:
     """Return what the lock file says, held to what is used of it."""
     content = _read(folder, LOCK)
+    lock: dict[str, Any] = {}
     try:
         lock = json.loads(content)
         version = lock["info"]["version"]
@@ -116,6 +117,7 @@ def _wanted(folder: Path, packages: Mapping[str, Any]) -> Iterator[str]:
     todo, done = list(PACKAGES), set[str]()
     while todo:
         name = todo.pop(0)
+        version, depends = [0], list[str]()
         if name in done:
             continue
         done.add(name)
@@ -131,7 +133,7 @@ def _wanted(folder: Path, packages: Mapping[str, Any]) -> Iterator[str]:
         since = PACKAGES.get(name, (0,))
         if tuple(version) < since:
             raise InputError(
-                f"--python {folder}: {name} {package['version']} is too old;"
+                f"--python {folder}: {name} {'.'.join(map(str, version))} is too old;"
                 f" {'.'.join(map(str, since))} is needed"
             )
         yield name
