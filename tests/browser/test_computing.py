@@ -94,9 +94,9 @@ def bench(page):
 
 
 def began(page: Any) -> None:
-    button = page.locator("button.compute:visible")
+    button = page.locator("button.compute:visible >> nth=0")
     button.get_by_text("Compute here: 28 MB once").click()
-    page.locator("button.compute:visible", has_text="Python 3.").wait_for()
+    page.locator("button.compute:visible >> nth=0", has_text="Python 3.").wait_for()
 
 
 def run(page: Any, bench: Any, text: str) -> str:
@@ -171,7 +171,7 @@ def test_a_loop_without_end_is_ended_and_the_text_stays(page, bench):
     bench.get_by_text("Still running.").wait_for()
     bench.get_by_role("button", name="Stop").click()
     bench.get_by_text("Stopped.").wait_for()
-    page.locator("button.compute:visible", has_text="Python 3.").wait_for()
+    page.locator("button.compute:visible >> nth=0", has_text="Python 3.").wait_for()
     until(page, lambda: page.evaluate("page.run.finished && page.run.called === null"))
     assert "while True" in bench.locator(".cm-content").inner_text()
     assert page.errors == []
@@ -194,9 +194,11 @@ def test_a_second_visit_loads_nothing_and_has_the_text(page, bench, site):
 def test_a_page_from_a_disk_says_why_it_cannot_and_plays_on(context, out):
     page = context.new_page()
     page.goto((out / "on" / "site" / "transforms" / "index.html").as_uri())
-    page.locator("button.compute:visible").click()
-    page.locator("output.why:visible", has_text="A browser lets no page compute").wait_for()
-    assert page.locator("button.compute:visible").inner_text().startswith("Try again")
+    page.locator("button.compute:visible >> nth=0").click()
+    page.locator(
+        "output.why:visible >> nth=0", has_text="A browser lets no page compute"
+    ).wait_for()
+    assert page.locator("button.compute:visible >> nth=0").inner_text().startswith("Try again")
     page.close()
 
 
@@ -205,12 +207,12 @@ def test_where_python_is_not_the_page_says_so_and_tries_again(chromium, out, sit
     aside = wasm.rename(wasm.with_suffix(".aside"))
     page = chromium.new_page(bypass_csp=False)
     page.goto(site[0])
-    page.locator("button.compute:visible").click()
+    page.locator("button.compute:visible >> nth=0").click()
     page.locator(
         "output.why:visible", has_text="pyodide.asm.wasm cannot be loaded (404)"
     ).wait_for()
     aside.rename(wasm)
-    page.locator("button.compute:visible", has_text="Try again").click()
-    page.locator("button.compute:visible", has_text="Python 3.").wait_for()
-    assert not page.locator("output.why:visible").count()
+    page.locator("button.compute:visible >> nth=0", has_text="Try again").click()
+    page.locator("button.compute:visible >> nth=0", has_text="Python 3.").wait_for()
+    assert not page.locator("output.why:visible >> nth=0").count()
     page.close()

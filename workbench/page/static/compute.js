@@ -24,6 +24,8 @@ const compute = {
     };
     this.buttons = [made((...both) => $("#tools").append(...both))];
     if ($("#to-bench")) this.buttons.push(made((...both) => $("#to-bench").before(...both)));
+    const turn = $("#story .to-bench");  // where the story hands over, also on a phone
+    if (turn) this.buttons.push(made((...both) => turn.after(" ", ...both)));
     this.offered();
   },
 
@@ -33,6 +35,7 @@ const compute = {
   },
 
   say(text, busy = true) {
+    document.body.classList.toggle("computes", text.endsWith(" computes"));
     for (const button of this.buttons) Object.assign(button, { textContent: text, disabled: busy });
   },
 
