@@ -19,7 +19,7 @@ from workbench.page.document import (
     bare,
 )
 from workbench.page.steps import Steps
-from workbench.publish import runs, site
+from workbench.publish import runs, site, sizes
 from workbench.publish.pages import lesson_page
 from workbench.run.timeline import Timeline
 from workbench.scene import Caption
@@ -249,9 +249,7 @@ def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered, monk
     out, _ = published
     pages = []
     original = site.lesson_page
-    monkeypatch.setattr(
-        site, "lesson_page", lambda *args: pages.append(args[-1]) or original(*args)
-    )
+    monkeypatch.setattr(site, "lesson_page", lambda *args: pages.append(args[2]) or original(*args))
     site.publish(out, [SMALL], recordings="all")
     site.publish(out, [SMALL], recordings="all")
     assert pages == [""]  # once without the address that it had
@@ -327,20 +325,20 @@ def replace_default(**values):
 def test_a_dead_link_or_something_heavy_fails(tmp_path, monkeypatch):
     (tmp_path / "a.html").write_text('<a href="b.html">x</a>')
     with pytest.raises(InputError, match=r"a\.html: the link b\.html leads nowhere"):
-        site.checked(tmp_path, ["a.html"])
+        sizes.checked(tmp_path, ["a.html"])
     (tmp_path / "b.html").write_text("x" * 400_000)
     with pytest.raises(InputError, match=r"b\.html with its styles and scripts has 0\.40 MB"):
-        site.checked(tmp_path, ["a.html", "b.html"])
+        sizes.checked(tmp_path, ["a.html", "b.html"])
     (tmp_path / "c.rrd").write_bytes(b"x" * 3_000_001)
     with pytest.raises(InputError, match=r"c\.rrd has 3\.00 MB, over the budget of 3\.00 MB"):
-        site.checked(tmp_path, ["c.rrd"])
+        sizes.checked(tmp_path, ["c.rrd"])
 
 
 def test_the_summary_counts_runs_and_no_other_scripts(published):
     out, files = published
-    told = site.sizes_told(out, list(files.items())).splitlines()
+    told = sizes.sizes_told(out, list(files.items())).splitlines()
     assert [line.partition(",")[0] for line in told[:-1]] == ["4 pages", "2 runs", "2 recordings"]
-    told = site.sizes_told(
+    told = sizes.sizes_told(
         out, [("x/runs/a.js", 2_000_000), ("x/runs/angle-0.js", 1_500_000)], {"x/runs/angle-0.js"}
     )
     assert "\n1 of these runs are of sweeps, 1.5 MB, the largest 1.50 MB\n" in told
@@ -365,8 +363,8 @@ def test_a_lesson_s_page_is_within_its_budget(name):
     lesson = catalog()[name]
     known = runs.recorded(lesson, runs.runs_of(lesson)[0], root="../", runs="runs/", answers={})
     page = lesson_page(lesson, known)
-    files = {Path(link).name for link in site.links_in(page) if link.startswith("../page/")}
+    files = {Path(link).name for link in sizes.links_in(page) if link.startswith("../page/")}
     assert {*STYLES, *SCRIPTS, MATH} < files
     shared = sum(len(bare(STATIC / file).encode()) for file in files - {MATH})
-    budget = site.TOLD_BUDGET if has_story(lesson) else site.PAGE_BUDGET
+    budget = sizes.TOLD_BUDGET if has_story(lesson) else sizes.PAGE_BUDGET
     assert len(page.encode()) + shared < budget - 6_000
