@@ -209,7 +209,7 @@ def test_where_python_is_not_the_page_says_so_and_tries_again(chromium, out, sit
     page.goto(site[0])
     page.locator("button.compute:visible >> nth=0").click()
     page.locator(
-        "output.why:visible", has_text="pyodide.asm.wasm cannot be loaded (404)"
+        "output.why:visible >> nth=0", has_text="pyodide.asm.wasm cannot be loaded (404)"
     ).wait_for()
     aside.rename(wasm)
     page.locator("button.compute:visible >> nth=0", has_text="Try again").click()
