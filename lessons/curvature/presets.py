@@ -17,7 +17,7 @@ SIDE = View(eye=(2.95, 1.65, 1.4), target=(0.0, -0.1, -0.05), grid=None, axes=Fa
 CYLINDER = Input(surface="cylinder", vertices=800)
 DOUBLE = Input(size=2.0)
 INSIDE_OUT = Input(inside_out=True)
-IRREGULAR = Input(vertices=6000, jitter=0.2)
+IRREGULAR = Input(vertices=5000, jitter=0.2)
 PAPER = Input(stage="paper")
 SPHERE_SUM = Input(surface="sphere", vertices=1000, jitter=0.25, noise=0.01)
 
