@@ -25,11 +25,14 @@ ONCE_MORE = ["pytest", "-q", "-n0", "--last-failed", "--last-failed-no-failures=
 NOTED = ROOT / ".pytest_cache" / "v" / "cache" / "lastfailed"
 SOME_FAILED = 1  # pytest's exit code
 FEW = 10  # more that fail are no accident
+KEEPS_BYTECODE = {"PYTHONDONTWRITEBYTECODE": ""}
+"""A run starts some thousand processes: without it each compiles the workbench anew."""
 BESIDE = ("types",)  # runs in what time the others leave; its output comes at the end
 
 
 def main() -> int:
     """Run all checks, each to its end, and say which failed."""
+    os.environ |= KEEPS_BYTECODE
     began = time.monotonic()
     signal.signal(
         signal.SIGINT, signal.default_int_handler

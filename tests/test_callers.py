@@ -8,7 +8,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 FILES = [path for part in ("workbench", "lessons") for path in (ROOT / part).rglob("*.py")]
-TREES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
 DEFINITION = ast.FunctionDef | ast.ClassDef
 
 
@@ -25,12 +24,9 @@ def uses(tree: ast.AST) -> Counter[str]:
     return found
 
 
-USES = sum((uses(tree) for tree in TREES.values()), Counter())
-
-
-def left_over(tree: ast.Module) -> list[str]:
-    """The functions, classes and constants of a module that nobody uses and that no example
-    shows.
+def left_over(tree: ast.Module, used: Counter[str]) -> list[str]:
+    """The functions, classes and constants of a module that are not among those used and that no
+    example shows.
     """
     names = [
         node.name
@@ -46,13 +42,17 @@ def left_over(tree: ast.Module) -> list[str]:
     return [
         name
         for name in names
-        if not USES[name] and name not in exported and not name.startswith("__")
+        if not used[name] and name not in exported and not name.startswith("__")
     ]
 
 
 def test_what_is_defined_is_used_or_shown():
+    trees = {path: ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
+    used: Counter[str] = Counter()
+    for tree in trees.values():
+        used.update(uses(tree))
     assert {
         str(path.relative_to(ROOT)): found
-        for path, tree in TREES.items()
-        if (found := left_over(tree))
+        for path, tree in trees.items()
+        if (found := left_over(tree, used))
     } == {}

@@ -14,6 +14,7 @@ from workbench.lesson import catalog
 from workbench.words.typeset import (
     LARGEST_PICTURE,
     inline_html,
+    math_font,
     math_font_css,
     math_html,
     page_html,
@@ -55,19 +56,24 @@ def test_a_formula_that_cannot_be_read_is_shown_as_written():
 
 def test_the_font_is_small_and_kept(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    math_font_css.cache_clear()
-    css = math_font_css()
-    assert 100_000 < len(css) < 200_000
+    math_font.cache_clear()
+    font = math_font()
+    assert 75_000 < len(font) < 150_000
     kept = list(tmp_path.rglob("*.woff2"))
     assert len(kept) == 1
-    math_font_css.cache_clear()
-    assert math_font_css() == css
+    math_font.cache_clear()
+    assert math_font() == font
+
+
+def test_a_page_has_the_font_beside_it_or_in_it():
+    assert "url(math.woff2)" in math_font_css("math.woff2")
+    inside = re.search(r"base64,([^)]*)\)", math_font_css())
+    assert inside is not None
+    assert base64.b64decode(inside.group(1)) == math_font()
 
 
 def test_the_font_says_whose_it_is_and_under_which_licence():
-    file = re.search(r"base64,([^)]*)\)", math_font_css())
-    assert file is not None
-    names = TTFont(io.BytesIO(base64.b64decode(file.group(1))))["name"]
+    names = TTFont(io.BytesIO(math_font()))["name"]
     said = {kind: names.getDebugName(kind) or "" for kind in (0, 7, 13, 14)}
     assert "STIX Fonts Project Authors" in said[0]
     assert "trademarks" in said[7]
@@ -76,9 +82,7 @@ def test_the_font_says_whose_it_is_and_under_which_licence():
 
 
 def test_the_font_has_every_letter_of_every_formula():
-    file = re.search(r"base64,([^)]*)\)", math_font_css())
-    assert file is not None
-    known = TTFont(io.BytesIO(base64.b64decode(file.group(1)))).getBestCmap() or {}
+    known = TTFont(io.BytesIO(math_font())).getBestCmap() or {}
     for lesson in catalog().values():
         for formula in re.findall(r"<math.*?</math>", page_html(lesson.text()), re.DOTALL):
             letters = set(html.unescape(re.sub(r"<[^>]*>", "", formula)))

@@ -386,12 +386,19 @@ def publish(
         Literal["all", "linked", "none"],
         Option("Of which runs: all, those that a text names, or none.", "all|linked|none"),
     ] = "linked",
+    python: Annotated[
+        str | None,
+        Option(
+            "Let the pages compute: the folder of a Pyodide release, or its address.",
+            "FOLDER|URL",
+        ),
+    ] = None,
 ) -> None:
     """Write static tutorial pages that play in any browser, without Python."""
     from workbench.machinery.progress import bar
     from workbench.publish.runs import swept_files
     from workbench.publish.site import publish as publish_site
-    from workbench.publish.site import sizes_told
+    from workbench.publish.sizes import sizes_told
 
     names = dict.fromkeys(name for word in lesson for name in word.split(",") if name)
     chosen = [lesson_given(name) for name in names or catalog()]
@@ -411,6 +418,7 @@ def publish(
             force=force,
             remove_others=not names,
             recordings=recordings,
+            python=python,
             progress=progress,
         )
     sys.stdout.write(sizes_told(out, files, swept_files(chosen)) + "\n")

@@ -156,9 +156,10 @@ class Replay:
         is_default = self.params == self.lesson.params()  # which may be a preset too
         if is_default:
             step = self.lesson.opens
+        elif preset is not None and preset.step is not None:
+            step = preset.step
         else:
-            known = preset is not None and preset.step is not None
-            step = preset.step if known else self.lesson.first_step
+            step = self.lesson.first_step
         return min(max(step, -last - 1), last)
 
     @functools.cached_property

@@ -5,6 +5,7 @@ import numpy as np
 from lessons.curvature.scales import H_SCALE, K_SCALE, reach, share_within
 from lessons.curvature.state import State
 from workbench.certain import sure
+from workbench.lesson import say
 from workbench.numerals import brief, percent
 from workbench.scene import Caption
 
@@ -34,7 +35,7 @@ def _mesh(state: State) -> Caption:
         text += f" Its vertices stray by {' and '.join(ways)}."
     else:
         text += " Every triangle is flat: all bending sits at vertices and edges."
-    return Caption(text)
+    return say(text)
 
 
 def _ring(state: State) -> Caption:
@@ -45,14 +46,14 @@ def _ring(state: State) -> Caption:
         f" {total:.2f}°."
     )
     if state.on_border:
-        return Caption(
+        return say(
             text + " It lies on the border: on a straight, flat border they would add up to 180°."
         )
-    return Caption(text + " In a plane they would add up to 360°.")
+    return say(text + " In a plane they would add up to 360°.")
 
 
 def _unfolding(state: State) -> Caption:
-    return Caption(
+    return say(
         f"Cut along one edge, the ring unfolds, {100 * state.unfolded:.0f} % of the way: each of"
         f" its {len(state.now.angles)} triangles keeps its shape and its angle."
     )
@@ -62,7 +63,7 @@ def _defect(state: State) -> Caption:
     defects = sure(state.now.defects)
     here = np.degrees(float(defects[state.now.vertex]))
     if abs(here) < 5e-7:
-        return Caption(
+        return say(
             "Laid flat, the ring closes: angle defect 0. Flat triangles can bend around an edge"
             " without one."
         )
@@ -73,13 +74,13 @@ def _defect(state: State) -> Caption:
     )
     text += ": the angle defect, curvature times area and not curvature yet."
     if not state.on_border:
-        return Caption(text + " A finer mesh has smaller defects.")
+        return say(text + " A finer mesh has smaller defects.")
     if state.params.mistake == "2 pi on the border":
-        return Caption(
+        return say(
             f"Taken from 360°, a border vertex misses {here:.2f}°: half a turn that is not there.",
-            "wrong",
+            tone="wrong",
         )
-    return Caption(
+    return say(
         f"On the border angles are taken from 180°: {here:.2f}° is how the border itself turns"
         " here, not how the surface bends."
     )
@@ -89,20 +90,18 @@ def _gaussian(state: State) -> Caption:
     now = state.now
     v, true = now.vertex, state.true("gaussian")
     if state.on_border:
-        return Caption(
-            NOWHERE.format("K") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²")
-        )
+        return say(NOWHERE.format("K") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
     if state.params.mistake == "defect taken for K":
         text = f"Without the division by the area, K at vertex {v:,} would be {brief(now.K[v])}"
-        return Caption(
+        return say(
             text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}",
-            "wrong",
+            tone="wrong",
         )
     text = (
         f"K = defect / area = {brief(now.defects[v])} rad / {brief(now.areas[v])} m² ="
         f" {brief(now.K[v])} m⁻²"
     )
-    return Caption(
+    return say(
         text + _truth(true, "m⁻²") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²")
     )
 
@@ -110,15 +109,15 @@ def _gaussian(state: State) -> Caption:
 def _normal(state: State) -> Caption:
     now = state.now
     if state.on_border:
-        return Caption(NOWHERE.format("the mean-curvature normal"))
+        return say(NOWHERE.format("the mean-curvature normal"))
     v = now.normals_2H[now.vertex]
     side = "outward" if v @ now.normals[now.vertex] > 0 else "inward"
     if np.linalg.norm(v) < 1e-6:
-        return Caption(
+        return say(
             f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H"
             " n = 0."
         )
-    return Caption(
+    return say(
         "Each neighbour pushes the vertex away from itself, weighted by the cotangents opposite"
         f" their edge; over twice the area the pushes at vertex {now.vertex:,} add up to 2 H n,"
         f" {brief(float(np.linalg.norm(v)))} m⁻¹ long and pointing {side}."
@@ -128,15 +127,15 @@ def _normal(state: State) -> Caption:
 def _mean(state: State) -> Caption:
     now = state.now
     if state.on_border:
-        return Caption(NOWHERE.format("H") + _error(state, "H"))
+        return say(NOWHERE.format("H") + _error(state, "H"))
     H, true = float(now.H[now.vertex]), state.true("mean")
     if state.params.mistake == "H without the half":
         text = f"Taken whole, the normal's length gives H = {brief(H)} m⁻¹"
-        return Caption(
-            text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), "wrong"
+        return say(
+            text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), tone="wrong"
         )
     text = f"H is half the normal's length, positive where it points outward: {brief(H)} m⁻¹"
-    return Caption(
+    return say(
         text + _truth(true, "m⁻¹") + _error(state, "H") + _colors(state, now.H, H_SCALE, "m⁻¹")
     )
 
@@ -145,7 +144,7 @@ def _principal(state: State) -> Caption:
     now = state.now
     k1, k2 = float(now.k1[now.vertex]), float(now.k2[now.vertex])
     if not np.isfinite([k1, k2]).all():
-        return Caption(NOWHERE.format("K or H"))
+        return say(NOWHERE.format("K or H"))
     text = f"H ± √(H² − K) gives k₁ = {brief(k1)} and k₂ = {brief(k2)} m⁻¹"
     if np.isfinite(state.true("k1")):
         text += f" (truth {brief(state.true('k1'))}, {brief(state.true('k2'))})"
@@ -157,7 +156,7 @@ def _principal(state: State) -> Caption:
         else "one way only"
     )
     kind = kind if max(abs(k1), abs(k2)) > 1e-6 else "not at all"
-    return Caption(f"{text}. The two circles have these curvatures: they bend {kind}.")
+    return say(f"{text}. The two circles have these curvatures: they bend {kind}.")
 
 
 def _quadric(state: State) -> Caption:
@@ -165,7 +164,7 @@ def _quadric(state: State) -> Caption:
     K, H = (float(values[v]) for values in quadrics.curvatures())
     n = int(quadrics.neighbours[v])
     if not np.isfinite(K):
-        return Caption(
+        return say(
             f"Another way, a quadric through two rings, needs six vertices in reach; here are {n}."
         )
     text = (
@@ -178,7 +177,7 @@ def _quadric(state: State) -> Caption:
             f" Relative errors (RMS over all vertices): K {percent(e['K by fit'])} (angles"
             f" {percent(e['K'])}), H {percent(e['H by fit'])} (cotangents {percent(e['H'])})."
         )
-    return Caption(text)
+    return say(text)
 
 
 def _total(state: State) -> Caption:
@@ -190,17 +189,17 @@ def _total(state: State) -> Caption:
     )
     text += f" V − E + F = {brief(now.chi)} promises {brief(2 * now.chi)} π."
     if abs(now.total - expected) < 1e-6:
-        return Caption(
+        return say(
             text
             + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and"
             " borders do.",
-            "good",
+            tone="good",
         )
     halves = (now.total - expected) / np.pi
     text += f" The sum is {brief(now.total - expected)} rad too large"
     if state.params.mistake == "2 pi on the border":
-        return Caption(f"{text}: π for each of the {halves:.0f} border vertices.", "wrong")
-    return Caption(f"{text}: some defects are wrong.", "wrong")
+        return say(f"{text}: π for each of the {halves:.0f} border vertices.", tone="wrong")
+    return say(f"{text}: some defects are wrong.", tone="wrong")
 
 
 def _finer(state: State) -> Caption:
@@ -215,20 +214,20 @@ def _finer(state: State) -> Caption:
         state.params.mistake
     )
     if missing:
-        return Caption(f"{text} No mesh is fine enough to mend a missing {missing}.", "wrong")
+        return say(f"{text} No mesh is fine enough to mend a missing {missing}.", tone="wrong")
     if study.K.max() < 1e-8:
-        return Caption(text + " On such a mesh angles are exact.", "good")
+        return say(text + " On such a mesh angles are exact.", tone="good")
     if study.K[-1] > 2 * study.K[0]:
         why = ": the same noise bends smaller triangles more." if state.params.noise else "."
-        return Caption(f"{text} Finer is worse{why}", "wrong")
+        return say(f"{text} Finer is worse{why}", tone="wrong")
     if study.K[-1] > study.K[0] / 4:
-        return Caption(
+        return say(
             text
             + " On such meshes the quotient defect / area does not converge to K; the defects' sum"
             " stays exact.",
-            "wrong",
+            tone="wrong",
         )
-    return Caption(text + " On such meshes angles converge.", "good")
+    return say(text + " On such meshes angles converge.", tone="good")
 
 
 _CAPTIONS = {

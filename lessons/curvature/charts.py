@@ -19,10 +19,11 @@ def beside(state: State) -> dict[str, Primitive]:
     """Return the charts and the table of a step."""
     scene: dict[str, Primitive] = dict(_errors(state))
     stage = state.stage
-    if stage in ("gaussian", "quadric"):
-        scene |= _against(state, "K", "gaussian", state.now.K, 0)
-    if stage in ("mean", "quadric"):
-        scene |= _against(state, "H", "mean", state.now.H, 1)
+    if stage != "finer":
+        if state.subject.truth is not None or stage in ("gaussian", "quadric"):
+            scene |= _against(state, "K", "gaussian", state.now.K, 0)
+        if state.subject.truth is not None or stage in ("mean", "quadric"):
+            scene |= _against(state, "H", "mean", state.now.H, 1)
     if stage == "total":
         scene |= _sum(state)
     if stage == "finer":
@@ -52,7 +53,9 @@ def _against(
     histogram.
     """
     unit = "m⁻²" if letter == "K" else "m⁻¹"
-    rows = np.flatnonzero(state.subject.inside & np.isfinite(estimate))
+    known = len(estimate) > 0
+    inside = state.subject.inside
+    rows = np.flatnonzero(inside & np.isfinite(estimate) if known else inside)
     if not len(rows):
         return {}
     surface, fits = state.subject.truth, state.now.quadrics
@@ -71,9 +74,10 @@ def _against(
     )
     way = "from angles" if letter == "K" else "from cotangents"
     scene: dict[str, Primitive] = {
-        f"estimates {letter}": chart.dots(x, _rounded(estimate[rows]), way),
-        f"truth {letter}": chart.curve(x, _rounded(true[rows]), "truth", "truth"),
+        f"truth {letter}": chart.curve(x, _rounded(true[rows]), "truth", "truth")
     }
+    if known:
+        scene[f"estimates {letter}"] = chart.dots(x, _rounded(estimate[rows]), way)
     if fits is not None:
         scene[f"fits {letter}"] = chart.dots(
             x, _rounded(fits.curvatures()[which][rows]), "quadric fit", "highlight"
@@ -95,20 +99,21 @@ def _sum(state: State) -> dict[str, Primitive]:
 
 def _finer(state: State) -> dict[str, Primitive]:
     study = sure(state.study)
-    x, chart = (
-        np.log10(study.counts),
-        Chart("Error over resolution", "log₁₀ vertices", "log₁₀ error (%)"),
-    )
-    roles: tuple[tuple[str, np.ndarray, Role], ...] = (
-        ("K from angles", study.K, "source"),
-        ("H from cotangents", study.H, "other"),
-        ("K by fit", study.K_fit, "highlight"),
-        ("H by fit", study.H_fit, "truth"),
-    )
-    return {
-        f"finer {name}": chart.curve(x, np.log10(np.maximum(100 * error, FLOOR)), name, role)
-        for name, error, role in roles
-    }
+    x = np.log10(study.counts)
+    scene: dict[str, Primitive] = {}
+    for letter, way, ours, fit in (
+        ("K", "from angles", study.K, study.K_fit),
+        ("H", "from cotangents", study.H, study.H_fit),
+    ):
+        chart = Chart(f"Error of {letter} on finer meshes", "log₁₀ vertices", "log₁₀ error (%)")
+        both: tuple[tuple[str, np.ndarray, Role], ...] = (
+            (way, ours, "source"),
+            ("by fit", fit, "highlight"),
+        )
+        for name, error, role in both:
+            y = np.log10(np.maximum(100 * error, FLOOR))
+            scene[f"finer {letter} {name}"] = chart.curve(x, y, f"{letter} {name}", role)
+    return scene
 
 
 def vertex_table(state: State) -> Table:

@@ -12,10 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from lessons.curvature.draw import draw
+from lessons.curvature import drawing, paper
+from lessons.curvature.inputs import Input
 from lessons.curvature.mesh import subject_of
-from lessons.curvature.presets import GAUSSIAN, PRESETS, QUESTIONS, UNFOLDING, VIEW
-from lessons.curvature.state import Params, State, Subject
+from lessons.curvature.presets import GAUSSIAN, PRESETS, SWEEPS, UNFOLDING, VIEW, VIEWS
+from lessons.curvature.questions import QUESTIONS
+from lessons.curvature.state import Step, Subject, state_of
 from lessons.curvature.study import error_of, study_of
 from workbench.algorithms.surfaces.curvature import (
     Defects,
@@ -26,25 +28,38 @@ from workbench.algorithms.surfaces.curvature import (
 )
 from workbench.geometry.meshes import curvature, on_boundary
 from workbench.geometry.meshes.laplacian import mixed_areas
-from workbench.lesson import Lesson, Sweep
+from workbench.lesson import Lesson, Look
+from workbench.scene import Scene
+
+
+def setup(params: Input) -> Subject | paper.Sheet:
+    """Return the mesh to measure, or the ring of paper.
+
+    Raises:
+        InputError: If an own mesh cannot be used.
+    """
+    return paper.Sheet() if params.stage == "paper" else subject_of(params)
 
 
 def run(
-    params: Params,
+    params: Input,
+    subject: Subject | paper.Sheet,
     *,
     angle_defects: Defects = curvature.angle_defects,
     gaussian_curvature: Gaussian = curvature.gaussian_curvature,
     mean_curvature_normals: MeanNormals = curvature.mean_curvature_normals,
-) -> Iterator[State]:
+) -> Iterator[Step | paper.Held]:
     """Yield the stages of measuring one mesh, then, where the truth is known, the errors on ever
-    finer meshes.
+    finer meshes; or the ring of paper between an overlap and a gap.
     """
-    subject = subject_of(params)
+    if isinstance(subject, paper.Sheet):
+        yield from paper.hand()
+        return
     defects, gaussian, normals = with_mistake(
         params, angle_defects, gaussian_curvature, mean_curvature_normals
     )
     errors: dict[str, float] = {}
-    state = None
+    step = None
     for now in measure_curvature(
         subject.p,
         subject.faces,
@@ -54,12 +69,19 @@ def run(
         mean_curvature_normals=normals,
     ):
         errors = errors | new_errors(subject, now)
-        state = State(params=params, subject=subject, now=now, errors=errors)
+        step = Step(now=now, errors=errors)
         if now.stage == "defect":
-            yield from (replace(state, unfolded=share) for share in UNFOLDING)
-        yield state
-    if state is not None and subject.truth is not None:
-        yield replace(state, study=study_of(params, gaussian, normals))
+            yield from (replace(step, unfolded=share) for share in UNFOLDING)
+        yield step
+    if step is not None and subject.truth is not None:
+        yield replace(step, study=study_of(params, gaussian, normals))
+
+
+def draw(look: Look) -> Scene:
+    """Return the picture of one step."""
+    if isinstance(look.subject, paper.Sheet):
+        return paper.draw(look)
+    return drawing.draw(state_of(look))
 
 
 def new_errors(subject: Subject, now: Measured) -> dict[str, float]:
@@ -79,7 +101,7 @@ def new_errors(subject: Subject, now: Measured) -> dict[str, float]:
 
 
 def with_mistake(
-    params: Params, defects: Defects, gaussian: Gaussian, normals: MeanNormals
+    params: Input, defects: Defects, gaussian: Gaussian, normals: MeanNormals
 ) -> tuple[Defects, Gaussian, MeanNormals]:
     """Return the three functions, one of them spoilt by the chosen mistake."""
     if params.mistake == "2 pi on the border":
@@ -101,7 +123,8 @@ lesson = Lesson(
     summary="On flat paper the angles around a point add up to 360°. On a curved surface they "
     "may not.",
     page=Path(__file__).with_name("page.md"),
-    params=Params,
+    params=Input,
+    setup=setup,
     run=run,
     draw=draw,
     order=1600,
@@ -109,10 +132,10 @@ lesson = Lesson(
     minutes=25,
     needs=("measures",),
     view=VIEW,
+    views=VIEWS,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=GAUSSIAN,
-    opening=0,
-    sweeps=(Sweep("vertices", (60, 120, 250, 500, 1000, 2000)),),
+    sweeps=SWEEPS,
     telling="K and its truth",
 )

@@ -13,6 +13,7 @@ from workbench.numerals import brief
 from workbench.scene import Label, Mesh, Points, Primitive, Role, Segments
 
 LIFT = 0.03  # how far things float above the surface, in edges
+ASIDE = 1.0  # edges: how far to the right a ring is laid flat
 FARTHEST = 1.3  # metres from the vertex that a circle's centre is drawn
 CIRCLE = 2 * np.pi * np.arange(97) / 96
 
@@ -54,7 +55,7 @@ def angles(now: Measured) -> dict[str, Primitive]:
 
 
 def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
-    """Return the ring, cut along an edge and laid flat above the vertex to a share of the way; no
+    """Return the ring, cut along an edge and laid flat beside the vertex to a share of the way; no
     triangle is bent.
 
     Where it is flat and does not close, the gap is the defect.
@@ -67,7 +68,8 @@ def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
     turned = np.concatenate([[0.0], np.cumsum(now.angles)])
     right = rim[0] - (rim[0] @ n) * n
     right /= np.linalg.norm(right)
-    up, centre = np.cross(n, right), now.p[now.vertex] + (LIFT + share) * edge * n
+    up = np.cross(n, right)
+    centre = now.p[now.vertex] + edge * ((LIFT + share) * n + ASIDE * share * _aside(n))
     rise = 0.02 * share * edge * (defect < 0)  # for each radian: keeps faces apart that overlap
 
     def flat(turn: np.ndarray) -> np.ndarray:
@@ -100,17 +102,24 @@ def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
     return scene | {
         "gap": Segments(
             segments(at(flat(gap), gap, 0.8 * lengths.min(), 0.02)),
-            "source",
+            "other",
             5,
             name="angle defect",
         ),
-        "gap edge": Segments(between(centre, end), "source", 3),
+        "gap edge": Segments(between(centre, end), "other", 3),
         "gap label": Label(
             f"{word} {abs(np.degrees(defect)):.2f}°",
             at(flat(full), full, 1.1 * lengths.max())[0],
-            "source",
+            "other",
         ),
     }
+
+
+def _aside(n: np.ndarray) -> np.ndarray:
+    """Return the level direction to the right of who looks against a normal."""
+    right = np.cross([0.0, 0.0, 1.0], n)
+    length = float(np.linalg.norm(right))
+    return right / length if length > 1e-6 else np.array([1.0, 0.0, 0.0])
 
 
 def _unbent(along: np.ndarray, angles: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from lessons.curvature.state import State
 from workbench.numerals import ROUND_OFF
 
 # Fixed, so that the same colour means the same curvature in every run of a built-in surface.
-K_SCALE, H_SCALE, DEFECT_SCALE, ERROR_SCALE = 5.0, 2.5, 0.2, 1.0
+K_SCALE, H_SCALE, DEFECT_SCALE = 5.0, 2.5, 0.2
 ARROW = 0.06  # metres of arrow per m⁻¹
 OWN_ARROW = 0.15  # metres: of an own mesh the arrows of MOST vertices are at most as long
 MOST = 90  # per cent of an own mesh' vertices that its colours tell apart

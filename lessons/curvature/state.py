@@ -1,57 +1,14 @@
-"""The inputs, the mesh to measure, and what one step holds."""
+"""The mesh to measure, and what one step holds."""
 
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Annotated, Literal
 
 import numpy as np
 
+from lessons.curvature.inputs import Input
 from workbench.algorithms.surfaces.curvature import Measured
-from workbench.data.framing import Upward
-from workbench.data.shapes.surfaces import MOST_JITTER, Surface
+from workbench.data.shapes.surfaces import Surface
 from workbench.geometry.meshes import vertices_within
-from workbench.knobs import Knob, Pick
-
-Shape = Literal["torus", "sphere", "cylinder", "saddle", "catenoid", "plane"]
-Mistake = Literal["none", "2 pi on the border", "defect taken for K", "H without the half"]
-
-MOST_OWN = 200_000
-
-
-@dataclass(frozen=True)
-class Params:
-    """A surface whose curvature is known, or an own mesh; how it is meshed; and the vertex that is
-    looked at.
-    """
-
-    surface: Annotated[Shape, Knob("A surface whose curvature is known in closed form")] = "torus"
-    vertices: Annotated[int, Knob("About how many vertices its mesh has", 50, 6000, step=10)] = 400
-    jitter: Annotated[
-        float,
-        Knob("How far vertices stray along the surface", 0, MOST_JITTER, unit="cells", step=0.01),
-    ] = 0.0
-    noise: Annotated[
-        float, Knob("How far they stray off the surface (sigma)", 0, 0.02, unit="m", step=0.001)
-    ] = 0.0
-    size: Annotated[
-        float, Knob("Everything this many times as large", 0.5, 2, unit="×", step=0.05)
-    ] = 1.0
-    inside_out: Annotated[bool, Knob("Turn all faces round, so that inside is outside")] = False
-    mistake: Annotated[Mistake, Knob("Calculate with a classic mistake")] = "none"
-    vertex: Annotated[
-        int,
-        Knob(
-            "The vertex that is looked at: click one; -1 faces you",
-            -1,
-            MOST_OWN - 1,
-            by=Pick("surface"),
-        ),
-    ] = -1
-    mesh: Annotated[Path | None, Knob("Own mesh instead: off, obj, ply, stl, glb")] = None
-    up: Annotated[
-        Upward, Knob("Which axis of an own mesh points up; auto guesses", of_files=True)
-    ] = "auto"
-    seed: Annotated[int, Knob("Which way the vertices stray", 0, 99)] = 0
+from workbench.lesson import Look
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -97,6 +54,8 @@ class Study:
         counts: How many vertices the meshes have.
         K, H: Errors of the angle defects and the cotangents.
         K_fit, H_fit: Errors of the quadric fits.
+        meshes: The surfaces themselves.
+        off: At each vertex of each, the error of K from angles, 1/m^2; NaN on a border.
     """
 
     counts: np.ndarray
@@ -104,23 +63,21 @@ class Study:
     H: np.ndarray
     K_fit: np.ndarray
     H_fit: np.ndarray
+    meshes: tuple[Surface, ...]
+    off: tuple[np.ndarray, ...]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class State:
-    """One step of the lesson: what was measured, or at the end how errors depend on the mesh.
+class Step:
+    """One step of the run: what was measured, or at the end how errors depend on the mesh.
 
     Attributes:
-        params: The inputs.
-        subject: The mesh, the same for the whole run.
         now: What is measured so far.
         errors: Relative errors so far, by name; none for an own mesh.
         study: Errors on ever finer meshes, in the last step.
         unfolded: How far the ring of the vertex is laid flat, up to 1.
     """
 
-    params: Params
-    subject: Subject
     now: Measured
     errors: dict[str, float]
     study: Study | None = None
@@ -129,13 +86,17 @@ class State:
     @property
     def stage(self) -> str:
         """The stage by name."""
-        return (
-            "finer"
-            if self.study is not None
-            else "unfolding"
-            if self.unfolded < 1
-            else self.now.stage
-        )
+        if self.study is not None:
+            return "finer"
+        return "unfolding" if self.unfolded < 1 else self.now.stage
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class State(Step):
+    """A step beside its mesh and its inputs: what captions, charts and pictures read."""
+
+    params: Input
+    subject: Subject
 
     @property
     def on_border(self) -> bool:
@@ -155,6 +116,23 @@ class State:
         return float("nan") if surface is None else float(getattr(surface, name)[self.now.vertex])
 
 
-def at_stage(states, stage: str) -> State:
+def beside_its_mesh(params: Input, subject: Subject, step: Step) -> State:
+    """Return a step together with what it was measured on."""
+    return State(
+        params=params,
+        subject=subject,
+        now=step.now,
+        errors=step.errors,
+        study=step.study,
+        unfolded=step.unfolded,
+    )
+
+
+def state_of(look: Look[Input, Subject, Step]) -> State:
+    """Return the step that is looked at, together with what it was measured on."""
+    return beside_its_mesh(look.params, look.subject, look.now)
+
+
+def at_stage(states, stage: str):
     """Return the state of a run at a stage."""
     return next(state for state in states if state.stage == stage)

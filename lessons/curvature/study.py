@@ -1,38 +1,39 @@
 """How wrong the estimates are, and whether a finer mesh makes them better."""
 
-import functools
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from lessons.curvature.mesh import shape_of, surface_of
-from lessons.curvature.state import Params, Study
+from lessons.curvature.inputs import Input
+from lessons.curvature.mesh import surface_of
+from lessons.curvature.state import Study
 from workbench.algorithms.surfaces.curvature import Gaussian, MeanNormals
 from workbench.data.shapes.surfaces import Surface
 from workbench.geometry.meshes import on_boundary, vertex_normals
 from workbench.geometry.meshes.curvature import mean_from_normals
 from workbench.geometry.meshes.quadric_fit import fit_quadrics
+from workbench.lesson import cached
 
 Letter = Literal["gaussian", "mean"]
 COUNTS = (400, 1000, 2500, 6400)
 
 
 def study_of(
-    params: Params, gaussian_curvature: Gaussian, mean_curvature_normals: MeanNormals
+    params: Input, gaussian_curvature: Gaussian, mean_curvature_normals: MeanNormals
 ) -> Study:
     """Measure a built-in surface on four meshes, the last with edges four times shorter than the
     first.
     """
     errors: dict[str, list[float]] = {name: [] for name in ("K", "H", "K_fit", "H_fit")}
-    meshes = _meshes(
-        replace(shape_of(params), vertices=Params.vertices)
-    )  # the same whatever is looked at
+    meshes, off = _meshes(params), []
     for made in meshes:
         p, faces = made.surface.p, made.surface.faces
+        K = gaussian_curvature(p, faces)
+        off.append(np.where(made.inside, K - made.surface.gaussian, np.nan))
         H = mean_from_normals(mean_curvature_normals(p, faces), made.normals)
         estimates: tuple[tuple[str, Letter, np.ndarray], ...] = (
-            ("K", "gaussian", gaussian_curvature(p, faces)),
+            ("K", "gaussian", K),
             ("H", "mean", H),
             ("K_fit", "gaussian", made.K_fit),
             ("H_fit", "mean", made.H_fit),
@@ -40,7 +41,12 @@ def study_of(
         for name, letter, estimate in estimates:
             errors[name].append(error_of(made.surface, made.inside, letter, estimate))
     counts = np.array([len(made.surface.p) for made in meshes], dtype=float)
-    return Study(counts=counts, **{name: np.array(values) for name, values in errors.items()})
+    return Study(
+        counts=counts,
+        meshes=tuple(made.surface for made in meshes),
+        off=tuple(off),
+        **{name: np.array(values) for name, values in errors.items()},
+    )
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -54,9 +60,9 @@ class _Made:
     H_fit: np.ndarray
 
 
-@functools.lru_cache(maxsize=8)
-def _meshes(shape: Params) -> tuple[_Made, ...]:
-    return tuple(_made(surface_of(replace(shape, vertices=count))) for count in COUNTS)
+@cached
+def _meshes(params: Input) -> tuple[_Made, ...]:
+    return tuple(_made(surface_of(params, count)) for count in COUNTS)
 
 
 def _made(surface: Surface) -> _Made:

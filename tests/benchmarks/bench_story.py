@@ -65,10 +65,14 @@ def moved(chromium, address: str, moves: int) -> dict[str, list[float]]:
 
 
 @contextlib.contextmanager
-def sites(names: Sequence[str]) -> Iterator[str]:
-    """Publish lessons and serve them on this machine; yield the address."""
+def sites(names: Sequence[str], python: str | None = None) -> Iterator[str]:
+    """Publish lessons and serve them on this machine; yield the address.
+
+    They compute where a folder with Python is named.
+    """
     with tempfile.TemporaryDirectory() as folder:
-        publish(Path(folder), [catalog()[name] for name in names], recordings="none")
+        lessons = [catalog()[name] for name in names]
+        publish(Path(folder), lessons, recordings="none", python=python)
         handler = functools.partial(Quiet, directory=folder)
         with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
             threading.Thread(target=server.serve_forever, daemon=True).start()

@@ -155,7 +155,16 @@ def test_a_cell_plays_in_jupyterlab(chromium, notebook):
             assert shown.count() == 0
             page.close()
         finally:
-            lab.terminate()
+            ended(lab)
+
+
+def ended(lab) -> None:
+    """End JupyterLab, which at times waits for a thread of its own for ever."""
+    lab.terminate()
+    try:
+        lab.wait(timeout=20)
+    except subprocess.TimeoutExpired:
+        lab.kill()
 
 
 def found(log, lab) -> str:

@@ -22,6 +22,7 @@ def test_a_reload_comes_back_to_the_place_and_what_was_answered_stays(visit):
     form.get_by_role("button", name="Answer").click()
     form.get_by_text(found.truth).wait_for()
     me.says(Timeline(lesson, question.params).complete()[found.step].caption.text)
+    me.page.get_by_text("All experiments").click()
     me.page.locator("button[data-run=line]").click()
     me.says(line[0].caption.text)
     me.act("next")
@@ -73,6 +74,31 @@ def test_a_chart_stands_beside_the_scene_once_it_has_a_point(visit):
         " '%')]"
     )
     assert said == ["1.14 × 10¹²", "−7.59 × 10⁻⁴ %", "1 × 10⁻⁹°", "12.5 %"]
+
+
+def test_the_stage_says_which_experiment_is_open_has_one_large_chart_and_named_places(visit):
+    lesson = catalog()["fitting"]
+    line = lesson.preset("line")
+    states = Timeline(lesson, line.params).complete()
+    me = visit("?lesson=fitting", width=1440, height=900)
+    me.says(Timeline(lesson, lesson.params()).complete()[0].caption.text)
+    usual = next(preset for preset in lesson.presets if preset.params == lesson.params())
+    assert me.page.locator("#open").inner_text().split("\n") == [usual.title, usual.line]
+    me.act("last")
+    me.page.locator("#main-chart svg").wait_for()
+    chart = me.page.locator("#main-chart").bounding_box()
+    tiles = me.page.locator("#tiles").bounding_box()
+    assert chart is not None
+    assert tiles is not None
+    assert chart["height"] > 2 * tiles["height"]
+    me.page.get_by_text("All experiments").click()
+    me.page.locator("button[data-run=line]").click()
+    me.says(states[line.step if line.step is not None else 0].caption.text)
+    assert me.page.locator("#open").inner_text().split("\n") == [line.title, line.line]
+    me.act("last")
+    me.says(states[-1].caption.text)
+    me.page.locator("#places button.first").click()
+    me.says(states[0].caption.text)
 
 
 def test_a_link_that_cannot_be_used_is_told_and_the_page_lives(visit):

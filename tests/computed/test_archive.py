@@ -20,7 +20,7 @@ from workbench.exercise.finding import exercises_of
 from workbench.exercise.starter import starter
 from workbench.lesson import course, find
 
-BESIDE = ("chamfer_emd", "curvature")
+BESIDE = ("chamfer_emd",)
 """Lessons whose exercises still keep their hidden checks in their own files."""
 
 

@@ -3,6 +3,8 @@ case does not matter.
 """
 
 GIVEAWAYS = {
+    "seven": (r"\bseven\b[^.]*overlap",),
+    "inside": (r"gaps and overlaps (agree|are equal)", r"715[^.]*inside"),
     "which-rolled": (
         r"(tube|cylinder|paper)[^.]*K ?= ?0",
         r"unrolls? flat",

@@ -15,7 +15,6 @@ import tomllib
 import zipfile
 from pathlib import Path
 
-import jsonschema
 import numpy
 import PIL
 import pytest
@@ -32,6 +31,13 @@ from workbench.handout.writing import files, lay_out_gradescope, lay_out_prairie
 
 WRONG = "def invert_rigid(T):\n    print('seen', T.shape)\n    return T.T\n"
 HANGS = "def invert_rigid(T):\n    while True: pass\n"
+
+
+def conforms(document: object, schema: dict) -> None:
+    """Hold a document to its schema."""
+    import jsonschema  # takes seconds, which every worker would spend
+
+    jsonschema.validate(document, schema)
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +85,7 @@ def scored(gradescope: Path, python: str, root: Path, submitted: dict[str, str] 
         submitted = folder
     root = lay_out_gradescope(root / "autograder", gradescope, submitted)
     found = run(root / "run_autograder", root, python)
-    jsonschema.validate(found, GRADESCOPE)
+    conforms(found, GRADESCOPE)
     assert sum(test["max_score"] for test in found["tests"]) == pytest.approx(43)
     return found
 
@@ -180,7 +186,7 @@ def test_gradescope_has_results_where_the_grader_is_ended(gradescope, bare, tmp_
     os.killpg(running.pid, signal.SIGKILL)
     running.wait()
     found = json.loads(results.read_text())
-    jsonschema.validate(found, GRADESCOPE)
+    conforms(found, GRADESCOPE)
     assert found["score"] == 0
     assert "ran out of time" in found["output"]
 
@@ -198,7 +204,7 @@ def test_gradescope_has_results_where_the_grader_breaks(gradescope, bare, tmp_pa
         walls = root / "source" / "packages" / "workbench" / "exercise" / "sandbox" / "isolation.py"
         walls.write_text(walls.read_text() + "\ndef _tried(wall): return 'not in this container'\n")
     found = run(root / "run_autograder", root, "/nowhere/python" if broken == "no Python" else bare)
-    jsonschema.validate(found, GRADESCOPE)
+    conforms(found, GRADESCOPE)
     assert found["score"] == 0
     assert "not about your code" in found["output"]
     assert ("not in this container" in found["output"]) == (broken == "no sandbox")
@@ -280,7 +286,7 @@ def submitted(
     (folder / "mine.py").write_text(text)
     root = lay_out_prairielearn(folder / "grade", prairielearn, exercise, file=folder / "mine.py")
     found = run(root / "serverFilesCourse" / "geometry-workbench" / "run.sh", root, python)
-    jsonschema.validate(found, PRAIRIELEARN)
+    conforms(found, PRAIRIELEARN)
     assert (root / "results" / "results.json").stat().st_size < 1_000_000
     return found
 
@@ -289,7 +295,7 @@ def test_a_question_is_what_prairielearn_documents(prairielearn):
     for name in ("invert_rigid", "match"):
         folder = prairielearn / "questions" / "geometry-workbench" / name
         info = json.loads((folder / "info.json").read_text())
-        jsonschema.validate(info, QUESTION)
+        conforms(info, QUESTION)
         grader = info["externalGradingOptions"]
         entry = prairielearn / grader["entrypoint"].removeprefix("/grade/")
         assert entry.stat().st_mode & stat.S_IXUSR
@@ -302,7 +308,7 @@ def test_a_question_is_what_prairielearn_documents(prairielearn):
         assert "raise NotImplementedError" in (folder / f"my_{name}.py").read_text()
     (file,) = prairielearn.glob("assessments/*/infoAssessment.json")
     assessment = json.loads(file.read_text())
-    jsonschema.validate(assessment, ASSESSMENT)
+    conforms(assessment, ASSESSMENT)
     assert assessment["allowAccess"] == [
         {"credit": 100, "startDate": "2027-03-01T00:00:00", "endDate": "2027-03-31T18:00:00"}
     ]

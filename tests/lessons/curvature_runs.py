@@ -2,8 +2,10 @@
 
 from typing import TypeVar
 
+from lessons.curvature.inputs import Input
 from lessons.curvature.lesson import lesson
-from lessons.curvature.state import Params, State, Study, at_stage
+from lessons.curvature.mesh import subject_of
+from lessons.curvature.state import State, Study, at_stage, beside_its_mesh
 from tests.runs import finished
 from workbench.run.timeline import Timeline
 from workbench.scene import Field, Mesh, Scene
@@ -23,15 +25,21 @@ STAGES = [
 ]
 
 
-def timeline(params: Params) -> Timeline:
+def timeline(params: Input) -> Timeline:
     return finished(lesson.name, params)
 
 
-def at(params: Params, stage: str) -> State:
-    return at_stage(timeline(params).states(), stage)
+def states(params: Input) -> list[State]:
+    """Return the steps of a mesh, each beside it."""
+    subject = subject_of(params)
+    return [beside_its_mesh(params, subject, step) for step in timeline(params).states()]
 
 
-def scene(params: Params, stage: str):
+def at(params: Input, stage: str) -> State:
+    return at_stage(states(params), stage)
+
+
+def scene(params: Input, stage: str):
     return next(step.scene for step in timeline(params).known() if step.state.stage == stage)
 
 
@@ -47,11 +55,11 @@ def study_in(state: State) -> Study:
     return state.study
 
 
-def surface_field(params: Params, stage: str) -> Field:
+def surface_field(params: Input, stage: str) -> Field:
     color = part(Mesh, scene(params, stage), "surface").color
     assert isinstance(color, Field)
     return color
 
 
-def preset(name: str) -> Params:
+def preset(name: str) -> Input:
     return lesson.preset(name).params

@@ -5,9 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from lessons.curvature.lesson import draw, lesson
+from lessons.curvature.captions import caption
+from lessons.curvature.inputs import Input
+from lessons.curvature.lesson import lesson
 from lessons.curvature.presets import DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL, UNFOLDING
-from lessons.curvature.state import Params, at_stage
+from lessons.curvature.state import at_stage
 from tests.lessons.curvature_runs import (
     STAGES,
     at,
@@ -25,7 +27,7 @@ from workbench.scene import caption_of
 
 
 def test_stages_come_in_the_order_of_the_page():
-    stages = [state.stage for state in timeline(Params()).states()]
+    stages = [state.stage for state in timeline(Input()).states()]
     assert [stage for stage in stages if stage != "unfolding"] == STAGES
     assert stages[2:DEFECT] == ["unfolding"] * len(UNFOLDING)
     assert [stages[step] for step in (DEFECT, GAUSSIAN, MEAN, PRINCIPAL, TOTAL)] == [
@@ -57,7 +59,7 @@ def test_catenoid_has_no_mean_curvature_and_negative_k():
 
 
 def test_twice_as_large_leaves_a_quarter_a_half_and_what_has_no_unit():
-    one, two = (at(params, "quadric") for params in (Params(), preset("double")))
+    one, two = (at(params, "quadric") for params in (Input(), preset("double")))
     np.testing.assert_allclose(two.now.K, one.now.K / 4, atol=1e-9)
     np.testing.assert_allclose(two.now.H, one.now.H / 2, atol=1e-9)
     np.testing.assert_allclose(two.now.defects, one.now.defects, atol=1e-12)
@@ -67,7 +69,7 @@ def test_twice_as_large_leaves_a_quarter_a_half_and_what_has_no_unit():
 
 
 def test_inside_out_turns_h_and_principal_curvatures_but_not_k():
-    one, two = (at(params, "principal") for params in (Params(), preset("inside-out")))
+    one, two = (at(params, "principal") for params in (Input(), preset("inside-out")))
     np.testing.assert_allclose(two.now.K, one.now.K, atol=1e-9)
     np.testing.assert_allclose(two.now.H, -one.now.H, atol=1e-9)
     np.testing.assert_allclose(two.now.k1, -one.now.k2, atol=1e-7)
@@ -83,7 +85,7 @@ def test_a_defect_taken_for_k_is_far_too_small_and_smaller_on_finer_meshes():
     outside = [np.percentile(state.now.K, 90) for state in (wrong, finer)]
     assert outside[0] / outside[1] == pytest.approx(4, rel=0.15)
     for stage in ("gaussian", "finer"):
-        assert caption_of(draw(at(preset("no-area"), stage))).tone == "wrong"
+        assert caption(at(preset("no-area"), stage)).tone == "wrong"
         assert caption_of(scene(preset("no-area"), stage)).tone == "info"  # it is meant to be
 
 
@@ -111,9 +113,9 @@ def test_two_pi_on_the_border_adds_pi_for_each_of_its_vertices():
     state = at(preset("border-2pi"), "total")
     border = int(state.subject.border.sum())
     assert state.now.total == pytest.approx(2 * np.pi + np.pi * border)
-    caption = caption_of(draw(at(preset("border-2pi"), "total")))
-    assert caption.tone == "wrong"
-    assert f"each of the {border} border vertices" in caption.text
+    said = caption(at(preset("border-2pi"), "total"))
+    assert said.tone == "wrong"
+    assert f"each of the {border} border vertices" in said.text
     right = at(dataclasses.replace(preset("border-2pi"), mistake="none"), "total")
     assert right.now.total == pytest.approx(2 * np.pi, abs=1e-9)
 
@@ -167,6 +169,8 @@ def test_dents_do_not_change_the_sum(name, sum_over_pi):
 @pytest.mark.parametrize(
     ("name", "answer"),
     [
+        ("seven", 2),
+        ("inside", 1),
         ("which-rolled", 0),
         ("which-double", 2),
         ("which-sides", 1),
@@ -181,26 +185,26 @@ def test_answers(name, answer):
 
 def test_answers_are_read_off_the_run():
     asked = {question.name: question for question in lesson.questions}
-    assert asked["which-rolled"].answer(timeline(Params(surface="sphere", size=0.5)).states()) == 2
-    assert asked["which-sum"].answer(timeline(Params()).states()) == 0
-    assert asked["which-finer"].answer(timeline(Params()).states()) == 0
+    assert asked["which-rolled"].answer(timeline(Input(surface="sphere", size=0.5)).states()) == 2
+    assert asked["which-sum"].answer(timeline(Input()).states()) == 0
+    assert asked["which-finer"].answer(timeline(Input()).states()) == 0
 
 
 # the page -----------------------------------------------------------------------------------------
 
 
 def test_numbers_of_the_page():
-    now = at(Params(), "gaussian").now
+    now = at(Input(), "gaussian").now
     assert np.degrees(now.defects[now.vertex]) == pytest.approx(3.2, abs=0.05)
     assert now.K[now.vertex] == pytest.approx(1.17, abs=0.005)
-    assert at(Params(), "gaussian").true("gaussian") == pytest.approx(1.16, abs=0.005)
+    assert at(Input(), "gaussian").true("gaussian") == pytest.approx(1.16, abs=0.005)
     inner = np.linalg.norm(now.p[:, :2], axis=1) < 0.85
     assert (now.defects[inner] < 0).all()
-    now = at(Params(), "principal").now
+    now = at(Input(), "principal").now
     assert 1 / now.k1[now.vertex] == pytest.approx(0.4, rel=0.02)
     along_ring = np.cross([0, 0, 1], now.p[now.vertex])
     assert abs(now.along_k2[now.vertex] @ along_ring) / np.linalg.norm(along_ring) > 0.99
-    assert at(Params(), "quadric").errors["K by fit"] > 10 * at(Params(), "quadric").errors["K"]
+    assert at(Input(), "quadric").errors["K by fit"] > 10 * at(Input(), "quadric").errors["K"]
 
 
 def test_the_fit_stays_level_with_its_vertex():
@@ -214,7 +218,7 @@ def test_the_fit_stays_level_with_its_vertex():
 
 
 def states_with(params=None, **slots):
-    return Timeline(lesson, params or Params(), slots).states()
+    return Timeline(lesson, params or Input(), slots).states()
 
 
 def test_slots_drive_the_run():

@@ -5,19 +5,19 @@ import pytest
 import trimesh
 
 from lessons.curvature import ring
-from lessons.curvature.state import Params
-from tests.lessons.curvature_runs import at, part, preset, scene, surface_field, timeline
+from lessons.curvature.inputs import Input
+from tests.lessons.curvature_runs import at, part, preset, scene, states, surface_field, timeline
 from workbench.scene import Mesh, Points, Segments, Table
 
 
 def test_the_mesh_is_the_same_arrays_whatever_vertex_is_picked():
-    one, two = (part(Mesh, scene(Params(vertex=v), "gaussian"), "surface") for v in (10, 200))
+    one, two = (part(Mesh, scene(Input(vertex=v), "gaussian"), "surface") for v in (10, 200))
     assert one.p is two.p
     assert one.faces is two.faces
 
 
 def test_colour_scales_are_fixed_and_symmetric():
-    for params in (Params(), preset("double"), preset("coarse"), preset("noise")):
+    for params in (Input(), preset("double"), preset("coarse"), preset("noise")):
         for stage, high in (("gaussian", 5.0), ("mean", 2.5), ("defect", 0.2)):
             field = surface_field(params, stage)
             assert (field.low, field.high, field.map) == (-high, high, "diverging")
@@ -26,7 +26,7 @@ def test_colour_scales_are_fixed_and_symmetric():
 
 def test_the_flat_ring_keeps_lengths_and_angles_and_shows_the_defect():
     for vertex in (-1, 30):  # a gap outside, an overlap inside
-        now = at(Params(vertex=vertex), "defect").now
+        now = at(Input(vertex=vertex), "defect").now
         drawn = ring.flattened(now)
         fan, gap = part(Mesh, drawn, "flat ring"), part(Segments, drawn, "gap")
         spokes = np.linalg.norm(fan.p[1:] - fan.p[0], axis=1)
@@ -48,7 +48,7 @@ def test_the_flat_ring_keeps_lengths_and_angles_and_shows_the_defect():
 
 def test_a_ring_unfolds_from_the_surface_and_bends_no_triangle():
     for vertex in (-1, 30):
-        now = at(Params(vertex=vertex), "defect").now
+        now = at(Input(vertex=vertex), "defect").now
         folded = part(Mesh, ring.flattened(now, 0.0), "flat ring").p
         lifted = folded[0] - now.p[now.vertex]
         np.testing.assert_allclose(folded[1:-1], now.p[now.ring] + lifted, atol=1e-12)
@@ -68,7 +68,7 @@ def test_a_ring_unfolds_from_the_surface_and_bends_no_triangle():
 @pytest.mark.parametrize("jitter", [0.0, 0.25])
 def test_the_drawn_cell_has_the_mixed_area(jitter):
     for vertex in range(0, 300, 23):
-        now = at(Params(vertex=vertex, jitter=jitter), "gaussian").now
+        now = at(Input(vertex=vertex, jitter=jitter), "gaussian").now
         cell = part(Mesh, ring.cell(now), "cell")
         a, b, c = cell.p[cell.faces].swapaxes(0, 1)
         area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
@@ -76,7 +76,7 @@ def test_the_drawn_cell_has_the_mixed_area(jitter):
 
 
 def test_the_pushes_add_up_to_the_drawn_normal():
-    now = at(Params(jitter=0.2), "normal").now
+    now = at(Input(jitter=0.2), "normal").now
     drawn = ring.pushes(now, 0.06)
     chain, total = part(Segments, drawn, "pushes"), part(Segments, drawn, "mean normal")
     assert len(chain.ends) == len(now.ring)
@@ -84,7 +84,7 @@ def test_the_pushes_add_up_to_the_drawn_normal():
 
 
 def test_osculating_circles_have_their_radius_and_touch_the_vertex():
-    now = at(Params(), "principal").now
+    now = at(Input(), "principal").now
     for name, k in (("k₁", now.k1), ("k₂", now.k2)):
         circle = part(Segments, ring.circles(now), f"circle {name}")
         centre = now.p[now.vertex] - now.normals[now.vertex] / k[now.vertex]
@@ -99,7 +99,7 @@ def test_osculating_circles_have_their_radius_and_touch_the_vertex():
 
 
 def test_the_patch_passes_the_vertices_of_its_fit():
-    state = at(Params(surface="saddle", vertices=900), "quadric")
+    state = at(Input(surface="saddle", vertices=900), "quadric")
     drawn = ring.patch(state)
     patch, fitted = part(Mesh, drawn, "patch"), part(Points, drawn, "fitted")
     assert state.now.quadrics is not None
@@ -110,7 +110,7 @@ def test_the_patch_passes_the_vertices_of_its_fit():
 
 
 def test_the_table_grows_and_ends_with_all_estimates():
-    tables = [step.scene.get("vertex table") for step in timeline(Params()).known()]
+    tables = [step.scene.get("vertex table") for step in timeline(Input()).known()]
     assert tables[0] is None
     lengths = [len(table.rows) for table in tables[1:] if isinstance(table, Table)]
     assert lengths == sorted(lengths)
@@ -120,10 +120,10 @@ def test_the_table_grows_and_ends_with_all_estimates():
 
 def test_every_step_draws_on_own_meshes_and_on_the_border(tmp_path):
     trimesh.creation.icosphere(1).export(tmp_path / "ball.obj")
-    timeline(Params(mesh=tmp_path / "ball.obj"))
+    timeline(Input(mesh=tmp_path / "ball.obj"))
     for surface in ("plane", "saddle", "cylinder", "catenoid"):
-        state = timeline(Params(surface=surface, vertex=0)).states()[0]
+        state = states(Input(surface=surface, vertex=0))[0]
         assert state.on_border
     trimesh.creation.box().export(tmp_path / "box.obj")
-    box = timeline(Params(mesh=tmp_path / "box.obj"))  # eight vertices
+    box = timeline(Input(mesh=tmp_path / "box.obj"))  # eight vertices
     assert box[-1].state.now.total == pytest.approx(4 * np.pi)

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 import trimesh
 
+from lessons.curvature.inputs import Input
 from lessons.curvature.lesson import lesson
 from lessons.curvature.mesh import EYE
 from lessons.curvature.presets import GAUSSIAN
-from lessons.curvature.state import Params
-from tests.lessons.curvature_runs import STAGES, at, part, surface_field, timeline
+from tests.lessons.curvature_runs import STAGES, at, part, states, surface_field, timeline
 from workbench.data.files import read_mesh
 from workbench.errors import InputError
 from workbench.knobs import with_own_files
@@ -23,9 +23,9 @@ from workbench.scene import Curve, Scalar, caption_of
 
 @pytest.mark.parametrize(("name", "chi"), [("bunny", 2), ("fertility", -6)])
 def test_scans_are_enlarged_and_their_sum_is_theirs(shared_data, name, chi):
-    done = timeline(Params(mesh=shared_data / "curvature" / f"{name}.off"))
+    done = timeline(Input(mesh=shared_data / "curvature" / f"{name}.off"))
     assert [state.stage for state in done.states() if state.stage != "unfolding"] == STAGES[:-1]
-    state = done.states()[-1]
+    state = states(Input(mesh=shared_data / "curvature" / f"{name}.off"))[-1]
     assert abs(state.now.total - 2 * np.pi * chi) < 1e-9
     p, _ = read_mesh(shared_data / "curvature" / f"{name}.off")
     assert state.subject.enlarged == pytest.approx(2.0 / np.ptp(p, axis=0).max())
@@ -37,11 +37,11 @@ def test_scans_are_enlarged_and_their_sum_is_theirs(shared_data, name, chi):
         "mean",
         "defect",
     ):  # the colours tell most vertices apart, and the caption says so
-        field = surface_field(Params(mesh=shared_data / "curvature" / f"{name}.off"), stage)
+        field = surface_field(Input(mesh=shared_data / "curvature" / f"{name}.off"), stage)
         assert np.mean(np.abs(field.values) <= field.high) == pytest.approx(0.9, abs=0.015)
         assert np.std(np.clip(field.values / field.high, -1, 1)) > 0.2
     caption = caption_of(done[GAUSSIAN].scene).text
-    limit = surface_field(Params(mesh=shared_data / "curvature" / f"{name}.off"), "gaussian").high
+    limit = surface_field(Input(mesh=shared_data / "curvature" / f"{name}.off"), "gaussian").high
     assert f"colours reach to ±{limit:g} m⁻²; " in caption
     assert not state.errors
     for step in done.known():
@@ -56,7 +56,7 @@ def test_a_soup_is_welded(tmp_path):
         ball.triangles.reshape(-1, 3), np.arange(3 * len(ball.faces)).reshape(-1, 3), process=False
     )
     soup.export(tmp_path / "ball.stl")
-    state = at(Params(mesh=tmp_path / "ball.stl"), "total")
+    state = at(Input(mesh=tmp_path / "ball.stl"), "total")
     assert len(state.subject.p) == len(ball.vertices)
     assert state.now.total == pytest.approx(4 * np.pi, abs=1e-9)
 
@@ -64,7 +64,7 @@ def test_a_soup_is_welded(tmp_path):
 def written(folder, p, faces, name="own.off"):
     rows = [" ".join(f"{x:.17g}" for x in q) for q in p] + [f"3 {a} {b} {c}" for a, b, c in faces]
     (folder / name).write_text("\n".join([f"OFF\n{len(p)} {len(faces)} 0", *rows]))
-    return Params(mesh=folder / name)
+    return Input(mesh=folder / name)
 
 
 BALL = trimesh.creation.icosphere(1)
@@ -103,8 +103,9 @@ BALL = trimesh.creation.icosphere(1)
     ids=["sheets touch", "turned", "twice", "unused", "two pieces", "open"],
 )
 def test_awkward_meshes_are_mended_and_the_caption_says_how(tmp_path, p, faces, words, chi):
-    run = timeline(written(tmp_path, p, faces))
-    start, total = run.states()[0], run.states()[-1]
+    params = written(tmp_path, p, faces)
+    run = timeline(params)
+    start, total = states(params)[0], states(params)[-1]
     said = caption_of(run[0].scene).text
     assert f"Mended: {words}." in said if words else "Mended" not in said
     assert total.now.chi == chi
@@ -136,26 +137,24 @@ def tower(lying):
 @pytest.mark.parametrize("lying", ["z", "y"])
 def test_an_own_mesh_stands_upright_and_turns_its_broad_side_to_the_viewer(tmp_path, lying):
     params = written(tmp_path, *tower(lying))
-    state = timeline(params).states()[0]
+    state = states(params)[0]
     assert state.subject.up == lying
     p, eye = state.subject.p, np.array([*EYE[:2], 0.0]) / np.hypot(*EYE[:2])
     assert np.ptp(p[:, 2]) == pytest.approx(2.0)
     assert np.ptp(p @ eye) == pytest.approx(2 / 3)  # the thin side is along the line of sight
     assert np.ptp(p @ np.cross(eye, [0, 0, 1])) == pytest.approx(4 / 3)
-    upside = timeline(dataclasses.replace(params, up="x")).states()[0].subject.p
+    upside = states(dataclasses.replace(params, up="x"))[0].subject.p
     assert np.ptp(upside[:, 2]) == pytest.approx(4 / 3)
 
 
 def test_which_axis_points_up_is_kept_with_an_own_mesh():
-    mine = Params(mesh=Path("mine.stl"), up="-y", size=2.0)
-    assert with_own_files(Params(), mine) == Params(mesh=Path("mine.stl"), up="-y")
+    mine = Input(mesh=Path("mine.stl"), up="-y", size=2.0)
+    assert with_own_files(Input(), mine) == Input(mesh=Path("mine.stl"), up="-y")
 
 
 def test_minus_y_stands_it_on_its_head(tmp_path):
     params = written(tmp_path, *tower("y"))
-    one, two = (
-        timeline(dataclasses.replace(params, up=up)).states()[0].subject for up in ("y", "-y")
-    )
+    one, two = (states(dataclasses.replace(params, up=up))[0].subject for up in ("y", "-y"))
     np.testing.assert_allclose(two.p[:, 2], -one.p[:, 2], atol=1e-9)
 
 
@@ -179,7 +178,7 @@ def test_minus_y_stands_it_on_its_head(tmp_path):
 )
 def test_meshes_without_curvature_are_refused_in_one_line(tmp_path, text, words):
     (tmp_path / "bad.off").write_text(text)
-    run = Timeline(lesson, Params(mesh=tmp_path / "bad.off")).complete()
+    run = Timeline(lesson, Input(mesh=tmp_path / "bad.off")).complete()
     assert run.failure is None
     with pytest.raises(InputError, match=words):
         run.states()
@@ -187,4 +186,4 @@ def test_meshes_without_curvature_are_refused_in_one_line(tmp_path, text, words)
 
 def test_a_missing_file_is_named(tmp_path):
     with pytest.raises(InputError, match="no such file"):
-        Timeline(lesson, Params(mesh=tmp_path / "gone.off")).states()
+        Timeline(lesson, Input(mesh=tmp_path / "gone.off")).states()

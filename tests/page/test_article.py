@@ -78,6 +78,36 @@ def test_questions_stand_in_the_section_that_asks_to_predict(tmp_path):
     assert text.index("Guess.") < text.index(PLACE) < text.index("After")
 
 
+def test_a_question_stands_where_a_line_of_the_text_asks_it(tmp_path):
+    name = fake.lesson.questions[0].name
+    lesson = written(tmp_path, f"# Fake\n\nBefore.\n\n::: {{.ask #{name}}}\n:::\n\nAfter.\n")
+    text = article_html(lesson, address, "live")
+    assert text.index("Before.") < text.index(f"<!-- question {name} -->") < text.index("After.")
+    document = lesson_document(lesson, text, home="live", root="")
+    card = f'data-question="{name}"'
+    assert document.count(card) == 1
+    assert document.index("Before.") < document.index(card) < document.index("After.")
+
+
+def test_a_line_that_asks_no_question_is_told_with_those_there_are(tmp_path):
+    with pytest.raises(AuthorError, match=r"'nope', which is no question; there are: "):
+        article_html(written(tmp_path, "::: {.ask #nope}\n:::\n"), address, "live")
+
+
+def test_experiments_are_folded_where_the_text_links_each_of_them(tmp_path):
+    links = [f"[x](run:{preset.name})" for preset in fake.lesson.presets]
+    for text, folded in ((links, True), (links[1:], False)):
+        lesson = written(tmp_path, " ".join(text))
+        document = lesson_document(
+            lesson, article_html(lesson, address, "live"), home="live", root=""
+        )
+        assert ("<summary>All experiments</summary>" in document) is folded
+        assert ("<h2>Experiments</h2>" in document) is not folded
+        assert all(
+            f'<button type="button" data-run="{one.name}"' in document for one in lesson.presets
+        )
+
+
 @pytest.mark.parametrize("lesson", catalog().values(), ids=lambda lesson: lesson.name)
 def test_the_document_of_every_lesson_has_its_text_and_no_answer(lesson):
     page = lesson_document(lesson, article_html(lesson, address, "live"), home="live", root="page/")

@@ -2,6 +2,7 @@ import base64
 import json
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 import zstandard
@@ -11,22 +12,19 @@ from tests.publish.conftest import TINY
 from workbench.errors import InputError
 from workbench.lesson import Sweep, View, catalog
 from workbench.page.document import (
-    RECORDED,
+    MATH,
     SCRIPTS,
     STATIC,
-    STORY_SCRIPTS,
-    STORY_STYLES,
     STYLES,
     bare,
 )
 from workbench.page.steps import Steps
-from workbench.publish import runs, site
+from workbench.publish import runs, site, sizes
 from workbench.publish.pages import lesson_page
 from workbench.run.timeline import Timeline
 from workbench.scene import Caption
 from workbench.story import has_story
 from workbench.wire.packing import run_text
-from workbench.words.typeset import math_font_css
 
 SMALL = replace(fake.lesson, presets=fake.lesson.presets[:1])
 
@@ -251,9 +249,7 @@ def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered, monk
     out, _ = published
     pages = []
     original = site.lesson_page
-    monkeypatch.setattr(
-        site, "lesson_page", lambda *args: pages.append(args[-1]) or original(*args)
-    )
+    monkeypatch.setattr(site, "lesson_page", lambda *args: pages.append(args[2]) or original(*args))
     site.publish(out, [SMALL], recordings="all")
     site.publish(out, [SMALL], recordings="all")
     assert pages == [""]  # once without the address that it had
@@ -329,20 +325,20 @@ def replace_default(**values):
 def test_a_dead_link_or_something_heavy_fails(tmp_path, monkeypatch):
     (tmp_path / "a.html").write_text('<a href="b.html">x</a>')
     with pytest.raises(InputError, match=r"a\.html: the link b\.html leads nowhere"):
-        site.checked(tmp_path, ["a.html"])
+        sizes.checked(tmp_path, ["a.html"])
     (tmp_path / "b.html").write_text("x" * 400_000)
     with pytest.raises(InputError, match=r"b\.html with its styles and scripts has 0\.40 MB"):
-        site.checked(tmp_path, ["a.html", "b.html"])
+        sizes.checked(tmp_path, ["a.html", "b.html"])
     (tmp_path / "c.rrd").write_bytes(b"x" * 3_000_001)
     with pytest.raises(InputError, match=r"c\.rrd has 3\.00 MB, over the budget of 3\.00 MB"):
-        site.checked(tmp_path, ["c.rrd"])
+        sizes.checked(tmp_path, ["c.rrd"])
 
 
 def test_the_summary_counts_runs_and_no_other_scripts(published):
     out, files = published
-    told = site.sizes_told(out, list(files.items())).splitlines()
+    told = sizes.sizes_told(out, list(files.items())).splitlines()
     assert [line.partition(",")[0] for line in told[:-1]] == ["4 pages", "2 runs", "2 recordings"]
-    told = site.sizes_told(
+    told = sizes.sizes_told(
         out, [("x/runs/a.js", 2_000_000), ("x/runs/angle-0.js", 1_500_000)], {"x/runs/angle-0.js"}
     )
     assert "\n1 of these runs are of sweeps, 1.5 MB, the largest 1.50 MB\n" in told
@@ -366,8 +362,9 @@ def test_a_lesson_s_page_is_within_its_budget(name):
     """Without what answers say, some thousand bytes, which need runs."""
     lesson = catalog()[name]
     known = runs.recorded(lesson, runs.runs_of(lesson)[0], root="../", runs="runs/", answers={})
-    told = has_story(lesson)
-    files = (*STYLES, *RECORDED, *SCRIPTS, *((*STORY_STYLES, *STORY_SCRIPTS) if told else ()))
-    shared = sum(len(bare(STATIC / file).encode()) for file in files) + len(math_font_css())
-    budget = site.TOLD_BUDGET if told else site.PAGE_BUDGET
-    assert len(lesson_page(lesson, known).encode()) + shared < budget - 6_000
+    page = lesson_page(lesson, known)
+    files = {Path(link).name for link in sizes.links_in(page) if link.startswith("../page/")}
+    assert {*STYLES, *SCRIPTS, MATH} < files
+    shared = sum(len(bare(STATIC / file).encode()) for file in files - {MATH})
+    budget = sizes.TOLD_BUDGET if has_story(lesson) else sizes.PAGE_BUDGET
+    assert len(page.encode()) + shared < budget - 6_000

@@ -3,13 +3,31 @@ surface.
 """
 
 import functools
+from collections.abc import Iterator
 
 import numpy as np
 
-from lessons.curvature.lesson import run as run_of
-from lessons.curvature.state import Params
+from lessons.curvature.inputs import Input
+from lessons.curvature.lesson import lesson
+from lessons.curvature.mesh import subject_of
+from lessons.curvature.state import State, Step, beside_its_mesh
 from tests.geometry.by_faces import measured_face_by_face
 from tests.verdicts import Run
+from workbench.certain import as_a
+
+
+def shown(run: Run) -> Run:
+    """Return the run with each step beside its mesh and inputs; a run of the paper as it is."""
+    if run.params.stage == "paper":
+        return run
+    states = tuple(beside_its_mesh(run.params, run.subject, step) for step in run.states)
+    return Run(run.params, states, run.subject)
+
+
+def run_of(params: Input) -> Iterator[State]:
+    """Yield the steps of a mesh, each beside it."""
+    for step in lesson.form.states(params):
+        yield beside_its_mesh(params, subject_of(params), as_a(Step, step))
 
 
 def facts(state):
@@ -68,7 +86,7 @@ def inside(run: Run, stage: str, name: str) -> np.ndarray:
 def too_small(run: Run, *_) -> bool:
     state = at(run, "gaussian")
     v = state.now.vertex
-    finer = angle_free_defect(Params(vertices=4 * 1600, mistake="none"))
+    finer = angle_free_defect(Input(vertices=4 * 1600, mistake="none"))
     coarse = float(np.median(np.abs(defects(state))))
     times = np.median(np.abs(state.subject.truth.gaussian / state.now.K))
     return (
@@ -79,7 +97,7 @@ def too_small(run: Run, *_) -> bool:
 
 
 @functools.cache
-def angle_free_defect(params: Params) -> float:
+def angle_free_defect(params: Input) -> float:
     """Return the typical defect of a mesh."""
     return float(np.median(np.abs(defects(next(iter(run_of(params)))))))
 
@@ -109,14 +127,14 @@ def regular(run: Run, *_) -> bool:
     )  # edges go with the root of the vertices
 
 
-def params(run: Run, **changes) -> Params:
-    return Params(
+def params(run: Run, **changes) -> Input:
+    return Input(
         **({name: getattr(run.params, name) for name in ("surface", "vertices", "seed")} | changes)
     )
 
 
 @functools.cache
-def mean_of(params: Params) -> np.ndarray:
+def mean_of(params: Input) -> np.ndarray:
     return next(s for s in run_of(params) if s.stage == "mean").now.H
 
 
@@ -125,11 +143,11 @@ def turned(run: Run):
 
 
 def scaled_by_two(run: Run) -> bool:
-    one = next(iter(run_of(Params())))
+    one = next(iter(run_of(Input())))
     two = run.states[0]
     H = at(run, "mean").now.H
     return (
         bool(np.allclose(defects(one), defects(two)))
         and bool(np.allclose(4 * facts(one)[1], facts(two)[1]))
-        and bool(np.allclose(H, mean_of(Params()) / 2))
+        and bool(np.allclose(H, mean_of(Input()) / 2))
     )

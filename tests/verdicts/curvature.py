@@ -3,12 +3,15 @@ analytic surface.
 """
 
 import re
+from collections.abc import Callable
 
 import numpy as np
+from scipy.optimize import brentq
 
-from lessons.curvature.captions import caption as caption
-from lessons.curvature.lesson import run as run_of
-from lessons.curvature.state import Params
+from lessons.curvature import paper
+from lessons.curvature.captions import caption as caption_of_mesh
+from lessons.curvature.inputs import Input
+from lessons.curvature.state import state_of
 from tests.own_seed import of_preset
 from tests.readings import NUMBER, number, says_percent
 from tests.truths.curvature import (
@@ -27,13 +30,17 @@ from tests.truths.curvature import (
     params,
     regular,
     rms,
+    run_of,
     scaled_by_two,
+    shown,
     slope,
     study,
     too_small,
     turned,
 )
 from tests.verdicts import Claim, Run
+from workbench.lesson import Look
+from workbench.scene import Caption
 
 DIGITS = 0.006  # relative: what three digits that count may hide
 VALUE = rf"({NUMBER})"
@@ -43,7 +50,22 @@ def near(said: str, value: float, relative: float = DIGITS) -> bool:
     return abs(number(said) - value) <= relative * abs(value) + 1e-8
 
 
+def caption(look: Look) -> Caption:
+    """Return the caption alone, without the picture."""
+    if isinstance(look.subject, paper.Sheet):
+        return paper.caption(look.now)
+    return caption_of_mesh(state_of(look))
+
+
+def claim(words: str, holds: Callable[[Run, int, re.Match[str]], bool]) -> Claim:
+    """Return a claim that is decided from the steps, each beside its mesh."""
+    return Claim(words, lambda run, k, m: holds(shown(run), k, m))
+
+
 def right(run: Run, k: int) -> bool | None:
+    if run.params.stage == "paper":
+        return None
+    run = shown(run)
     state = run.states[k]
     v = state.now.vertex
     if state.stage == "total":
@@ -177,96 +199,120 @@ def _study_numbers(run: Run, k: int, m: re.Match[str]) -> bool:
 
 PERCENT = rf"((?:less than )?{NUMBER} %)"
 
+
+def _height(run: Run, k: int) -> float:
+    """Return the height of the paper, found from the angle that neighbouring corners make."""
+    gap = run.states[k].gap
+    angle = np.radians((360.0 - gap) / 6)
+
+    def miss(up: float) -> float:
+        """Return how far two neighbouring corners miss the angle, one `up`, radians."""
+        other = up if gap > 0 else -up
+        a, b = (np.array([np.sqrt(1 - z * z), z]) for z in (up, other))
+        return float(np.arccos(0.5 * a[0] * b[0] + a[1] * b[1]) - angle)
+
+    up = brentq(miss, 0.0, 0.999)
+    return up if gap > 0 else 2 * up
+
+
+VALUES = {
+    "angle": lambda run, k: 60.0 - run.states[k].gap / 6,
+    "gap": lambda run, k: run.states[k].gap,
+    "overlap": lambda run, k: -run.states[k].gap,
+    "height": _height,
+}
+
+
 CAPTIONS = [
-    Claim(
+    claim(
         r"([\d,]+) vertices, ([\d,]+) triangles",
         lambda run, k, m: (
             (number(m[1]), number(m[2]))
             == (len(run.states[k].subject.p), len(run.states[k].subject.faces))
         ),
     ),
-    Claim(
+    claim(
         r"(\d+) vertices on the border",
         lambda run, k, m: int(m[1]) == facts(run.states[k])[2].sum(),
     ),
-    Claim(r"no border\.", lambda run, k, m: not facts(run.states[k])[2].any()),
-    Claim(r"(\d+) triangles meet at vertex ([\d,]+); their angles add up to ([\d.]+)°", _ring),
-    Claim(
+    claim(r"no border\.", lambda run, k, m: not facts(run.states[k])[2].any()),
+    claim(r"(\d+) triangles meet at vertex ([\d,]+); their angles add up to ([\d.]+)°", _ring),
+    claim(
         r"It lies on the border",
         lambda run, k, m: bool(facts(run.states[k])[2][run.states[k].now.vertex]),
     ),
-    Claim(
+    claim(
         r"In a plane they would",
         lambda run, k, m: not facts(run.states[k])[2][run.states[k].now.vertex],
     ),
-    Claim(r"(?:leaves a gap of|it overlaps by) ([\d.]+)°", _gap),
-    Claim(
+    claim(r"(?:leaves a gap of|it overlaps by) ([\d.]+)°", _gap),
+    claim(
         r"the ring closes: angle defect 0", lambda run, k, m: abs(defect_here(run.states[k])) < 1e-7
     ),
-    Claim(
+    claim(
         rf"a border vertex misses {VALUE}°",
         lambda run, k, m: near(m[1], np.degrees(defect_here(run.states[k]) + np.pi)),
     ),
-    Claim(
+    claim(
         rf"from 180°: {VALUE}° is how",
         lambda run, k, m: abs(number(m[1]) - np.degrees(defect_here(run.states[k]))) < 0.0051,
     ),
-    Claim(rf"K = defect / area = {VALUE} rad / {VALUE} m² = {VALUE} m⁻²", _k_is),
-    Claim(
+    claim(rf"K = defect / area = {VALUE} rad / {VALUE} m² = {VALUE} m⁻²", _k_is),
+    claim(
         rf"K at vertex [\d,]+ would be {VALUE}(?=[;.])",
         lambda run, k, m: near(m[1], defect_here(run.states[k])),
     ),
-    Claim(rf"the truth is {VALUE}(?=[ .])", _truth),
-    Claim(rf"Relative error \(RMS over ([\w ]+)\): {PERCENT}", _relative_error),
-    Claim(rf"2 H n, {VALUE} m⁻¹ long and pointing (outward|inward)", _pointing),
-    Claim(
+    claim(rf"the truth is {VALUE}(?=[ .])", _truth),
+    claim(rf"Relative error \(RMS over ([\w ]+)\): {PERCENT}", _relative_error),
+    claim(rf"2 H n, {VALUE} m⁻¹ long and pointing (outward|inward)", _pointing),
+    claim(
         r"pushes, weighted by cotangents, cancel",
         lambda run, k, m: (
             float(np.linalg.norm(run.states[k].now.normals_2H[run.states[k].now.vertex])) < 1e-6
         ),
     ),
-    Claim(rf"gives k₁ = {VALUE} and k₂ = {VALUE} m⁻¹ \(truth {VALUE}, {VALUE}\)", _principal),
-    Claim(r"they bend (to both sides, as on a saddle|to one side|one way only|not at all)", _bends),
-    Claim(
+    claim(rf"gives k₁ = {VALUE} and k₂ = {VALUE} m⁻¹ \(truth {VALUE}, {VALUE}\)", _principal),
+    claim(r"they bend (to both sides, as on a saddle|to one side|one way only|not at all)", _bends),
+    claim(
         rf"Relative errors \(RMS over all vertices\): K {PERCENT} \(angles {PERCENT}\), "
         rf"H {PERCENT} \(cotangents {PERCENT}\)",
         _fit_errors,
     ),
-    Claim(
+    claim(
         rf"All ([\d,]+) defects add up to {VALUE} rad = {VALUE} π; V − E \+ F = {VALUE} promises"
         rf" {VALUE} π",
         _sum,
     ),
-    Claim(r"Gauss-Bonnet: no noise or resolution changes this sum", defect_sum_of_all),
-    Claim(
+    claim(r"Gauss-Bonnet: no noise or resolution changes this sum", defect_sum_of_all),
+    claim(
         rf"The sum is {VALUE} rad too large: π for each of the (\d+) border vertices",
         lambda run, k, m: (
             int(m[2]) == facts(run.states[k])[2].sum() and near(m[1], np.pi * int(m[2]))
         ),
     ),
-    Claim(r"too large: some defects are wrong", lambda run, k, m: not defect_sum_of_all(run)),
-    Claim(
+    claim(r"too large: some defects are wrong", lambda run, k, m: not defect_sum_of_all(run)),
+    claim(
         rf"From ([\d,]+) to ([\d,]+) vertices the error of K from angles \(RMS\) goes from"
         rf" {PERCENT} to {PERCENT}, by quadric fit from {PERCENT} to {PERCENT}",
         _study_numbers,
     ),
-    Claim(
+    claim(
         r"No mesh is fine enough to mend a missing division",
         lambda run, k, m: study(run).K.min() > 0.9,
     ),
-    Claim(
+    claim(
         r"No mesh is fine enough to mend a missing ½", lambda run, k, m: study(run).H.min() > 0.9
     ),
-    Claim(r"angles are exact", lambda run, k, m: study(run).K.max() < 1e-8),
-    Claim(
+    claim(r"angles are exact", lambda run, k, m: study(run).K.max() < 1e-8),
+    claim(
         r"Finer is worse: the same noise",
         lambda run, k, m: run.params.noise > 0 and slope(study(run).K, study(run).counts) > 0.2,
     ),
-    Claim(
+    claim(
         r"does not converge to K; the defects' sum stays exact",
         lambda run, k, m: slope(study(run).K, study(run).counts) > -0.5 and exact_sum(run),
     ),
-    Claim(
+    claim(
         r"On such meshes angles converge",
         lambda run, k, m: slope(study(run).K, study(run).counts) < -0.8,
     ),
@@ -275,41 +321,40 @@ CAPTIONS = [
 
 LINES = {
     "cylinder": [
-        Claim(
+        claim(
             r"H is 1/2r = 1 m⁻¹",
             lambda run, k, m: bool(np.allclose(inside(run, "mean", "H"), 1, rtol=2e-3)),
         ),
     ],
     "catenoid": [
-        Claim(
+        claim(
             r"Catenoid: H = 0, K < 0",
             lambda run, k, m: (
                 bool((inside(run, "gaussian", "K") < 0).all())
                 and np.abs(inside(run, "mean", "H")).max() < 0.02
             ),
         ),
-        Claim(
+        claim(
             r"negative everywhere", lambda run, k, m: bool((inside(run, "gaussian", "K") < 0).all())
         ),
     ],
     "double": [
-        Claim(
+        claim(
             r"Every length is doubled",
             lambda run, k, m: (
-                np.ptp(run.states[0].subject.p)
-                == 2 * np.ptp(next(iter(run_of(Params()))).subject.p)
+                np.ptp(run.states[0].subject.p) == 2 * np.ptp(next(iter(run_of(Input()))).subject.p)
             ),
         ),
     ],
     "no-area": [
-        Claim(
+        claim(
             r"about a hundred times too small here, and about four times smaller still on a mesh"
             r" four times as fine",
             too_small,
         ),
     ],
     "no-half": [
-        Claim(
+        claim(
             r"H = 2 m⁻¹, and H² − K = 3",
             lambda run, k, m: (
                 bool(np.allclose(inside(run, "mean", "H"), 2, rtol=1e-2))
@@ -322,7 +367,7 @@ LINES = {
         ),
     ],
     "border": [
-        Claim(
+        claim(
             r"K and H are left open \(grey\) there",
             lambda run, k, m: (
                 bool(facts(run.states[0])[2][run.states[0].now.vertex])
@@ -331,11 +376,11 @@ LINES = {
         ),
     ],
     "border-2pi": [
-        Claim(
+        claim(
             r"should add up to 2π",
             lambda run, k, m: abs(defects(run.states[0]).sum() - 2 * np.pi) < 1e-9,
         ),
-        Claim(
+        claim(
             r"each border vertex adds π that is not there, and the sum is far off",
             lambda run, k, m: (
                 abs(at(run, "total").now.total - 2 * np.pi - np.pi * facts(run.states[0])[2].sum())
@@ -344,7 +389,7 @@ LINES = {
         ),
     ],
     "coarse": [
-        Claim(
+        claim(
             r"With 60 vertices the relative error of K is about 10 %",
             lambda run, k, m: (
                 0.09
@@ -358,37 +403,53 @@ LINES = {
         ),
     ],
     "fine": [
-        Claim(r"0\.13 % \(RMS\): on a regular mesh it falls with the square of the edges", regular)
+        claim(r"0\.13 % \(RMS\): on a regular mesh it falls with the square of the edges", regular)
     ],
     "noise": [
-        Claim(r"K is off by more than its own size", off_by_more_than_itself),
-        Claim(
+        claim(r"K is off by more than its own size", off_by_more_than_itself),
+        claim(
             r"A finer mesh makes it worse",
             lambda run, k, m: bool((np.diff(study(run).K) > 0).all()),
         ),
     ],
-    "irregular": [Claim(r"along the surface, never off it", on_the_torus)],
+    "irregular": [claim(r"along the surface, never off it", on_the_torus)],
     "sphere-sum": [
-        Claim(r"off by over five times its own size", of_preset(off_by_five_times_itself))
+        claim(r"off by over five times its own size", of_preset(off_by_five_times_itself))
     ],
     "torus-sum": [
-        Claim(
+        claim(
             r"cancel to the last digit",
             lambda run, k, m: abs(at(run, "total").now.defects.sum()) < 1e-9,
         ),
-        Claim(r"a handle", lambda run, k, m: facts(run.states[0])[3] == 0),
+        claim(r"a handle", lambda run, k, m: facts(run.states[0])[3] == 0),
     ],
 }
 
 WHYS = {
+    "seven": [
+        claim(
+            r"6 times 70° is 420°",
+            lambda run, k, m: any(s.gap == -60 and s.angle == 70 for s in run.states),
+        )
+    ],
+    "inside": [
+        claim(
+            rf"{VALUE}° of gaps and {VALUE}° of overlaps",
+            lambda run, k, m: (
+                abs(number(m[1]) - np.degrees(np.maximum(defects(run.states[0]), 0).sum())) < 0.06
+                and abs(number(m[2]) + np.degrees(np.minimum(defects(run.states[0]), 0).sum()))
+                < 0.06
+            ),
+        )
+    ],
     "which-rolled": [
-        Claim(
+        claim(
             rf"K = {VALUE} m⁻² and H = {VALUE} m⁻¹",
             lambda run, k, m: (
                 abs(number(m[1]) - 0) < 5e-4 and abs(number(m[2]) - 1 / (2 * 0.5)) < 2e-3
             ),
         ),
-        Claim(
+        claim(
             r"no angle changes",
             lambda run, k, m: bool(
                 np.abs(defects(run.states[0])[~facts(run.states[0])[2]]).max() < 1e-9
@@ -396,7 +457,7 @@ WHYS = {
         ),
     ],
     "which-double": [
-        Claim(
+        claim(
             r"It is ([\d.]+) times what it was: the angles stay, and each vertex has four times"
             r" the "
             r"area\. H would be halved",
@@ -404,7 +465,7 @@ WHYS = {
         ),
     ],
     "which-sides": [
-        Claim(
+        claim(
             r"H turns with the normal\. K is the product",
             lambda run, k, m: (
                 bool(np.allclose(angle_K(run.states[-1]), angle_K(turned(run))))
@@ -415,13 +476,13 @@ WHYS = {
         ),
     ],
     "which-finer": [
-        Claim(
+        claim(
             rf"from {PERCENT} to {PERCENT} \(RMS\)",
             lambda run, k, m: (
                 says_percent(m[1], study(run).K[0]) and says_percent(m[2], study(run).K[-1])
             ),
         ),
-        Claim(
+        claim(
             rf"so does the error of defect / area; that of the quadric fit falls to {PERCENT}",
             lambda run, k, m: (
                 abs(slope(study(run).K, study(run).counts)) < 0.15
@@ -431,7 +492,7 @@ WHYS = {
         ),
     ],
     "which-sum": [
-        Claim(
+        claim(
             r"V − E \+ F = (\d+), and 2π times that is 4π",
             lambda run, k, m: int(m[1]) == facts(run.states[0])[3] == 2 and exact_sum(run),
         ),

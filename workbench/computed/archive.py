@@ -34,12 +34,17 @@ LEFT_OUT = {"authoring", "handout", "notebook.py", "publish", "recording", "view
 
 
 def write(path: Path, lessons: Iterable[Lesson]) -> None:
-    """Write the archive with these lessons of the course; the same lessons give the same bytes."""
+    """Write the archive with these lessons of the course."""
+    write_atomic(path, packed(lessons))
+
+
+def packed(lessons: Iterable[Lesson]) -> bytes:
+    """Return the archive with these lessons of the course; the same lessons give the same bytes."""
     file = io.BytesIO()
     with zipfile.ZipFile(file, "w") as archive:
         for name, content in sorted(files_of(list(lessons)).items()):
             archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, 9)
-    write_atomic(path, file.getvalue())
+    return file.getvalue()
 
 
 def files_of(lessons: Iterable[Lesson]) -> dict[str, bytes]:

@@ -14,7 +14,7 @@ from workbench.story import Story, story_data
 from workbench.words.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
-MATH = "math.css"
+MATH, MATH_FONT = "math.css", "math.woff2"
 THIRD_PARTIES = "third-parties.txt"
 """Whose work is in our pages, and its licences."""
 STYLES = ("page.css", "ending.css", "course.css")
@@ -51,6 +51,8 @@ STORY_SCRIPTS = (
 STORY_STYLES = ("story.css", "storystage.css")
 DRESS = ("dress.css", "dress.js")
 """What a lesson without a story has of a story's look."""
+COMPUTING = ("compute.css", "compute.js", "bench.js", "computing.js", "codemirror.js")
+"""What a published page computes with: the last two are loaded when it does."""
 FONTS = ("source-serif-4-latin-wght-normal.woff2", "source-serif-4-latin-wght-italic.woff2")
 """The letters of the story, beside its styles."""
 STORY_FILES = (*STORY_STYLES, *FONTS, *STORY_SCRIPTS, *DRESS)

@@ -12,7 +12,7 @@ from workbench.exercise.finding import exercises_of
 from workbench.lesson import Lesson, Question
 from workbench.page.article import article_html
 from workbench.page.course import Card, course_document
-from workbench.page.document import in_script, lesson_document
+from workbench.page.document import COMPUTING, in_script, lesson_document
 from workbench.page.exercise import exercises_html
 from workbench.publish.manifest import Listed
 from workbench.publish.runs import PAGE, question_run
@@ -60,22 +60,35 @@ def moment(run: str, step: int | None) -> str:
     return f"#run={run or 'default'}" + ("" if step is None else f"&step={step}")
 
 
-def lesson_page(lesson: Lesson, known: Mapping[str, Any], head: str = "") -> str:
+def lesson_page(
+    lesson: Lesson,
+    known: Mapping[str, Any],
+    head: str = "",
+    computes: Mapping[str, Any] | None = None,
+) -> str:
     """Return a lesson's page.
 
     Args:
         lesson: What it teaches.
         known: What the page knows of its runs.
         head: More for the head, such as a canonical address.
+        computes: What it can compute with; None where it cannot.
     """
+    head = f'{head}<script src="../{LESSONS}"></script>'
+    more: dict[str, Any] = {"RECORDED": known}
+    if computes is not None:
+        style, *scripts, _, _ = COMPUTING
+        head += f'<link rel="stylesheet" href="../{PAGE}/{style}">'
+        head += "".join(f'<script src="../{PAGE}/{script}"></script>' for script in scripts)
+        more["PYTHON"] = computes
     return lesson_document(
         lesson,
         article_html(lesson, moment, "site"),
         home="site",
         root=f"../{PAGE}/",
         ending=exercises_html(exercises_of(lesson)),
-        head=f'{head}<script src="../{LESSONS}"></script>',
-        more={"RECORDED": known},
+        head=head,
+        more=more,
         still="picture.webp",
         story=story_of(lesson, "site"),
     )

@@ -2,10 +2,10 @@
 offline.
 """
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from html.parser import HTMLParser
-from pathlib import Path, PurePosixPath
-from urllib.parse import unquote, urlsplit
+from collections.abc import Collection, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
 
 import viser
 
@@ -20,6 +20,7 @@ from workbench.page.document import (
     DRESS,
     FONTS,
     MATH,
+    MATH_FONT,
     RECORDED,
     SCRIPTS,
     STATIC,
@@ -28,8 +29,10 @@ from workbench.page.document import (
     STYLES,
     THIRD_PARTIES,
     bare,
+    in_script,
 )
 from workbench.page.thumbnail import thumbnail
+from workbench.publish.computing import computing
 from workbench.publish.lock import only_writer
 from workbench.publish.manifest import NAME, Listed, Manifest
 from workbench.publish.pages import (
@@ -53,19 +56,11 @@ from workbench.publish.runs import (
     render_all,
     runs_of,
 )
+from workbench.publish.sizes import COURSE_PAGE, checked
 from workbench.recording import equal_content
 from workbench.run.timeline import Timelines
-from workbench.words.typeset import math_font_css
+from workbench.words.typeset import math_font, math_font_css
 
-PAGE_BUDGET, PICTURES_BUDGET, REPLAY_BUDGET, RECORDING_BUDGET = (
-    300_000,
-    1_000_000,
-    4_000_000,
-    3_000_000,
-)
-TOLD_BUDGET = 420_000
-"""Of a page with a story: it has two faces, and the scripts of both."""
-COURSE_PAGE = "index.html"
 PICTURE = "picture.webp"
 
 
@@ -77,6 +72,7 @@ def publish(
     force: bool = False,
     remove_others: bool = False,
     recordings: Recordings = "linked",
+    python: str | None = None,
     progress: Progress | None = None,
 ) -> list[tuple[str, int]]:
     """Write lessons into a site and return all that the site holds of ours: (file, bytes).
@@ -92,12 +88,14 @@ def publish(
         remove_others: These are all lessons of the site: others that we published before go.
         recordings: Which runs can be downloaded as recordings: all but those of sweeps, the default
             and those that the page's text names, or none.
+        python: A folder with the files of a Pyodide release, or its address: then the pages can
+            compute.
         progress: Told of each run.
 
     Raises:
-        InputError: If somebody else's file is in the way (then nothing has changed), another
-            publish is writing here, a run fails, a file cannot be written, a link leads nowhere, or
-            something is over its size budget.
+        InputError: If Python's place cannot be used or somebody else's file is in the way (then
+            nothing has changed), another publish is writing here, a run fails, a file cannot be
+            written, a link leads nowhere, or something is over its size budget.
     """
     for lesson in lessons:
         runs = runs_of(lesson, "all")
@@ -124,6 +122,7 @@ def publish(
                 force=force,
                 remove_others=remove_others,
                 recordings=recordings,
+                python=python,
                 progress=progress,
             )
     except OSError as error:
@@ -138,6 +137,7 @@ def _publish(
     force: bool,
     remove_others: bool,
     recordings: Recordings,
+    python: str | None,
     progress: Progress | None,
 ) -> list[tuple[str, int]]:
     manifest = Manifest(out)
@@ -154,6 +154,7 @@ def _publish(
             f"{out}: its other lessons were published by another version; publish all of them again"
         )
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson, recordings)]
+    computes = None if python is None else computing(python, lessons, others)
     shared = {
         f"{PAGE}/{name}": bare(STATIC / name).encode()
         for name in (*STYLES, *FRONT_FILES, *RECORDED, *SCRIPTS)
@@ -163,9 +164,14 @@ def _publish(
         for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS)
     }
     shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in FONTS}
-    shared |= {f"{PAGE}/{MATH}": math_font_css().encode(), ".nojekyll": b""}
+    shared |= {
+        f"{PAGE}/{MATH}": math_font_css(MATH_FONT).encode(),
+        f"{PAGE}/{MATH_FONT}": math_font(),
+        ".nojekyll": b"",
+    }
     shared |= {CLIENT: client_script().encode()}
     shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
+    shared |= {} if computes is None else computes.files
     wanted = {COURSE_PAGE, LESSONS, *shared}
     wanted |= {f"{name}/{file}" for name in names for file in (COURSE_PAGE, PICTURE)}
     wanted |= {name for lesson, run in work for name in files_of(lesson, run)}
@@ -178,7 +184,9 @@ def _publish(
     manifest.write({**shared, **leading})
     timelines = Timelines()
     for lesson in lessons:
-        _write_page(manifest, lesson, timelines, address=canonical(base_url, f"{lesson.name}/"))
+        data = None if computes is None else computes.page_data(lesson)
+        address = canonical(base_url, f"{lesson.name}/")
+        _write_page(manifest, lesson, timelines, address=address, computes=data)
     listed = others | {
         lesson.name: Listed(
             lesson.title, lesson.summary, lesson.order, lesson.needs, lesson.chapter, lesson.minutes
@@ -259,10 +267,17 @@ def _render(
             progress(f"{lesson.name}/{run.name}", done, len(work))
 
 
-def _write_page(manifest: Manifest, lesson: Lesson, timelines: Timelines, *, address: str) -> None:
+def _write_page(
+    manifest: Manifest,
+    lesson: Lesson,
+    timelines: Timelines,
+    *,
+    address: str,
+    computes: Mapping[str, Any] | None,
+) -> None:
     """Write a lesson's page if it is not there as it should be: its questions need runs."""
     key, names = f"{lesson.name}/", [f"{lesson.name}/{file}" for file in (COURSE_PAGE, PICTURE)]
-    digest = page_digest(lesson, address)
+    digest = page_digest(lesson, address + ("" if computes is None else in_script(computes)))
     if manifest.runs.get(key) == digest and all(map(manifest.is_ours, names)):
         return
     known = recorded(
@@ -271,7 +286,13 @@ def _write_page(manifest: Manifest, lesson: Lesson, timelines: Timelines, *, add
     picture = thumbnail(lesson, timelines)
     manifest.runs.pop(key, None)
     manifest.write(
-        dict(zip(names, (lesson_page(lesson, known, address).encode(), picture), strict=True))
+        dict(
+            zip(
+                names,
+                (lesson_page(lesson, known, address, computes).encode(), picture),
+                strict=True,
+            )
+        )
     )
     manifest.runs[key] = digest
 
@@ -308,84 +329,3 @@ def canonical(base_url: str | None, path: str) -> str:
             f"--base-url {base_url!r}: the address of a folder has no query (?) and no fragment (#)"
         )
     return f'<link rel="canonical" href="{base_url.rstrip("/")}/{path}">\n'
-
-
-def checked(out: Path, names: Iterable[str]) -> list[tuple[str, int]]:
-    """Return these files of a site with their sizes.
-
-    Raises:
-        InputError: If a link leads nowhere, or a page, replay or recording is over its budget.
-    """
-    sizes = [(name, (out / name).stat().st_size) for name in sorted(names)]
-    budgets = {".js": REPLAY_BUDGET, ".rrd": RECORDING_BUDGET}
-    for name, size in sizes:
-        budget = budgets.get(Path(name).suffix, size)
-        if size > budget:
-            raise InputError(_over(name, size, budget))
-    for name, size in sizes:
-        if not name.endswith(".html"):
-            continue
-        page, weight, pictures = out / name, size, 0
-        text = page.read_text(encoding="utf-8")
-        for link in links_in(text):
-            if link.startswith("data:image/"):
-                pictures += len(link)
-                continue
-            parts = urlsplit(link)
-            if parts.scheme or parts.netloc or not parts.path:
-                continue
-            linked = page.parent / unquote(parts.path)
-            if not linked.exists():
-                raise InputError(f"{name}: the link {link} leads nowhere")
-            if linked.suffix in (".css", ".js"):
-                weight += linked.stat().st_size
-        if pictures > PICTURES_BUDGET:
-            raise InputError(_over(f"the pictures of {name}", pictures, PICTURES_BUDGET))
-        weight -= pictures
-        budget = TOLD_BUDGET if f"{PAGE}/{STORY_SCRIPTS[-1]}" in text else PAGE_BUDGET
-        if weight > budget:
-            raise InputError(_over(f"{name} with its styles and scripts", weight, budget))
-    return sizes
-
-
-def _over(what: str, size: int, budget: int) -> str:
-    return f"{what} has {size / 1e6:.2f} MB, over the budget of {budget / 1e6:.2f} MB"
-
-
-def sizes_told(out: Path, files: Sequence[tuple[str, int]], swept: Collection[str] = ()) -> str:
-    """Return a summary of what a site holds, by kind of file, and where to begin; `swept` are the
-    files of sweeps.
-    """
-    kinds = {"pages": "*.html", "runs": "*/runs/*.js", "recordings": "*.rrd"}
-    lines = [
-        _sizes(kind, [size for name, size in files if PurePosixPath(name).match(p)])
-        for kind, p in kinds.items()
-    ]
-    if swept:
-        lines.append(
-            _sizes("of these runs are of sweeps", [size for name, size in files if name in swept])
-        )
-    return "\n".join([*lines, f"begin at {out / COURSE_PAGE}"])
-
-
-def _sizes(what: str, sizes: Sequence[int]) -> str:
-    return (
-        f"{len(sizes)} {what}, {sum(sizes) / 1e6:.1f} MB, the largest"
-        f" {max(sizes, default=0) / 1e6:.2f} MB"
-    )
-
-
-def links_in(page: str) -> Iterator[str]:
-    """Return the addresses that a page's links, scripts, styles and pictures name."""
-    parser = _Links()
-    parser.feed(page)
-    yield from parser.found
-
-
-class _Links(HTMLParser):
-    def __init__(self) -> None:
-        super().__init__()
-        self.found: list[str] = []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.found += [value for name, value in attrs if name in ("href", "src") and value]

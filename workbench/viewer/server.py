@@ -28,7 +28,16 @@ from workbench.lesson import Lesson, catalog
 from workbench.machinery.hosts import listening
 from workbench.page.code import source_html
 from workbench.page.course import FRONT_FILES
-from workbench.page.document import LIVE, SCRIPTS, STATIC, STORY_FILES, STYLES, THIRD_PARTIES
+from workbench.page.document import (
+    LIVE,
+    MATH,
+    MATH_FONT,
+    SCRIPTS,
+    STATIC,
+    STORY_FILES,
+    STYLES,
+    THIRD_PARTIES,
+)
 from workbench.page.thumbnail import thumbnail
 from workbench.run import links
 from workbench.viewer.addresses import Doors
@@ -41,7 +50,7 @@ from workbench.viewer.rules import RequestGate, Rules, page_response
 from workbench.viewer.runs import MOST_BYTES, SharedRuns
 from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
-from workbench.words.typeset import math_font_css
+from workbench.words.typeset import math_font, math_font_css
 
 FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, *FRONT_FILES, THIRD_PARTIES)
 MOST_PAGES = 400
@@ -149,7 +158,8 @@ class Server:
         return Starlette(
             routes=[
                 Route("/", self._page),
-                Route("/page/math.css", self._math),
+                Route(f"/page/{MATH}", self._math),
+                Route(f"/page/{MATH_FONT}", self._math_font),
                 Route("/page/{file}", self._file),
                 Route("/picture/{lesson}", self._picture),
                 WebSocketRoute("/live", self._live),
@@ -174,7 +184,7 @@ class Server:
     async def _warm_up(self) -> None:
         """Make what every page needs before the first one asks."""
         await self.runs.asking.do(client_bytes)
-        await self.runs.asking.do(math_font_css)
+        await self.runs.asking.do(math_font)
         await self.runs.asking.do(source_html, lesson_page)
 
     async def _keep_room(self) -> None:
@@ -241,7 +251,12 @@ class Server:
         return await receive(request, self.students.get(request.path_params["token"]))
 
     async def _math(self, request: Request) -> Response:
-        return PlainTextResponse(await self.runs.stepping.do(math_font_css), media_type="text/css")
+        return PlainTextResponse(
+            await self.runs.asking.do(math_font_css, MATH_FONT), media_type="text/css"
+        )
+
+    async def _math_font(self, request: Request) -> Response:
+        return Response(await self.runs.asking.do(math_font), media_type="font/woff2")
 
     async def _picture(self, request: Request) -> Response:
         lesson = self.lessons.get(request.path_params["lesson"])

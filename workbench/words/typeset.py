@@ -200,22 +200,26 @@ def math_html(tex: str, block: bool = False) -> str:
     )
 
 
-@functools.cache
-def math_font_css() -> str:
-    """Return a style sheet with a subset of STIX Two Math as data, some 150 kB, or nothing where
-    the font is missing.
+def math_font_css(file: str = "") -> str:
+    """Return a style sheet with the letters of formulas, or nothing where they are missing.
+
+    Args:
+        file: The address of `math_font()` beside the style sheet; in it, a third larger, where
+            there is none.
     """
-    data = _font()
-    if data is None:
+    data = math_font()
+    if not data:
         return ""
-    source = f"url(data:font/woff2;base64,{base64.b64encode(data).decode()}) format('woff2')"
+    where = file or f"data:font/woff2;base64,{base64.b64encode(data).decode()}"
     return (
-        f"@font-face{{font-family:'Workbench Math';src:{source}}} math{{font-family:'Workbench"
-        " Math',math}"
+        f"@font-face{{font-family:'Workbench Math';src:url({where}) format('woff2');"
+        "font-display:swap} math{font-family:'Workbench Math',math}"
     )
 
 
-def _font() -> bytes | None:
+@functools.cache
+def math_font() -> bytes:
+    """Return a subset of STIX Two Math, some 115 kB, or nothing where the font is missing."""
     kept = cache_folder() / "stix-two-math-subset-4.woff2"
     try:
         return kept.read_bytes()
@@ -224,7 +228,7 @@ def _font() -> bytes | None:
     try:
         data = _subset()
     except (ImportError, StopIteration, OSError):
-        return None
+        return b""
     try:
         kept.parent.mkdir(parents=True, exist_ok=True)
         write_atomic(kept, data)

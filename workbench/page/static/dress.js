@@ -32,10 +32,14 @@ const dress = {
       .map((link) => [Number(link.dataset.step), link.textContent])
       .map(([at, words]) => [at < 0 ? (run.finished ? run.known + at : -1) : at, words]);
     const named = [...told, ...linked].filter(([at, words]) => at >= 0 && at <= last && words.length <= 24);
-    const row = [];
-    for (const [at, words] of [...named.filter(([at]) => at === 0 || at === last), ...named]) {
-      const apart = ([other, text]) => Math.abs(at - other) / last > 0.006 * (words.length + text.length) + 0.02;
-      if (row.every(apart)) row.push([at, words]);
+    const row = [], sign = 7 / ($("#places").clientWidth || 480);
+    const extent = ([at, words]) => {
+      const wide = sign * words.length + 0.02, from = at === 0 ? 0 : at === last ? 1 - wide : at / last - wide / 2;
+      return [from, from + wide];
+    };
+    for (const place of [...named.filter(([at]) => at === 0 || at === last), ...named]) {
+      const [from, to] = extent(place);
+      if (row.map(extent).every(([low, high]) => to <= low || high <= from)) row.push(place);
     }
     $("#places").replaceChildren(...row.map(([at, words]) => {
       const button = element("button", { type: "button", textContent: words, onclick: () => { transport.pause(); page.seek(at); } });

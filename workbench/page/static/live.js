@@ -3,9 +3,6 @@
 
 const source = {
   socket: null, waiting: [], given: {},
-  wire: new Wire(),
-  seen: null,  // {run, k}: of which step the scene is
-  drawn: null,  // {run, k, nodes} of a step that has come and is not shown
   tells: {},  // what is told -> function: what the other parts of the page hear
 
   start() {
@@ -20,7 +17,7 @@ const source = {
       for (const text of this.waiting.splice(0)) socket.send(text);
       returning.opened();
     };
-    socket.onmessage = ({ data }) => (typeof data === "string" ? this.heard(JSON.parse(data)) : this.drew(data));
+    socket.onmessage = ({ data }) => (typeof data === "string" ? this.heard(JSON.parse(data)) : arriving.drew(data));
     socket.onclose = () => returning.wait();
   },
 
@@ -36,22 +33,7 @@ const source = {
     else this.tells[tell]?.(more);
   },
 
-  // a step's scene, in bytes
-  drew(bytes) {
-    const head = this.wire.read(bytes), { run, k } = head;
-    if (head.stage) feed.open(head.stage);
-    this.drawn = { run, k, nodes: this.wire.nodes(head.nodes) };
-    if (page.face === "bench" || storyStage.awaits(k)) this.flush();
-  },
-
-  // shows what was drawn last; a story lets a step pass that is only on the way to the one it wants
-  flush() {
-    if (!this.drawn) return;
-    const { run, k, nodes } = this.drawn, by = this.seen?.run === run ? k - this.seen.k : 0;
-    this.drawn = null;
-    this.seen = { run, k };
-    sceneView.step(nodes, by);
-  },
+  flush() { arriving.flush(); },
 
   send(message) {
     const text = JSON.stringify(message);

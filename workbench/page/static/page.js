@@ -115,6 +115,17 @@ const page = {
     return theirs.map(([key, value]) => `&${encodeURIComponent(key)}=${encodeURIComponent(value)}`).join("");
   },
 
+  // shows the tools that the source has verbs for
+  tools() {
+    for (const tool of $$("[data-needs]")) tool.hidden = !tool.dataset.needs.split(" ").some((verb) => source[verb]) || !this.can(tool.id);
+    if (!$("#move").hidden) $("#move").onclick = keys.others.h = () => {
+      const on = $("#move").getAttribute("aria-pressed") !== "true";
+      $("#move").setAttribute("aria-pressed", String(on));
+      source.handles(on);
+    };
+    if (!$("#set").hidden) keys.others.s = () => knobs.toggle();
+  },
+
   theme(dark) {
     document.documentElement.dataset.theme = dark ? "dark" : "light";
     source.theme?.(dark);
@@ -131,7 +142,7 @@ function grown(before, series, from) {
 }
 
 document.addEventListener("DOMContentLoaded", () => {
-  for (const tool of $$("[data-needs]")) tool.hidden = !tool.dataset.needs.split(" ").some((verb) => source[verb]) || !page.can(tool.id);
+  page.tools();
   article.start();
   knobs.start();
   for (const part of [exercise, thisRun, labels, handles]) part.start();
@@ -150,13 +161,7 @@ document.addEventListener("DOMContentLoaded", () => {
   keys.others.i = () => source.pin?.();
   keys.others.r = () => source.reset?.();
   keys.others.escape = () => panels.enlarge(null);
-  if (!$("#move").hidden) $("#move").onclick = keys.others.h = () => {
-    const on = $("#move").getAttribute("aria-pressed") !== "true";
-    $("#move").setAttribute("aria-pressed", String(on));
-    source.handles(on);
-  };
   $("#pin").onclick = keys.others.i;
-  if (!$("#set").hidden) keys.others.s = () => knobs.toggle();
   if (typeof story !== "undefined") story.start();
   if (typeof dress !== "undefined") dress.start();
   source.start();

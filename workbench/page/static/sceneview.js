@@ -42,3 +42,29 @@ const sceneView = {
   // the curves of the pinned run
   series() { return this.pinned?.run.series ?? null; },
 };
+
+// scenes that come in bytes, a step at a time: what was sent once is not sent again
+const arriving = {
+  wire: new Wire(),
+  stage: null,  // how the scene is first seen
+  seen: null,   // {run, k}: of which step the scene is
+  drawn: null,  // {run, k, nodes} of a step that has come and is not shown
+
+  anew() { Object.assign(this, { wire: new Wire(), stage: null, seen: null, drawn: null }); },
+
+  // shows a step's scene; a story lets one pass that is only on the way to the one it wants
+  drew(bytes) {
+    const { run, k, nodes, stage: how } = this.wire.read(bytes);
+    if (how) feed.open(this.stage = how);
+    this.drawn = { run, k, nodes: this.wire.nodes(nodes) };
+    if (page.face === "bench" || storyStage.awaits(k)) this.flush();
+  },
+
+  flush() {
+    if (!this.drawn) return;
+    const { run, k, nodes } = this.drawn, by = this.seen?.run === run ? k - this.seen.k : 0;
+    this.drawn = null;
+    this.seen = { run, k };
+    sceneView.step(nodes, by);
+  },
+};

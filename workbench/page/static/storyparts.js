@@ -72,7 +72,7 @@ const storyParts = {
     const scene = $("#story .turn") ?? $("#story .scene:last-of-type");
     if (!scene) return;
     if (scene.matches(".turn") && !$("[data-bench]", scene)) scene.append(element("p", {},
-      element("button", { type: "button", className: "button", textContent: "Open the workbench",
+      element("button", { type: "button", className: "button to-bench", textContent: "Open the workbench",
         onclick: () => story.turn("bench") })));
     for (const link of $$("[data-bench]")) link.addEventListener("click", (event) => {
       event.preventDefault();

@@ -71,6 +71,13 @@ const storyWords = {
     this.keyed(one);
   },
 
+  // the home has learnt to compute: every knob's number turns, at any value
+  computes() {
+    for (const one of this.numbers) if (one.kind === "knob" && this.turnable(one)) one.sweep = null;
+    const known = new Set(this.numbers.map(({ el }) => el));
+    for (const el of $$("#story .num")) if (!known.has(el)) this.number(el);
+  },
+
   // the words before a number say what it is
   label(el) {
     const range = document.createRange();

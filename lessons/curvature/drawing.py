@@ -4,12 +4,11 @@ by.
 
 import numpy as np
 
-from lessons.curvature import ring
+from lessons.curvature import ring, row
 from lessons.curvature.captions import caption
 from lessons.curvature.charts import beside
 from lessons.curvature.scales import (
     DEFECT_SCALE,
-    ERROR_SCALE,
     H_SCALE,
     K_SCALE,
     arrow,
@@ -27,6 +26,8 @@ MOST_EDGES, MOST_ARROWS, MOST_CROSSES = 6000, 3000, 1500
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
+    if state.study is not None:
+        return row.drawn(state, state.study) | {"caption": caption(state)} | beside(state)
     subject, now, stage = state.subject, state.now, state.stage
     edge = ring.edge_length(now)
     scene: dict[str, Primitive] = {
@@ -50,7 +51,7 @@ def draw(state: State) -> Scene:
     elif stage == "gaussian":
         scene |= ring.cell(now)
     elif stage == "normal":
-        scene |= {"mean normals": _arrows(state)} | ring.pushes(now, arrow(state))
+        scene |= {"normals": _arrows(state)} | ring.pushes(now, arrow(state))
     elif stage == "principal":
         scene |= _crosses(state) | ring.circles(now)
     elif stage == "quadric":
@@ -59,7 +60,7 @@ def draw(state: State) -> Scene:
 
 
 def _color(state: State) -> Color:
-    now, stage, truth = state.now, state.stage, state.subject.truth
+    now, stage = state.now, state.stage
     if stage == "gaussian":
         return _signed(state, now.K, K_SCALE, "Gaussian curvature K", "m⁻²")
     if stage in ("mean", "principal"):
@@ -68,9 +69,6 @@ def _color(state: State) -> Color:
         return _signed(state, now.defects, DEFECT_SCALE, "angle defect", "rad")
     if stage == "quadric" and now.quadrics is not None:
         return _signed(state, now.quadrics.curvatures()[0], K_SCALE, "K by quadric fit", "m⁻²")
-    if stage == "finer" and truth is not None:
-        error = np.where(state.subject.border, np.nan, now.K - truth.gaussian)
-        return _signed(state, error, ERROR_SCALE, "error of K from angles", "m⁻²")
     return "neutral"
 
 
@@ -109,5 +107,5 @@ def _crosses(state: State) -> dict[str, Primitive]:
     )
     for name, role, v in both:
         ends = between(p - half * v[rows], p + half * v[rows]) + 0.05 * half * n[:, None]
-        scene[f"along {name}"] = Segments(ends, role, 2, name=f"direction of {name}")
+        scene[f"ticks/{name}"] = Segments(ends, role, 2, name=f"direction of {name}")
     return scene
