@@ -202,6 +202,15 @@ def test_a_page_from_a_disk_says_why_it_cannot_and_plays_on(context, out):
     page.close()
 
 
+def test_a_browser_without_webassembly_is_told_so(chromium, site):
+    page = chromium.new_page(bypass_csp=False)
+    page.add_init_script("delete globalThis.WebAssembly")
+    page.goto(site[0])
+    page.locator("button.compute:visible >> nth=0").click()
+    page.locator("output.why:visible >> nth=0", has_text="has no WebAssembly").wait_for()
+    page.close()
+
+
 def test_where_python_is_not_the_page_says_so_and_tries_again(chromium, out, site):
     (wasm,) = (out / "on" / "site" / "python").rglob("pyodide.asm.wasm")
     aside = wasm.rename(wasm.with_suffix(".aside"))
