@@ -14,12 +14,14 @@ import pytest
 
 from tests.browser.test_published import QuietHandler
 from tests.computed.solutions import tasks_of
+from workbench.exercise.finding import exercises_of
 from workbench.lesson import catalog
 from workbench.publish.site import publish
 from workbench.run.timeline import Timeline
 
 pytestmark = pytest.mark.browser
 LESSON = catalog()["transforms"]
+(TASK,) = exercises_of(LESSON)
 TEXTS = {name: text for _, exercise, name, text in tasks_of(LESSON)}
 FOREVER = "def invert_rigid(T_a_b):\n    while True:\n        pass\n"
 ASKS = """\
@@ -144,14 +146,19 @@ def test_a_knob_moves_to_any_value_and_says_what_python_says(page):
 
 def test_a_right_function_has_all_points_and_the_lesson_s_own_run(page, bench):
     right = next(text for name, text in TEXTS.items() if name.startswith("right_"))
-    assert "3 of 3 points" in run(page, bench, right) or "all" in bench.inner_text()
+    points = sum(check.points for check in TASK.checks if check.public)
+    report = run(page, bench, right)
+    assert f"{points:g} of {points:g} points" in report
+    assert "✗" not in report
     until(page, lambda: page.evaluate("page.run.called === true && page.run.finished"))
     assert page.evaluate("page.run.mark") is None
 
 
 def test_a_wrong_function_is_told_why_and_shows_its_first_difference(page, bench):
     wrong = next(text for name, text in TEXTS.items() if name.startswith("wrong_"))
-    assert "✗" in run(page, bench, wrong)
+    report = run(page, bench, wrong)
+    assert "✗" in report
+    assert any(mistake.sentence in report for mistake in TASK.mistakes)
     until(page, lambda: page.evaluate("page.run.mark !== null"))
     bench.get_by_role("button", name="Go to the first difference").click()
     until(page, lambda: page.evaluate("page.k === page.run.mark"))

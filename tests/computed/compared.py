@@ -22,7 +22,7 @@ def make_archive(path: Path, tasks: Iterable[Task] = ()) -> Path:
     """Write the archive of all lessons; with tasks for `judged.py` also the hidden checks, which
     what is published never has.
     """
-    archive.write(path, catalog().values())
+    path.write_bytes(archive.packed(catalog().values()))
     listed = list(tasks)
     if listed:
         with zipfile.ZipFile(path, "a") as core:

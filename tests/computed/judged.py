@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from workbench.computed.runner import file_of
 from workbench.computed.student import InPlaceFunction, read_in_place
 from workbench.errors import InputError
 from workbench.exercise.finding import exercises_in_folder
@@ -25,7 +24,7 @@ def judged(lesson: str, exercise: str, text: str) -> list[Any]:
     found = exercises_in_folder(importlib.import_module(f"lessons.{lesson}.lesson").lesson)
     task = next(one for one in found if one.name == exercise)
     try:
-        student = InPlaceFunction(read_in_place(file_of(exercise), text), exercise)
+        student = InPlaceFunction(read_in_place(task.file, text), exercise)
         report = grade_function(student, task)
     except InputError as error:
         return [str(error)]

@@ -150,7 +150,7 @@ def the_first_alternative_stands_alone(subject: Subject, exercise: Exercise) -> 
         return
     subject.tell(f"the sample solution of exercise {exercise.name}")
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"my_{exercise.name}.py"
+        path = Path(folder) / exercise.file
         path.write_text(sample(exercise), encoding="utf-8")
         report = grade_file(path, exercise)
     where = f"{who(exercise)}{at(exercise.alternatives[0])}{exercise.alternatives[0].__name__}"

@@ -1,6 +1,6 @@
 """A lesson computed in a browser: what a page's worker calls inside Pyodide.
 
-The worker unpacks the archive that `archive.write(path, lessons)` made into a folder on `sys.path`,
+The worker unpacks the archive that `archive.packed(lessons)` made into a folder on `sys.path`,
 and calls `runner`. All values are plain and fit into JSON; a scene is bytes in the form of
 `workbench.wire.packing`, which the page's `wire.js` reads. Texts are those that the live server
 sends, so `page.told`, `page.came` and the exercise's report take them as they are::
@@ -9,7 +9,8 @@ sends, so `page.told`, `page.came` and the exercise's report take them as they a
 
     runner = open_lesson("icp")
     runner.about()            -> {"params": {...}, "versions": {"python", "numpy", "scipy"},
-                                  "exercises": [{"name", "starter", "preset", "title"}, ...]}
+                                  "exercises": [{"name", "file", "starter", "preset", "title"},
+                                                ...]}
     runner.run({"start_angle": 120.0})   -> {"params": {...}, "run": 3}
         # begins the run of these params; a name left out has its default, a number out of range
         # goes to the nearer end; InputError says what cannot be used, and nothing has changed

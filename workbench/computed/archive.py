@@ -25,17 +25,11 @@ from workbench.exercise.finding import HIDDEN, exercises_of
 from workbench.exercise.model import Exercise
 from workbench.exercise.starter import starter
 from workbench.lesson import Lesson, course
-from workbench.machinery.atomic import write_atomic
 
 ROOT = Path(__file__).resolve().parents[2]
 """Where the packages of ours are."""
 LEFT_OUT = {"authoring", "handout", "notebook.py", "publish", "recording", "viewer", "cli.py"}
 """Parts of the workbench that no run, page data or judge imports."""
-
-
-def write(path: Path, lessons: Iterable[Lesson]) -> None:
-    """Write the archive with these lessons of the course."""
-    write_atomic(path, packed(lessons))
 
 
 def packed(lessons: Iterable[Lesson]) -> bytes:
@@ -104,6 +98,7 @@ def _told(exercise: Exercise, lesson: Lesson) -> dict[str, Any]:
     preset = exercise.contract.preset or ""
     return {
         "name": exercise.name,
+        "file": exercise.file,
         "starter": starter(exercise),
         "preset": preset,
         "title": lesson.preset(preset).title if preset else "",

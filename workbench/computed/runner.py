@@ -158,9 +158,9 @@ class Runner:
         from workbench.page.code import text_html
 
         task = self._exercise(exercise)
-        source = {"name": file_of(exercise), "html": text_html(text)}
+        source = {"name": task.file, "html": text_html(text)}
         try:
-            student = self._student(exercise, text)
+            student = self._student(task, text)
             student.start()
         except InputError as error:
             return {"trouble": str(error), "name": exercise, "source": source}
@@ -174,16 +174,16 @@ class Runner:
 
         task = self._exercise(exercise)
         try:
-            student = self._student(exercise, text)
-            report = grade_function(student, task, hidden=False, file=file_of(exercise))
+            student = self._student(task, text)
+            report = grade_function(student, task, hidden=False, file=task.file)
         except InputError as error:
             return report_data(str(error))
         return report_data(report)
 
-    def _student(self, exercise: str, text: str) -> Any:
+    def _student(self, task: Any, text: str) -> Any:
         from workbench.computed.student import InPlaceFunction, read_in_place
 
-        return InPlaceFunction(read_in_place(file_of(exercise), text), exercise)
+        return InPlaceFunction(read_in_place(task.file, text), task.name)
 
     def _exercise(self, name: str) -> Any:
         from workbench.exercise.finding import exercises_in_folder
@@ -192,8 +192,3 @@ class Runner:
         if name not in found:
             raise InputError(f"lesson {self.lesson.name} has no exercise {name!r}")
         return found[name]
-
-
-def file_of(exercise: str) -> str:
-    """Return what the file is called that a student's text is handed in as."""
-    return f"my_{exercise}.py"

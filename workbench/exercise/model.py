@@ -258,6 +258,11 @@ class Exercise:
         return self.contract.function
 
     @property
+    def file(self) -> str:
+        """What the file is called in which a student hands the function in."""
+        return f"my_{self.name}.py"
+
+    @property
     def points(self) -> float:
         """What all checks are worth together."""
         return sum(item.points for item in self.checks)

@@ -103,7 +103,7 @@ def commands(exercise: Exercise) -> tuple[str, str, str]:
     """Return what a student types to get the starter, to watch the function, to have it judged."""
     lesson = word_for(exercise.lesson, exercise.reference.__module__)
     given = "" if lesson == exercise.lesson and lesson in catalog() else f" --lesson {lesson}"
-    file = f"my_{exercise.name}.py"
+    file = exercise.file
     return (
         f"workbench exercise {exercise.name}{given}",
         f"workbench show {lesson} --with {file}",
@@ -117,7 +117,7 @@ def write_starter(exercise: Exercise, folder: Path, *, force: bool = False) -> P
     Raises:
         InputError: If the file is there already, or cannot be written.
     """
-    path = folder / f"my_{exercise.name}.py"
+    path = folder / exercise.file
     if path.exists() and not force:
         raise InputError(f"{path} is there already: move it away, or start over with --force")
     try:

@@ -38,7 +38,7 @@ def files(assignment: Assignment) -> dict[str, bytes]:
         folder = f"questions/{question(exercise)}"
         held[f"{folder}/info.json"] = _json(info(assignment, exercise))
         held[f"{folder}/question.html"] = page(exercise).encode()
-        held[f"{folder}/my_{exercise.name}.py"] = starter(exercise).encode()
+        held[f"{folder}/{exercise.file}"] = starter(exercise).encode()
         held[f"{folder}/tests/assignment.json"] = alone.text().encode()
     held[f"assessments/{assignment.name}/infoAssessment.json"] = _json(assessment(assignment))
     return held
@@ -73,7 +73,7 @@ def page(exercise: Exercise) -> str:
     """Return the question's question.html: the task, an editor that begins with the starter, and
     the results.
     """
-    name = f"my_{exercise.name}.py"
+    name = exercise.file
     task = escape(exercise.task).replace("{", "&#123;")
     return f"""<pl-question-panel>
   <p>{task}</p>

@@ -29,7 +29,7 @@ def files(assignment: Assignment) -> dict[str, bytes]:
     """Return everything that is handed out, by its path."""
     held = {"README.md": readme(assignment).encode(), "student/TASK.md": task(assignment).encode()}
     for exercise in assignment.exercises:
-        name, room = f"my_{exercise.name}.py", assignment.megabytes or MEGABYTES
+        name, room = exercise.file, assignment.megabytes or MEGABYTES
         held[f"student/{name}"] = starter(exercise, room).encode()
         held |= {
             f"teacher/{kind}/{name}": written(exercise).encode() for kind, written in KINDS.items()
@@ -98,7 +98,7 @@ def share_of(assignment: Assignment, out: Path, submission: Path) -> float:
     for exercise in assignment.exercises:
         with tempfile.TemporaryDirectory(prefix="handout-") as folder:
             root = lay_out_prairielearn(
-                Path(folder), out, exercise.name, file=submission / f"my_{exercise.name}.py"
+                Path(folder), out, exercise.name, file=submission / exercise.file
             )
             found = run(root / "serverFilesCourse" / prairielearn.GRADER / "run.sh", root)
             shares.append(found.get("score", 0.0))
@@ -201,7 +201,7 @@ def task(assignment: Assignment) -> str:
         lines += [f"## {exercise.name} ({weight:g} points)", "", exercise.task, ""]
         lines += [
             (
-                f"Write it in `my_{exercise.name}.py`. Watch it live with `{watching}`; try it with"
+                f"Write it in `{exercise.file}`. Watch it live with `{watching}`; try it with"
                 f" `{judging}`."
             ),
             "",

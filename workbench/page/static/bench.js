@@ -4,6 +4,8 @@
 const bench = {
   all: new Map(),  // exercise -> {told: what is known of it, box, state, editor}
   at: null,        // the one that was run last
+  driving: null,   // the one whose function drives the lesson
+  wanted: null,    // {one, text} that Python was given
   verdict: null,   // what the checks found, below the one that was run last
 
   // Python is here: each exercise of the page gets a place to write in
@@ -78,7 +80,7 @@ const bench = {
   },
 
   download(one) {
-    const link = element("a", { href: URL.createObjectURL(new Blob([one.editor.state.doc.toString()], { type: "text/x-python" })), download: `my_${one.told.name}.py` });
+    const link = element("a", { href: URL.createObjectURL(new Blob([one.editor.state.doc.toString()], { type: "text/x-python" })), download: one.told.file });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   },
@@ -112,8 +114,7 @@ const bench = {
     }
     this.mine = text ? mine : null;
     if (!text) {
-      this.verdict.remove();
-      exercise.told({ source: null, report: { said: "" } });
+      this.gone();
       return compute.begin(compute.params, page.k);
     }
     const run = one.told.preset || "default", same = this.driving === one;
@@ -139,6 +140,13 @@ const bench = {
     exercise.show(page.run);
   },
 
+  // no function of theirs drives the lesson any more
+  gone() {
+    this.driving = null;
+    this.verdict.remove();
+    exercise.told({ source: null, report: { said: "" } });
+  },
+
   busy(one, is) {
     one.run.disabled = is;
     one.stop.disabled = !is;
@@ -152,10 +160,9 @@ const bench = {
 
   stop(one) {
     this.done(one);
-    this.wanted = this.driving = null;
+    this.wanted = null;
     one.own.hidden = true;
-    this.verdict.remove();
-    exercise.told({ source: null, report: { said: "" } });
+    this.gone();
     this.say(one, "Stopped. Python comes back in a moment; your text is as it was.");
     one.run.disabled = true;
     compute.stop();
