@@ -111,7 +111,7 @@ const compute = {
       if (stopped) page.say(stopped, "wrong");
     },
     step({ run, k, step, things, scene }) {
-      if (!this.live) return;
+      if (!this.live) return void arriving.wire.read(scene);  // not shown, but what is in it is not sent again
       this.at = null;
       page.came(this.id(run), k, step, things);
       if (this.recordedSeen && arriving.stage) feed.open(arriving.stage);  // a recorded run stood there
