@@ -4,6 +4,7 @@ with.
 
 import numpy as np
 
+from lessons.chamfer_emd.inputs import Input, Start
 from lessons.chamfer_emd.point_sets import (
     blob,
     bumped,
@@ -16,7 +17,7 @@ from lessons.chamfer_emd.point_sets import (
     spread,
     with_outlier,
 )
-from lessons.chamfer_emd.state import Clouds, Params, Start
+from lessons.chamfer_emd.state import Clouds
 from workbench.data.files import read_cloud
 from workbench.data.framing import FAR, Frame, frame
 from workbench.data.thinning import some_points
@@ -34,7 +35,7 @@ YARDSTICKS: tuple[tuple[str, Start, float], ...] = (
 )
 
 
-def clouds_of(params: Params) -> Clouds:
+def clouds_of(params: Input) -> Clouds:
     """Return the clouds that the params describe.
 
     Raises:
@@ -62,7 +63,7 @@ def clouds_of(params: Params) -> Clouds:
 
 
 def changed(
-    p_target: np.ndarray, start: Start, amount: float, params: Params, rng: np.random.Generator
+    p_target: np.ndarray, start: Start, amount: float, params: Input, rng: np.random.Generator
 ) -> np.ndarray:
     """Return a source: a blob, or the target, with as many points as are asked for, after one
     change.
@@ -96,19 +97,19 @@ def changed(
     return shuffled(p, share, rng)
 
 
-def yardsticks(clouds: Clouds, params: Params) -> tuple[tuple[str, np.ndarray], ...]:
+def yardsticks(clouds: Clouds, params: Input) -> tuple[tuple[str, np.ndarray], ...]:
     """Return the target after each of the known changes, with as many points, for numbers to
     compare with.
     """
     rng = np.random.default_rng(params.seed)
-    alike = Params(shape=params.shape, points=params.points, target=params.target)
+    alike = Input(shape=params.shape, points=params.points, target=params.target)
     return tuple(
         (name, changed(clouds.p_target, start, amount, alike, rng))
         for name, start, amount in YARDSTICKS
     )
 
 
-def _name(params: Params) -> str:
+def _name(params: Input) -> str:
     part, metres = percent(min(params.amount, 1.0), 0), f"{brief(params.amount)} m"
     return {
         "blob": f"a blob of radius {metres}",

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from lessons.chamfer_emd.clouds import yardsticks
-from lessons.chamfer_emd.state import Clouds, Lowers, Numbers, Params, Side
+from lessons.chamfer_emd.inputs import Input, Lowers
+from lessons.chamfer_emd.state import Clouds, Numbers, Side
 from workbench.algorithms.transport import TransportPlan, best_matching, earth_movers_gradient
 from workbench.algorithms.transport import exact as transport
 from workbench.algorithms.transport.flow import Distance, Flow, Gradient, numeric_gradient
@@ -37,7 +38,7 @@ class Measures:
 
 
 def measured(
-    now: Flow, before: Side | None, p_target: np.ndarray, params: Params, measures: Measures
+    now: Flow, before: Side | None, p_target: np.ndarray, params: Input, measures: Measures
 ) -> Side:
     """Measure a flow where it is, or return what was measured where it has been waiting."""
     if before is not None and before.flow is now:
@@ -62,7 +63,7 @@ def numbers(
     p_target: np.ndarray,
     near: NearestPoints,
     matching: TransportPlan,
-    params: Params,
+    params: Input,
     measures: Measures,
 ) -> Numbers:
     """Measure one cloud against the target by every distance of the lesson."""
@@ -75,11 +76,11 @@ def numbers(
         hausdorff=near.hausdorff(),
         f_score=near.f_score(params.near),
         index_mse=index_mse(p, p_target) if len(p) == len(p_target) else float("nan"),
-        astray=float(matching.mass[matching.distances > params.near].sum()),
+        out_of_place=float(matching.mass[matching.distances > params.near].sum()),
     )
 
 
-def numbers_of_yardsticks(clouds: Clouds, params: Params, measures: Measures) -> dict[str, Numbers]:
+def numbers_of_yardsticks(clouds: Clouds, params: Input, measures: Measures) -> dict[str, Numbers]:
     """Measure the target after each of the known changes."""
     p_target = clouds.p_target
     return {

@@ -8,28 +8,69 @@ numbers, and every number of the table has a blind spot.
 from collections.abc import Iterator
 from itertools import zip_longest
 from pathlib import Path
+from typing import Any
 
-from lessons.chamfer_emd import distances
+from lessons.chamfer_emd import blurred, bunch, distances, drawing, far_dot, twelve
 from lessons.chamfer_emd.clouds import clouds_of
 from lessons.chamfer_emd.distances import Measures, measured, numbers_of_yardsticks
-from lessons.chamfer_emd.draw import VIEW, draw
-from lessons.chamfer_emd.presets import PRESETS, QUESTIONS
-from lessons.chamfer_emd.state import Params, State
+from lessons.chamfer_emd.inputs import Input
+from lessons.chamfer_emd.presets import PRESETS, SWEEPS, VIEW, VIEWS
+from lessons.chamfer_emd.questions import QUESTIONS
+from lessons.chamfer_emd.state import Clouds, Step
 from workbench.algorithms.transport import exact as transport
 from workbench.algorithms.transport.flow import Distance, Flow, flow
 from workbench.geometry.points import shape_distances
-from workbench.lesson import Lesson, Sweep
+from workbench.lesson import Lesson, Look
+from workbench.scene import Scene
+
+Subject = Clouds | twelve.Twelve | bunch.Rings | far_dot.Ring | blurred.Pairs
+
+
+def setup(params: Input) -> Subject:
+    """Return the clouds of the stage.
+
+    Raises:
+        InputError: If an own file cannot be used, or a source is given without its target.
+    """
+    if params.stage == "twelve":
+        return twelve.setup(params)
+    if params.stage == "bunch":
+        return bunch.setup(params)
+    if params.stage == "far dot":
+        return far_dot.setup(params)
+    if params.stage == "blur":
+        return blurred.setup(params)
+    return clouds_of(params)
 
 
 def run(
-    params: Params,
+    params: Input,
+    subject: Subject,
     *,
     chamfer: Distance = shape_distances.chamfer,
     earth_movers: Distance = transport.earth_movers,
     one_sided: Distance = shape_distances.one_sided,
-) -> Iterator[State]:
-    """Yield both flows step by step, each down the distance in its slot."""
-    clouds, measures = clouds_of(params), Measures(chamfer, earth_movers, one_sided)
+) -> Iterator[Any]:
+    """Yield both flows step by step, each down the distance in its slot; or the values that a hand
+    goes through.
+    """
+    measures = Measures(chamfer, earth_movers, one_sided)
+    if isinstance(subject, twelve.Twelve):
+        yield from twelve.run(params, subject, measures)
+    elif isinstance(subject, bunch.Rings):
+        yield from bunch.run(subject, measures)
+    elif isinstance(subject, far_dot.Ring):
+        yield from far_dot.run(subject, measures)
+    elif isinstance(subject, blurred.Pairs):
+        yield from blurred.run(subject)
+    else:
+        yield from flows(params, subject, measures)
+
+
+def flows(params: Input, clouds: Clouds, measures: Measures) -> Iterator[Step]:
+    """Yield both flows from one cloud, the left one down Chamfer and the right one down the earth
+    mover's distance.
+    """
     p_source, p_target = clouds.p_source, clouds.p_target
     limits = {"longest_step": params.longest_step, "max_steps": params.steps}
     lefts = flow(p_source, p_target, *distances.left(params.lowers, measures), **limits)
@@ -39,10 +80,8 @@ def run(
     for step, (now_left, now_right) in enumerate(side_by_side(lefts, rights)):
         left = measured(now_left, left, p_target, params, measures)
         right = measured(now_right, right, p_target, params, measures)
-        yield State(
+        yield Step(
             step=step,
-            params=params,
-            clouds=clouds,
             left=left,
             right=right,
             before=before,
@@ -61,24 +100,38 @@ def side_by_side(lefts: Iterator[Flow], rights: Iterator[Flow]) -> Iterator[tupl
             yield left, right
 
 
+def draw(look: Look) -> Scene:
+    """Return the picture of one step."""
+    if isinstance(look.subject, twelve.Twelve):
+        return twelve.draw(look)
+    if isinstance(look.subject, bunch.Rings):
+        return bunch.draw(look)
+    if isinstance(look.subject, far_dot.Ring):
+        return far_dot.draw(look)
+    if isinstance(look.subject, blurred.Pairs):
+        return blurred.draw(look)
+    return drawing.draw(look)
+
+
 lesson = Lesson(
     name="chamfer_emd",
     title="Chamfer and earth mover's",
     summary="Two ways to say how far one cloud of points is from another: partners may be "
     "shared, or they may not.",
     page=Path(__file__).with_name("page.md"),
-    params=Params,
+    params=Input,
+    setup=setup,
     run=run,
     draw=draw,
     order=1800,
     chapter="Measure",
-    minutes=25,
+    minutes=20,
     needs=("distances",),
     view=VIEW,
+    views=VIEWS,
     presets=PRESETS,
     questions=QUESTIONS,
     first_step=8,
-    opening=0,
-    sweeps=(Sweep("lowers", ("both sides", "source to target", "target to source")),),
-    telling="Left flow",
+    sweeps=SWEEPS,
+    telling="Mass out of place",
 )

@@ -20,9 +20,6 @@ from workbench.exercise.finding import exercises_of
 from workbench.exercise.starter import starter
 from workbench.lesson import course, find
 
-BESIDE = ("chamfer_emd",)
-"""Lessons whose exercises still keep their hidden checks in their own files."""
-
 
 @pytest.fixture(scope="module")
 def core(tmp_path_factory) -> Path:
@@ -60,7 +57,7 @@ def test_it_tells_of_every_exercise_that_is_in_it(core):
         told = json.loads(packed.read("workbench/computed/exercises.json"))
         names = packed.namelist()
     for lesson in course().values():
-        wanted = [] if lesson.name in BESIDE else list(exercises_of(lesson))
+        wanted = list(exercises_of(lesson))
         assert [one["name"] for one in told[lesson.name]] == [one.name for one in wanted]
         for one, exercise in zip(told[lesson.name], wanted, strict=True):
             assert one["starter"] == starter(exercise)

@@ -3,12 +3,14 @@ case does not matter.
 """
 
 GIVEAWAYS = {
+    "whose-row": (r"order of rows", r"only pairs by (row|index)", r"measures the (file|order)"),
+    "blurred-home": (r"0\.5\d m", r"half a metre"),
     "predict-spread": (
         r"chamfer clumps",
         r"\d+ of 80 points on",
         r"on the nearer (half|side)",
-        r"half of the mass is astray",
-        r"5\d % of the mass astray",
+        r"half of the mass is out of place",
+        r"5\d % of (the left|its) mass",
     ),
     "predict-flip": (
         r"ranking flips",

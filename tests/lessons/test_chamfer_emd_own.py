@@ -8,9 +8,9 @@ import scipy
 
 from lessons.chamfer_emd.clouds import clouds_of
 from lessons.chamfer_emd.exercises.earth_movers import earth_movers_of_copies, points_left_out
-from lessons.chamfer_emd.lesson import lesson, run
-from lessons.chamfer_emd.state import Lowers, Params
-from tests.lessons.chamfer_emd_runs import states, timeline
+from lessons.chamfer_emd.inputs import Input, Lowers
+from lessons.chamfer_emd.lesson import lesson
+from tests.lessons.chamfer_emd_runs import flows, states, timeline
 from workbench.algorithms.transport import earth_movers
 from workbench.errors import InputError
 from workbench.exercise.candidate import Candidate
@@ -21,13 +21,13 @@ class TestSlots:
     """The student's functions drive the run: step lengths, ends, curves and tables."""
 
     def test_equal_functions_give_an_equal_run(self):
-        params = Params(points=30, steps=15)
+        params = Input(points=30, steps=15)
         slots = {
             "chamfer": Candidate(brute_chamfer, chamfer),
             "earth_movers": Candidate(plain_earth_movers, earth_movers),
             "one_sided": Candidate(brute_one_sided, one_sided),
         }
-        ours, theirs = list(run(params)), list(run(params, **slots))
+        ours, theirs = flows(params), flows(params, **slots)
         assert len(ours) == len(theirs)
         for one, two in zip(ours, theirs, strict=True):
             np.testing.assert_allclose(two.left.flow.p_moving, one.left.flow.p_moving, atol=1e-9)
@@ -37,18 +37,18 @@ class TestSlots:
             )
 
     def test_a_wrong_chamfer_leads_the_left_flow_elsewhere(self):
-        params = Params(points=20, steps=6)
-        wrong = list(run(params, chamfer=brute_one_sided))
-        as_one_sided = list(run(replace(params, lowers="source to target")))
+        params = Input(points=20, steps=6)
+        wrong = flows(params, chamfer=brute_one_sided)
+        as_one_sided = flows(replace(params, lowers="source to target"))
         for one, two in zip(wrong, as_one_sided, strict=True):
             np.testing.assert_allclose(one.left.flow.p_moving, two.left.flow.p_moving, atol=1e-5)
-        ours = list(run(params))
+        ours = flows(params)
         assert np.abs(wrong[-1].left.flow.p_moving - ours[-1].left.flow.p_moving).max() > 0.1
         assert wrong[-1].right.flow.value == pytest.approx(ours[-1].right.flow.value)
 
     def test_a_wrong_earth_movers_leads_the_right_flow_elsewhere(self):
-        params = Params(points=20, steps=40)
-        ours, wrong = list(run(params)), list(run(params, earth_movers=by_index))
+        params = Input(points=20, steps=40)
+        ours, wrong = flows(params), flows(params, earth_movers=by_index)
         assert np.abs(wrong[-1].right.flow.p_moving - ours[-1].right.flow.p_moving).max() > 0.5
         home = (
             wrong[-1].right.flow.p_moving - wrong[-1].clouds.p_target
@@ -58,10 +58,10 @@ class TestSlots:
 
     @pytest.mark.parametrize("lowers", ["source to target", "target to source"])
     def test_one_sided_drives_the_left_flow_where_it_lowers_one_side(self, lowers):
-        params = Params(points=20, steps=5, lowers=lowers)
-        ours, right = list(run(params)), list(run(params, one_sided=brute_one_sided))
-        wrong = list(run(params, one_sided=lambda p_a, p_b: brute_one_sided(p_b, p_a)))
-        other = list(run(replace(params, lowers=OTHER_SIDE[lowers])))
+        params = Input(points=20, steps=5, lowers=lowers)
+        ours, right = flows(params), flows(params, one_sided=brute_one_sided)
+        wrong = flows(params, one_sided=lambda p_a, p_b: brute_one_sided(p_b, p_a))
+        other = flows(replace(params, lowers=OTHER_SIDE[lowers]))
         for one, two, three, four in zip(ours, right, wrong, other, strict=True):
             np.testing.assert_allclose(two.left.flow.p_moving, one.left.flow.p_moving, atol=1e-9)
             np.testing.assert_allclose(three.left.flow.p_moving, four.left.flow.p_moving, atol=1e-5)
@@ -70,11 +70,11 @@ class TestSlots:
     @pytest.mark.parametrize("name", ["unequal", "doubled"])
     def test_a_right_answer_flows_as_ours_does_where_counts_differ(self, name):
         params = replace(lesson.preset(name).params, steps=4)
-        ours, theirs = list(run(params)), list(run(params, earth_movers=earth_movers_of_copies))
+        ours, theirs = flows(params), flows(params, earth_movers=earth_movers_of_copies)
         assert len(ours[0].clouds.p_source) != len(ours[0].clouds.p_target)
         for one, two in zip(ours, theirs, strict=True):
             np.testing.assert_allclose(two.right.flow.p_moving, one.right.flow.p_moving, atol=1e-9)
-        left_out = list(run(params, earth_movers=points_left_out))
+        left_out = flows(params, earth_movers=points_left_out)
         assert left_out[0].right.flow.value < 0.9 * ours[0].right.flow.value
 
 
@@ -113,7 +113,7 @@ class TestOwnClouds:
             self.write(tmp_path, "a.xyz", p),
             self.write(tmp_path, "b.xyz", p[:200] + np.array([30.0, 0, 0])),
         )
-        params = Params(target=target, source=source, points=50, source_points=40, steps=5)
+        params = Input(target=target, source=source, points=50, source_points=40, steps=5)
         found = states(params)
         clouds = found[0].clouds
         assert clouds.p_target.shape == (50, 3)
@@ -132,7 +132,7 @@ class TestOwnClouds:
     def test_an_own_target_takes_the_built_in_changes(self, tmp_path, start):
         target = self.write(tmp_path, "a.xyz", np.random.default_rng(1).normal(size=(60, 3)))
         for source_points in (0, 25):
-            params = Params(
+            params = Input(
                 target=target,
                 start=start,
                 amount=0.5,
@@ -144,20 +144,20 @@ class TestOwnClouds:
 
     def test_equal_points_do_not_divide_by_zero(self, tmp_path):
         target = self.write(tmp_path, "a.xyz", np.ones((20, 3)))
-        assert states(Params(target=target, start="larger", steps=2))[0].left.numbers.chamfer == 0.0
+        assert states(Input(target=target, start="larger", steps=2))[0].left.numbers.chamfer == 0.0
 
     def test_trouble_is_one_clear_line(self, tmp_path):
         with pytest.raises(InputError, match="needs an own target"):
-            clouds_of(Params(source=tmp_path / "b.xyz"))
+            clouds_of(Input(source=tmp_path / "b.xyz"))
         with pytest.raises(InputError, match=r"a\.xyz"):
-            clouds_of(Params(target=tmp_path / "a.xyz"))
+            clouds_of(Input(target=tmp_path / "a.xyz"))
         bad = self.write(tmp_path, "nan.xyz", np.full((5, 3), np.nan))
         with pytest.raises(InputError, match=r"nan\.xyz"):
-            clouds_of(Params(target=bad))
+            clouds_of(Input(target=bad))
 
     def test_two_real_scans(self, shared_data):
         folder = shared_data / "icp"
-        params = Params(
+        params = Input(
             target=folder / "bun000.ply", source=folder / "bun045.ply", points=100, steps=20
         )
         first, last = states(params)[0], states(params)[-1]

@@ -1,15 +1,26 @@
-"""What one step looks like: both flows side by side, their matchings, curves and tables."""
+"""What one step of the flows looks like: both side by side, their partners, curves and tables."""
+
+import itertools
 
 import numpy as np
-import scipy
 
-from lessons.chamfer_emd.captions import caption, left_label, right_label, significant
+from lessons.chamfer_emd.captions import caption, left_label, right_label
+from lessons.chamfer_emd.inputs import Input
 from lessons.chamfer_emd.pairing import unrolled
-from lessons.chamfer_emd.state import Side, State
-from workbench.geometry.motions import motion
+from lessons.chamfer_emd.panels import (
+    T_WORLD_LEFT,
+    T_WORLD_RIGHT,
+    clumps,
+    disc,
+    nearer,
+    significant,
+    squared,
+    titled,
+)
+from lessons.chamfer_emd.state import Clouds, Side, State, Step, state_of
 from workbench.geometry.points.shape_distances import DEFINITIONS
 from workbench.geometry.polylines import between
-from workbench.lesson import View
+from workbench.lesson import Look
 from workbench.numerals import brief, percent
 from workbench.scene import (
     Chart,
@@ -24,12 +35,11 @@ from workbench.scene import (
     Table,
 )
 
-T_WORLD_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
-T_WORLD_RIGHT = motion(np.eye(3), np.array([1.25, 0.0, 0.0]))
-NEARER = 0.03  # metres towards the viewer, at which source points are drawn
-VIEW = View(eye=(0.0, -4.75, -0.5), target=(0.0, 0.0, -0.5), grid=None, axes=False)
-P_TITLE = np.array([0.0, 0.0, 1.12])
 MOST_SERVED = 10  # the last bar of the histogram holds all counts from here on
+TRAIL = 3  # so many steps stay visible behind the points
+OUT_OF_PLACE = Chart("Mass out of place", unit="%")
+LOWERED = Chart("What the flows lower")
+SIDES = Chart("Both sides of Chamfer", unit="m²")
 SERVED = Chart(
     "Nearest of how many target points",
     f"target points, {MOST_SERVED} or more at the end",
@@ -37,23 +47,26 @@ SERVED = Chart(
 )
 
 
-def draw(state: State) -> Scene:
+def draw(look: Look[Input, Clouds, Step]) -> Scene:
     """Return the picture of one step."""
+    state = state_of(look)
     left, right = state.left, state.right
     return {
         "caption": caption(state),
-        "left/title": Label(left_label(state), P_TITLE, "source", T_WORLD_LEFT),
-        "right/title": Label(right_label(state), P_TITLE, "source", T_WORLD_RIGHT),
+        **titled("left", *left_label(state), T_WORLD_LEFT),
+        **titled("right", *right_label(state), T_WORLD_RIGHT),
         **_clouds(state),
+        **_trails(look),
         **_left_edges(state),
+        **_sides(state),
         "right/pairs": Segments(_matched(right), "correspondence", 1.5, T_WORLD_RIGHT),
         **_owed(state),
         **{
-            f"left/{path}": one
+            f"left/unrolled/{path}": one
             for path, one in unrolled(state, left, T_WORLD_LEFT, nearest=True).items()
         },
         **{
-            f"right/{path}": one
+            f"right/unrolled/{path}": one
             for path, one in unrolled(state, right, T_WORLD_RIGHT, nearest=False).items()
         },
         **_busiest(left, state),
@@ -63,12 +76,46 @@ def draw(state: State) -> Scene:
     }
 
 
+def _trails(look: Look[Input, Clouds, Step]) -> dict[str, Primitive]:
+    """Return where the points of both clouds were in the last steps."""
+    last = [*look.past[-TRAIL:], look.now]
+    found: dict[str, Primitive] = {}
+    for side, T in (("left", T_WORLD_LEFT), ("right", T_WORLD_RIGHT)):
+        places = [getattr(step, side).flow.p_moving for step in last]
+        moved = [
+            between(p, q)[np.linalg.norm(q - p, axis=1) > 0.0]
+            for p, q in itertools.pairwise(places)
+        ]
+        ends = np.concatenate(moved) if moved else np.empty((0, 2, 3))
+        if len(ends):
+            found[f"{side}/trail"] = Segments(ends, "source", 1.5, T, 0.35)
+    return found
+
+
+def _sides(state: State) -> dict[str, Primitive]:
+    """Return what each of the two sides of Chamfer says, below the left cloud's title."""
+    numbers = state.left.numbers
+    rows: dict[str, tuple[float, Role]] = {
+        "dots to places": (numbers.to_target, "correspondence"),
+        "places to dots": (numbers.to_source, "other"),
+    }
+    return {
+        f"left/sides/{k}": Label(
+            f"{name}: {squared(value)}",
+            np.array([0.0, 0.0, 0.1 - 0.2 * k]),
+            role,
+            T_WORLD_LEFT,
+        )
+        for k, (name, (value, role)) in enumerate(rows.items())
+    }
+
+
 def _matched(side: Side) -> np.ndarray:
     return between(side.flow.p_moving[side.matching.i_a], side.p_target[side.matching.i_b])
 
 
 def _owed(state: State) -> dict[str, Primitive]:
-    """Return, once both flows have ended, where the left one's mass belongs that is far from its
+    """Return, once both flows have ended, where the left one's mass belongs that is out of
     place.
     """
     left = state.left
@@ -77,7 +124,7 @@ def _owed(state: State) -> dict[str, Primitive]:
         return {}
     return {
         "left/owed": Segments(
-            _matched(left)[far], "truth", 1.0, T_WORLD_LEFT, 0.7, name="where the rest belongs"
+            _matched(left)[far], "truth", 1.0, T_WORLD_LEFT, 0.7, name="where it belongs"
         )
     }
 
@@ -89,47 +136,18 @@ def _clouds(state: State) -> dict[str, Primitive]:
     So a target point that is covered is an orange dot in a blue ring, however the two round.
     """
     p_target, left, right = state.clouds.p_target, state.left, state.right
-    radius = float(np.clip(0.3 / np.sqrt(len(p_target)), 0.016, 0.04))
+    radius = disc(len(p_target))
     dot, idle = 0.5 * radius, left.served == 0
-    who = Classes.marking(idle, "wrong", "nobody's nearest", others=("source", "source"))
+    who = Classes.marking(idle, "wrong", "nearest to no place", others=("source", "source"))
     # Where several share a place, the one that is somebody's nearest lies on top.
     p_left = nearer(left.flow.p_moving, np.where(idle, 0.75, 1.0))
     return {
         "left/target": Points(p_target, "target", radius, T_WORLD_LEFT, name="target"),
         "left/source": Points(p_left, who, dot, T_WORLD_LEFT, name="source"),
         "right/target": Points(p_target, "target", radius, T_WORLD_RIGHT),
-        "right/source": Points(nearer(right.flow.p_moving, 1.0), "source", dot, T_WORLD_RIGHT),
-        **_clumps("left", left.flow.p_moving, dot, T_WORLD_LEFT),
-        **_clumps("right", right.flow.p_moving, dot, T_WORLD_RIGHT),
-    }
-
-
-def nearer(p: np.ndarray, share: np.ndarray | float) -> np.ndarray:
-    """Return points a share of NEARER closer to where the scene is first seen from."""
-    return p - np.outer(np.broadcast_to(share, len(p)), [0.0, NEARER, 0.0])
-
-
-def _clumps(side: str, p: np.ndarray, dot: float, T_world_side: np.ndarray) -> dict[str, Primitive]:
-    """Return a disc behind source points that share a place: its area is theirs, rounded up to 2,
-    4, 8, ... points.
-    """
-    tree = scipy.spatial.KDTree(p)
-    pairs = tree.sparse_distance_matrix(tree, 0.3 * dot, output_type="coo_matrix")
-    links = scipy.sparse.coo_array(
-        (np.ones(pairs.nnz), (pairs.row, pairs.col)), shape=(len(p), len(p))
-    )
-    _, place = scipy.sparse.csgraph.connected_components(links, directed=False)
-    _, first, counts = np.unique(place, return_index=True, return_counts=True)
-    doublings = np.ceil(np.log2(counts)).astype(int)
-    return {
-        f"{side}/clumps of {2**k}": Points(
-            nearer(p[first[doublings == k]], 0.5),
-            "source",
-            dot * np.sqrt(2.0**k),
-            T_world_side,
-            0.6,
-        )
-        for k in np.unique(doublings[doublings > 0]).tolist()
+        "right/source": Points(nearer(right.flow.p_moving), "source", dot, T_WORLD_RIGHT),
+        **clumps("left", left.flow.p_moving, dot, T_WORLD_LEFT),
+        **clumps("right", right.flow.p_moving, dot, T_WORLD_RIGHT),
     }
 
 
@@ -160,10 +178,10 @@ def _busiest(left: Side, state: State) -> dict[str, Primitive]:
     if left.served[i] < 3 or state.params.lowers == "source to target":
         return {}
     p = left.flow.p_moving[i]
-    word = f"nearest of {left.served[i]} target points"
+    word = f"nearest of {left.served[i]} places"
     return {
-        "left/busiest": Points(p[None], "highlight", 0.035, T_WORLD_LEFT),
-        "left/busiest word": Label(
+        "left/busiest/dot": Points(p[None], "highlight", 0.035, T_WORLD_LEFT),
+        "left/busiest/word": Label(
             word, p + np.array([0.0, -0.02, 0.08]), "highlight", T_WORLD_LEFT
         ),
     }
@@ -171,16 +189,19 @@ def _busiest(left: Side, state: State) -> dict[str, Primitive]:
 
 def _curves(state: State) -> dict[str, Primitive]:
     left, right = state.left, state.right
+    sides: tuple[tuple[str, Side, Role], ...] = (
+        ("left", left, "source"),
+        ("right", right, "other"),
+    )
     curves: dict[str, Primitive] = {}
-    for name, title, side in (("left", "Left flow", left), ("right", "Right flow", right)):
-        n, chart = side.numbers, Chart(title)
-        value = (
-            n.chamfer if name == "right" or state.params.lowers == "both sides" else side.flow.value
-        )
-        curves[f"{name}/chamfer"] = chart.scalar(value, "Chamfer in m²")
-        curves[f"{name}/earth movers"] = chart.scalar(n.earth_movers, "earth mover's in m", "other")
-        curves[f"{name}/astray"] = chart.scalar(n.astray, "truth: mass astray", "truth")
+    for name, side, role in sides:
+        share = 100 * side.numbers.out_of_place
+        curves[f"{name}/out of place"] = OUT_OF_PLACE.scalar(share, f"{name} flow", role)
     return curves | {
+        "left/lowered": LOWERED.scalar(left.flow.value, "left, m²", "source"),
+        "right/lowered": LOWERED.scalar(right.flow.value, "right, m", "other"),
+        "left/to places": SIDES.scalar(left.numbers.to_target, "dots to places", "correspondence"),
+        "left/to dots": SIDES.scalar(left.numbers.to_source, "places to dots", "other"),
         "left/served": _served(left, "left", "source"),
         "right/served": _served(right, "right", "other"),
     }
@@ -224,9 +245,9 @@ def _numbers_table(state: State) -> Table:
         (f"F-score at {brief(params.near)} m", percent(left.f_score, 0), percent(right.f_score, 0)),
         ("Pairs by index, mean of squares, m²", *_both(left.index_mse, right.index_mse)),
         (
-            f"Mass astray by over {brief(params.near)} m",
-            percent(left.astray, 0),
-            percent(right.astray, 0),
+            f"Mass out of place by over {brief(params.near)} m",
+            percent(left.out_of_place, 0),
+            percent(right.out_of_place, 0),
         ),
     ]
     return Table("Distances to the target", ("", "left", "right"), tuple(rows))

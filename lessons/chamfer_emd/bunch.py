@@ -1,0 +1,205 @@
+"""The stage `bunch`: ever more of a ring's points in one bunch, beside the ring 5 % larger, and
+which of the two is closer by which number.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from lessons.chamfer_emd.distances import Measures
+from lessons.chamfer_emd.inputs import Input
+from lessons.chamfer_emd.panels import (
+    T_WORLD_LEFT,
+    T_WORLD_RIGHT,
+    clumps,
+    disc,
+    in_metres,
+    in_squares,
+    metres,
+    nearer,
+    squared,
+    titled,
+)
+from lessons.chamfer_emd.point_sets import bunched, grown, spread
+from workbench.algorithms.transport import best_matching, earth_movers
+from workbench.captions import share
+from workbench.geometry.points.shape_distances import chamfer
+from workbench.geometry.polylines import between
+from workbench.lesson import Look, say
+from workbench.numerals import ROUND_OFF
+from workbench.scene import Caption, Chart, Label, Points, Primitive, Role, Scene, Segments
+
+SHARES = np.round(np.arange(0.0, 0.96, 0.05), 2)
+LARGER = 0.05
+TIMES = Chart(
+    "Times the number of L",
+    "points in the bunch",
+    "×",
+    x_range=(0.0, 95.0),
+    x_unit="%",
+    y_range=(0.0, 3.0),
+)
+CHAMFER = Chart("Chamfer", unit="m²")
+EMD = Chart("Earth mover's", unit="m")
+SHARE = Chart("Bunched", unit="%")
+
+
+@dataclass(frozen=True, eq=False)
+class Rings:
+    """The ring, the ring 5 % larger, and what our own functions say of every bunch and of it.
+
+    Attributes:
+        p_target: The ring.
+        p_larger: The larger one.
+        chamfer, earth_movers: Of the ring with each of SHARES in one bunch; m² and metres.
+        larger_chamfer, larger_emd: Of the larger one.
+    """
+
+    p_target: np.ndarray
+    p_larger: np.ndarray
+    chamfer: np.ndarray
+    earth_movers: np.ndarray
+    larger_chamfer: float
+    larger_emd: float
+
+
+@dataclass(frozen=True, eq=False)
+class Held:
+    """A share of the points in one bunch, and both numbers of the cloud and of the larger ring.
+
+    Attributes:
+        share: From 0 to 1.
+        p: The cloud.
+        chamfer, earth_movers: Of it, by the functions in their slots; m² and metres.
+        larger_chamfer, larger_emd: Of the ring 5 % larger, likewise.
+    """
+
+    share: float
+    p: np.ndarray
+    chamfer: float
+    earth_movers: float
+    larger_chamfer: float
+    larger_emd: float
+
+
+def setup(params: Input) -> Rings:
+    """Return both rings and the numbers of all bunches."""
+    target = spread("ring", params.points)
+    larger = grown(target, LARGER)
+    clouds = [bunched("ring", params.points, float(part)) for part in SHARES]
+    return Rings(
+        p_target=target,
+        p_larger=larger,
+        chamfer=np.array([chamfer(p, target) for p in clouds]),
+        earth_movers=np.array([earth_movers(p, target) for p in clouds]),
+        larger_chamfer=chamfer(larger, target),
+        larger_emd=earth_movers(larger, target),
+    )
+
+
+def run(rings: Rings, measures: Measures) -> Iterator[Held]:
+    """Yield the clouds with ever more points in the bunch."""
+    target = rings.p_target
+    larger = (
+        measures.chamfer(rings.p_larger, target),
+        measures.earth_movers(rings.p_larger, target),
+    )
+    for part in SHARES.tolist():
+        p = bunched("ring", len(target), part)
+        yield Held(part, p, measures.chamfer(p, target), measures.earth_movers(p, target), *larger)
+
+
+def draw(look: Look[Input, Rings, Held]) -> Scene:
+    """Return the bunched cloud and the larger ring beside it, and both numbers over the share."""
+    now, rings = look.now, look.subject
+    x = 100 * SHARES
+    here = 100 * now.share
+    return {
+        **_cloud("left", now.p, rings, T_WORLD_LEFT),
+        **_cloud("right", rings.p_larger, rings, T_WORLD_RIGHT),
+        **clumps("left", now.p, 0.5 * disc(len(now.p)), T_WORLD_LEFT),
+        **_count(now),
+        **titled("left", "B: a bunch", both(now.chamfer, now.earth_movers), T_WORLD_LEFT),
+        **titled("right", "L: 5 % larger", both(now.larger_chamfer, now.larger_emd), T_WORLD_RIGHT),
+        "larger": TIMES.second(x, np.ones(len(x)), "L", "truth"),
+        "chamfer/whole": TIMES.whole(x, rings.chamfer / rings.larger_chamfer, "Chamfer", "source"),
+        "emd/whole": TIMES.whole(x, rings.earth_movers / rings.larger_emd, "EMD", "other"),
+        **_marks(now),
+        "bunched": SHARE.scalar(here, "bunched"),
+        "chamfer": CHAMFER.scalar(now.chamfer, "Chamfer"),
+        "emd": EMD.scalar(now.earth_movers, "earth mover's", "other"),
+        "caption": caption(now),
+    }
+
+
+def _marks(now: Held) -> dict[str, Primitive]:
+    """Return both numbers of this bunch in units of those of the larger ring."""
+    pairs: tuple[tuple[str, float, float, Role], ...] = (
+        ("chamfer", now.chamfer, now.larger_chamfer, "source"),
+        ("emd", now.earth_movers, now.larger_emd, "other"),
+    )
+    return {
+        f"{name}/mark": TIMES.mark(100 * now.share, here / there, "here", role, steps="bunched")
+        for name, here, there, role in pairs
+        if there
+    }
+
+
+def both(chamfer_now: float, emd_now: float) -> str:
+    """Return both numbers of a cloud, as a panel's title has them."""
+    return f"Chamfer {squared(chamfer_now)}, EMD {metres(emd_now)}"
+
+
+def _cloud(side: str, p: np.ndarray, rings: Rings, T: np.ndarray) -> dict[str, Primitive]:
+    """Return the ring, a cloud over it, and the partners that one to one gives."""
+    radius = disc(len(p))
+    matching = best_matching(p, rings.p_target)
+    named = side == "left"
+    return {
+        f"{side}/target": Points(rings.p_target, "target", radius, T, name="ring" if named else ""),
+        f"{side}/source": Points(
+            nearer(p), "source", 0.5 * radius, T, name="cloud" if named else ""
+        ),
+        f"{side}/pairs": Segments(
+            between(p[matching.i_a], rings.p_target[matching.i_b]),
+            "correspondence",
+            1.5,
+            T,
+            0.7,
+            name="one to one" if named else "",
+        ),
+    }
+
+
+def _count(now: Held) -> dict[str, Primitive]:
+    """Return the number of points in the bunch, written inside the ring."""
+    crowd = round(now.share * len(now.p))
+    if crowd < 2:
+        return {}
+    p = 0.72 * now.p[len(now.p) - crowd :].mean(axis=0)
+    return {"left/bunch": Label(f"{crowd} points", p, "source", T_WORLD_LEFT)}
+
+
+def caption(now: Held) -> Caption:
+    """Say which of the two clouds is closer by which number."""
+    values: dict[str, Any] = {
+        "bunched": share(now.share),
+        "chamfer": in_squares(now.chamfer),
+        "emd": in_metres(now.earth_movers),
+    }
+    if now.earth_movers < ROUND_OFF:
+        return say("No bunch yet: every point is at home.")
+    if now.chamfer < now.larger_chamfer and now.earth_movers > now.larger_emd:
+        return say(
+            "{bunched} in a bunch: closer than L by Chamfer ({chamfer}), and farther by earth"
+            " mover's ({emd}).",
+            **values,
+        )
+    return say("{bunched} in a bunch: Chamfer {chamfer}, earth mover's {emd}.", **values)
+
+
+def bunched_at(part: float) -> int:
+    """Return the step at which this share is in the bunch."""
+    return int(np.argmin(np.abs(SHARES - part)))

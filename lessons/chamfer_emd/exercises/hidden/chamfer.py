@@ -1,0 +1,71 @@
+"""What chamfer is graded by besides the checks that a student sees."""
+
+import numpy as np
+
+from lessons.chamfer_emd.exercises import (
+    GRADERS,
+    moved_together,
+    no_points_refused,
+    reordered,
+    two_clouds,
+    value_verdict,
+)
+from lessons.chamfer_emd.exercises.chamfer import CHAMFER_HINT, chamfer_found
+from workbench.exercise import Function, Verdict, check, worst
+from workbench.geometry.points import shape_distances
+
+
+@check(2, public=False)
+def uneven_clouds(candidate: Function) -> Verdict:
+    """A side with few points weighs as much as one with many: 5 and 200 points, 1 and 30, 1 and
+    1.
+    """
+    sizes = ((5, 200), (200, 5), (1, 30), (1, 1))
+    return worst(
+        chamfer_found(candidate, *two_clouds(GRADERS() + 30 + k, n, m), f"{n} and {m} points: ")
+        for k, (n, m) in enumerate(sizes)
+    )
+
+
+@check(2, public=False)
+def the_same_points(candidate: Function) -> Verdict:
+    """Equal points are 0 apart, in any order, some of them twice; a missing half is not 0; what is
+    twice counts twice.
+    """
+    p, _ = two_clouds(GRADERS() + 40, 50, 1)
+    more, half = reordered(GRADERS(), np.vstack([p, p[:20]])), p[p[:, 0] < 0]
+    return worst(
+        (
+            chamfer_found(candidate, p, more, "Equal points: "),
+            chamfer_found(candidate, p, half, "Half missing in b: "),
+            chamfer_found(candidate, half, p, "Half missing in a: "),
+            chamfer_found(candidate, np.vstack([half, half[:9]]), p + 0.3, "Some of a twice: "),
+            chamfer_found(candidate, p + 0.3, np.vstack([half, half[:9]]), "Some of b twice: "),
+            chamfer_found(candidate, 0.01 * p, 0.01 * half, "Of a centimetre: "),
+        )
+    )
+
+
+@check(2, public=False)
+def moved_clouds(candidate: Function) -> Verdict:
+    """In another order of rows, turned, and a thousand kilometres away, the distance is the
+    same.
+    """
+    p_a, p_b = two_clouds(GRADERS() + 50, 60, 60)
+    right = shape_distances.chamfer(p_a, p_b)
+    mixed = candidate(reordered(GRADERS(), p_a), reordered(GRADERS() + 1, p_b))
+    away = candidate(*moved_together(GRADERS(), p_a, p_b, 1e6))
+    return worst(
+        (
+            value_verdict(mixed, right, "m²", CHAMFER_HINT, "Other order: "),
+            value_verdict(
+                away, right, "m²", "Subtract before you square. " + CHAMFER_HINT, "Far away: "
+            ),
+        )
+    )
+
+
+@check(1, public=False)
+def clouds_without_points(candidate: Function) -> Verdict:
+    """A cloud without points is refused."""
+    return no_points_refused(candidate)
