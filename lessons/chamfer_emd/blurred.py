@@ -114,8 +114,8 @@ def draw(look: Look[Input, Pairs, Held]) -> Scene:
     return scene
 
 
-def _said(now: Held, pairs: Pairs, k: int) -> str:
-    return f"Sinkhorn {metres(now.costs[k])}, exact {metres(pairs.exact[k])}"
+def _said(now: Held, pairs: Pairs, k: int) -> tuple[str, str]:
+    return f"Sinkhorn {metres(now.costs[k])}", f"exact {metres(pairs.exact[k])}"
 
 
 def _pair(

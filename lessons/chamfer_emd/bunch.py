@@ -33,13 +33,14 @@ from workbench.scene import Caption, Chart, Label, Points, Primitive, Role, Scen
 
 SHARES = np.round(np.arange(0.0, 0.96, 0.05), 2)
 LARGER = 0.05
+MOST = 3.0  # times: what is above leaves the chart
 TIMES = Chart(
     "Times the number of L",
     "points in the bunch",
     "×",
     x_range=(0.0, 95.0),
     x_unit="%",
-    y_range=(0.0, 3.0),
+    y_range=(0.0, MOST),
 )
 CHAMFER = Chart("Chamfer", unit="m²")
 EMD = Chart("Earth mover's", unit="m")
@@ -143,13 +144,13 @@ def _marks(now: Held) -> dict[str, Primitive]:
     return {
         f"{name}/mark": TIMES.mark(100 * now.share, here / there, "here", role, steps="bunched")
         for name, here, there, role in pairs
-        if there
+        if there and here / there <= MOST
     }
 
 
-def both(chamfer_now: float, emd_now: float) -> str:
-    """Return both numbers of a cloud, as a panel's title has them."""
-    return f"Chamfer {squared(chamfer_now)}, EMD {metres(emd_now)}"
+def both(chamfer_now: float, emd_now: float) -> tuple[str, str]:
+    """Return both numbers of a cloud, as stand over a panel."""
+    return f"Chamfer {squared(chamfer_now)}", f"EMD {metres(emd_now)}"
 
 
 def _cloud(side: str, p: np.ndarray, rings: Rings, T: np.ndarray) -> dict[str, Primitive]:

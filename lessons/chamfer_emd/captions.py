@@ -10,9 +10,9 @@ from workbench.lesson import say
 from workbench.scene import Caption
 
 LOWERED = {
-    "both sides": "everybody takes the nearest",
-    "source to target": "each dot takes the nearest place",
-    "target to source": "each place takes the nearest dot",
+    "both sides": "take the nearest",
+    "source to target": "dots take the nearest",
+    "target to source": "places take the nearest",
 }
 ALMOST_NONE = 0.1  # of the mass: who has less out of place has come to the target
 
@@ -78,12 +78,12 @@ def _end(side: Side) -> str:
     }[side.flow.stop]
 
 
-def left_label(state: State) -> tuple[str, str]:
+def left_label(state: State) -> tuple[str, tuple[str, ...]]:
     """Return the rule of the left flow, and what it says."""
     side = "Chamfer" if state.params.lowers == "both sides" else "one-sided Chamfer"
-    return LOWERED[state.params.lowers], f"{side} {squared(state.left.flow.value)}"
+    return LOWERED[state.params.lowers], (f"{side} {squared(state.left.flow.value)}",)
 
 
-def right_label(state: State) -> tuple[str, str]:
+def right_label(state: State) -> tuple[str, tuple[str, ...]]:
     """Return the rule of the right flow, and what it says."""
-    return "everybody gets one of its own", f"earth mover's {metres(state.right.flow.value)}"
+    return "one for each", (f"EMD {metres(state.right.flow.value)}",)

@@ -196,12 +196,12 @@ def _curves(state: State) -> dict[str, Primitive]:
     curves: dict[str, Primitive] = {}
     for name, side, role in sides:
         share = 100 * side.numbers.out_of_place
-        curves[f"{name}/out of place"] = OUT_OF_PLACE.scalar(share, f"{name} flow", role)
+        curves[f"{name}/out of place"] = OUT_OF_PLACE.scalar(share, name, role)
     return curves | {
         "left/lowered": LOWERED.scalar(left.flow.value, "left, m²", "source"),
         "right/lowered": LOWERED.scalar(right.flow.value, "right, m", "other"),
-        "left/to places": SIDES.scalar(left.numbers.to_target, "dots to places", "correspondence"),
-        "left/to dots": SIDES.scalar(left.numbers.to_source, "places to dots", "other"),
+        "left/to places": SIDES.scalar(left.numbers.to_target, "to places", "correspondence"),
+        "left/to dots": SIDES.scalar(left.numbers.to_source, "to dots", "other"),
         "left/served": _served(left, "left", "source"),
         "right/served": _served(right, "right", "other"),
     }

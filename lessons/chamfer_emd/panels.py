@@ -13,7 +13,7 @@ from workbench.scene import Label, Points, Primitive, Role
 T_WORLD_LEFT = motion(np.eye(3), np.array([-1.25, 0.0, 0.0]))
 T_WORLD_RIGHT = motion(np.eye(3), np.array([1.25, 0.0, 0.0]))
 NEARER = 0.03  # metres towards the viewer, at which source points are drawn
-TITLE, NUMBER = 1.3, 1.13  # metres above the middle of a panel
+NUMBER, SPACING = 1.13, 0.17  # metres: the lowest line above the middle of a panel, and the next
 
 
 def nearer(p: np.ndarray, share: np.ndarray | float = 1.0) -> np.ndarray:
@@ -22,12 +22,15 @@ def nearer(p: np.ndarray, share: np.ndarray | float = 1.0) -> np.ndarray:
 
 
 def titled(
-    side: str, title: str, number: str, T_world_side: np.ndarray, color: Role = "source"
+    side: str, title: str, numbers: tuple[str, ...], T_world_side: np.ndarray
 ) -> dict[str, Primitive]:
-    """Return what stands over a panel: its rule, and below it what the rule says."""
+    """Return what stands over a panel: its rule, and below it what is said of it, one line each."""
+    lines: list[tuple[str, Role]] = [(title, "neutral"), *((said, "source") for said in numbers)]
     return {
-        f"{side}/title": Label(title, np.array([0.0, 0.0, TITLE]), "neutral", T_world_side),
-        f"{side}/number": Label(number, np.array([0.0, 0.0, NUMBER]), color, T_world_side),
+        f"{side}/title/{k}": Label(
+            said, np.array([0.0, 0.0, NUMBER + SPACING * (len(lines) - 1 - k)]), role, T_world_side
+        )
+        for k, (said, role) in enumerate(lines)
     }
 
 

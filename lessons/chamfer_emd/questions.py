@@ -9,6 +9,7 @@ from lessons.chamfer_emd.state import Side
 from workbench.lesson import Choice, Question, States
 from workbench.numerals import brief, counted, percent
 
+SHUFFLED = 1  # the step in which the rows are no longer in order
 ASKED_BUNCH = bunch.bunched_at(0.8)
 ASKED_FAR = far_dot.off_by(1.0)
 ASKED_BLUR = blurred.blur_of(0.5)
@@ -21,7 +22,7 @@ def nearer_side(side: Side) -> float:
 
 def _changed(states: States) -> float:
     """Return which of the numbers of the shuffled rows is not 0: one of them, all, or none."""
-    now = states[0]
+    now = states[SHUFFLED]
     changed = [value > 1e-9 for value in (now.by_row, now.chamfer, now.earth_movers)]
     return {(True, False, False): 0.0, (True, True, True): 1.0, (False, False, False): 2.0}[
         tuple(changed)
@@ -62,8 +63,8 @@ def _missing_why(states: States) -> str:
     side = states[0].left
     return (
         f"At the start {percent(back_share(side), 0)} of {squared(side.numbers.chamfer)}. Every"
-        f" orange dot lies on a blue place, so the other side is {squared(side.numbers.to_target)}: it cannot see"
-        " what the cloud lacks."
+        " orange dot lies on a blue place, so the other side is"
+        f" {squared(side.numbers.to_target)}: it cannot see what the cloud lacks."
     )
 
 
@@ -99,8 +100,8 @@ QUESTIONS: tuple[Question, ...] = (
         ),
         answer=_changed,
         why=lambda states: (
-            f"Pairs of the same row say {squared(states[0].by_row)}, Chamfer and earth mover's 0."
-            " A cloud has no order; a file has."
+            f"Pairs of the same row say {squared(states[SHUFFLED].by_row)}, Chamfer and earth"
+            " mover's 0. A cloud has no order; a file has."
         ),
         params=ROWS,
         choices=(
@@ -118,7 +119,7 @@ QUESTIONS: tuple[Question, ...] = (
             ),
         ),
         start=0,
-        step=0,
+        step=SHUFFLED,
     ),
     Question(
         name="predict-missing",

@@ -84,12 +84,16 @@ def setup(params: Input) -> Twelve:
 
 
 def run(params: Input, subject: Twelve, measures: Measures) -> Iterator[Held]:
-    """Yield the heaps, from the first dot alone to all twelve on one place."""
+    """Yield the heaps, from the first dot alone to all twelve on one place; where the rows are
+    shuffled, behind the dots in their order.
+    """
     target = subject.p_target
-    for k in range(COUNT):
-        p = heap(params.dot, k)
-        if params.shuffled:
-            p = shuffled(p, 1.0, np.random.default_rng(params.seed))
+    heaps = [(k, heap(params.dot, k)) for k in range(COUNT)]
+    if params.shuffled:
+        rng = np.random.default_rng(params.seed)
+        rows = shuffled(np.arange(float(COUNT))[:, None], 1.0, rng)[:, 0].astype(np.intp)
+        heaps = [heaps[0], *((k, p[rows]) for k, p in heaps)]
+    for k, p in heaps:
         yield Held(
             k,
             p,
@@ -108,7 +112,7 @@ def draw(look: Look[Input, Twelve, Held]) -> Scene:
         **_ring("left", now, target),
         **_ring("right", now, target),
         "right/pairs": _lines(now.p[matching.i_a], target[matching.i_b], "right", "one each"),
-        **_titled("right", "everybody gets one of its own", metres(now.earth_movers)),
+        **_titled("right", "one for each", metres(now.earth_movers)),
         "chamfer/whole": BOTH.whole(heaps, look.subject.chamfer, "Chamfer, m²", "source"),
         "chamfer/mark": BOTH.mark(now.heaped, now.chamfer, "here", "source", steps="heaped"),
         "emd/whole": BOTH.whole(heaps, look.subject.earth_movers, "earth mover's, m", "other"),
@@ -127,7 +131,7 @@ def draw(look: Look[Input, Twelve, Held]) -> Scene:
         "left/to source": Segments(
             between(target, now.p[near.b_to_a]), "other", 3.0, name="nearest of a place"
         ),
-        **_titled("left", "everybody takes the nearest", squared(now.chamfer)),
+        **_titled("left", "take the nearest", squared(now.chamfer)),
     }
 
 
@@ -166,7 +170,7 @@ def caption(params: Input, now: Held) -> Caption:
         "chamfer": in_squares(now.chamfer),
         "emd": in_metres(now.earth_movers),
     }
-    if params.shuffled:
+    if params.shuffled and now.by_row > ROUND_OFF:
         return say(
             "Pairs by row say {rows}. Chamfer says {chamfer} and earth mover's {emd}.",
             rows=in_squares(now.by_row),

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from lessons.chamfer_emd.clouds import clouds_of
 from lessons.chamfer_emd.inputs import Input
 from lessons.chamfer_emd.lesson import lesson
 from lessons.chamfer_emd.state import Clouds, State, beside_its_clouds
@@ -24,7 +25,7 @@ def states(params: Input) -> list[State]:
 
 def flows(params: Input, **slots: Any) -> list[State]:
     """Return the steps of the flows with other functions in the slots."""
-    clouds = as_a(Clouds, lesson.setup(params))
+    clouds = clouds_of(params)
     return [beside_its_clouds(params, clouds, step) for step in lesson.run(params, clouds, **slots)]
 
 

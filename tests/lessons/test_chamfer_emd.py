@@ -10,7 +10,7 @@ import scipy
 
 from lessons.chamfer_emd.clouds import YARDSTICKS
 from lessons.chamfer_emd.inputs import Input
-from lessons.chamfer_emd.lesson import lesson
+from lessons.chamfer_emd.lesson import lesson, setup
 from lessons.chamfer_emd.panels import T_WORLD_LEFT, T_WORLD_RIGHT, metres, squared
 from lessons.chamfer_emd.point_sets import bunched
 from lessons.chamfer_emd.presets import ONE_WAY, ROWS
@@ -437,7 +437,8 @@ class TestByHand:
         assert inside.chamfer == pytest.approx((1 + chord**2) / 12)
 
     def test_shuffled_rows_change_the_pairs_by_row_alone(self):
-        now = states_of(ROWS)[0]
+        in_order, now, *_ = states_of(ROWS)
+        assert in_order.by_row == 0.0
         assert (now.chamfer, now.earth_movers) == (0.0, 0.0)
         assert now.by_row == pytest.approx(np.mean(np.sum((now.p - ring()) ** 2, axis=1)))
         assert now.by_row > 1
@@ -478,7 +479,7 @@ class TestByHand:
     @pytest.mark.parametrize("stage", ["twelve", "bunch", "far-dot"])
     def test_a_students_functions_are_what_the_numbers_say(self, stage):
         params = lesson.preset(stage).params
-        subject = lesson.setup(params)
+        subject = setup(params)
         slots = {"chamfer": lambda p, q: 7.0, "earth_movers": lambda p, q: 3.0}
         ours, theirs = (list(lesson.run(params, subject, **given))[3] for given in ({}, slots))
         if stage == "far-dot":
