@@ -225,7 +225,7 @@ def _held(run: Run, k: int) -> tuple[float, float]:
     return to_target + to_source, moved
 
 
-def _numbers(run: Run, k: int, m: re.Match[str], first: int = 1) -> bool:
+def _numbers(run: Run, k: int, m: re.Match[str], *, first: int = 1) -> bool:
     chamfer_now, emd_now = _held(run, k)
     return _zero_or_near(m[first], chamfer_now) and _zero_or_near(m[first + 1], emd_now)
 
@@ -242,7 +242,7 @@ def _in_a_bunch(run: Run, k: int) -> float:
 def _bunched(run: Run, k: int, m: re.Match[str]) -> bool:
     # the even points that lie inside the bunch by chance are counted too
     said = number(m[1])
-    return 0 <= _in_a_bunch(run, k) - said < 8 and _numbers(run, k, m, 2)
+    return 0 <= _in_a_bunch(run, k) - said < 8 and _numbers(run, k, m, first=2)
 
 
 def _ranked(run: Run, k: int, m: re.Match[str]) -> bool:
@@ -328,7 +328,7 @@ BY_HAND = [
         rf"Pairs by row say {FIGURE} m². Chamfer says {FIGURE} m² and earth mover's {FIGURE} m\.",
         lambda run, k, m: (
             near(m[1], float(np.mean(np.sum((run.states[k].p - target_of(run)) ** 2, axis=1))))
-            and _numbers(run, k, m, 2)
+            and _numbers(run, k, m, first=2)
         ),
     ),
     Claim(
