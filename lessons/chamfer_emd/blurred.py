@@ -6,14 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from lessons.chamfer_emd.distances import Measures
 from lessons.chamfer_emd.inputs import Input
 from lessons.chamfer_emd.panels import (
     T_WORLD_LEFT,
     T_WORLD_RIGHT,
-    disc,
+    clouds_in,
     in_metres,
     metres,
-    nearer,
     titled,
 )
 from lessons.chamfer_emd.point_sets import blob, spread
@@ -23,7 +23,7 @@ from workbench.algorithms.transport.sinkhorn import sinkhorn
 from workbench.captions import metres as length
 from workbench.geometry.polylines import between
 from workbench.lesson import Look, cached, say
-from workbench.scene import Caption, Chart, Points, Primitive, Role, Scene, Segments
+from workbench.scene import Caption, Chart, Primitive, Role, Scene, Segments
 from workbench.tracing import untraced
 
 BLURS = np.array([0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.4, 2.0])
@@ -43,14 +43,16 @@ class Pairs:
         p_target: The ring.
         p_far, p_near: The blob, and the cloud close to the ring.
         exact: The earth mover's distances of both, metres.
-        blurred: Sinkhorn's of both (2, k), at each of BLURS.
+        costs: Sinkhorn's of both (k, 2), at each of BLURS.
+        plans: The plans (n, m) of both at each, in shares of a point's mass.
     """
 
     p_target: np.ndarray
     p_far: np.ndarray
     p_near: np.ndarray
     exact: np.ndarray
-    blurred: np.ndarray
+    costs: np.ndarray
+    plans: tuple[tuple[np.ndarray, np.ndarray], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +76,15 @@ def setup(params: Input) -> Pairs:
         *_, end = flow(far, target, earth_movers, earth_movers_gradient, max_steps=40)
     both = far, end.p_moving
     exact = np.array([earth_movers(p, target) for p in both])
-    costs = [[cost_of(p, target, blur)[0] for blur in BLURS.tolist()] for p in both]
-    return Pairs(target, *both, exact, np.array(costs))
+    found = [[cost_of(p, target, blur) for p in both] for blur in BLURS.tolist()]
+    return Pairs(
+        p_target=target,
+        p_far=far,
+        p_near=end.p_moving,
+        exact=exact,
+        costs=np.array([[cost for cost, _ in at] for at in found]),
+        plans=tuple((far_at[1], near_at[1]) for far_at, near_at in found),
+    )
 
 
 def cost_of(p: np.ndarray, p_target: np.ndarray, blur: float) -> tuple[float, np.ndarray]:
@@ -85,13 +94,10 @@ def cost_of(p: np.ndarray, p_target: np.ndarray, blur: float) -> tuple[float, np
     return found.cost(distances), len(p) * found.plan(distances)
 
 
-def run(pairs: Pairs) -> Iterator[Held]:
+def run(params: Input, pairs: Pairs, measures: Measures) -> Iterator[Held]:
     """Yield the plans from the least blur to the most."""
-    for blur in BLURS.tolist():
-        (far, far_plan), (near, near_plan) = (
-            cost_of(p, pairs.p_target, blur) for p in (pairs.p_far, pairs.p_near)
-        )
-        yield Held(blur, np.array([far, near]), (far_plan, near_plan))
+    for blur, costs, plans in zip(BLURS.tolist(), pairs.costs, pairs.plans, strict=True):
+        yield Held(blur, costs, plans)
 
 
 def draw(look: Look[Input, Pairs, Held]) -> Scene:
@@ -107,7 +113,7 @@ def draw(look: Look[Input, Pairs, Held]) -> Scene:
         "caption": caption(now),
     }
     for k, (name, role) in enumerate(PAIRS):
-        scene[f"cost/{name}"] = COST.whole(BLURS, pairs.blurred[k], name, role)
+        scene[f"cost/{name}"] = COST.whole(BLURS, pairs.costs[:, k], name, role)
         scene[f"exact/{name}"] = COST.second(BLURS, level * pairs.exact[k], f"exact: {name}", role)
         scene[f"mark/{name}"] = COST.mark(now.blur, now.costs[k], "here", role, steps="blur")
         scene[f"said/{name}"] = COST.scalar(float(now.costs[k]), name, role)
@@ -122,13 +128,7 @@ def _pair(
     side: str, p: np.ndarray, p_target: np.ndarray, plan: np.ndarray, T: np.ndarray
 ) -> dict[str, Primitive]:
     """Return a pair of clouds, and lines for the mass that goes between them."""
-    radius, named = disc(len(p)), side == "left"
-    scene: dict[str, Primitive] = {
-        f"{side}/target": Points(p_target, "target", radius, T, name="ring" if named else ""),
-        f"{side}/source": Points(
-            nearer(p), "source", 0.5 * radius, T, name="cloud" if named else ""
-        ),
-    }
+    scene = clouds_in(side, p, p_target, T)
     most = np.inf
     for name, least, opacity, width in STRANDS:
         i, j = np.nonzero((plan[::DRAWN] >= least) & (plan[::DRAWN] < most))
@@ -149,8 +149,3 @@ def caption(now: Held) -> Caption:
         far=in_metres(now.costs[0]),
         near=in_metres(now.costs[1]),
     )
-
-
-def blur_of(metres_of: float) -> int:
-    """Return the step with this blur."""
-    return int(np.argmin(np.abs(BLURS - metres_of)))

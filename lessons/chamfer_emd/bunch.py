@@ -13,12 +13,12 @@ from lessons.chamfer_emd.inputs import Input
 from lessons.chamfer_emd.panels import (
     T_WORLD_LEFT,
     T_WORLD_RIGHT,
+    clouds_in,
     clumps,
     disc,
     in_metres,
     in_squares,
     metres,
-    nearer,
     squared,
     titled,
 )
@@ -27,9 +27,9 @@ from workbench.algorithms.transport import best_matching, earth_movers
 from workbench.captions import share
 from workbench.geometry.points.shape_distances import chamfer
 from workbench.geometry.polylines import between
-from workbench.lesson import Look, say
+from workbench.lesson import Look, cached, say
 from workbench.numerals import ROUND_OFF
-from workbench.scene import Caption, Chart, Label, Points, Primitive, Role, Scene, Segments
+from workbench.scene import Caption, Chart, Label, Primitive, Role, Scene, Segments
 
 SHARES = np.round(np.arange(0.0, 0.96, 0.05), 2)
 LARGER = 0.05
@@ -85,6 +85,7 @@ class Held:
     larger_emd: float
 
 
+@cached
 def setup(params: Input) -> Rings:
     """Return both rings and the numbers of all bunches."""
     target = spread("ring", params.points)
@@ -100,7 +101,7 @@ def setup(params: Input) -> Rings:
     )
 
 
-def run(rings: Rings, measures: Measures) -> Iterator[Held]:
+def run(params: Input, rings: Rings, measures: Measures) -> Iterator[Held]:
     """Yield the clouds with ever more points in the bunch."""
     target = rings.p_target
     larger = (
@@ -155,21 +156,16 @@ def both(chamfer_now: float, emd_now: float) -> tuple[str, str]:
 
 def _cloud(side: str, p: np.ndarray, rings: Rings, T: np.ndarray) -> dict[str, Primitive]:
     """Return the ring, a cloud over it, and the partners that one to one gives."""
-    radius = disc(len(p))
     matching = best_matching(p, rings.p_target)
-    named = side == "left"
     return {
-        f"{side}/target": Points(rings.p_target, "target", radius, T, name="ring" if named else ""),
-        f"{side}/source": Points(
-            nearer(p), "source", 0.5 * radius, T, name="cloud" if named else ""
-        ),
+        **clouds_in(side, p, rings.p_target, T),
         f"{side}/pairs": Segments(
             between(p[matching.i_a], rings.p_target[matching.i_b]),
             "correspondence",
             1.5,
             T,
             0.7,
-            name="one to one" if named else "",
+            name="one to one" if side == "left" else "",
         ),
     }
 
@@ -199,8 +195,3 @@ def caption(now: Held) -> Caption:
             **values,
         )
     return say("{bunched} in a bunch: Chamfer {chamfer}, earth mover's {emd}.", **values)
-
-
-def bunched_at(part: float) -> int:
-    """Return the step at which this share is in the bunch."""
-    return int(np.argmin(np.abs(SHARES - part)))

@@ -16,7 +16,7 @@ from workbench.algorithms.transport import earth_movers
 from workbench.captions import metres
 from workbench.geometry.points.shape_distances import chamfer, hausdorff
 from workbench.geometry.polylines import fan
-from workbench.lesson import Look, say
+from workbench.lesson import Look, cached, say
 from workbench.numerals import brief
 from workbench.scene import (
     Caption,
@@ -75,6 +75,7 @@ class Held:
     times: np.ndarray
 
 
+@cached
 def setup(params: Input) -> Ring:
     """Return the ring, and the three numbers for all distances of its dot."""
     target = spread("ring", params.points)
@@ -95,7 +96,7 @@ def in_units(
     return np.array([here / there if there else np.nan for here, there in found])
 
 
-def run(ring: Ring, measures: Measures) -> Iterator[Held]:
+def run(params: Input, ring: Ring, measures: Measures) -> Iterator[Held]:
     """Yield the cloud with its dot ever farther away."""
     for far in FAR.tolist():
         p = with_outlier(ring.p_target, far)
@@ -162,8 +163,3 @@ def caption(now: Held) -> Caption:
         off=metres(now.off),
         others=len(now.p) - 1,
     )
-
-
-def off_by(distance: float) -> int:
-    """Return the step at which the dot is so many metres off."""
-    return int(np.argmin(np.abs(FAR - distance)))

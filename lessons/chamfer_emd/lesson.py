@@ -23,6 +23,7 @@ from workbench.geometry.points import shape_distances
 from workbench.lesson import Lesson, Look
 from workbench.scene import Scene
 
+STAGES = {"twelve": twelve, "bunch": bunch, "far dot": far_dot, "blur": blurred}
 Subject = Clouds | twelve.Twelve | bunch.Rings | far_dot.Ring | blurred.Pairs
 
 
@@ -32,15 +33,7 @@ def setup(params: Input) -> Subject:
     Raises:
         InputError: If an own file cannot be used, or a source is given without its target.
     """
-    if params.stage == "twelve":
-        return twelve.setup(params)
-    if params.stage == "bunch":
-        return bunch.setup(params)
-    if params.stage == "far dot":
-        return far_dot.setup(params)
-    if params.stage == "blur":
-        return blurred.setup(params)
-    return clouds_of(params)
+    return clouds_of(params) if params.stage == "flows" else STAGES[params.stage].setup(params)
 
 
 def run(
@@ -55,16 +48,10 @@ def run(
     goes through.
     """
     measures = Measures(chamfer, earth_movers, one_sided)
-    if isinstance(subject, twelve.Twelve):
-        yield from twelve.run(params, subject, measures)
-    elif isinstance(subject, bunch.Rings):
-        yield from bunch.run(subject, measures)
-    elif isinstance(subject, far_dot.Ring):
-        yield from far_dot.run(subject, measures)
-    elif isinstance(subject, blurred.Pairs):
-        yield from blurred.run(subject)
-    else:
+    if isinstance(subject, Clouds):
         yield from flows(params, subject, measures)
+    else:
+        yield from STAGES[params.stage].run(params, subject, measures)
 
 
 def flows(params: Input, clouds: Clouds, measures: Measures) -> Iterator[Step]:
@@ -102,15 +89,8 @@ def side_by_side(lefts: Iterator[Flow], rights: Iterator[Flow]) -> Iterator[tupl
 
 def draw(look: Look) -> Scene:
     """Return the picture of one step."""
-    if isinstance(look.subject, twelve.Twelve):
-        return twelve.draw(look)
-    if isinstance(look.subject, bunch.Rings):
-        return bunch.draw(look)
-    if isinstance(look.subject, far_dot.Ring):
-        return far_dot.draw(look)
-    if isinstance(look.subject, blurred.Pairs):
-        return blurred.draw(look)
-    return drawing.draw(look)
+    stage = look.params.stage
+    return drawing.draw(look) if stage == "flows" else STAGES[stage].draw(look)
 
 
 lesson = Lesson(

@@ -39,6 +39,26 @@ def disc(count: int) -> float:
     return float(np.clip(0.3 / np.sqrt(count), 0.016, 0.04))
 
 
+def clouds_in(
+    side: str, p: np.ndarray, p_target: np.ndarray, T_world_side: np.ndarray
+) -> dict[str, Primitive]:
+    """Return a cloud over the ring in a panel; the legend names those of the left one."""
+    radius, named = disc(len(p_target)), side == "left"
+    return {
+        f"{side}/target": Points(
+            p_target, "target", radius, T_world_side, name="ring" if named else ""
+        ),
+        f"{side}/source": Points(
+            nearer(p), "source", 0.5 * radius, T_world_side, name="cloud" if named else ""
+        ),
+    }
+
+
+def step_at(values: np.ndarray, value: float) -> int:
+    """Return the step at which a hand that goes through these values is nearest to one."""
+    return int(np.argmin(np.abs(values - value)))
+
+
 def shared_places(p: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
     """Return the first point of each place, and how many points are chained to it by steps of at
     most `reach`, metres.

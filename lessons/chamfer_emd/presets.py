@@ -2,6 +2,7 @@
 
 from lessons.chamfer_emd import blurred, bunch
 from lessons.chamfer_emd.inputs import Input
+from lessons.chamfer_emd.panels import step_at
 from workbench.lesson import Preset, Sweep, View
 
 CLUMP = Input()
@@ -28,7 +29,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         title="One blob, two flows",
         line=(
             "Both flows leave from one blob, each down its own distance. Where will the "
-            "points be when their number has become small? See the bars, and the mass astray."
+            "points be when their number has become small? See the bars, and the mass out of place."
         ),
         params=CLUMP,
     ),
@@ -105,7 +106,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     ),
     Preset(
         name="idle",
-        title="Nobody's nearest never moves",
+        title="Nearest to no place",
         line=(
             "The left flow lowers only target to source. Where it comes to rest, 71 of 80 "
             "points (vermillion) are nearest to no target point, and nothing pulls them; the "
@@ -139,7 +140,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         name="sphere",
         title="The same on a sphere",
         line=(
-            "On a surface too: compare the mass that each flow leaves astray, and turn the "
+            "On a surface too: compare the mass that each flow leaves out of place, and turn the "
             "spheres to see where it is missing."
         ),
         params=Input(shape="sphere", points=140),
@@ -164,7 +165,7 @@ PRESETS: tuple[Preset[Input], ...] = (
             " % larger closer?"
         ),
         params=BUNCH,
-        step=bunch.bunched_at(0.4),
+        step=step_at(bunch.SHARES, 0.4),
         view=PAIR,
     ),
     Preset(
@@ -186,7 +187,7 @@ PRESETS: tuple[Preset[Input], ...] = (
             "threads become felt."
         ),
         params=BLUR,
-        step=blurred.blur_of(0.05),
+        step=step_at(blurred.BLURS, 0.05),
         view=PAIR,
     ),
     Preset(

@@ -3,16 +3,16 @@
 import numpy as np
 
 from lessons.chamfer_emd import blurred, bunch, far_dot
-from lessons.chamfer_emd.panels import metres, squared
+from lessons.chamfer_emd.panels import metres, squared, step_at
 from lessons.chamfer_emd.presets import BLUR, BUNCH, CLUMP, FAR_DOT, MISSING, ROWS
 from lessons.chamfer_emd.state import Side
 from workbench.lesson import Choice, Question, States
 from workbench.numerals import brief, counted, percent
 
 SHUFFLED = 1  # the step in which the rows are no longer in order
-ASKED_BUNCH = bunch.bunched_at(0.8)
-ASKED_FAR = far_dot.off_by(1.0)
-ASKED_BLUR = blurred.blur_of(0.5)
+ASKED_BUNCH = step_at(bunch.SHARES, 0.8)
+ASKED_FAR = step_at(far_dot.FAR, 1.0)
+ASKED_BLUR = step_at(blurred.BLURS, 0.5)
 
 
 def nearer_side(side: Side) -> float:

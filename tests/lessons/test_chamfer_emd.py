@@ -459,11 +459,11 @@ class TestByHand:
         assert by_count[5][1] < 0.05 < by_count[6][1], "from 4 % on"
 
     def test_a_far_dot_rules_the_largest_distance(self):
+        target = timeline(lesson.preset("far-dot").params).states().subject.p_target
         for now in held("far-dot"):
-            expected = (now.off / 0.05, 2 * now.off**2 / 80 / 0.005, now.off / 80 / 0.05)
-            if now.off >= 0.2:  # nearer, its neighbours on the ring are no nearer than its place
-                assert now.times[[0, 2]] == pytest.approx(np.array(expected)[[0, 2]])
-                assert now.times[1] < expected[1] + 1e-9
+            of_chamfer, of_emd = self.both(now.p, target)
+            assert of_emd == pytest.approx(now.off / 80)
+            assert now.times == pytest.approx([now.off / 0.05, of_chamfer / 0.005, of_emd / 0.05])
         assert held("far-dot")[10].times[1] == pytest.approx(2.5, abs=0.05)
 
     def test_blur_is_never_below_the_exact_distance(self):

@@ -146,7 +146,7 @@ def right(run: Run, k: int) -> bool | None:
     if k == 0:
         return not blind(run)
     left, other = out_of_place(run, k, "left"), out_of_place(run, k, "right")
-    return True if left < 0.15 and other < 0.15 else None
+    return True if left < 0.15 and other < 0.15 else False if left > other + 0.05 else None
 
 
 def ended(run: Run, k: int, side: str) -> Stop | None:

@@ -4,13 +4,12 @@ import numpy as np
 
 from lessons.chamfer_emd.exercises import (
     GRADERS,
-    moved_together,
     no_points_refused,
     reordered,
     two_clouds,
-    value_verdict,
 )
 from lessons.chamfer_emd.exercises.chamfer import CHAMFER_HINT, chamfer_found
+from lessons.chamfer_emd.exercises.hidden import same_when_moved
 from workbench.exercise import Function, Verdict, check, worst
 from workbench.geometry.points import shape_distances
 
@@ -51,18 +50,8 @@ def moved_clouds(candidate: Function) -> Verdict:
     """In another order of rows, turned, and a thousand kilometres away, the distance is the
     same.
     """
-    p_a, p_b = two_clouds(GRADERS() + 50, 60, 60)
-    right = shape_distances.chamfer(p_a, p_b)
-    mixed = candidate(reordered(GRADERS(), p_a), reordered(GRADERS() + 1, p_b))
-    away = candidate(*moved_together(GRADERS(), p_a, p_b, 1e6))
-    return worst(
-        (
-            value_verdict(mixed, right, "m²", CHAMFER_HINT, "Other order: "),
-            value_verdict(
-                away, right, "m²", "Subtract before you square. " + CHAMFER_HINT, "Far away: "
-            ),
-        )
-    )
+    clouds = two_clouds(GRADERS() + 50, 60, 60)
+    return same_when_moved(candidate, clouds, shape_distances.chamfer(*clouds), CHAMFER_HINT)
 
 
 @check(1, public=False)

@@ -4,12 +4,11 @@ import numpy as np
 
 from lessons.chamfer_emd.exercises import (
     GRADERS,
-    moved_together,
     no_points_refused,
-    reordered,
     two_clouds,
     value_verdict,
 )
+from lessons.chamfer_emd.exercises.hidden import same_when_moved
 from lessons.chamfer_emd.exercises.one_sided import SIDE_HINT, side_found
 from workbench.exercise import Function, Verdict, check, worst
 from workbench.geometry.points import shape_distances
@@ -56,18 +55,8 @@ def side_of_moved_clouds(candidate: Function) -> Verdict:
     """In another order of rows, turned, and a thousand kilometres away, the distance is the
     same.
     """
-    p_a, p_b = two_clouds(GRADERS() + 20, 60, 60)
-    right = shape_distances.one_sided(p_a, p_b)
-    mixed = candidate(reordered(GRADERS(), p_a), reordered(GRADERS() + 1, p_b))
-    away = candidate(*moved_together(GRADERS(), p_a, p_b, 1e6))
-    return worst(
-        (
-            value_verdict(mixed, right, "m²", SIDE_HINT, "Other order: "),
-            value_verdict(
-                away, right, "m²", "Subtract before you square. " + SIDE_HINT, "Far away: "
-            ),
-        )
-    )
+    clouds = two_clouds(GRADERS() + 20, 60, 60)
+    return same_when_moved(candidate, clouds, shape_distances.one_sided(*clouds), SIDE_HINT)
 
 
 @check(1, public=False)
