@@ -200,8 +200,8 @@ def _curves(state: State) -> dict[str, Primitive]:
     return curves | {
         "left/lowered": LOWERED.scalar(left.flow.value, "left, m²", "source"),
         "right/lowered": LOWERED.scalar(right.flow.value, "right, m", "other"),
-        "left/to places": SIDES.scalar(left.numbers.to_target, "to places", "correspondence"),
-        "left/to dots": SIDES.scalar(left.numbers.to_source, "to dots", "other"),
+        "left/to places": SIDES.scalar(round(left.numbers.to_target, 4), "dots", "correspondence"),
+        "left/to dots": SIDES.scalar(round(left.numbers.to_source, 4), "places", "other"),
         "left/served": _served(left, "left", "source"),
         "right/served": _served(right, "right", "other"),
     }
