@@ -5,6 +5,8 @@ was tried.
 import ast
 import importlib.metadata
 import re
+import shutil
+import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -15,6 +17,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 ASKED = [Requirement(line) for line in PROJECT["dependencies"]]
 CI = (ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8")
+RELEASE = (ROOT / ".github" / "workflows" / "release.yml").read_text(encoding="utf-8")
 BESIDE = "workbench/exercise/child"
 """Files here are run in a student's process, where they import each other by their bare names."""
 
@@ -73,15 +76,58 @@ def test_our_lower_bounds_are_none_that_what_we_ask_for_forbids():
             )
 
 
-def test_every_python_that_is_named_is_tried_with_newest_and_the_oldest_with_oldest():
-    named = [
+def pythons() -> list[str]:
+    """The versions of Python that we say it runs on."""
+    return [
         line.rpartition(" ")[2]
         for line in PROJECT["classifiers"]
         if re.search(r"Python :: 3\.\d", line)
     ]
+
+
+def test_every_python_that_is_named_is_tried_with_newest_and_the_oldest_with_oldest():
+    named = pythons()
     oldest = PROJECT["requires-python"].removeprefix(">=")
     assert named[0] == oldest
     for python in named:
         assert f'python: "{python}", versions: newest' in CI
     assert f'python: "{oldest}", versions: oldest' in CI
     assert ".ci/wheel" in CI
+
+
+def test_a_release_is_tried_on_every_python_before_it_is_given_away():
+    jobs = RELEASE.split("\njobs:\n")[1]
+    assert re.findall(r"^  (\w+):$", jobs, re.MULTILINE) == [
+        "build",
+        "stranger",
+        "publish",
+    ]
+    assert "needs: build" in jobs
+    assert "needs: stranger" in jobs
+    for python in pythons():
+        assert f'"{python}"' in jobs
+        assert f'"{python}"' in CI.split("  wheel:")[1]
+
+
+def test_a_release_needs_the_tag_of_its_version_and_a_date(tmp_path):
+    shutil.copytree(ROOT / ".ci", tmp_path / ".ci")
+    version = tmp_path / "workbench" / "machinery" / "version.py"
+    version.parent.mkdir(parents=True)
+    version.write_text('__version__ = "1.2.3"\n')
+    (tmp_path / "CHANGELOG.md").write_text("## 1.2.3 (unreleased)\n")
+
+    def released(*words: str) -> tuple[int, str]:
+        done = subprocess.run(
+            [tmp_path / ".ci" / "release", *words], capture_output=True, text=True, check=False
+        )
+        return done.returncode, done.stderr
+
+    assert released() == (2, "usage: .ci/release TAG ADDRESS FOLDER\n")
+    assert released("v1.2", "https://example.org", "dist") == (
+        2,
+        "the tag is v1.2 and the version 1.2.3\n",
+    )
+    assert released("v1.2.3", "https://example.org", "dist") == (
+        2,
+        "CHANGELOG.md has no date for 1.2.3\n",
+    )

@@ -51,6 +51,7 @@ def serve(serving: ServingLive) -> None:
     """Serve all lessons and open the course page."""
     from workbench.viewer.serving import serve as serve_page
 
+    _tell_namesakes()
     serve_page(**asdict(serving))
 
 
@@ -79,6 +80,7 @@ def show(
     """
     from workbench.viewer.serving import serve as serve_page
 
+    _tell_namesakes()
     watched = edited = None
     if with_ is not None:
         from workbench.exercise.sandbox import best
@@ -483,6 +485,19 @@ def _try_first_step(lesson: Any, params: Any) -> None:
         timeline.extend()
     if timeline.stopped is not None and not len(timeline):
         raise InputError(timeline.stopped)
+
+
+def _tell_namesakes() -> None:
+    """Say which other distributions have a package of our name: one overwrites files of the
+    other.
+    """
+    from workbench.machinery.namesake import namesakes
+
+    for name in namesakes():
+        _complain(
+            f"{name} is installed here too and has a package `workbench` as well; "
+            "give each an environment of its own"
+        )
 
 
 def _complain(line: str) -> None:
