@@ -23,7 +23,10 @@ Phase = Literal["sample", "degenerate", "model", "inliers", "best", "refit", "st
 
 NO_ROWS = np.zeros(0, dtype=int)
 NO_ROWS.setflags(write=False)
-TOGETHER = 64  # samples that are solved at once, where the model can
+FIRST_TOGETHER, TOGETHER = 8, 64
+"""How many samples are solved and judged at once, where the model can: some at first, twice as many
+each time.
+"""
 
 
 class Stop(Enum):
@@ -119,9 +122,14 @@ class Judge:
 
     def __call__(self, estimate: Float[np.ndarray, "..."]) -> Fit:
         """Return the estimate's distances, inliers and score."""
-        distances = self.model.distances(estimate, self.p)
+        return self.each(estimate[None])[0]
+
+    def each(self, estimates: Float[np.ndarray, "k ..."]) -> list[Fit]:
+        """Return the same of many estimates side by side."""
+        distances = self.model.distances(estimates, self.p)
         inliers = distances <= self.inlier_distance
-        return Fit(estimate, distances, inliers, float(self.score(distances, self.inlier_distance)))
+        scores = self.score(distances, self.inlier_distance).tolist()
+        return list(map(Fit, estimates, distances, inliers, scores))
 
 
 @traced
@@ -157,7 +165,7 @@ def ransac(
     RANSAC, 2003 (`local_refit`).
     """
     check_rows(p, model)
-    model, samples = solved_ahead(p, model, samples)
+    model, samples, judge = seen_ahead(p, model, samples, judge=judge)
     best, needed, stop = None, max_iterations, Stop.SAMPLES_USED_UP
     iteration, sample = 0, NO_ROWS
     for iteration, sample in enumerate(samples, start=1):
@@ -187,19 +195,26 @@ def ransac(
     )
 
 
-def solved_ahead(
-    p: Float[np.ndarray, "n d"], model: Model, samples: Iterator[np.ndarray]
-) -> tuple[Model, Iterator[np.ndarray]]:
-    """Return the model, knowing what the samples to come give, and these samples.
+def seen_ahead(
+    p: Float[np.ndarray, "n d"],
+    model: Model,
+    samples: Iterator[np.ndarray],
+    *,
+    judge: Callable[[np.ndarray], Fit],
+) -> tuple[Model, Iterator[np.ndarray], Callable[[np.ndarray], Fit]]:
+    """Return the model, knowing what the samples to come give, these samples, and the judge,
+    knowing their fits.
 
-    Without `solve_each` both are as they were.
+    Without `solve_each` all are as they were; a judge that is no `Judge` is.
     """
     if (solve_each := model.solve_each) is None:
-        return model, samples
-    to_come, known = iter(samples), dict[bytes, np.ndarray]()
+        return model, samples, judge
+    to_come, known, fits = iter(samples), dict[bytes, np.ndarray](), dict[bytes, Fit]()
 
     def drawn() -> Iterator[np.ndarray]:
-        while batch := list(islice(to_come, TOGETHER)):
+        together = FIRST_TOGETHER
+        while batch := list(islice(to_come, together)):
+            together = min(2 * together, TOGETHER)
             rows = p[np.stack(batch)]
             estimates, of_sample = solve_each(rows)
             ends = np.searchsorted(of_sample, np.arange(1, len(batch)))
@@ -207,13 +222,19 @@ def solved_ahead(
             known.update(
                 zip((one.tobytes() for one in rows), np.split(estimates, ends), strict=True)
             )
+            fits.clear()
+            if len(estimates) and isinstance(judge, Judge):
+                fits.update((fit.estimate.tobytes(), fit) for fit in judge.each(estimates))
             yield from batch
 
     def solve(asked: np.ndarray) -> np.ndarray:
         found = known.get(asked.tobytes())
         return model.solve(asked) if found is None else found
 
-    return replace(model, solve=solve), drawn()
+    def judged(estimate: np.ndarray) -> Fit:
+        return fits.get(estimate.tobytes()) or judge(estimate)
+
+    return replace(model, solve=solve), drawn(), judged
 
 
 def refit_rounds(

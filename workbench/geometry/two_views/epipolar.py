@@ -92,8 +92,8 @@ def fundamentals_from_seven(
     The seven constraints leave a line of matrices, G + root D; its singular ones are the roots of a
     cubic. NaN for roots that are not real, and constraints that are not independent.
     """
-    T = normalising_similarity(np.concatenate([uv_first, uv_second]).reshape(-1, 2))
-    x, y = homogeneous(uv_first) @ T.T, homogeneous(uv_second) @ T.T
+    T = normalising_similarity(np.concatenate([uv_first, uv_second], axis=-2))
+    x, y = (homogeneous(uv) @ np.swapaxes(T, -1, -2) for uv in (uv_first, uv_second))
     constraints = (y[..., :, None] * x[..., None, :]).reshape(*x.shape[:-1], 9)
     basis, triangle = np.linalg.qr(np.swapaxes(constraints, -1, -2), mode="complete")
     diagonal = np.abs(np.diagonal(triangle, axis1=-2, axis2=-1))
@@ -109,7 +109,8 @@ def fundamentals_from_seven(
     roots = real_cubic_roots(np.stack(cubic, axis=-1))
     roots = np.where(independent[..., None], roots, np.nan)
     F = G[..., None, :, :] + roots[..., None, None] * D[..., None, :, :]
-    F = T.T @ F @ T
+    T = T[..., None, :, :]
+    F = np.swapaxes(T, -1, -2) @ F @ T
     return F / np.linalg.norm(F, axis=(-2, -1), keepdims=True)
 
 

@@ -46,11 +46,16 @@ def transform_pixels(
         >>> transform_pixels(H_b_a, np.array([[3.0, 4.0]])).tolist()
         [[13.0, 4.0]]
     """
+    return np.stack(_transformed(H_b_a, uv_a), axis=-1)
+
+
+def _transformed(H_b_a: np.ndarray, uv_a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the columns u and v in image b of each pixel, per homography."""
     rows = H_b_a.reshape(-1, 3)
     uv_b_h = (rows[:, :2] @ uv_a.T + rows[:, 2:]).reshape(*H_b_a.shape[:-1], len(uv_a))
     w = uv_b_h[..., 2, :]
-    w = np.where(w == 0.0, np.asarray(np.nan, w.dtype), w)
-    return np.stack([uv_b_h[..., 0, :] / w, uv_b_h[..., 1, :] / w], axis=-1)
+    w[w == 0.0] = np.nan
+    return uv_b_h[..., 0, :] / w, uv_b_h[..., 1, :] / w
 
 
 def warped_grid(
@@ -71,9 +76,12 @@ def transfer_distances(
     uv_b: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
     """Return how far each pixel of image a lands from its match, in pixels of b; maybe infinite."""
-    off = transform_pixels(H_b_a, uv_a) - uv_b
-    distances = np.sqrt(off[..., 0] ** 2 + off[..., 1] ** 2)
-    return np.where(np.isnan(distances), np.asarray(np.inf, distances.dtype), distances)
+    u, v = _transformed(H_b_a, uv_a)
+    u -= uv_b[:, 0]
+    v -= uv_b[:, 1]
+    distances = np.sqrt(u * u + v * v)
+    distances[np.isnan(distances)] = np.inf
+    return distances
 
 
 def four_in_general_position(
@@ -100,8 +108,8 @@ def homographies_from_four(
     In image a, x3 = l0 x0 + l1 x1 + l2 x2; in image b, y3 = m0 y0 + m1 y1 + m2 y2. Then the sum of
     (m_i / l_i) y_i (x_j × x_k)' takes all four pixels to their matches (HZ 2.3, example 2.12).
     """
-    T = normalising_similarity(np.concatenate([uv_a, uv_b]).reshape(-1, 2))
-    x, y = homogeneous(uv_a) @ T.T, homogeneous(uv_b) @ T.T
+    T = normalising_similarity(np.concatenate([uv_a, uv_b], axis=-2))
+    x, y = (homogeneous(uv) @ np.swapaxes(T, -1, -2) for uv in (uv_a, uv_b))
     areas_x, areas_y = _triangle_areas(x), _triangle_areas(y)
     usable = _in_general_position(x, y, areas_x, areas_b=areas_y)
     weights = areas_y[..., :3] / np.where(usable[..., None], areas_x[..., :3], np.nan)
@@ -175,17 +183,20 @@ def refine_homography(
     x = T_a @ homogeneous(uv_a).T
     y = (T_b @ homogeneous(uv_b).T)[:2]
     h = (T_b @ H_b_a @ np.linalg.inv(T_a)).ravel()
-    # The scale is of no account, so the largest entry stays as it is
-    free = np.arange(9) != np.argmax(np.abs(h))
+    # The scale is of no account, so the largest entry stays as it is: its slopes come last
+    fixed, place = np.argmax(np.abs(h)), np.arange(9)
+    place[fixed:] -= 1
+    place[fixed] = 8
+    free = np.arange(9) != fixed
 
     def linearise(h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         u, v, w = h.reshape(3, 3) @ x
         inverse = 1.0 / np.where(w == 0.0, _SMALLEST, w)
         u, v, x_w = u * inverse, v * inverse, x * (root * inverse)
         slopes = np.zeros((9, 2, x.shape[1]))
-        slopes[0:3, 0] = slopes[3:6, 1] = x_w
-        slopes[6:9, 0], slopes[6:9, 1] = -u * x_w, -v * x_w
-        return np.concatenate([root * (u - y[0]), root * (v - y[1])]), slopes[free].reshape(8, -1).T
+        slopes[place[0:3], 0] = slopes[place[3:6], 1] = x_w
+        slopes[place[6:9], 0], slopes[place[6:9], 1] = -u * x_w, -v * x_w
+        return np.concatenate([root * (u - y[0]), root * (v - y[1])]), slopes[:8].reshape(8, -1).T
 
     def retract(h: np.ndarray, step: np.ndarray) -> np.ndarray:
         moved = h.copy()
