@@ -6,7 +6,7 @@ from html import escape
 from itertools import groupby
 
 from workbench.chapters import MINUTES, Chapter, chapter_of
-from workbench.page.document import THIRD_PARTIES, document_head
+from workbench.page.document import COURSE, THIRD_PARTIES, document_head
 from workbench.page.map import course_map
 from workbench.page.toy import toy_html
 
@@ -35,7 +35,12 @@ class Card:
 
 
 def course_document(
-    cards: Iterable[Card], *, root: str, trouble: str | None = None, head: str = ""
+    cards: Iterable[Card],
+    *,
+    root: str,
+    trouble: str | None = None,
+    head: str = "",
+    footer: str | None = None,
 ) -> str:
     """Return the document of the course.
 
@@ -44,7 +49,13 @@ def course_document(
         root: The relative address of the folder with the page's own files.
         trouble: Why the page that was asked for is not shown, in one line.
         head: More HTML for the head.
+        footer: What stands under it all, as HTML; None is a link to the work of others.
     """
+    if footer is None:
+        footer = (
+            f'<footer><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its'
+            " licences</a></footer>"
+        )
     cards = list(cards)
     titles = {card.name: card.title for card in cards}
     chapters = [
@@ -58,12 +69,11 @@ def course_document(
         f'<a class="skip" href="#{chapters[0][0].address}">To the lessons</a>' if chapters else ""
     )
     return (
-        f"{document_head('Geometry workbench', WELCOME, root, more=head, math=False)}"
+        f"{document_head(COURSE, WELCOME, root, more=head, math=False)}"
         f'<body class="front">{skip}{_hero(cards, said)}{_line(chapters)}<main id="course">'
         + "".join(_chapter(chapter, own, titles) for chapter, own in chapters)
         + f"{_map(chapters)}</main>"
-        f'<footer><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its'
-        " licences</a></footer>"
+        f"{footer}"
         + "".join(
             f'<script src="{root}{name}"></script>' for name in ("tools.js", "progress.js", script)
         )

@@ -10,9 +10,10 @@ from typing import Any, Literal, TypeAlias
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson, Question, Sweep, catalog
+from workbench.lesson import Lesson, Question, Sweep, catalog, course
 from workbench.machinery.workers import WorkerLostError, parallel_map
 from workbench.moved import runs_led_on
+from workbench.page.about import short_notice
 from workbench.page.article import LINK
 from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
@@ -337,6 +338,7 @@ def run_page(lesson: Lesson, run: Run) -> str:
         more={"RECORDED": known},
         alone=(run.title, f"../index.html#run={run.name}"),
         still="../picture.webp",
+        footer=short_notice("../../") if course().get(lesson.name) is lesson else "",
     )
 
 
