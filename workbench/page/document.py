@@ -54,6 +54,8 @@ STORY_SCRIPTS = (
 STORY_STYLES = ("story.css", "storystage.css")
 DRESS = ("dress.css", "dress.js")
 """What a lesson without a story has of a story's look."""
+EMBED = ("embed.js",)
+"""What one run alone, in a page of somebody else, has besides."""
 COMPUTING = ("compute.css", "compute.js", "bench.js", "computing.js", "codemirror.js")
 """What a published page computes with: the last two are loaded when it does."""
 FONTS = ("source-serif-4-latin-wght-normal.woff2", "source-serif-4-latin-wght-italic.woff2")
@@ -107,7 +109,8 @@ def lesson_document(
     data = lesson_data(lesson) | ({} if home == "live" else {"knobs": []})
     told = story is not None
     dressed = root is not None and not alone and not told
-    scripts = _scripts(home, told=told, dressed=dressed)
+    embedded = root is not None and bool(alone)
+    scripts = _scripts(home, told=told, dressed=dressed, embedded=embedded)
     constants = (
         {"LESSON": data}
         | ({} if story is None else {"STORY": story_data(lesson, story)})
@@ -143,13 +146,14 @@ def lesson_document(
     )
 
 
-def _scripts(home: str, *, told: bool, dressed: bool) -> tuple[str, ...]:
+def _scripts(home: str, *, told: bool, dressed: bool, embedded: bool) -> tuple[str, ...]:
     *others, page = SCRIPTS
     return (
         *(LIVE if home == "live" else RECORDED),
         *others,
         *(STORY_SCRIPTS if told else ()),
         *(DRESS[1:] if dressed else ()),
+        *(EMBED if embedded else ()),
         page,
     )
 

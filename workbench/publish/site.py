@@ -25,6 +25,7 @@ from workbench.page.course import FRONT_FILES, WELCOME
 from workbench.page.document import (
     COURSE,
     DRESS,
+    EMBED,
     FONTS,
     ICON,
     MATH,
@@ -174,7 +175,7 @@ def _publish(
     }
     shared |= {
         f"{PAGE}/{name}": bare(STATIC / name).encode()
-        for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS)
+        for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS, *EMBED)
     }
     shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in (*FONTS, ICON)}
     shared |= {
