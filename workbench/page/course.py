@@ -14,6 +14,10 @@ WELCOME = (
     "Geometry and 3D vision, one algorithm at a time: see it work, move it with your hands, and"
     " write it yourself."
 )
+STANDS_STILL = (
+    "These pages need JavaScript to move. Without it the rabbits stand still, and a lesson shows"
+    " its text and pictures."
+)
 FRONT_FILES = ("front.css", "front.js")
 """The page's own styles and script, beside those of every page."""
 SHORT = 2
@@ -96,6 +100,7 @@ def _hero(cards: list[Card], said: str) -> str:
         ' hands</h1><p class="lead">Lay <b class="source">orange</b> on <b'
         ' class="target">blue</b>: drag it to move it, drag its ring to turn it. Six numbers are'
         f" all that a computer knows of what you do.</p>{begin}</div>{toy_html()}</header>"
+        f'<noscript><p class="unscripted">{STANDS_STILL}</p></noscript>'
     )
 
 

@@ -54,6 +54,8 @@ STORY_SCRIPTS = (
 STORY_STYLES = ("story.css", "storystage.css")
 DRESS = ("dress.css", "dress.js")
 """What a lesson without a story has of a story's look."""
+UNSCRIPTED = "unscripted.css"
+"""The style of a page where no script runs."""
 EMBED = ("embed.js",)
 """What one run alone, in a page of somebody else, has besides."""
 COMPUTING = ("compute.css", "compute.js", "bench.js", "computing.js", "codemirror.js")
@@ -61,6 +63,10 @@ COMPUTING = ("compute.css", "compute.js", "bench.js", "computing.js", "codemirro
 FONTS = ("source-serif-4-latin-wght-normal.woff2", "source-serif-4-latin-wght-italic.woff2")
 """The letters of the story, beside its styles."""
 STORY_FILES = (*STORY_STYLES, *FONTS, *STORY_SCRIPTS, *DRESS)
+STANDS_STILL = (
+    "This page needs JavaScript to move: with it the scene turns, steps and plays, questions are"
+    " answered, and experiments open. Without it there are the text and pictures."
+)
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 """Steps a second of Play, as a page offers them."""
 VERBS = (
@@ -300,6 +306,7 @@ def document_head(
                 *([MATH] if math else []),
             )
         )
+        + ("" if root is None else f"<noscript>{_style(root, UNSCRIPTED)}</noscript>")
         + f"{more}</head>"
     )
 
@@ -322,11 +329,8 @@ def _stage(still: str, *, dressed: bool) -> str:
         for verb, title, sign in VERBS
     )
     speeds = "".join(f'<option value="{speed:g}">{speed:g}×</option>' for speed in SPEEDS)
-    picture = (
-        f'<noscript><img src="{escape(still)}" alt="A step of this lesson"></noscript>'
-        if still
-        else ""
-    )
+    drawn = f'<img src="{escape(still)}" alt="A step of this lesson">' if still else ""
+    picture = f'<noscript>{drawn}<p class="unscripted">{STANDS_STILL}</p></noscript>'
     opened = '<div id="open"><b></b> <span></span></div>' if dressed else ""
     below = '<div id="main-chart" hidden></div><div id="places"></div>' if dressed else ""
     return (

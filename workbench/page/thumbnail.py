@@ -60,14 +60,15 @@ def course_card(pictures: Iterable[bytes]) -> bytes:
     """Return small pictures side by side as one PNG of CARD's size: the first twelve, in rows."""
     chosen = list(itertools.islice(pictures, 12))
     across, down = next(one for one in GRIDS if one[0] * one[1] >= len(chosen))
-    wide, high = CARD[0] // across, CARD[1] // down
+    wide = CARD[0] // across
+    high = CARD[1] // down
     sheet = Image.new("RGB", CARD, "white")
     for i, data in enumerate(chosen):
         whole = Image.open(io.BytesIO(data)).convert("RGBA")
         picture = ImageOps.contain(whole, (wide - 24, high - 24))
         row, column = divmod(i, across)
-        left, top = (wide - picture.width) // 2, (high - picture.height) // 2
-        sheet.paste(picture, (wide * column + left, high * row + top), picture)
+        left = wide * column + (wide - picture.width) // 2
+        sheet.paste(picture, (left, high * row + (high - picture.height) // 2), picture)
     file = io.BytesIO()
     sheet.quantize(128).save(file, "PNG", optimize=True)
     return file.getvalue()

@@ -19,6 +19,7 @@ from workbench.page.document import COMPUTING, in_script, lesson_document
 from workbench.page.exercise import exercises_html
 from workbench.publish.manifest import Listed
 from workbench.publish.runs import PAGE, question_run
+from workbench.publish.stills import stills_of, with_stills
 from workbench.run.questions import answer
 from workbench.run.timeline import Timelines
 from workbench.story import story_of
@@ -86,16 +87,20 @@ def lesson_page(
         head += f'<link rel="stylesheet" href="../{PAGE}/{style}">'
         head += "".join(f'<script src="../{PAGE}/{script}"></script>' for script in scripts)
         more["PYTHON"] = computes
+    story = story_of(lesson, "site")
+    stills = stills_of(lesson)
+    figures = "".join(still.html() for still in stills)
+    pictures = f'<section class="stills"><h2>Experiments in pictures</h2>{figures}</section>'
     return lesson_document(
         lesson,
         article_html(lesson, moment, "site"),
         home="site",
         root=f"../{PAGE}/",
-        ending=exercises_html(exercises_of(lesson)),
+        ending=exercises_html(exercises_of(lesson)) + ("" if story else pictures),
         head=head,
         more=more,
         still="picture.webp",
-        story=story_of(lesson, "site"),
+        story=None if story is None else with_stills(story, stills),
         footer=footer_html("../", ours=course().get(lesson.name) is lesson),
     )
 

@@ -37,6 +37,7 @@ from workbench.page.document import (
     STORY_STYLES,
     STYLES,
     THIRD_PARTIES,
+    UNSCRIPTED,
     bare,
     in_script,
 )
@@ -186,7 +187,7 @@ def _publish(
     shared |= {CLIENT: client_script().encode()}
     shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
     shared |= {
-        f"{PAGE}/{PLAIN}": bare(STATIC / PLAIN).encode(),
+        **{f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (PLAIN, UNSCRIPTED)},
         NOTICES_PAGE: notices_document(f"{PAGE}/", accessibility_html()).encode(),
     }
     shared |= {} if computes is None else computes.files
