@@ -139,13 +139,15 @@ def draw(look: Look[Input, Rings, Held]) -> Scene:
 def _marks(now: Held) -> dict[str, Primitive]:
     """Return both numbers of this bunch in units of those of the larger ring."""
     pairs: tuple[tuple[str, float, float, Role], ...] = (
-        ("chamfer", now.chamfer, now.larger_chamfer, "source"),
-        ("emd", now.earth_movers, now.larger_emd, "other"),
+        ("Chamfer", now.chamfer, now.larger_chamfer, "source"),
+        ("EMD", now.earth_movers, now.larger_emd, "other"),
     )
     return {
-        f"{name}/mark": TIMES.mark(100 * now.share, here / there, "here", role, steps="bunched")
+        f"{name.lower()}/mark": TIMES.mark(
+            100 * now.share, here / there, name, role, steps="bunched"
+        )
         for name, here, there, role in pairs
-        if there and here / there <= MOST
+        if there
     }
 
 
