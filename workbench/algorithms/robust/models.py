@@ -109,8 +109,10 @@ def _refit_hyperplane(
     return fit_hyperplane(p, weights)
 
 
-def _solve_homography(samples: np.ndarray) -> np.ndarray:
-    return finite(homographies_from_four(samples[..., :2], samples[..., 2:]))
+def _solve_homographies(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    H_b_a = homographies_from_four(samples[..., :2], samples[..., 2:])
+    of_sample = np.flatnonzero(np.isfinite(H_b_a).all(axis=(-2, -1)))
+    return H_b_a[of_sample], of_sample
 
 
 def _transfer_distances(H_b_a: np.ndarray, matches: np.ndarray) -> np.ndarray:
@@ -125,12 +127,13 @@ def _refit_homography(
     return refine_homography(start, uv_a, uv_b, weights=weights)
 
 
-def _solve_fundamental(samples: np.ndarray) -> np.ndarray:
+def _solve_fundamentals(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     uv_first, uv_second = samples[..., :2], samples[..., 2:]
     F = fundamentals_from_seven(uv_first, uv_second)
     of_sample, root = np.nonzero(np.isfinite(F).all(axis=(-2, -1)))
     F = F[of_sample, root]
-    return F[orientation_agrees(F[:, None], uv_first[of_sample], uv_second[of_sample])[:, 0]]
+    agree = orientation_agrees(F[:, None], uv_first[of_sample], uv_second[of_sample])[:, 0]
+    return F[agree], of_sample[agree]
 
 
 def _sampson_distances(F: np.ndarray, matches: np.ndarray) -> np.ndarray:
@@ -227,7 +230,8 @@ HOMOGRAPHY = Model(
     columns=4,
     unit="px",
     degenerate_when="no camera can see both sets of four pixels as one plane",
-    solve=_solve_homography,
+    solve=lambda samples: _solve_homographies(samples)[0],
+    solve_each=_solve_homographies,
     distances=_transfer_distances,
     refit=_refit_homography,
 )
@@ -238,7 +242,8 @@ FUNDAMENTAL = Model(
     columns=4,
     unit="px",
     degenerate_when="no two cameras can see the seven matches in front of them",
-    solve=_solve_fundamental,
+    solve=lambda samples: _solve_fundamentals(samples)[0],
+    solve_each=_solve_fundamentals,
     distances=_sampson_distances,
     refit=_refit_fundamental,
 )

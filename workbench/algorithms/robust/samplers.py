@@ -12,6 +12,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.special import bdtrc
 
 FEWEST_TRUSTED = 20
+AHEAD = 64  # samples that are drawn at once
 
 
 def uniform_samples(
@@ -19,11 +20,19 @@ def uniform_samples(
 ) -> Iterator[Int[np.ndarray, " size"]]:
     """Yield samples of `size` different rows out of n, all sets equally likely, without end.
 
+    Some are drawn ahead, so `rng` is for these samples alone.
+
     Raises:
         ValueError: If there are fewer rows than a sample needs.
     """
+    if n <= 4 * size:
+        while True:
+            yield draw_samples(n, size, 1, rng=rng)[0]
     while True:
-        yield draw_samples(n, size, 1, rng=rng)[0]
+        rows = rng.integers(n, size=(AHEAD, size))
+        ordered = np.sort(rows, axis=1)
+        # a sample with a row twice is drawn again: the next one stands in for it
+        yield from rows[(ordered[:, 1:] != ordered[:, :-1]).all(axis=1)]
 
 
 def prosac_samples(

@@ -46,8 +46,7 @@ def transform_pixels(
         >>> transform_pixels(H_b_a, np.array([[3.0, 4.0]])).tolist()
         [[13.0, 4.0]]
     """
-    rows = H_b_a.reshape(-1, 3)
-    uv_b_h = (rows[:, :2] @ uv_a.T + rows[:, 2:]).reshape(*H_b_a.shape[:-1], len(uv_a))
+    uv_b_h = H_b_a[..., :2] @ uv_a.T + H_b_a[..., 2:]
     w = uv_b_h[..., 2, :]
     w = np.where(w == 0.0, np.asarray(np.nan, w.dtype), w)
     return np.stack([uv_b_h[..., 0, :] / w, uv_b_h[..., 1, :] / w], axis=-1)
@@ -100,8 +99,8 @@ def homographies_from_four(
     In image a, x3 = l0 x0 + l1 x1 + l2 x2; in image b, y3 = m0 y0 + m1 y1 + m2 y2. Then the sum of
     (m_i / l_i) y_i (x_j × x_k)' takes all four pixels to their matches (HZ 2.3, example 2.12).
     """
-    T = normalising_similarity(np.concatenate([uv_a, uv_b]).reshape(-1, 2))
-    x, y = homogeneous(uv_a) @ T.T, homogeneous(uv_b) @ T.T
+    T = normalising_similarity(np.concatenate([uv_a, uv_b], axis=-2))
+    x, y = (homogeneous(uv) @ np.swapaxes(T, -1, -2) for uv in (uv_a, uv_b))
     areas_x, areas_y = _triangle_areas(x), _triangle_areas(y)
     usable = _in_general_position(x, y, areas_x, areas_b=areas_y)
     weights = areas_y[..., :3] / np.where(usable[..., None], areas_x[..., :3], np.nan)
