@@ -110,9 +110,9 @@ def _refit_hyperplane(
 
 
 def _solve_homographies(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    H = homographies_from_four(samples[..., :2], samples[..., 2:])
-    of_sample = np.flatnonzero(np.isfinite(H).all(axis=(-2, -1)))
-    return H[of_sample], of_sample
+    H_b_a = homographies_from_four(samples[..., :2], samples[..., 2:])
+    of_sample = np.flatnonzero(np.isfinite(H_b_a).all(axis=(-2, -1)))
+    return H_b_a[of_sample], of_sample
 
 
 def _transfer_distances(H_b_a: np.ndarray, matches: np.ndarray) -> np.ndarray:
@@ -132,8 +132,8 @@ def _solve_fundamentals(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     F = fundamentals_from_seven(uv_first, uv_second)
     of_sample, root = np.nonzero(np.isfinite(F).all(axis=(-2, -1)))
     F = F[of_sample, root]
-    agrees = orientation_agrees(F[:, None], uv_first[of_sample], uv_second[of_sample])[:, 0]
-    return F[agrees], of_sample[agrees]
+    agree = orientation_agrees(F[:, None], uv_first[of_sample], uv_second[of_sample])[:, 0]
+    return F[agree], of_sample[agree]
 
 
 def _sampson_distances(F: np.ndarray, matches: np.ndarray) -> np.ndarray:
@@ -231,9 +231,9 @@ HOMOGRAPHY = Model(
     unit="px",
     degenerate_when="no camera can see both sets of four pixels as one plane",
     solve=lambda samples: _solve_homographies(samples)[0],
+    solve_each=_solve_homographies,
     distances=_transfer_distances,
     refit=_refit_homography,
-    solve_each=_solve_homographies,
 )
 FUNDAMENTAL = Model(
     name="fundamental matrix",
@@ -243,9 +243,9 @@ FUNDAMENTAL = Model(
     unit="px",
     degenerate_when="no two cameras can see the seven matches in front of them",
     solve=lambda samples: _solve_fundamentals(samples)[0],
+    solve_each=_solve_fundamentals,
     distances=_sampson_distances,
     refit=_refit_fundamental,
-    solve_each=_solve_fundamentals,
 )
 RIGID = Model(
     name="rigid motion",

@@ -23,10 +23,8 @@ Phase = Literal["sample", "degenerate", "model", "inliers", "best", "refit", "st
 
 NO_ROWS = np.zeros(0, dtype=int)
 NO_ROWS.setflags(write=False)
-FIRST_TOGETHER, TOGETHER = 8, 64
-"""How many samples are solved and judged at once, where the model can: some at first, twice as many
-each time.
-"""
+TOGETHER = 64  # samples that are solved at once, where the model can
+DISTANCES_TOGETHER = 2**15  # distances that are measured at once
 
 
 class Stop(Enum):
@@ -125,11 +123,13 @@ class Judge:
         return self.each(estimate[None])[0]
 
     def each(self, estimates: Float[np.ndarray, "k ..."]) -> list[Fit]:
-        """Return the same of many estimates side by side."""
+        """Return the fit of each estimate, bit by bit as one by one."""
         distances = self.model.distances(estimates, self.p)
-        inliers = distances <= self.inlier_distance
         scores = self.score(distances, self.inlier_distance).tolist()
-        return list(map(Fit, estimates, distances, inliers, scores))
+        return [
+            Fit(estimate, own := row.copy(), own <= self.inlier_distance, float(score))
+            for estimate, row, score in zip(estimates, distances, scores, strict=True)
+        ]
 
 
 @traced
@@ -165,7 +165,9 @@ def ransac(
     RANSAC, 2003 (`local_refit`).
     """
     check_rows(p, model)
-    model, samples, judge = seen_ahead(p, model, samples, judge=judge)
+    if model.solve_each is not None:
+        ahead = Ahead(p, model, samples, judge=judge)
+        model, samples, judge = replace(model, solve=ahead.solve), ahead.samples(), ahead.judge
     best, needed, stop = None, max_iterations, Stop.SAMPLES_USED_UP
     iteration, sample = 0, NO_ROWS
     for iteration, sample in enumerate(samples, start=1):
@@ -195,46 +197,55 @@ def ransac(
     )
 
 
-def seen_ahead(
-    p: Float[np.ndarray, "n d"],
-    model: Model,
-    samples: Iterator[np.ndarray],
-    *,
-    judge: Callable[[np.ndarray], Fit],
-) -> tuple[Model, Iterator[np.ndarray], Callable[[np.ndarray], Fit]]:
-    """Return the model, knowing what the samples to come give, these samples, and the judge,
-    knowing their fits.
+class Ahead:
+    """Knows what the samples to come give: many are solved at once, and their estimates judged.
 
-    Without `solve_each` all are as they were; a judge that is no `Judge` is.
+    An estimate that is none of theirs, of a refit, is judged alone.
     """
-    if (solve_each := model.solve_each) is None:
-        return model, samples, judge
-    to_come, known, fits = iter(samples), dict[bytes, np.ndarray](), dict[bytes, Fit]()
 
-    def drawn() -> Iterator[np.ndarray]:
-        together = FIRST_TOGETHER
-        while batch := list(islice(to_come, together)):
-            together = min(2 * together, TOGETHER)
-            rows = p[np.stack(batch)]
-            estimates, of_sample = solve_each(rows)
+    def __init__(
+        self,
+        p: Float[np.ndarray, "n d"],
+        model: Model,
+        samples: Iterator[np.ndarray],
+        *,
+        judge: Callable[[np.ndarray], Fit],
+    ):
+        self._p, self._model, self._judge = p, model, judge
+        self._to_come = iter(samples)
+        self._of_sample: dict[bytes, np.ndarray] = {}
+        self._estimates = np.zeros((0,))
+        self._place: dict[bytes, int] = {}
+        self._fits: dict[int, Fit] = {}
+
+    def samples(self) -> Iterator[np.ndarray]:
+        """Yield the samples; with the first of each batch all of it is solved."""
+        while batch := list(islice(self._to_come, TOGETHER)):
+            rows = self._p[np.stack(batch)]
+            assert self._model.solve_each is not None
+            self._estimates, of_sample = self._model.solve_each(rows)
             ends = np.searchsorted(of_sample, np.arange(1, len(batch)))
-            known.clear()
-            known.update(
-                zip((one.tobytes() for one in rows), np.split(estimates, ends), strict=True)
-            )
-            fits.clear()
-            if len(estimates) and isinstance(judge, Judge):
-                fits.update((fit.estimate.tobytes(), fit) for fit in judge.each(estimates))
+            parts = np.split(self._estimates, ends)
+            self._of_sample = {one.tobytes(): part for one, part in zip(rows, parts, strict=True)}
+            self._place = {one.tobytes(): i for i, one in enumerate(self._estimates)}
+            self._fits = {}
             yield from batch
 
-    def solve(asked: np.ndarray) -> np.ndarray:
-        found = known.get(asked.tobytes())
-        return model.solve(asked) if found is None else found
+    def solve(self, asked: Float[np.ndarray, "1 m d"]) -> Float[np.ndarray, "j ..."]:
+        """Return the estimates through one sample."""
+        found = self._of_sample.get(asked.tobytes())
+        return self._model.solve(asked) if found is None else found
 
-    def judged(estimate: np.ndarray) -> Fit:
-        return fits.get(estimate.tobytes()) or judge(estimate)
-
-    return replace(model, solve=solve), drawn(), judged
+    def judge(self, estimate: Float[np.ndarray, "..."]) -> Fit:
+        """Return how all rows take an estimate; it and the next ones are judged together."""
+        i = self._place.get(estimate.tobytes())
+        if i is None or not isinstance(self._judge, Judge):
+            return self._judge(estimate)
+        if i not in self._fits:
+            together = max(1, DISTANCES_TOGETHER // len(self._p))
+            fits = self._judge.each(self._estimates[i : i + together])
+            self._fits = dict(enumerate(fits, start=i))
+        return self._fits[i]
 
 
 def refit_rounds(

@@ -12,7 +12,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.special import bdtrc
 
 FEWEST_TRUSTED = 20
-AT_ONCE = 64  # samples that are drawn together; the generator gives the same ones by and by
+AHEAD = 64  # samples that are drawn at once
 
 
 def uniform_samples(
@@ -20,15 +20,19 @@ def uniform_samples(
 ) -> Iterator[Int[np.ndarray, " size"]]:
     """Yield samples of `size` different rows out of n, all sets equally likely, without end.
 
-    Some more are drawn than taken: `rng` is for them alone.
+    Some are drawn ahead, so `rng` is for these samples alone.
 
     Raises:
         ValueError: If there are fewer rows than a sample needs.
     """
-    _check(n, size)
+    if n <= 4 * size:
+        while True:
+            yield draw_samples(n, size, 1, rng=rng)[0]
     while True:
-        rows = _drawn(n, size, AT_ONCE, rng=rng)
-        yield from rows[~_repeats(rows)]
+        rows = rng.integers(n, size=(AHEAD, size))
+        ordered = np.sort(rows, axis=1)
+        # a sample with a row twice is drawn again: the next one stands in for it
+        yield from rows[(ordered[:, 1:] != ordered[:, :-1]).all(axis=1)]
 
 
 def prosac_samples(
@@ -110,22 +114,15 @@ def draw_samples(
         ValueError: If there are fewer rows than a sample needs.
     """
     _check(n, size)
-    rows = _drawn(n, size, samples, rng=rng)
-    while (repeated := _repeats(rows)).any():
-        rows[repeated] = _drawn(n, size, int(np.count_nonzero(repeated)), rng=rng)
-    return rows
-
-
-def _drawn(n: int, size: int, samples: int, *, rng: np.random.Generator) -> np.ndarray:
-    """Draw samples; where there are many rows to draw from, one may be drawn twice."""
     if n <= 4 * size:
         return np.argsort(rng.random((samples, n)), axis=1)[:, :size]
-    return rng.integers(n, size=(samples, size))
-
-
-def _repeats(rows: np.ndarray) -> np.ndarray:
-    ordered = np.sort(rows, axis=1)
-    return (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
+    rows = rng.integers(n, size=(samples, size))
+    while True:
+        ordered = np.sort(rows, axis=1)
+        repeated = (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
+        if not repeated.any():
+            return rows
+        rows[repeated] = rng.integers(n, size=(np.count_nonzero(repeated), size))
 
 
 def _check(n: int, size: int) -> None:

@@ -56,46 +56,47 @@ def build_tree(
     if len(p) == 0:
         raise ValueError("no points to sort into a tree")
     order = np.arange(len(p))
-    lows, highs = [low], [high]
-    axes, cuts, children, spans, depths = [-1], [0.0], [[-1, -1]], [(0, len(p))], [0]
-    cell = 0
-    while cell < len(spans):
-        first, last = spans[cell]
-        rows = order[first:last]
-        if last - first > leaf:
-            block = p[rows]
-            axis = int(np.argmax(block.max(axis=0) - block.min(axis=0)))
-            middle = (last - first) // 2
-            rows = rows[np.argpartition(block[:, axis], middle)]
-            order[first:last] = rows
-            cut = float(p[rows[middle], axis])
-            axes[cell], cuts[cell], children[cell] = axis, cut, [len(spans), len(spans) + 1]
-            for span, ends, others in (
-                ((first, first + middle), highs, lows),
-                ((first + middle, last), lows, highs),
-            ):
-                bounded = ends[cell].copy()
-                bounded[axis] = cut
-                ends.append(bounded)
-                others.append(others[cell])
-                spans.append(span)
-                axes.append(-1)
-                cuts.append(0.0)
-                children.append([-1, -1])
-                depths.append(depths[cell] + 1)
-        cell += 1
-    spans = np.array(spans)
-    return Tree(
-        p=p[order],
-        axis=np.array(axes),
-        cut=np.array(cuts),
-        children=np.array(children),
-        first=spans[:, 0],
-        last=spans[:, 1],
-        low=np.array(lows),
-        high=np.array(highs),
-        depth=np.array(depths),
-    )
+    first, last, known = np.array([0]), np.array([len(p)]), 0
+    low, high = low[None], high[None]
+    levels = []
+    while len(first):  # all cells of one depth
+        axis, cut = _cut_cells(p, order, first, last=last, leaf=leaf)
+        parents = np.flatnonzero(axis >= 0)
+        known += len(first)
+        children = np.full((len(first), 2), -1)
+        children[parents] = known + np.arange(2 * len(parents)).reshape(-1, 2)
+        depth = np.full(len(first), len(levels))
+        levels.append((axis, cut, children, first, last, low, high, depth))
+        first, last, along = first[parents], last[parents], axis[parents]
+        middle = first + (last - first) // 2
+        first, last = np.stack([first, middle], axis=1), np.stack([middle, last], axis=1)
+        low, high = low[parents].repeat(2, axis=0), high[parents].repeat(2, axis=0)
+        pair = 2 * np.arange(len(parents))
+        high[pair, along] = low[pair + 1, along] = cut[parents]
+        first, last = first.ravel(), last.ravel()
+    names = ("axis", "cut", "children", "first", "last", "low", "high", "depth")
+    columns = (np.concatenate(parts) for parts in zip(*levels, strict=True))
+    return Tree(p=p[order], **dict(zip(names, columns, strict=True)))
+
+
+def _cut_cells(
+    p: np.ndarray, order: np.ndarray, first: np.ndarray, *, last: np.ndarray, leaf: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the axis (-1 where there is none) and place of the cells' cuts, and sort `order`.
+
+    Cells of one size, of which a depth has two at most, are cut side by side.
+    """
+    sizes, axis, cut = last - first, np.full(len(first), -1), np.zeros(len(first))
+    for size in np.unique(sizes[sizes > leaf]).tolist():
+        cells = np.flatnonzero(sizes == size)
+        span = first[cells, None] + np.arange(size)
+        block = p[order[span]]
+        along = np.argmax(block.max(axis=1) - block.min(axis=1), axis=1)
+        values = np.take_along_axis(block, along[:, None, None], axis=2)[..., 0]
+        sorted_at_middle = np.argpartition(values, size // 2, axis=1)
+        order[span] = np.take_along_axis(order[span], sorted_at_middle, axis=1)
+        axis[cells], cut[cells] = along, p[order[span[:, size // 2]], along]
+    return axis, cut
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

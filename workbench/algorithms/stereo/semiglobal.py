@@ -22,6 +22,8 @@ Costs = Real[np.ndarray, "d h w"]
 DIRECTIONS = ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1))
 """The eight steps (rows down, columns right) from one pixel of a path to the next."""
 
+CELLS_TOGETHER = 2**21  # of a volume: up to here all slopes are walked together
+
 
 @dataclass(frozen=True, eq=False)
 class PathSum:
@@ -49,8 +51,7 @@ def semi_global(cost: Costs, P1: float, P2: float) -> Iterator[PathSum]:
     """
     cost, jumps = prepare(cost, P1, P2)
     total = np.zeros(cost.shape, jumps.type_of_sum(len(DIRECTIONS)))
-    for direction in DIRECTIONS:
-        path = path_costs(cost, direction, jumps)  # L_r, eq. 13
+    for direction, path in zip(DIRECTIONS, _all_paths(cost, jumps), strict=True):  # L_r, eq. 13
         total = total + path  # S = sum over r of L_r, eq. 14
         yield PathSum(direction, path, total)
 
@@ -85,51 +86,69 @@ def prepare(cost: Costs, P1: float, P2: float) -> tuple[Costs, Jumps]:
     return np.minimum(cost, top).astype(np.float32), Jumps(P1, P2, top, False)
 
 
+def _all_paths(cost: Costs, jumps: Jumps) -> Iterator[Costs]:
+    """Yield the path costs of all directions, in their order."""
+    for both in sweep(by_column(cost), (0,), jumps):
+        yield from (path.transpose(1, 2, 0) for path in both)
+    slopes = (0, 1, -1)
+    for some in (slopes,) if cost.size < CELLS_TOGETHER else tuple((slope,) for slope in slopes):
+        for both in sweep(by_row(cost), some, jumps):
+            yield from (path.transpose(1, 0, 2) for path in both)
+
+
 def path_costs(cost: Costs, direction: tuple[int, int], jumps: Jumps) -> Costs:
     """Return the path costs L_r(p, d) of one direction (rows down, columns right), by eq. 13."""
     down, right = direction
-    path = np.zeros(cost.shape, jumps.type_of_sum(1))
     if down:
-        sweep(by_row(cost)[::down], by_row(path)[::down], right, jumps)
-    else:
-        sweep(by_column(cost)[::right], by_column(path)[::right], 0, jumps)
-    return path
+        ends = next(sweep(by_row(cost), (right * down,), jumps))
+        return ends[0 if down > 0 else 1].transpose(1, 0, 2)
+    ends = next(sweep(by_column(cost), (0,), jumps))
+    return ends[0 if right > 0 else 1].transpose(1, 2, 0)
 
 
 def sweep(
-    cost: Real[np.ndarray, "n d w"], path: Real[np.ndarray, "n d w"], slope: int, jumps: Jumps
-) -> None:
-    """Write the path costs of all lines of a picture, walked in order, into `path`.
+    cost: Real[np.ndarray, "n d w"], slopes: tuple[int, ...], jumps: Jumps
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield of each slope the path costs (n, d, w) from the first line on, and back from the last.
 
-    `slope` is how many columns right the path goes per line: 0, 1 or -1. With carried(d) = min(L(d)
-    - min L, P2) of the pixel before, eq. 13 reads L(d) = C(d) + min(carried(d), carried(d +- 1) +
-    P1); it never exceeds top + P2, so bytes often do. A line is laid out flat, d by d, with one
-    spare column and a spare d at both ends: then every neighbour is the same array at another
-    offset.
+    A slope is how many columns right the path goes per line: 0, 1 or -1; back it is the other way.
+    All are walked side by side. With carried(d) = min(L(d) - min L, P2) of the pixel before, eq. 13
+    reads L(d) = C(d) + min(carried(d), carried(d +- 1) + P1); it never exceeds top + P2, so bytes
+    often do. A line is laid out flat, d by d, with one spare column and a spare d at both ends:
+    then every neighbour is the same array at another offset.
     """
     n, disparities, w = cost.shape
     row = w + 1
     start, stop = row + 1, row + 1 + disparities * row
-    P1 = path.dtype.type(jumps.P1)
-    limit = np.full((disparities, row), jumps.P2, path.dtype)
+    padded = np.zeros((n, disparities, row), jumps.type_of_sum(1))
+    padded[..., :w] = cost
+    P1 = padded.dtype.type(jumps.P1)
+    limit = np.full((disparities, row), jumps.P2, padded.dtype)
     limit[:, w] = 0  # nothing is carried from beyond the border: a path begins there
-    carried = np.zeros(stop + row + 1, path.dtype)
-    carried[:row], carried[stop:] = jumps.P2, jumps.P2
-
-    def seen(shift: int) -> np.ndarray:
-        return carried[start + shift : stop + shift].reshape(disparities, row)
-
-    same, lower, higher, after = seen(-slope), seen(-slope - row), seen(-slope + row), seen(0)
-    here, L = np.zeros((disparities, row), path.dtype), np.zeros((disparities, row), path.dtype)
-    for line in range(n):
-        here[:, :w] = cost[line]
+    carried = np.zeros((len(slopes), 2, stop + row + 1), padded.dtype)
+    carried[..., :row], carried[..., stop:] = jumps.P2, jumps.P2
+    same, lower, higher = (
+        carried[..., start + shift : stop + shift].reshape(*carried.shape[:2], disparities, row)
+        for shift in (0, -row, row)
+    )
+    after = [  # where the pixels of the next line look for what this one carries
+        (here, carried[*here, start + shift : stop + shift].reshape(disparities, row))
+        for i, slope in enumerate(slopes)
+        for here, shift in (((i, 0), slope), ((i, 1), -slope))
+    ]
+    paths = np.empty((n, len(slopes), 2, disparities, row), padded.dtype)
+    above = np.empty_like(paths[0])
+    for line, L in enumerate(paths):
         np.minimum(lower, higher, out=L)
         L += P1
         np.minimum(L, same, out=L)
-        L += here  # L_r(p, d), eq. 13
-        np.subtract(L, np.minimum.reduce(L, axis=0), out=after)
-        np.minimum(after, limit, out=after)
-        path[line] = L[:, :w]
+        L[:, 0] += padded[line]  # L_r(p, d), eq. 13
+        L[:, 1] += padded[-1 - line]
+        np.subtract(L, np.minimum.reduce(L, axis=2, keepdims=True), out=above)
+        for here, carries in after:
+            np.minimum(above[here], limit, out=carries)
+    for i in range(len(slopes)):
+        yield paths[:, i, 0, :, :w], paths[::-1, i, 1, :, :w]
 
 
 def energy(cost: Costs, disparity: Real[np.ndarray, "h w"], P1: float, P2: float) -> float:

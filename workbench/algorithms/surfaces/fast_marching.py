@@ -85,6 +85,7 @@ def march(
     flat, width = d.ravel(), m + 2
     open_ = (inner & ~np.isfinite(d)).ravel()  # may still fall; what was given stays
     beside = np.array([1, -1, width, -width])
+    asked = np.zeros(flat.shape, bool)
     changed, reach = np.flatnonzero(np.isfinite(flat)), 0.0
     yield March(start.copy(), np.isfinite(start), reach)
     while True:
@@ -93,8 +94,9 @@ def march(
         for _ in range(n * m):  # values below the reach spread until none falls
             ready = flat[changed] <= reach
             waiting.append(changed[~ready])
-            at = np.unique((changed[ready, None] + beside).ravel())
-            at = at[open_[at]]
+            asked[changed[ready, None] + beside] = True
+            at = np.flatnonzero(asked & open_)  # each once
+            asked[:] = False
             if not len(at):
                 break
             left, up = (

@@ -27,11 +27,17 @@ def harris_response(image: Image) -> Image:
     M holds products of the derivatives, each smoothed by a Gaussian of 1.5 px (section 3).
     """
     g_u, g_v = gradient(image)
-    a, b, c = (
-        scipy.ndimage.gaussian_filter(product, GATHER)
-        for product in (g_u * g_u, g_u * g_v, g_v * g_v)
-    )
-    return a * c - b * b - HARRIS * (a + c) ** 2
+    mixed = g_u * g_v
+    g_u *= g_u
+    g_v *= g_v
+    for product in (g_u, mixed, g_v):
+        scipy.ndimage.gaussian_filter(product, GATHER, output=product)
+    a, b, c = g_u, mixed, g_v
+    response = a * c
+    response -= np.square(b, out=b)
+    a += c
+    response -= HARRIS * np.square(a, out=a)
+    return response
 
 
 def strongest(

@@ -77,8 +77,9 @@ def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndar
 
 def _covariances(p: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
     """Return xx, yy, zz, xy, xz, yz of each neighbourhood, about the point itself first."""
-    x, y, z = (p[neighbours] - p[rows][:, None]).transpose(2, 0, 1)
-    x, y, z = (v - v.mean(1, keepdims=True) for v in (x, y, z))
+    x, y, z = (own.take(neighbours) - own[rows, None] for own in np.ascontiguousarray(p.T))
+    for v in (x, y, z):
+        v -= v.mean(1, keepdims=True)
     pairs = ((x, x), (y, y), (z, z), (x, y), (x, z), (y, z))
     return np.stack([np.einsum("ij,ij->i", a, b) for a, b in pairs])
 

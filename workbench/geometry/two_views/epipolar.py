@@ -75,8 +75,7 @@ def sampson_distances(
     The sign is that of `uv_second_h.T @ F @ uv_first_h`. Works in the precision of its input.
     """
     x, y = homogeneous(uv_first).T, homogeneous(uv_second).T
-    lines_y = (F.reshape(-1, 3) @ x).reshape(*F.shape[:-2], 3, -1)
-    lines_x = (np.swapaxes(F, -1, -2)[..., :2, :].reshape(-1, 3) @ y).reshape(*F.shape[:-2], 2, -1)
+    lines_y, lines_x = F @ x, np.swapaxes(F, -1, -2)[..., :2, :] @ y
     algebraic = lines_y[..., 0, :] * y[0] + lines_y[..., 1, :] * y[1] + lines_y[..., 2, :]
     squared = (lines_y[..., 0, :] ** 2 + lines_y[..., 1, :] ** 2) + (
         lines_x[..., 0, :] ** 2 + lines_x[..., 1, :] ** 2
@@ -93,7 +92,8 @@ def fundamentals_from_seven(
     cubic. NaN for roots that are not real, and constraints that are not independent.
     """
     T = normalising_similarity(np.concatenate([uv_first, uv_second], axis=-2))
-    x, y = (homogeneous(uv) @ np.swapaxes(T, -1, -2) for uv in (uv_first, uv_second))
+    T_transposed = np.swapaxes(T, -1, -2)
+    x, y = homogeneous(uv_first) @ T_transposed, homogeneous(uv_second) @ T_transposed
     constraints = (y[..., :, None] * x[..., None, :]).reshape(*x.shape[:-1], 9)
     basis, triangle = np.linalg.qr(np.swapaxes(constraints, -1, -2), mode="complete")
     diagonal = np.abs(np.diagonal(triangle, axis1=-2, axis2=-1))
@@ -109,8 +109,7 @@ def fundamentals_from_seven(
     roots = real_cubic_roots(np.stack(cubic, axis=-1))
     roots = np.where(independent[..., None], roots, np.nan)
     F = G[..., None, :, :] + roots[..., None, None] * D[..., None, :, :]
-    T = T[..., None, :, :]
-    F = np.swapaxes(T, -1, -2) @ F @ T
+    F = T_transposed[..., None, :, :] @ F @ T[..., None, :, :]
     return F / np.linalg.norm(F, axis=(-2, -1), keepdims=True)
 
 

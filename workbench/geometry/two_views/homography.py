@@ -46,16 +46,10 @@ def transform_pixels(
         >>> transform_pixels(H_b_a, np.array([[3.0, 4.0]])).tolist()
         [[13.0, 4.0]]
     """
-    return np.stack(_transformed(H_b_a, uv_a), axis=-1)
-
-
-def _transformed(H_b_a: np.ndarray, uv_a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the columns u and v in image b of each pixel, per homography."""
-    rows = H_b_a.reshape(-1, 3)
-    uv_b_h = (rows[:, :2] @ uv_a.T + rows[:, 2:]).reshape(*H_b_a.shape[:-1], len(uv_a))
+    uv_b_h = H_b_a[..., :2] @ uv_a.T + H_b_a[..., 2:]
     w = uv_b_h[..., 2, :]
-    w[w == 0.0] = np.nan
-    return uv_b_h[..., 0, :] / w, uv_b_h[..., 1, :] / w
+    w = np.where(w == 0.0, np.asarray(np.nan, w.dtype), w)
+    return np.stack([uv_b_h[..., 0, :] / w, uv_b_h[..., 1, :] / w], axis=-1)
 
 
 def warped_grid(
@@ -76,12 +70,9 @@ def transfer_distances(
     uv_b: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
     """Return how far each pixel of image a lands from its match, in pixels of b; maybe infinite."""
-    u, v = _transformed(H_b_a, uv_a)
-    u -= uv_b[:, 0]
-    v -= uv_b[:, 1]
-    distances = np.sqrt(u * u + v * v)
-    distances[np.isnan(distances)] = np.inf
-    return distances
+    off = transform_pixels(H_b_a, uv_a) - uv_b
+    distances = np.sqrt(off[..., 0] ** 2 + off[..., 1] ** 2)
+    return np.where(np.isnan(distances), np.asarray(np.inf, distances.dtype), distances)
 
 
 def four_in_general_position(

@@ -1,0 +1,54 @@
+"""What RANSAC knows ahead changes no bit of its states, and no sample drawn ahead is another."""
+
+from dataclasses import replace
+from itertools import chain, islice
+
+import numpy as np
+import pytest
+
+from lessons.ransac.robust_scenes import match_scene
+from tests.algorithms.test_camera_model import alike
+from workbench.algorithms.robust.models import FUNDAMENTAL, HOMOGRAPHY
+from workbench.algorithms.robust.ransac import TOGETHER, Judge, ransac
+from workbench.algorithms.robust.samplers import draw_samples, uniform_samples
+from workbench.algorithms.robust.scores import count_score, msac_score
+
+
+@pytest.mark.parametrize("model", [HOMOGRAPHY, FUNDAMENTAL], ids=lambda model: model.name)
+@pytest.mark.parametrize("score", [count_score, msac_score])
+@pytest.mark.parametrize("refit", [False, True])
+def test_samples_solved_and_judged_together_give_the_states_of_one_by_one(model, score, refit):
+    scene = match_scene(
+        np.random.default_rng(7),
+        count=600,
+        outlier_ratio=0.5 if refit else 0.3,
+        sigma=1.0,
+        flat=model is HOMOGRAPHY,
+    )
+    found = []
+    for one in (model, replace(model, solve_each=None)):
+        drawn = uniform_samples(600, model.sample_size, np.random.default_rng(0))
+        samples = chain([np.zeros(model.sample_size, dtype=int)], drawn)
+        judge = Judge(scene.p, one, 2.5, score)
+        found.append(
+            list(ransac(scene.p, one, samples, judge, max_iterations=150, local_refit=refit))
+        )
+    together, apart = found
+    assert len(together) == len(apart)
+    assert together[-1].iteration > TOGETHER / 2
+    assert together[1].phase == "degenerate"
+    assert all(alike(a, b) for a, b in zip(together, apart, strict=True))
+
+
+def test_a_fit_holds_its_own_distances_alone():
+    scene = match_scene(np.random.default_rng(1), count=50, outlier_ratio=0.3, sigma=1.0, flat=True)
+    fits = Judge(scene.p, HOMOGRAPHY, 3.0).each(np.stack([scene.truth, np.eye(3)]))
+    assert [fit.distances.base for fit in fits] == [None, None]
+
+
+@pytest.mark.parametrize(("n", "size"), [(12, 4), (17, 4), (30, 7), (600, 4)])
+def test_samples_drawn_ahead_are_those_drawn_one_by_one(n, size):
+    rng = np.random.default_rng(3)
+    one_by_one = [draw_samples(n, size, 1, rng=rng)[0].tolist() for _ in range(300)]
+    ahead = islice(uniform_samples(n, size, np.random.default_rng(3)), 300)
+    assert [sample.tolist() for sample in ahead] == one_by_one
