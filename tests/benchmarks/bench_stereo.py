@@ -6,6 +6,10 @@ presets and of own pairs. Every contender runs on the same pictures, taking turn
 Times are the CPU time of the process in ms, the least over the rounds. Errors are shares of the
 pixels that both cameras see (known from the truth) whose disparity is over 1 or 2 px off, a
 contender's rejected pixels counted as `none` and left out of both.
+
+Where ours are behind: a path goes from line to line, with a dozen of numpy's calls for each; and
+every step that is shown takes its own winners from the volume, 43 maps in a run, which alone is
+two to three times OpenCV's whole time.
 """
 
 import argparse

@@ -9,7 +9,7 @@ Applications to Image Analysis and Automated Cartography, 1981, section II.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
-from itertools import islice
+from itertools import islice, pairwise
 from typing import Literal
 
 import numpy as np
@@ -24,7 +24,7 @@ Phase = Literal["sample", "degenerate", "model", "inliers", "best", "refit", "st
 NO_ROWS = np.zeros(0, dtype=int)
 NO_ROWS.setflags(write=False)
 TOGETHER = 64  # samples that are solved at once, where the model can
-DISTANCES_TOGETHER = 2**15  # distances that are measured at once
+DISTANCES_TOGETHER = 2**13  # distances that are measured at once
 
 
 class Stop(Enum):
@@ -224,9 +224,11 @@ class Ahead:
             rows = self._p[np.stack(batch)]
             assert self._model.solve_each is not None
             self._estimates, of_sample = self._model.solve_each(rows)
-            ends = np.searchsorted(of_sample, np.arange(1, len(batch)))
-            parts = np.split(self._estimates, ends)
-            self._of_sample = {one.tobytes(): part for one, part in zip(rows, parts, strict=True)}
+            ends = np.searchsorted(of_sample, np.arange(len(batch) + 1)).tolist()
+            self._of_sample = {
+                one.tobytes(): self._estimates[first:last]
+                for one, (first, last) in zip(rows, pairwise(ends), strict=True)
+            }
             self._place = {one.tobytes(): i for i, one in enumerate(self._estimates)}
             self._fits = {}
             yield from batch
