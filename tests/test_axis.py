@@ -11,6 +11,7 @@ from workbench.words.axis import (
     axis,
     labelled,
     number,
+    of_powers,
     settled,
     ticks,
     value_axis,
@@ -96,14 +97,28 @@ def test_ends_that_only_round_off_tells_apart_are_moved_apart():
 
 
 @pytest.mark.parametrize(
-    ("chart", "unit", "log", "expected"),
+    ("chart", "unit", "expected"),
     [
-        ("RMSE", "m", False, ("", "RMSE (m)")),
-        ("Error to the truth", "%", False, ("Error to the truth", "%")),
-        ("Error to the truth", "px", True, ("Error to the truth", "log₁₀ px")),
-        ("Mass that is far astray", "", False, ("Mass that is far astray", "")),
+        ("RMSE", "m", ("", "RMSE (m)")),
+        ("Error to the truth", "%", ("Error to the truth", "%")),
+        ("Mass that is far astray", "", ("Mass that is far astray", "")),
     ],
 )
-def test_no_label_is_longer_than_its_axis(chart, unit, log, expected):
-    assert labelled(chart, unit, log) == expected
+def test_no_label_is_longer_than_its_axis(chart, unit, expected):
+    assert labelled(chart, unit) == expected
     assert len(expected[1]) <= LONGEST_LABEL
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (-1.2, 1.3, ("0.1", "1", "10")),
+        (-9.1, 0.4, ("1e−5", "1")),
+        (0.1, 0.9, ("1.58", "2.51", "3.98", "6.31")),
+    ],
+)
+def test_logarithms_are_said_as_the_numbers_that_they_are_of(low, high, words):
+    found = of_powers(axis(low, high, 4))
+    assert found.words == words
+    assert (found.low, found.high) == (low, high)
+    assert all(low <= place <= high for place in found.ticks)

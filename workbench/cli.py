@@ -380,7 +380,10 @@ def publish(
             "Only these lessons; what the site has of others stays. All by default.", "NAME ..."
         ),
     ] = (),
-    base_url: Annotated[str | None, Option("The address the site will have.", "URL")] = None,
+    base_url: Annotated[
+        str | None,
+        Option("The address the site will have: for links, pictures of links, its map.", "URL"),
+    ] = None,
     force: Annotated[
         bool, Option("Replace files that publish did not write, or that were changed since.")
     ] = False,

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from tests.browser.test_published import QuietHandler
+from tests.browser.folders import QuietHandler
 from tests.computed.solutions import tasks_of
 from workbench.exercise.finding import exercises_of
 from workbench.lesson import catalog

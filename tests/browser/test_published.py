@@ -1,9 +1,6 @@
 """A published site from disk, in a real browser without any network."""
 
-import functools
-import http.server
 import io
-import threading
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +8,7 @@ import pytest
 from PIL import Image
 
 from tests import fake
+from tests.browser.folders import served
 from tests.browser.homes import barriers
 from tests.browser.visits import SELDOM
 from workbench.lesson import Sweep, catalog
@@ -47,17 +45,8 @@ def out(tmp_path_factory):
 @pytest.fixture(scope="module")
 def address(out):
     """The site behind a plain static server."""
-    handler = functools.partial(QuietHandler, directory=str(out))
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}"
-    server.shutdown()
-    server.server_close()
-
-
-class QuietHandler(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, format, *args):  # noqa: A002
-        pass
+    with served(out) as address:
+        yield address
 
 
 @pytest.fixture
@@ -361,7 +350,7 @@ def test_what_can_be_taken_along_is_there(opened, out):
     for words, text in {
         "Copy link": f"{site}/index.html#run=half&step=2",
         "Copy command": "workbench show fake.py --angle=180",
-        "Copy for a page of your own": f'<iframe src="{site}/runs/half.html"',
+        "Copy for a page of your own": f'<iframe src="{site}/runs/half.html#step=2"',
     }.items():
         mine.get_by_role("button", name=words).click()
         mine.locator("output", has_text="is copied").wait_for()

@@ -67,7 +67,7 @@ def test_the_licences_of_what_is_in_the_pages_come_along(published):
         "viser",
     ):
         assert said in text
-    assert 'href="page/third-parties.txt"' in (out / "index.html").read_text(encoding="utf-8")
+    assert 'href="page/third-parties.txt"' in (out / "notices.html").read_text(encoding="utf-8")
 
 
 def test_the_numbers_are_those_of_the_run(published):
@@ -252,7 +252,7 @@ def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered, monk
     monkeypatch.setattr(site, "lesson_page", lambda *args: pages.append(args[2]) or original(*args))
     site.publish(out, [SMALL], recordings="all")
     site.publish(out, [SMALL], recordings="all")
-    assert pages == [""]  # once without the address that it had
+    assert ["canonical" in head for head in pages] == [False]  # once without its address
     assert rendered == []
     other = replace(SMALL, presets=(replace(SMALL.presets[0], params=fake.Params(angle=170.0)),))
     site.publish(out, [other], recordings="all")
@@ -295,7 +295,11 @@ def test_a_run_that_fails_or_a_place_that_cannot_be_written_is_one_line(tmp_path
 
 @pytest.mark.parametrize(
     "address",
-    ["javascript:x", "https://", "https://a/?b", "https://a/#", "http://[a", "https://a/<b"],
+    [
+        *("javascript:x", "https://", "https://a/?b", "https://a/#", "http://[a", "https://a/<b"),
+        *("https://a/\nb", "https://a\\b", "https://me:word@a/", "https://a:99999999/", "//a/"),
+        *("https://a/../b", "https://ä/", f"https://a/{'b' * 600}", "https://a b/", "https://a/%0"),
+    ],
 )
 def test_an_address_that_is_none_is_refused_before_anything_is_rendered(
     tmp_path, rendered, address
@@ -337,7 +341,7 @@ def test_a_dead_link_or_something_heavy_fails(tmp_path, monkeypatch):
 def test_the_summary_counts_runs_and_no_other_scripts(published):
     out, files = published
     told = sizes.sizes_told(out, list(files.items())).splitlines()
-    assert [line.partition(",")[0] for line in told[:-1]] == ["4 pages", "2 runs", "2 recordings"]
+    assert [line.partition(",")[0] for line in told[:-1]] == ["6 pages", "2 runs", "2 recordings"]
     told = sizes.sizes_told(
         out, [("x/runs/a.js", 2_000_000), ("x/runs/angle-0.js", 1_500_000)], {"x/runs/angle-0.js"}
     )

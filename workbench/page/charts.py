@@ -12,7 +12,7 @@ import numpy as np
 from workbench.page.legend import css_color, escape
 from workbench.run.timeline import Series, plotted_values
 from workbench.scene import PALETTE, Curve, Table
-from workbench.words.axis import Axis, axis, labelled, value_axis
+from workbench.words.axis import Axis, axis, labelled, of_powers, value_axis
 
 NARROW_BAR = 0.96
 """How much of the room between two bars a bar takes."""
@@ -23,17 +23,18 @@ def slug(title: str) -> str:
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
 
 
-def axes_of(xs: Sequence[np.ndarray], ys: Sequence[np.ndarray]) -> tuple[Axis, Axis]:
-    """Return the axes of a chart in which all these points are."""
+def axes_of(
+    xs: Sequence[np.ndarray], ys: Sequence[np.ndarray], *, whole: bool
+) -> tuple[Axis, Axis]:
+    """Return the axes of a chart in which all these points are; `whole` as for `axis`."""
     x = np.concatenate(xs)
-    whole = bool(np.array_equal(x, np.rint(x)))
     return axis(float(x.min()), float(x.max()), whole=whole), value_axis(ys, most=4)
 
 
 def titled(curves: Sequence[Curve]) -> tuple[str, str]:
     """Return the title of a chart of curves and the label of its values."""
     chart = curves[0].chart
-    above, label = labelled(curves[0].y_label, "", False)
+    above, label = labelled(curves[0].y_label, "")
     return f"{chart}: {above}" if above and above != chart else chart, label
 
 
@@ -66,7 +67,8 @@ def table_html(table: Table) -> str:
 def chart_of(curves: Sequence[Curve]) -> dict[str, Any]:
     """Return a chart of curves of a step, with its axes."""
     outlines = [outline(curve) for curve in curves]
-    across, up = axes_of([x for x, _ in outlines], [y for _, y in outlines])
+    whole = all(np.array_equal(curve.x, np.rint(curve.x)) for curve in curves)
+    across, up = axes_of([x for x, _ in outlines], [y for _, y in outlines], whole=whole)
     title, label = titled(curves)
     drawn = {
         "kind": "curves",
@@ -109,8 +111,10 @@ def series_charts(series: Mapping[str, Series], known: int) -> dict[str, Any]:
     found = {}
     for chart, lines in charts.items():
         scalar = lines[0].scalar
-        head, label = labelled(chart, scalar.unit, scalar.log)
-        across, up = axes_of([steps], [plotted_values(one.scalar, one.values) for one in lines])
+        head, label = labelled(chart, scalar.unit)
+        values = [plotted_values(one.scalar, one.values) for one in lines]
+        across, up = axes_of([steps], values, whole=True)
+        up = of_powers(up) if scalar.log else up
         found[chart] = {
             "name": slug(chart),
             "head": head,

@@ -6,13 +6,17 @@ from html import escape
 from itertools import groupby
 
 from workbench.chapters import MINUTES, Chapter, chapter_of
-from workbench.page.document import THIRD_PARTIES, document_head
+from workbench.page.document import COURSE, THIRD_PARTIES, document_head
 from workbench.page.map import course_map
 from workbench.page.toy import toy_html
 
 WELCOME = (
     "Geometry and 3D vision, one algorithm at a time: see it work, move it with your hands, and"
     " write it yourself."
+)
+STANDS_STILL = (
+    "These pages need JavaScript to move. Without it the rabbits stand still, and a lesson shows"
+    " its text and pictures."
 )
 FRONT_FILES = ("front.css", "front.js")
 """The page's own styles and script, beside those of every page."""
@@ -35,7 +39,12 @@ class Card:
 
 
 def course_document(
-    cards: Iterable[Card], *, root: str, trouble: str | None = None, head: str = ""
+    cards: Iterable[Card],
+    *,
+    root: str,
+    trouble: str | None = None,
+    head: str = "",
+    footer: str | None = None,
 ) -> str:
     """Return the document of the course.
 
@@ -44,7 +53,13 @@ def course_document(
         root: The relative address of the folder with the page's own files.
         trouble: Why the page that was asked for is not shown, in one line.
         head: More HTML for the head.
+        footer: What stands under it all, as HTML; None is a link to the work of others.
     """
+    if footer is None:
+        footer = (
+            f'<footer><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its'
+            " licences</a></footer>"
+        )
     cards = list(cards)
     titles = {card.name: card.title for card in cards}
     chapters = [
@@ -58,12 +73,11 @@ def course_document(
         f'<a class="skip" href="#{chapters[0][0].address}">To the lessons</a>' if chapters else ""
     )
     return (
-        f"{document_head('Geometry workbench', WELCOME, root, more=head, math=False)}"
+        f"{document_head(COURSE, WELCOME, root, more=head, math=False)}"
         f'<body class="front">{skip}{_hero(cards, said)}{_line(chapters)}<main id="course">'
         + "".join(_chapter(chapter, own, titles) for chapter, own in chapters)
         + f"{_map(chapters)}</main>"
-        f'<footer><a href="{root}{THIRD_PARTIES}">Work of others in these pages, and its'
-        " licences</a></footer>"
+        f"{footer}"
         + "".join(
             f'<script src="{root}{name}"></script>' for name in ("tools.js", "progress.js", script)
         )
@@ -86,6 +100,7 @@ def _hero(cards: list[Card], said: str) -> str:
         ' hands</h1><p class="lead">Lay <b class="source">orange</b> on <b'
         ' class="target">blue</b>: drag it to move it, drag its ring to turn it. Six numbers are'
         f" all that a computer knows of what you do.</p>{begin}</div>{toy_html()}</header>"
+        f'<noscript><p class="unscripted">{STANDS_STILL}</p></noscript>'
     )
 
 

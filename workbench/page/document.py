@@ -14,6 +14,9 @@ from workbench.story import Story, story_data
 from workbench.words.typeset import math_font_css
 
 STATIC = Path(__file__).with_name("static")
+COURSE = "Geometry workbench"
+"""The name of the course, in the title of every page."""
+ICON = "icon.svg"
 MATH, MATH_FONT = "math.css", "math.woff2"
 THIRD_PARTIES = "third-parties.txt"
 """Whose work is in our pages, and its licences."""
@@ -51,11 +54,19 @@ STORY_SCRIPTS = (
 STORY_STYLES = ("story.css", "storystage.css")
 DRESS = ("dress.css", "dress.js")
 """What a lesson without a story has of a story's look."""
+UNSCRIPTED = "unscripted.css"
+"""The style of a page where no script runs."""
+EMBED = ("embed.js",)
+"""What one run alone, in a page of somebody else, has besides."""
 COMPUTING = ("compute.css", "compute.js", "bench.js", "computing.js", "codemirror.js")
 """What a published page computes with: the last two are loaded when it does."""
 FONTS = ("source-serif-4-latin-wght-normal.woff2", "source-serif-4-latin-wght-italic.woff2")
 """The letters of the story, beside its styles."""
 STORY_FILES = (*STORY_STYLES, *FONTS, *STORY_SCRIPTS, *DRESS)
+STANDS_STILL = (
+    "This page needs JavaScript to move: with it the scene turns, steps and plays, questions are"
+    " answered, and experiments open. Without it there are the text and pictures."
+)
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 """Steps a second of Play, as a page offers them."""
 VERBS = (
@@ -81,6 +92,7 @@ def lesson_document(
     alone: tuple[str, str] | None = None,
     still: str = "",
     story: Story | None = None,
+    footer: str = "",
 ) -> str:
     """Return the document of a lesson: its story, where one is told, and its workbench.
 
@@ -98,11 +110,13 @@ def lesson_document(
             lesson's page, if it has one.
         still: The address of a picture that stands for the scene where no script runs.
         story: The lesson's story; only for a document with a root.
+        footer: What stands under its words, as HTML; of one run alone, in its heading.
     """
     data = lesson_data(lesson) | ({} if home == "live" else {"knobs": []})
     told = story is not None
     dressed = root is not None and not alone and not told
-    scripts = _scripts(home, told=told, dressed=dressed)
+    embedded = root is not None and bool(alone)
+    scripts = _scripts(home, told=told, dressed=dressed, embedded=embedded)
     constants = (
         {"LESSON": data}
         | ({} if story is None else {"STORY": story_data(lesson, story)})
@@ -110,9 +124,9 @@ def lesson_document(
     )
     heading = f"{lesson.title}: {alone[0]}" if alone else lesson.title
     text = (
-        _alone(heading, alone[1])
+        _alone(heading, alone[1], footer)
         if alone
-        else _article(article, home, data, opening=opening, ending=ending, told=told)
+        else _article(article, home, data, opening=opening, ending=ending, footer=footer, told=told)
     )
     start = document_head(
         heading,
@@ -129,7 +143,7 @@ def lesson_document(
         f'{start}<body{" class=alone" if alone else ""} data-home="{home}"'
         f' data-lesson="{escape(lesson.name)}" data-face="{face}"{dress}>'
         f"{_face(lesson, story)}"
-        f'<a class="skip" href="#stage">To the stage</a><main>{_told(story)}{text}'
+        f'<a class="skip" href="#stage">To the stage</a><main>{_told(story, footer)}{text}'
         f'<div id="side">{_stage(still, dressed=dressed)}</div></main>'
         + _third_parties(root)
         + f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"  # noqa: E501
@@ -138,19 +152,20 @@ def lesson_document(
     )
 
 
-def _scripts(home: str, *, told: bool, dressed: bool) -> tuple[str, ...]:
+def _scripts(home: str, *, told: bool, dressed: bool, embedded: bool) -> tuple[str, ...]:
     *others, page = SCRIPTS
     return (
         *(LIVE if home == "live" else RECORDED),
         *others,
         *(STORY_SCRIPTS if told else ()),
         *(DRESS[1:] if dressed else ()),
+        *(EMBED if embedded else ()),
         page,
     )
 
 
-def _told(story: Story | None) -> str:
-    return "" if story is None else f'<div id="story">{story.html}</div>'
+def _told(story: Story | None, footer: str) -> str:
+    return "" if story is None else f'<div id="story">{story.html}</div>{footer}'
 
 
 def _face(lesson: Lesson, story: Story | None) -> str:
@@ -199,7 +214,14 @@ def bare(file: Path) -> str:
 
 
 def _article(
-    article: str, home: str, data: dict[str, Any], *, opening: str, ending: str, told: bool
+    article: str,
+    home: str,
+    data: dict[str, Any],
+    *,
+    opening: str,
+    ending: str,
+    footer: str,
+    told: bool,
 ) -> str:
     """Return the text of the workbench; beside a story its experiments and exercises come first."""
     cards = {question["name"]: _question(question) for question in data["questions"]}
@@ -229,22 +251,22 @@ def _article(
         experiments = folded if spoken and presets else chosen
         words = f'<div class="wb">{article.replace(PLACE, questions)}</div>{experiments}{ending}'
     return (
-        f'<article id="article">{_top("Geometry workbench", _course(home))}{opening}{words}<section'
+        f'<article id="article">{_top(COURSE, _course(home))}{opening}{words}<section'
         ' class="s-run" id="this-run" hidden><h2>This run</h2></section><details'
         ' id="text"><summary>Text of this run</summary><p></p><ol start="0"></ol></details><nav'
         ' id="around" aria-label="Lessons before and after"'
-        f' data-address="{_lesson(home)}"></nav></article>'
+        f' data-address="{_lesson(home)}"></nav>{footer}</article>'
     )
 
 
-def _alone(heading: str, lesson_page: str) -> str:
-    words = "The lesson" if lesson_page else ""
-    return f'<header id="article"><h1>{escape(heading)}</h1>{_top(words, lesson_page)}</header>'
+def _alone(heading: str, lesson_page: str, footer: str) -> str:
+    top = _top("The lesson" if lesson_page else "", lesson_page, footer)
+    return f'<header id="article"><h1>{escape(heading)}</h1>{top}</header>'
 
 
-def _top(words: str, address: str) -> str:
+def _top(words: str, address: str, more: str = "") -> str:
     return (
-        f'<nav class="top">{f"""<a href="{address}">{words}</a>""" if words else ""}'
+        f'<nav class="top">{f"""<a href="{address}">{words}</a>""" if words else ""}{more}'
         '<button type="button" id="theme" title="Light or dark (T)">◐</button>'
         '<button type="button" id="help" title="Keys (?)">?</button></nav>'
     )
@@ -265,13 +287,16 @@ def document_head(
     math: bool = True,
     told: bool = False,
     dressed: bool = False,
+    first: str = "",
 ) -> str:
-    """Return the head of a document of ours."""
+    """Return the head of a document of ours; `first` is HTML that stands before every address."""
+    name = title if title == COURSE else f"{title} · {COURSE}"
+    icon = "data:," if root is None else f"{root}{ICON}"
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f'<title>{escape(title)}</title><meta name="description" content="{escape(summary)}">'
-        '<link rel="icon" href="data:,">'
+        f'<title>{escape(name)}</title><meta name="description" content="{escape(summary)}">'
+        f'{first}<link rel="icon" href="{icon}">'
         + "".join(
             _style(root, name)
             for name in (
@@ -281,6 +306,7 @@ def document_head(
                 *([MATH] if math else []),
             )
         )
+        + ("" if root is None else f"<noscript>{_style(root, UNSCRIPTED)}</noscript>")
         + f"{more}</head>"
     )
 
@@ -303,11 +329,8 @@ def _stage(still: str, *, dressed: bool) -> str:
         for verb, title, sign in VERBS
     )
     speeds = "".join(f'<option value="{speed:g}">{speed:g}×</option>' for speed in SPEEDS)
-    picture = (
-        f'<noscript><img src="{escape(still)}" alt="A step of this lesson"></noscript>'
-        if still
-        else ""
-    )
+    drawn = f'<img src="{escape(still)}" alt="A step of this lesson">' if still else ""
+    picture = f'<noscript>{drawn}<p class="unscripted">{STANDS_STILL}</p></noscript>'
     opened = '<div id="open"><b></b> <span></span></div>' if dressed else ""
     below = '<div id="main-chart" hidden></div><div id="places"></div>' if dressed else ""
     return (

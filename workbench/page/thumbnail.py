@@ -3,11 +3,12 @@ images, seen by a View.
 """
 
 import io
-from collections.abc import Iterator
+import itertools
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageOps
 
 from workbench.errors import AuthorError
 from workbench.lesson import Lesson, View
@@ -28,6 +29,10 @@ from workbench.story import story_of
 from workbench.story.names import views_of
 
 SIZE = 480, 300
+CARD = 1200, 630
+"""Width and height, pixels, of the picture that other sites show of a page."""
+GRIDS = ((1, 1), (2, 1), (2, 2), (3, 2), (4, 3))
+"""How many pictures stand across and down on the card of a course."""
 FINER = 2  # drawn so many times as large, then made smaller: its edges are smooth
 
 THICK = 1.8  # pixels of the sheet to a width of 1
@@ -41,12 +46,44 @@ def thumbnail(lesson: Lesson, timelines: Timelines | None = None) -> bytes:
         lesson: Of what.
         timelines: Where runs are kept; computed anew without.
     """
+    return picture_of(*shown(lesson, timelines))
+
+
+def card(lesson: Lesson, timelines: Timelines | None = None) -> bytes:
+    """Return the same picture as PNG on white, of CARD's size, for sites that show what they link;
+    `timelines` as for `thumbnail`.
+    """
+    return still_of(*shown(lesson, timelines), CARD)
+
+
+def course_card(pictures: Iterable[bytes]) -> bytes:
+    """Return small pictures side by side as one PNG of CARD's size: the first twelve, in rows."""
+    chosen = list(itertools.islice(pictures, 12))
+    across, down = next(one for one in GRIDS if one[0] * one[1] >= len(chosen))
+    wide = CARD[0] // across
+    high = CARD[1] // down
+    sheet = Image.new("RGB", CARD, "white")
+    for i, data in enumerate(chosen):
+        whole = Image.open(io.BytesIO(data)).convert("RGBA")
+        picture = ImageOps.contain(whole, (wide - 24, high - 24))
+        row, column = divmod(i, across)
+        left = wide * column + (wide - picture.width) // 2
+        sheet.paste(picture, (left, high * row + (high - picture.height) // 2), picture)
+    file = io.BytesIO()
+    sheet.quantize(128).save(file, "PNG", optimize=True)
+    return file.getvalue()
+
+
+def shown(lesson: Lesson, timelines: Timelines | None = None) -> tuple[Scene, View]:
+    """Return the scene that stands for a lesson and the camera that sees it: where its story
+    begins, else of its default run; `timelines` as for `thumbnail`.
+    """
     timelines = timelines or Timelines()
     begun = _story_begins(lesson)
     params, step, view = (lesson.params(), None, lesson.view) if begun is None else begun
     timeline = timelines.get(lesson, params).complete()
     k = telling_step(lesson, timeline) if step is None else step
-    return picture_of(timeline[min(k, len(timeline) - 1)].scene, view)
+    return timeline[min(k, len(timeline) - 1)].scene, view
 
 
 def _story_begins(lesson: Lesson) -> tuple[Any, int | None, View] | None:

@@ -4,21 +4,26 @@ here.
 
 import base64
 import json
+import re
 from collections.abc import Mapping
 from html import escape
+from pathlib import Path
 from typing import Any
 
 from workbench.exercise.finding import exercises_of
-from workbench.lesson import Lesson, Question
+from workbench.lesson import Lesson, Question, course
+from workbench.page.about import footer_html
 from workbench.page.article import article_html
 from workbench.page.course import Card, course_document
 from workbench.page.document import COMPUTING, in_script, lesson_document
 from workbench.page.exercise import exercises_html
 from workbench.publish.manifest import Listed
 from workbench.publish.runs import PAGE, question_run
+from workbench.publish.stills import stills_of, with_stills
 from workbench.run.questions import answer
 from workbench.run.timeline import Timelines
 from workbench.story import story_of
+from workbench.words.typeset import page_html
 
 LESSONS = "lessons.js"
 """The file of a site that names all its lessons."""
@@ -42,6 +47,7 @@ def course_page(lessons: Mapping[str, Listed], head: str = "") -> str:
         ],
         root=f"{PAGE}/",
         head=head,
+        footer=footer_html(""),
     )
 
 
@@ -81,17 +87,34 @@ def lesson_page(
         head += f'<link rel="stylesheet" href="../{PAGE}/{style}">'
         head += "".join(f'<script src="../{PAGE}/{script}"></script>' for script in scripts)
         more["PYTHON"] = computes
+    story = story_of(lesson, "site")
+    stills = stills_of(lesson)
+    figures = "".join(still.html() for still in stills)
+    pictures = f'<section class="stills"><h2>Experiments in pictures</h2>{figures}</section>'
     return lesson_document(
         lesson,
         article_html(lesson, moment, "site"),
         home="site",
         root=f"../{PAGE}/",
-        ending=exercises_html(exercises_of(lesson)),
+        ending=exercises_html(exercises_of(lesson)) + ("" if story else pictures),
         head=head,
         more=more,
         still="picture.webp",
-        story=story_of(lesson, "site"),
+        story=None if story is None else with_stills(story, stills),
+        footer=footer_html("../", ours=course().get(lesson.name) is lesson),
     )
+
+
+def accessibility_html() -> str:
+    """Return the statement of docs/accessibility.md as HTML; empty where the documentation is not
+    installed.
+    """
+    package = Path(__file__).parents[1]
+    files = [folder / "docs" / "accessibility.md" for folder in (package, package.parent)]
+    found = next((file for file in files if file.is_file()), None)
+    if found is None:
+        return ""
+    return page_html(re.sub("(?m)^#", "##", found.read_text(encoding="utf-8")))
 
 
 def replies(question: Question) -> list[tuple[float, float, str]] | dict[str, str]:

@@ -10,13 +10,15 @@ from typing import Any, Literal, TypeAlias
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson, Question, Sweep, catalog
+from workbench.lesson import Lesson, Question, Sweep, catalog, course
 from workbench.machinery.workers import WorkerLostError, parallel_map
 from workbench.moved import runs_led_on
+from workbench.page.about import short_notice
 from workbench.page.article import LINK
 from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
 from workbench.publish.sources import sources_digest
+from workbench.publish.stills import Still, still_svg, stills_of
 from workbench.recording import file_name, record_bytes
 from workbench.run.links import show_command
 from workbench.run.timeline import Timeline
@@ -188,13 +190,19 @@ def _place(value: Any, values: Sequence[Any]) -> tuple[int, str]:
 
 
 def files_of(lesson: Lesson, run: Run) -> tuple[str, ...]:
-    """Return where in a site a run's replay, page of its own and recording are."""
+    """Return where in a site a run's replay, page of its own, recording and stills are."""
     beside, recording = f"{lesson.name}/runs/{run.file}", recording_of(lesson, run)
     return (
         f"{beside}.js",
         f"{beside}.html",
         *([f"{lesson.name}/runs/{recording}"] if recording else []),
+        *(f"{lesson.name}/{still.file}" for still in stills_in(lesson, run)),
     )
+
+
+def stills_in(lesson: Lesson, run: Run) -> list[Still]:
+    """Return the pictures of a lesson's page that show a run."""
+    return [still for still in stills_of(lesson) if still.place.run == run.name]
 
 
 def swept_files(lessons: Iterable[Lesson]) -> set[str]:
@@ -257,11 +265,17 @@ def render(lesson: Lesson, run: Run) -> dict[str, bytes]:
     if timeline.stopped is not None:
         raise InputError(f"{lesson.name}, {run.title}: {timeline.stopped}")
     preset = run.name if any(preset.name == run.name for preset in lesson.presets) else None
-    script_file, alone, *recordings = files_of(lesson, run)
+    script_file, alone, *others = files_of(lesson, run)
+    data = run_data(lesson, run, timeline)
+    stills = {
+        f"{lesson.name}/{still.file}": still_svg(lesson, still, timeline, run=data)
+        for still in stills_in(lesson, run)
+    }
     return {
-        script_file: run_script(lesson, run, timeline).encode(),
+        script_file: script_of(run, data).encode(),
         alone: run_page(lesson, run).encode(),
-        **{name: record_bytes(timeline, preset=preset) for name in recordings},
+        **stills,
+        **{name: record_bytes(timeline, preset=preset) for name in others if name not in stills},
     }
 
 
@@ -272,7 +286,12 @@ def client_script() -> str:
 
 def run_script(lesson: Lesson, run: Run, timeline: Timeline) -> str:
     """Return the script file of a run."""
-    return f"replay({in_script(run.name)}, {in_script(run_data(lesson, run, timeline))});\n"
+    return script_of(run, run_data(lesson, run, timeline))
+
+
+def script_of(run: Run, data: Mapping[str, Any]) -> str:
+    """Return the script file of a run whose data are there."""
+    return f"replay({in_script(run.name)}, {in_script(data)});\n"
 
 
 def run_data(lesson: Lesson, run: Run, timeline: Timeline) -> dict[str, Any]:
@@ -337,6 +356,7 @@ def run_page(lesson: Lesson, run: Run) -> str:
         more={"RECORDED": known},
         alone=(run.title, f"../index.html#run={run.name}"),
         still="../picture.webp",
+        footer=short_notice("../../") if course().get(lesson.name) is lesson else "",
     )
 
 

@@ -5,7 +5,6 @@ offline.
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
 
 import viser
 
@@ -15,10 +14,20 @@ from workbench.lesson import Lesson
 from workbench.machinery.progress import Progress
 from workbench.machinery.version import __version__
 from workbench.moved import lessons_led_on, runs_led_on
-from workbench.page.course import FRONT_FILES
+from workbench.page.about import (
+    MISSING_PAGE,
+    NOTICES_PAGE,
+    PLAIN,
+    missing_document,
+    notices_document,
+)
+from workbench.page.course import FRONT_FILES, WELCOME
 from workbench.page.document import (
+    COURSE,
     DRESS,
+    EMBED,
     FONTS,
+    ICON,
     MATH,
     MATH_FONT,
     RECORDED,
@@ -28,15 +37,18 @@ from workbench.page.document import (
     STORY_STYLES,
     STYLES,
     THIRD_PARTIES,
+    UNSCRIPTED,
     bare,
     in_script,
 )
-from workbench.page.thumbnail import thumbnail
+from workbench.page.thumbnail import card, course_card, thumbnail
+from workbench.publish.address import SITEMAP, base_of, folder_of, sitemap, social_head
 from workbench.publish.computing import computing
 from workbench.publish.lock import only_writer
 from workbench.publish.manifest import NAME, Listed, Manifest
 from workbench.publish.pages import (
     LESSONS,
+    accessibility_html,
     answers,
     course_page,
     leading_on,
@@ -62,6 +74,8 @@ from workbench.run.timeline import Timelines
 from workbench.words.typeset import math_font, math_font_css
 
 PICTURE = "picture.webp"
+CARD_PICTURE = "card.png"
+"""What other sites show of a page, where the address of ours is known."""
 
 
 def publish(
@@ -83,7 +97,8 @@ def publish(
     Args:
         out: The folder.
         lessons: What is published.
-        base_url: The address the site will have, for canonical links.
+        base_url: The address the site will have, for its absolute links, the pictures that other
+            sites show of it, and its map; without it there are none.
         force: Replace files of others that are in the way.
         remove_others: These are all lessons of the site: others that we published before go.
         recordings: Which runs can be downloaded as recordings: all but those of sweeps, the default
@@ -93,9 +108,9 @@ def publish(
         progress: Told of each run.
 
     Raises:
-        InputError: If Python's place cannot be used or somebody else's file is in the way (then
-            nothing has changed), another publish is writing here, a run fails, a file cannot be
-            written, a link leads nowhere, or something is over its size budget.
+        InputError: If the address is none, Python's place cannot be used or somebody else's file is
+            in the way (then nothing has changed), another publish is writing here, a run fails, a
+            file cannot be written, a link leads nowhere, or something is over its size budget.
     """
     for lesson in lessons:
         runs = runs_of(lesson, "all")
@@ -111,14 +126,14 @@ def publish(
                 f"lesson {lesson.name!r}: two of its runs would have one file; give them other"
                 " names or values"
             )
-    canonical(base_url, "")  # raises here where it is none
+    base = base_of(base_url)
     try:
         out.mkdir(parents=True, exist_ok=True)
         with only_writer(out):
             return _publish(
                 out,
                 lessons,
-                base_url,
+                base,
                 force=force,
                 remove_others=remove_others,
                 recordings=recordings,
@@ -132,7 +147,7 @@ def publish(
 def _publish(
     out: Path,
     lessons: Sequence[Lesson],
-    base_url: str | None,
+    base: str | None,
     *,
     force: bool,
     remove_others: bool,
@@ -161,9 +176,9 @@ def _publish(
     }
     shared |= {
         f"{PAGE}/{name}": bare(STATIC / name).encode()
-        for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS)
+        for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS, *EMBED)
     }
-    shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in FONTS}
+    shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in (*FONTS, ICON)}
     shared |= {
         f"{PAGE}/{MATH}": math_font_css(MATH_FONT).encode(),
         f"{PAGE}/{MATH_FONT}": math_font(),
@@ -171,9 +186,15 @@ def _publish(
     }
     shared |= {CLIENT: client_script().encode()}
     shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
+    shared |= {
+        **{f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (PLAIN, UNSCRIPTED)},
+        NOTICES_PAGE: notices_document(f"{PAGE}/", accessibility_html()).encode(),
+    }
     shared |= {} if computes is None else computes.files
-    wanted = {COURSE_PAGE, LESSONS, *shared}
-    wanted |= {f"{name}/{file}" for name in names for file in (COURSE_PAGE, PICTURE)}
+    own = (COURSE_PAGE, PICTURE, *([] if base is None else [CARD_PICTURE]))
+    wanted = {COURSE_PAGE, LESSONS, MISSING_PAGE, *shared}
+    wanted |= set() if base is None else {SITEMAP, CARD_PICTURE}
+    wanted |= {f"{name}/{file}" for name in names for file in own}
     wanted |= {name for lesson, run in work for name in files_of(lesson, run)}
     leading = _leading_on(lessons, {*names, *others})
     wanted |= set(leading)
@@ -185,8 +206,7 @@ def _publish(
     timelines = Timelines()
     for lesson in lessons:
         data = None if computes is None else computes.page_data(lesson)
-        address = canonical(base_url, f"{lesson.name}/")
-        _write_page(manifest, lesson, timelines, address=address, computes=data)
+        _write_page(manifest, lesson, timelines, base=base, computes=data)
     listed = others | {
         lesson.name: Listed(
             lesson.title, lesson.summary, lesson.order, lesson.needs, lesson.chapter, lesson.minutes
@@ -196,11 +216,7 @@ def _publish(
     manifest.lessons = dict(
         sorted(listed.items(), key=lambda item: place(item[1].chapter, item[1].order, item[0]))
     )
-    course = {
-        COURSE_PAGE: course_page(manifest.lessons, canonical(base_url, "")),
-        LESSONS: lessons_script(manifest.lessons),
-    }
-    manifest.write({name: text.encode() for name, text in course.items()})
+    manifest.write(_about_all(manifest, base))
     manifest.remove(
         name
         for name in manifest.files
@@ -267,33 +283,49 @@ def _render(
             progress(f"{lesson.name}/{run.name}", done, len(work))
 
 
+def _about_all(manifest: Manifest, base: str | None) -> dict[str, bytes]:
+    """Return the files that tell of all lessons of a site, once these have their pictures."""
+    lessons = manifest.lessons
+    titles = {name: one.title for name, one in lessons.items()}
+    head = social_head(base, "", title=COURSE, summary=WELCOME, picture=CARD_PICTURE)
+    texts = {
+        COURSE_PAGE: course_page(lessons, head),
+        LESSONS: lessons_script(lessons),
+        MISSING_PAGE: missing_document(f"{PAGE}/", titles, folder_of(base)),
+    }
+    files = {name: text.encode() for name, text in texts.items()}
+    if base is None:
+        return files
+    pictures = [f"{name}/{PICTURE}" for name in lessons]
+    card = course_card(manifest.read(name) for name in pictures if manifest.is_ours(name))
+    return files | {SITEMAP: sitemap(base, lessons).encode(), CARD_PICTURE: card}
+
+
 def _write_page(
     manifest: Manifest,
     lesson: Lesson,
     timelines: Timelines,
     *,
-    address: str,
+    base: str | None,
     computes: Mapping[str, Any] | None,
 ) -> None:
     """Write a lesson's page if it is not there as it should be: its questions need runs."""
-    key, names = f"{lesson.name}/", [f"{lesson.name}/{file}" for file in (COURSE_PAGE, PICTURE)]
-    digest = page_digest(lesson, address + ("" if computes is None else in_script(computes)))
-    if manifest.runs.get(key) == digest and all(map(manifest.is_ours, names)):
+    key = f"{lesson.name}/"
+    pictures = {PICTURE: thumbnail} | ({} if base is None else {CARD_PICTURE: card})
+    head = social_head(
+        base, key, title=lesson.title, summary=lesson.summary, picture=f"{key}{CARD_PICTURE}"
+    )
+    digest = page_digest(lesson, head + ("" if computes is None else in_script(computes)))
+    written = all(manifest.is_ours(f"{key}{name}") for name in (COURSE_PAGE, *pictures))
+    if manifest.runs.get(key) == digest and written:
         return
     known = recorded(
         lesson, runs_of(lesson)[0], root="../", runs="runs/", answers=answers(lesson, timelines)
     )
-    picture = thumbnail(lesson, timelines)
+    files = {f"{key}{name}": draw(lesson, timelines) for name, draw in pictures.items()}
+    files[f"{key}{COURSE_PAGE}"] = lesson_page(lesson, known, head, computes).encode()
     manifest.runs.pop(key, None)
-    manifest.write(
-        dict(
-            zip(
-                names,
-                (lesson_page(lesson, known, address, computes).encode(), picture),
-                strict=True,
-            )
-        )
-    )
+    manifest.write(files)
     manifest.runs[key] = digest
 
 
@@ -306,26 +338,3 @@ def _is_equal(manifest: Manifest, name: str, data: bytes) -> bool:
         and manifest.is_ours(name)
         and equal_content(manifest.read(name), data)
     )
-
-
-def canonical(base_url: str | None, path: str) -> str:
-    """Return the canonical link of a page, nothing without an address."""
-    if base_url is None:
-        return ""
-    try:
-        parts = urlsplit(base_url)
-    except ValueError:  # such as brackets that hold no address
-        parts = urlsplit("")
-    if (
-        parts.scheme not in ("http", "https")
-        or not parts.netloc
-        or any(c in base_url for c in "\"'<> ")
-    ):
-        raise InputError(
-            f"--base-url {base_url!r}: an address such as https://example.org/course is needed"
-        )
-    if "?" in base_url or "#" in base_url:
-        raise InputError(
-            f"--base-url {base_url!r}: the address of a folder has no query (?) and no fragment (#)"
-        )
-    return f'<link rel="canonical" href="{base_url.rstrip("/")}/{path}">\n'

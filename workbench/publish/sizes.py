@@ -101,4 +101,6 @@ class _Links(HTMLParser):
         self.found: list[str] = []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag == "base":  # no link: where the others begin
+            return
         self.found += [value for name, value in attrs if name in ("href", "src") and value]

@@ -94,6 +94,7 @@ def lesson_page(
         opening=opening,
         ending=ending,
         more={"COURSE": course},
+        still=f"picture/{lesson.name}",
         story=story,
     )
 

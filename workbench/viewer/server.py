@@ -29,6 +29,7 @@ from workbench.machinery.hosts import listening
 from workbench.page.code import source_html
 from workbench.page.course import FRONT_FILES
 from workbench.page.document import (
+    ICON,
     LIVE,
     MATH,
     MATH_FONT,
@@ -37,6 +38,7 @@ from workbench.page.document import (
     STORY_FILES,
     STYLES,
     THIRD_PARTIES,
+    UNSCRIPTED,
 )
 from workbench.page.thumbnail import thumbnail
 from workbench.run import links
@@ -52,7 +54,7 @@ from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
 from workbench.words.typeset import math_font, math_font_css
 
-FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, *FRONT_FILES, THIRD_PARTIES)
+FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, *FRONT_FILES, ICON, UNSCRIPTED, THIRD_PARTIES)
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200

@@ -3,7 +3,7 @@ words. For every home.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -70,6 +70,18 @@ def value_axis(columns: Iterable[np.ndarray], from_zero: bool = False, most: int
     return axis(low if low == 0.0 else low - room, high if high == 0.0 else high + room, most)
 
 
+def of_powers(found: Axis) -> Axis:
+    """Return an axis of logarithms with the numbers themselves as words, at powers of ten where
+    there are two.
+    """
+    places = np.array(found.ticks)
+    powers = np.arange(np.ceil(found.low), np.floor(found.high) + 1)
+    if len(powers) > 1 and (len(places) < 2 or (places != np.rint(places)).any()):
+        places = powers
+    words = tuple(number(10.0**place) for place in places)
+    return replace(found, ticks=tuple(places.tolist()), words=words)
+
+
 def apart(low: float, high: float) -> tuple[float, float]:
     """Return two ends that differ by more than round-off: the given ones, or some around them."""
     if _differ(low, high):
@@ -124,12 +136,9 @@ def number(value: float) -> str:
     return brief(value)
 
 
-def labelled(chart: str, unit: str, log: bool) -> tuple[str, str]:
+def labelled(chart: str, unit: str) -> tuple[str, str]:
     """Return what stands above a chart before its values, and its label; a label that would be cut
     goes above.
     """
-    name = f"log₁₀ {chart}" if log else chart
-    whole = f"{name} ({unit})" if unit else name
-    if len(whole) <= LONGEST_LABEL:
-        return "", whole
-    return chart, f"log₁₀ {unit}".strip() if log else unit
+    whole = f"{chart} ({unit})" if unit else chart
+    return ("", whole) if len(whole) <= LONGEST_LABEL else (chart, unit)

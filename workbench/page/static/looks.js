@@ -99,7 +99,7 @@ const pathOf = (name) => (name.startsWith("/scene/") ? name.slice(7) : null);  /
 
 // nodes without those at some paths, or under them
 function without(nodes, paths) {
-  const bases = paths.map((path) => path.replaceAll("/", "·"));
+  const bases = paths.flatMap((path) => [path, `${path} name`]).map((path) => path.replaceAll("/", "·"));
   return new Map([...nodes].filter(([name]) => {
     const at = pathOf(name)?.replace(/\/.*/, "");
     return !bases.some((base) => at === base || at?.startsWith(`${base}·`));

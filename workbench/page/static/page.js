@@ -4,6 +4,9 @@
 const page = {
   run: null,  // {id, name, steps, things, series, charts, known, finished, played, seen, pinned}
   k: 0,
+  from: 0,        // the steps that are shown: the whole run, but where somebody embeds a part of it
+  to: Infinity,
+  loops: false,   // whether playing begins anew at the end
   ending: false,  // whether the end of the run is wanted, and not yet known
   face: document.body.dataset.face ?? "bench",  // which of the two faces is seen: story or bench
   listeners: [],  // parts of the page that hear told(run), came(run, k, step, things), drawn(), ...
@@ -15,6 +18,8 @@ const page = {
   can: (tool) => tool !== "move" || LESSON.knobs.some((knob) => knob.by === "gizmo"),
 
   known() { return this.run ? this.run.known : 0; },
+  last() { return Math.min(this.to, Math.max(0, this.known() - 1)); },
+  within(k) { return Math.max(this.from, Math.min(this.to, k)); },
   step() { return this.run ? this.run.steps[this.k] : undefined; },
 
   open(name, step) {
@@ -25,6 +30,7 @@ const page = {
   // goes to a step; negative counts from the end
   seek(k) {
     this.ending = false;
+    k = k < 0 && this.to === Infinity ? k : this.within(k < 0 ? this.known() + k : k);
     const run = this.run, at = k < 0 ? this.known() + k : Math.min(k, Math.max(0, this.known() - 1));
     source.seek(k < 0 || k >= this.known() ? k : at);
     if (run && run.steps[at] && (k >= 0 || run.finished)) this.see(at);

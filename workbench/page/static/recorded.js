@@ -17,7 +17,8 @@ const source = {
 
   // opens what the address names; false where it names nothing that is here
   followed() {
-    const { run, step } = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
+    const alone = typeof embed !== "undefined", given = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
+    const { run = alone ? RECORDED.open : undefined } = given, step = alone ? embed.step() : given.step;
     if (run === undefined) return false;
     const name = Object.hasOwn(RECORDED.aliases, run) ? RECORDED.aliases[run] : run;
     if (!Object.hasOwn(RECORDED.files, name) && Object.hasOwn(RECORDED.moved ?? {}, run)) {
@@ -57,10 +58,13 @@ const source = {
     const known = steps.length;
     const at = Math.min(known - 1, page.stepOf({ known, end, finished: true }, step));
     const told = { name: run, title: RECORDED.titles[run], steps, things, series, charts, known, finished: true, command, recording, end, places, idle };
-    page.told({ ...told, id: run, query: location.protocol === "about:" ? "" : `#run=${run}`, pinned: sceneView.series() });
+    page.told({ ...told, id: run, query: this.query(run), pinned: sceneView.series() });
     sweeps.show(run);
-    page.see(at);
+    page.see(page.within(at));
   },
+
+  // what an address begins with that comes back to a run
+  query: (run) => (location.protocol === "about:" ? "" : `#run=${run}${typeof embed === "undefined" ? "" : embed.kept()}`),
 
   async scenes(run, data) {
     if (!this.decoded.has(run)) {

@@ -13,7 +13,7 @@ const thisRun = {
       button("Copy command", () => this.copy(page.run?.command, "The command is copied.", said))];
     if (source.recording) buttons.push(button("Download recording", (own) => this.record(own, said)));
     else buttons.push(this.file = element("a", { className: "button", textContent: "Download recording", hidden: true }));
-    if (source.alone) buttons.push(button("Copy for a page of your own", () => this.copy(this.frame(), "A line that shows this run in a page of your own is copied.", said)));
+    if (source.alone) buttons.push(button("Copy for a page of your own", () => this.copy(this.frame(), "A line that shows this step of the run in a page of your own is copied.", said)));
     section.replaceChildren($("h2", section), element("div", { className: "acts" }, ...buttons), said);
     section.hidden = false;
     keys.others.c = () => buttons[0].click();
@@ -32,7 +32,8 @@ const thisRun = {
 
   frame() {
     const address = source.alone();
-    return address && `<iframe src="${address}" width="960" height="600" title="${escape(document.title)}"></iframe>`;
+    const title = [LESSON.title, page.run?.title].filter(Boolean).join(": ");
+    return address && `<iframe src="${address}#step=${page.k}" width="960" height="600" title="${escape(title)}"></iframe>`;
   },
 
   // where the recording is a file beside the page, it is linked

@@ -45,18 +45,13 @@ const story = {
     let before = null;
     return $$("[data-beat]", scene).map((el) => {
       const place = told[Number(el.dataset.beat)] ?? told[0];
-      const beat = { el, scene, place: { ...place, ...this.dressed(el) } };
+      const beat = { el, scene, place };
       beat.key = `${scene.id} ${JSON.stringify({ ...beat.place, from: undefined })}`;
       const words = el.matches("p") && !el.matches(".later") && before?.el.matches("p, .formula");
       if (words && before.key !== beat.key && place.from === undefined) el.classList.add("apart");
       before = beat;
       return beat;
     });
-  },
-
-  // a card may have a camera and a chart of its own
-  dressed({ dataset: { view, chart } }) {
-    return { ...(view && { view }), ...(chart && { chart }) };
   },
 
   // the place of the words that an element stands in

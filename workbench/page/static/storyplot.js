@@ -62,8 +62,9 @@ function axes(at) {
   const up = plot.y_label || plot.yLabel || plot.title;
   parts.push(`<text x="${left - 38}" y="${top - 13}">${escape(up)}</text>`);
   const room = 7 * (up.length + words.length) + 60 < w;
-  if (words && room) parts.push(
-    `<text x="${w - right}" y="${top - 13}" text-anchor="end">${escape(words)} →</text>`);
+  if (words) parts.push(room  // beside the other name, or else over its own axis
+    ? `<text x="${w - right}" y="${top - 13}" text-anchor="end">${escape(words)} →</text>`
+    : `<text class="over" x="${w - right}" y="${h - bottom - 7}" text-anchor="end">${escape(words)} →</text>`);
   return parts;
 }
 

@@ -51,12 +51,12 @@ const storyStage = {
     if (page.face !== "story" || !place) return;
     this.ask(place);
     if (!this.is(page.run, place)) return;
-    this.look(place.view);
     const { run } = page, k = this.found(run, place.step);
     if (k === undefined) return this.seek(run, -1);
     if (page.k !== k || !run.steps[k]) this.seek(run, k);
     if (page.k !== k || !run.steps[k] || !this.arrived) return;
     const arrived = this.arrived;
+    this.look(place.view);  // with the scene, never before it
     source.flush?.();
     this.arrived = null;
     this.wait(false);

@@ -9,7 +9,13 @@ const text = {
     if (!box) return;
     box.addEventListener("toggle", () => this.show());
     let open = false;
-    addEventListener("beforeprint", () => { open = box.open; box.open = true; this.fill(); });
+    addEventListener("beforeprint", () => {
+      open = box.open;
+      box.open = true;
+      this.fill();
+      for (const part of $$("#story details")) part.open = true;
+      for (const picture of $$(".still img")) picture.loading = "eager"; // some browsers load them too late for paper
+    });
     addEventListener("afterprint", () => { box.open = open; });
   },
 

@@ -5,9 +5,8 @@ const transport = {
   playing: false, timer: 0,
 
   show() {
-    const last = Math.max(0, page.known() - 1), k = page.k;
-    $("#step").max = last;
-    $("#step").value = k;
+    const last = page.last(), k = page.k;
+    Object.assign($("#step"), { min: page.from, max: last, value: k });
     $("#step").setAttribute("aria-valuetext", `Step ${k} of ${last}`);
     $("#count").textContent = `${k} / ${last}${page.run && page.run.finished ? "" : "…"}`;
   },
@@ -18,11 +17,11 @@ const transport = {
     if (verb === "play") return this.playing ? this.pause() : this.play();
     this.pause();
     if (verb === "last") return page.end();
-    page.seek({ first: 0, back: Math.max(0, page.k - 1), next: page.k + 1 }[verb]);
+    page.seek({ first: page.from, back: Math.max(0, page.k - 1), next: page.k + 1 }[verb]);
   },
 
   play() {
-    if (page.run.finished && page.k >= page.known() - 1) page.seek(0);
+    if (page.run.finished && page.k >= page.last()) page.seek(page.from);
     this.playing = true;
     this.sign();
     this.again(1 / this.speed());
@@ -41,8 +40,9 @@ const transport = {
 
   tick() {
     if (!this.playing) return;
-    if (page.k + 1 < page.known()) {
-      page.seek(page.k + 1);
+    const on = page.k < page.last();
+    if (on || (page.loops && page.run.finished)) {
+      page.seek(on ? page.k + 1 : page.from);
       this.again(1 / this.speed());
     } else if (page.run.finished) this.pause();
     else this.again(0.05); // the next step is still being computed

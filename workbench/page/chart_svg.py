@@ -1,0 +1,268 @@
+"""The charts of a step as SVG, for paper and for where no script runs: made of the same plain data
+that the page's scripts draw from, whole, with a line where the step is.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from workbench.page.charts import slug
+from workbench.page.legend import css_color
+from workbench.scene import PALETTE
+
+WIDTH = 640
+HIGH = 170
+"""Pixels of a chart; one of several rows has ROW."""
+ROW = 112
+LEFT = 58
+RIGHT = 16
+TOP = 30
+BOTTOM = 24
+"""What is left free around its curves."""
+SOFT = "#5d646d"
+GRID = "#e3e5e8"
+INK = "#1b1d20"
+MARK = "#b8528f"
+MOST_CURVES = 12
+"""Curves of a chart that have a name above it."""
+
+Run = Mapping[str, Any]
+"""A run as plain data: steps, things, series, charts, end."""
+
+
+def charts_svg(
+    run: Run, k: int, names: Sequence[str], *, hide: Sequence[str] = ()
+) -> tuple[str, int]:
+    """Return the charts of a step, one below the other, as the inside of an SVG of WIDTH pixels,
+    and their height.
+
+    Args:
+        run: All of a run, as `Steps.whole` returns it.
+        k: The step.
+        names: What is drawn, by the names of page.md; what the step does not have is left out.
+        hide: Names of parts that are left out.
+    """
+    found = [one for one in (_named(run, k, name) for name in names) if one is not None]
+    room = HIGH if len(found) == 1 else ROW
+    parts = [
+        f'<g transform="translate(0 {i * room})">{"".join(draw(room, hide))}</g>'
+        for i, draw in enumerate(found)
+    ]
+    return "".join(parts), room * len(found)
+
+
+def telling_chart(run: Run, k: int, telling: str) -> str:
+    """Return the name of the chart that tells most of a step; empty where it has none.
+
+    Args:
+        run: All of a run.
+        k: The step.
+        telling: The title of what tells most, as the lesson says it; empty for the first chart.
+    """
+    shown = [one for one in _things(run, k) if one["kind"] in ("plot", "curves")]
+    titles = {one["title"]: one["name"] for one in shown}
+    titles = {title: one["name"] for title, one in run["charts"].items()} | titles
+    own = next((name for title, name in titles.items() if telling and title == telling), "")
+    own = own or next(
+        (n for title, n in titles.items() if telling and title.startswith(telling)), ""
+    )
+    return own or next(iter(titles.values()), "")
+
+
+def _things(run: Run, k: int) -> list[dict[str, Any]]:
+    things = (run["things"][n] for n in run["steps"][k]["shown"])
+    return [one for one in things if isinstance(one, dict)]
+
+
+def _named(run: Run, k: int, name: str) -> Callable[[int, Sequence[str]], Iterator[str]] | None:
+    """Return what draws a chart of a name; None where the step has none."""
+    base, _, near = name.partition("@")
+    for one in _things(run, k):
+        if one["kind"] == "plot" and one["name"] == base:
+            axes = one["near"] if near and one["near"] else one
+            return lambda high, hide: _plot(
+                run, one | {"x": axes["x"], "y": axes["y"]}, high, hide=hide
+            )
+    by_name = {about["name"]: title for title, about in run["charts"].items()}
+    by_name |= {slug(one[key]): one["chart"] for one in run["series"] for key in ("path", "name")}
+    if base in by_name:
+        return lambda high, hide: _over_steps(run, by_name[base], k=k, high=high)
+    for one in _things(run, k):
+        if one["kind"] == "curves" and base in (one["name"], slug(one["title"].split(":")[0])):
+            return lambda high, hide: _curves(one, high)
+    return None
+
+
+def _plot(run: Run, plot: Mapping[str, Any], high: int, *, hide: Sequence[str]) -> Iterator[str]:
+    def kept(kind: str) -> list[Any]:
+        parts = [run["things"][one] if isinstance(one, int) else one for one in plot[kind]]
+        role = kind.rstrip("s")
+        return [one for one in parts if role not in hide and slug(one["name"]) not in hide]
+
+    whole = kept("whole")
+    seconds = kept("seconds")
+    box = _Box(plot["x"], plot["y"], high)
+    yield from box.axes(plot["x_label"], plot["y_label"])
+    yield from _names([*whole, *seconds])
+    for band in kept("bands"):
+        low = box.px(band["low"])
+        end = box.px(band["high"])
+        yield (
+            f'<rect x="{low:.1f}" y="{high - BOTTOM - 3}" width="{max(0.0, end - low):.1f}"'
+            f' height="6" fill="{_ink(band["color"])}"/>'
+        )
+    for one in whole:
+        yield from box.line(one)
+    for one in seconds:
+        yield from box.line(one, "6 5")
+    for one in kept("marks"):
+        y = None if one["y"] is None else min(one["y"], plot["y"]["high"])
+        yield from box.dots({"x": [one["x"]], "y": [y], "color": one["color"]}, 6)
+
+
+def _over_steps(run: Run, chart: str, *, k: int, high: int) -> Iterator[str]:
+    lines = [one for one in run["series"] if one["chart"] == chart]
+    about = run["charts"][chart]
+    end = run["end"] if run["end"] is not None and k <= run["end"] else len(run["steps"]) - 1
+    across = {"low": 0, "high": max(1, end), "ticks": [0, end], "words": ["0", f"{end} steps"]}
+    box = _Box(across, about["y"], high)
+    label = about["yLabel"]
+    head = (
+        label
+        if label.lower().startswith(chart.lower())
+        else ", ".join(filter(None, (chart, label)))
+    )
+    yield from box.axes("", head)
+    yield box.upright(k)
+    yield from _names(lines)
+    for one in lines:
+        values = [_plotted(value, one["log"]) for value in one["values"][: end + 1]]
+        yield from box.line({"x": range(len(values)), "y": values, "color": one["color"]})
+
+
+def _plotted(value: float | None, log: bool) -> float | None:
+    if value is None or not log:
+        return value
+    return float(np.log10(value)) if value > 0 else None
+
+
+def _curves(chart: Mapping[str, Any], high: int) -> Iterator[str]:
+    box = _Box(chart["x"], chart["y"], high)
+    yield from box.axes(chart["xLabel"], chart["yLabel"] or chart["title"])
+    yield from _names(chart["curves"])
+    for one in chart["curves"]:
+        if one["kind"] == "dots":
+            yield from box.dots(one, 2.5)
+        elif one["kind"] == "bars":
+            yield from box.bars(one)
+        else:
+            yield from box.line(one)
+        yield from map(box.upright, one["marks"])
+
+
+def _names(curves: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """Return the names of several curves, in their colours, in the upper right corner."""
+    if len(curves) < 2:
+        return
+    words = "".join(
+        f'<tspan fill="{_ink(one["color"])}" dx="10">● </tspan><tspan>{escape(one["name"])}</tspan>'
+        for one in curves[:MOST_CURVES]
+    )
+    yield f'<text x="{WIDTH - RIGHT}" y="{TOP - 2}" text-anchor="end">{words}</text>'
+
+
+def _ink(color: str) -> str:
+    return css_color(PALETTE[color]) if color in PALETTE else escape(color)  # type: ignore[index]
+
+
+class _Box:
+    """Where the values of two axes are in a chart of a height, pixels."""
+
+    def __init__(self, x: Mapping[str, Any], y: Mapping[str, Any], high: int):
+        self._x = x
+        self._y = y
+        self._high = high
+
+    def px(self, x: float) -> float:
+        """Return the column of a value."""
+        share = (x - self._x["low"]) / (self._x["high"] - self._x["low"])
+        return LEFT + share * (WIDTH - LEFT - RIGHT)
+
+    def py(self, y: float) -> float:
+        """Return the row of a value."""
+        share = (y - self._y["low"]) / (self._y["high"] - self._y["low"])
+        return self._high - BOTTOM - share * (self._high - TOP - BOTTOM)
+
+    def axes(self, across: str, up: str) -> Iterator[str]:
+        """Return the ticks, their words, and the words of both axes."""
+        room = max(1, (self._high - TOP - BOTTOM) // 18)
+        ticks = list(zip(self._y["ticks"], self._y["words"], strict=True))
+        for tick, word in ticks[:: -(-len(ticks) // room)]:
+            y = self.py(tick)
+            yield (
+                f'<line x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}"'
+                f' stroke="{GRID}"/><text x="{LEFT - 7}" y="{y + 4:.1f}"'
+                f' text-anchor="end">{escape(word)}</text>'
+            )
+        low = self._high - BOTTOM + 17
+        for tick, word in zip(self._x["ticks"], self._x["words"], strict=True):
+            x = self.px(tick)
+            anchor = "middle" if x + 4 * len(word) < WIDTH else "end"
+            place = x if anchor == "middle" else WIDTH - 4
+            yield f'<text x="{place:.1f}" y="{low}" text-anchor="{anchor}">{escape(word)}</text>'
+        said = f"{up}, over {across}" if across.strip() else up
+        yield f'<text x="4" y="12" fill="{INK}" font-weight="600">{escape(said)}</text>'
+
+    def upright(self, x: float) -> str:
+        """Return a line from below to above at a value of x."""
+        at = f"{self.px(x):.1f}"
+        low = self._high - BOTTOM
+        return f'<line x1="{at}" x2="{at}" y1="{TOP}" y2="{low}" stroke="{MARK}"/>'
+
+    def line(self, curve: Mapping[str, Any], dashes: str = "") -> Iterator[str]:
+        """Return a curve in pieces: without what has no value, or lies beyond the axes."""
+        pieces: list[list[str]] = [[]]
+        for x, y in zip(curve["x"], curve["y"], strict=True):
+            if y is None or not (self._inside(x, self._x) and self._inside(y, self._y)):
+                pieces.append([])
+            else:
+                pieces[-1].append(f"{self.px(x):.1f},{self.py(y):.1f}")
+        dash = f' stroke-dasharray="{dashes}"' if dashes else ""
+        for piece in pieces:
+            if piece:
+                points = " ".join(piece if len(piece) > 1 else 2 * piece)
+                yield (
+                    f'<polyline points="{points}" fill="none" stroke="{_ink(curve["color"])}"'
+                    f' stroke-width="2.2" stroke-linecap="round"{dash}/>'
+                )
+
+    def dots(self, curve: Mapping[str, Any], radius: float) -> Iterator[str]:
+        """Return a dot for each point that has a value."""
+        for x, y in zip(curve["x"], curve["y"], strict=True):
+            if y is not None:
+                yield (
+                    f'<circle cx="{self.px(x):.1f}" cy="{self.py(y):.1f}" r="{radius}"'
+                    f' fill="{_ink(curve["color"])}"/>'
+                )
+
+    def bars(self, curve: Mapping[str, Any]) -> Iterator[str]:
+        """Return bars that stand on zero, as wide as the nearest two are apart."""
+        gaps = np.diff(np.array(curve["x"], float))
+        half = 0.48 * (gaps[gaps > 0].min() if (gaps > 0).any() else 1.0)
+        for x, y in zip(curve["x"], curve["y"], strict=True):
+            if y is not None:
+                left = self.px(x - half)
+                ground = self.py(0)
+                top = self.py(y)
+                yield (
+                    f'<rect x="{left:.1f}" width="{self.px(x + half) - left:.1f}"'
+                    f' y="{min(top, ground):.1f}" height="{abs(ground - top):.1f}"'
+                    f' fill="{_ink(curve["color"])}" fill-opacity=".6"/>'
+                )
+
+    @staticmethod
+    def _inside(value: float, axis: Mapping[str, Any]) -> bool:
+        room = 1e-9 * (axis["high"] - axis["low"])
+        return axis["low"] - room <= value <= axis["high"] + room
