@@ -63,9 +63,7 @@ def _degenerate(look: SearchLook) -> Caption:
 
 def _model(look: SearchLook) -> Caption:
     subject = look.subject
-    words = (
-        f"Sample {{n}} gives a {subject.model.name} (purple). All {subject.noun} within {{limit}}"
-    )
+    words = f"Sample {{n}} gives a {subject.model.name}. All {subject.noun} within {{limit}}"
     limit = distance(subject, subject.limit)
     return say(words + " of it vote for it.", n=look.now.iteration, limit=limit)
 
