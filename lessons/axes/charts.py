@@ -22,7 +22,7 @@ BY_DIRECTION = Chart("Variance by direction", "angle in the plane (deg)", "cm²"
 ALONG = Chart("Along the axes", "distance from the centroid, over σ", "points")
 ENDS = Chart("Where many turns end", "rotation error (deg)", "turns")
 FRAMES = Chart("Four frames", "frame", "mm to the nearest points")
-SIDE = Chart("Middle side of the box", "middle side", "deg", x_range=(0.6, 1.0), x_unit="m")
+SIDE = Chart("How far axis 1 differs", "middle side", "deg", x_range=(0.6, 1.0), x_unit="m")
 RACE = Chart("RMSE from four frames", "frame", "mm")
 OFF_TRUTH, GAP = Chart("Rotation error", unit="deg"), Chart("To the nearest points", unit="m")
 

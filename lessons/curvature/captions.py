@@ -97,13 +97,8 @@ def _gaussian(state: State) -> Caption:
             text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}",
             tone="wrong",
         )
-    text = (
-        f"K = defect / area = {brief(now.defects[v])} rad / {brief(now.areas[v])} m² ="
-        f" {brief(now.K[v])} m⁻²"
-    )
-    return say(
-        text + _truth(true, "m⁻²") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²")
-    )
+    text = f"Here K, the defect over the area, is {brief(now.K[v])} m⁻²"
+    return say(text + _truth(true, "m⁻²") + _colors(state, now.K, K_SCALE, "m⁻²"))
 
 
 def _normal(state: State) -> Caption:
@@ -145,9 +140,7 @@ def _principal(state: State) -> Caption:
     k1, k2 = float(now.k1[now.vertex]), float(now.k2[now.vertex])
     if not np.isfinite([k1, k2]).all():
         return say(NOWHERE.format("K or H"))
-    text = f"H ± √(H² − K) gives k₁ = {brief(k1)} and k₂ = {brief(k2)} m⁻¹"
-    if np.isfinite(state.true("k1")):
-        text += f" (truth {brief(state.true('k1'))}, {brief(state.true('k2'))})"
+    text = f"k₁ = {brief(k1)} and k₂ = {brief(k2)} m⁻¹"
     kind = (
         "to both sides, as on a saddle"
         if k1 * k2 < -1e-6
@@ -156,7 +149,7 @@ def _principal(state: State) -> Caption:
         else "one way only"
     )
     kind = kind if max(abs(k1), abs(k2)) > 1e-6 else "not at all"
-    return say(f"{text}. The two circles have these curvatures: they bend {kind}.")
+    return say(f"{text}: the two circles bend {kind}.")
 
 
 def _quadric(state: State) -> Caption:

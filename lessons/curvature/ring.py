@@ -196,9 +196,10 @@ def circles(now: Measured) -> dict[str, Primitive]:
         radius = f"radius {brief(1 / abs(k))} m" if abs(k) > 1e-3 else "straight"
         scene[f"circle {name}"] = Segments(segments(path), role, 4)
         seen = abs(k) * FARTHEST > 1.0
-        centre = here - n / k if seen else path[66]
-        scene[f"label {name}"] = Label(f"{name} = {brief(k)} m⁻¹, {radius}", centre, role)
+        words = f"{name} = {brief(k)} m⁻¹, {radius}"
+        scene[f"label {name}"] = Label(words, path[3 * len(path) // 4], role)  # on its own arc
         if seen:
+            centre = here - n / k
             scene[f"centre {name}"] = Points(centre[None], role, 0.025 / abs(k) ** 0.5)
             scene[f"radius {name}"] = Segments(between(here, centre), role, 2)
     return scene

@@ -66,7 +66,11 @@ OF_PRICE = Chart(
     "Wrong pixels and price", "price of a jump, in usual costs", "%", x_range=(0.0, 4.0)
 )
 OF_BASELINE = Chart(
-    "A trade", "distance between the cameras", "%", x_range=(0.04, 0.31), x_unit="m"
+    "Hidden pixels and depth error",
+    "distance between the cameras",
+    "%",
+    x_range=(0.04, 0.31),
+    x_unit="m",
 )
 WRONG = Chart("Wrong pixels", unit="%")
 HIDDEN = Chart("Hidden pixels", unit="%")

@@ -12,6 +12,8 @@ STANDS = (
     "page.run?.finished && storyStage.arrived === null && storyStage.is(page.run, storyStage.place)"
 )
 
+DRAWN = "$('#story-chart').offsetHeight > 0 && $('#story-chart svg').childElementCount > 3"
+
 
 @pytest.fixture
 def told(visit):
@@ -177,3 +179,25 @@ def test_the_end_of_a_series_keeps_its_whole_number(told, value, said):
         ],
     )
     assert said in re.findall(r'class="value over"[^>]*>([^<]*)<', drawn)
+
+
+def test_every_chart_that_is_named_is_drawn_and_answers_end_where_the_run_does(visit):
+    """ICP tries other starts behind its own end: what is told of these is seen there only."""
+    page = visit("?lesson=icp").page
+    page.wait_for_function(STANDS)
+    places = page.evaluate("story.beats.map((beat) => beat.place)")
+    starts = page.evaluate("Object.values(STORY.starts)")
+    answers = [{**start, "step": start["to"] or "stop", "from": None} for start in starts]
+    seen = []
+    for place in {repr(one): one for one in (*places, *answers)}.values():
+        page.evaluate("place => storyStage.go({ ...place, from: undefined })", place)
+        page.wait_for_function(STANDS)
+        if place.get("chart"):
+            page.wait_for_function(DRAWN)
+            seen.append(place["chart"])
+    assert {"basin-final-rotation-error", "share-kept"} <= set(seen)
+    for answer in answers:
+        page.evaluate("place => storyStage.go(place)", answer)
+        page.wait_for_function(STANDS)
+        if answer["step"] == "stop":
+            assert page.evaluate("page.k === (page.run.end ?? page.known() - 1)"), answer

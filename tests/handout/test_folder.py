@@ -6,6 +6,7 @@ import pytest
 
 from workbench.cli import main
 from workbench.exercise.finding import exercises
+from workbench.machinery.licence import NOTICE
 
 
 def test_a_folder_has_starters_samples_and_what_they_are_worth(tmp_path, capsys):
@@ -31,6 +32,7 @@ def test_a_folder_has_starters_samples_and_what_they_are_worth(tmp_path, capsys)
         "teacher/none/my_match.py",
     }
     assert "4 points" in (out / "README.md").read_text()
+    assert NOTICE in (out / "README.md").read_text()
     assert "Due 2027-03-31 23:59" in (out / "student" / "TASK.md").read_text()
     assert main(["check", str(out / "teacher" / "full" / "my_match.py"), "--hidden"]) == 0
     assert "workbench grade" in capsys.readouterr().out

@@ -98,6 +98,7 @@ def test_the_zip_has_what_gradescope_asks_for_at_its_root(gradescope):
         }
         requirements = archive.read("requirements.txt").decode()
         assert archive.read("run_autograder").startswith(b"#!")
+    assert any(name.endswith("workbench/LICENSES.txt") for name in names)
     assert modes["setup.sh"] == modes["run_autograder"] == "-rwxr-xr-x"
     assert [line.partition("==")[0] for line in requirements.splitlines()] == ["numpy", "scipy"]
     assert not [

@@ -187,7 +187,8 @@ def test_a_lesson_that_is_no_more_goes_and_what_others_put_there_stays(out):
     assert not (out / "fake" / "runs").exists()
     assert "fake" not in (out / "index.html").read_text()
     site.publish(out, [TINY], remove_others=True, force=True)
-    assert sorted(os.listdir(out / "fake")) == ["index.html", "notes.txt", "picture.webp", "runs"]
+    mine = ["index.html", "notes.txt", "picture.webp", "runs", "stills"]
+    assert sorted(os.listdir(out / "fake")) == mine
     assert not (out / "other").exists()
 
 

@@ -4,10 +4,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests import fake
 from workbench.lesson import catalog
+from workbench.machinery.licence import CC_BY, NOTICE
 from workbench.recording.glyphs import safe
 from workbench.recording.plain_page import plain_formula, plain_page
 from workbench.recording.sink import markdown
+from workbench.recording.write import _told
 
 
 @given(st.text(max_size=60))
@@ -105,3 +108,10 @@ def test_what_looks_like_a_link_in_a_caption_stays_words():
     assert (
         markdown("[x](https://example.org) ![y](z)") == "\\[x\\](https://example.org) !\\[y\\](z)"
     )
+
+
+def test_a_recording_says_whose_its_words_are_where_they_are_of_the_course():
+    ours = catalog()["fitting"]
+    assert _told(ours).endswith(f"\n\n{NOTICE}\n")
+    assert CC_BY in NOTICE
+    assert _told(fake.lesson) == fake.lesson.text()

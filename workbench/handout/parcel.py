@@ -15,6 +15,8 @@ NEEDED = ("numpy", "scipy")
 """What is installed where submissions are graded, in the versions of this machine."""
 CARRIED = ("jaxtyping", "wadler_lindig")
 """Small packages of plain Python that come along."""
+LICENCES = "page/static/third-parties.txt"
+"""Of the workbench: its own licences and those of others, as one text."""
 LEFT_OUT = ("viewer", "publish", "recording", "authoring", "page/static")
 """Of the workbench: the page and what serves, publishes and records it."""
 
@@ -40,6 +42,7 @@ def packages(assignment: Assignment) -> dict[str, bytes]:
                 " `exercise`"
             )
         files |= {f"lessons/{name}/{file}": data for file, data in _files(folder)}
+    files["workbench/LICENSES.txt"] = (ours / LICENCES).read_bytes()
     for package in CARRIED:
         files |= {f"{package}/{name}": data for name, data in _files(_folder(package))}
         files |= dict(_told_of(package))

@@ -17,6 +17,7 @@ from workbench.exercise.starter import commands, sample, starter
 from workbench.handout import gradescope, prairielearn
 from workbench.handout.assignment import Assignment
 from workbench.machinery.atomic import write_atomic
+from workbench.machinery.licence import NOTICE
 
 SECONDS = 560.0
 KINDS = {"full": sample, "none": starter}
@@ -173,6 +174,7 @@ def readme(assignment: Assignment) -> str:
             " so; then hand out again with `--sandbox none`, which grades all the same and says"
             " that marks are not safe."
         ]
+    lines += ["", NOTICE]
     return "\n".join(lines) + "\n"
 
 

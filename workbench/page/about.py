@@ -6,11 +6,9 @@ from collections.abc import Mapping
 from html import escape
 from importlib.metadata import PackageNotFoundError, metadata
 
+from workbench.machinery.licence import CC_BY, CC_BY_TEXT, PACKAGE
 from workbench.page.document import COURSE, THIRD_PARTIES, document_head, in_script
 
-PACKAGE = "geometry-workbench"
-CC_BY = "https://creativecommons.org/licenses/by/4.0/"
-CC_BY_TEXT = "https://creativecommons.org/licenses/by/4.0/legalcode"
 NOTICES_PAGE = "notices.html"
 MISSING_PAGE = "404.html"
 PLAIN = "plain.js"

@@ -12,8 +12,9 @@ import rerun as rr
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson, find
+from workbench.lesson import Lesson, course, find
 from workbench.machinery.atomic import remove_leftovers, write_atomic
+from workbench.machinery.licence import NOTICE
 from workbench.machinery.progress import Progress, bar
 from workbench.machinery.version import __version__
 from workbench.moved import moved
@@ -166,7 +167,7 @@ def record_bytes(
             "run", facts(layout=to_json(contents, view), **_facts(timeline, preset))
         )
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        stream.log("page", document(plain_page(wording(plain_text(lesson), "site"))), static=True)
+        stream.log("page", document(plain_page(_told(lesson))), static=True)
         send_captions(stream, [step.caption for step in steps])
         for order, (path, one) in enumerate(series.items()):
             send_series(stream, path, one, order=order)
@@ -185,6 +186,13 @@ def record_bytes(
         stream.send_property("result", facts(status=status, steps=len(steps), digest=check))
 
     return stream_bytes(application, fill, one_run(view, contents, values))
+
+
+def _told(lesson: Lesson) -> str:
+    """Return a lesson's page as a recording has it; one of the course says whose it is."""
+    text = wording(plain_text(lesson), "site")
+    ours = course().get(lesson.name) is lesson
+    return f"{text.rstrip()}\n\n{NOTICE}\n" if ours else text
 
 
 def _run(lesson: Lesson, params: Any, tell: Progress) -> Timeline:

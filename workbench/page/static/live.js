@@ -41,10 +41,8 @@ const source = {
     else this.waiting.push(text);
   },
 
-  // a step may be named by the run's own end, which the page finds when it is known
-  open(name, step) {
-    this.send({ verb: "run", run: name, step: /^stop./.test(step) ? -1 : step });
-  },
+  // a step may be named: "stop", the run's own end
+  open(name, step) { this.send({ verb: "run", run: name, step }); },
   seek(k) { this.send({ verb: "seek", k }); },
   change(values) { this.send({ verb: "change", values }); },
   reset() {

@@ -36,12 +36,12 @@ const page = {
     if (run && run.steps[at] && (k >= 0 || run.finished)) this.see(at);
   },
 
-  // the index of a step of a run: "stop" is its own end, "stop-1" the step before, a negative number
-  // counts from the end of all; undefined while it is not known
+  // the index of a step of a run: "stop" is its own end, a negative number counts from the end
+  // of all, tries of other starts included; undefined while it is not known
   stepOf(run, step) {
     if (typeof step === "number" && step >= 0) return step;
-    const last = run.finished ? run.known - 1 : undefined, own = String(step).startsWith("stop");
-    const from = own ? run.end ?? last : last, back = own ? Number(String(step).slice(4)) : step + 1;
+    const last = run.finished ? run.known - 1 : undefined, own = step === "stop";
+    const from = own ? run.end ?? last : last, back = own ? 0 : step + 1;
     return from === undefined ? undefined : Math.max(0, from + back);
   },
 

@@ -189,7 +189,7 @@ const story = {
 
   act(verb) {
     const { place } = storyStage, coming = !storyStage.is(page.run, place);
-    const k = coming && typeof place?.step === "number" ? place.step : page.k;
+    const k = coming && place?.step >= 0 ? place.step : page.k;
     if (verb === "next") return this.step(k + 1);
     if (verb === "back") return this.step(k - 1);
     if (verb !== "play") return;

@@ -99,6 +99,7 @@ const storyChart = {
       ...(seconds.length || plot.whole.length > 1 ? namesOf(at, plot.whole, seconds) : []),
       ...(free && k > 0 ? trail(at, this.trace(run, k, plot.name), marks[0].color) : []),
       ...(this.flag === null ? [] : flagAt(at, this.flag)),
+      ...marks.filter((one) => one.y > at.y.high).map((one) => beyond(at, one)),
       ...marks.map((one, i) => `<circle class="ball" data-mark="${i}" ` +
         `r="${h > 140 ? 8.5 : 6.5}" fill="${colorOf(one.color)}"/>`)];
     const said = marks.map((one) => `${one.name} at ${this.word(at, one)}`).join("; ");

@@ -96,11 +96,27 @@ function heightAt(curve, x) {
   return curve.y[i - 1] + part * (curve.y[i] - curve.y[i - 1]);
 }
 
+// what a mark says that is above the axis: it stands at its edge
+function beyond(at, one) {
+  const x = at.px(one.x), left = x > 0.6 * at.w, words = `${one.name} ${number(one.y)} ${at.plot.unit ?? ""} ↑`;
+  return `<text class="over" x="${x + (left ? -14 : 14)}" y="${FRAME.top + 5}" ` +
+    `text-anchor="${left ? "end" : "start"}" style="fill:${inkOf(one.color)}">${escape(words.replace("  ", " "))}</text>`;
+}
+
+// where a curve is lowest, between its points: the vertex of the parabola through three of them
+function vertex(points, low) {
+  const i = points.findIndex(([, v]) => v === low), [a, b, c] = [points[i - 1], points[i], points[i + 1]];
+  if (!a || !c) return b[0];
+  const bend = a[1] - 2 * b[1] + c[1];
+  return b[0] + (bend ? (0.25 * (a[1] - c[1]) * (c[0] - a[0])) / bend : 0);
+}
+
 // a second curve of this step: dashed, its lowest point a ring, its name where it is highest
 function secondCurve(at, curve) {
   const parts = pieces(at, curve), all = parts.flat();
   if (!all.length) return [];
-  const color = colorOf(curve.color), [x, y] = all.reduce((a, b) => (b[1] > a[1] ? b : a));
+  const color = colorOf(curve.color), [, y] = all.reduce((a, b) => (b[1] > a[1] ? b : a));
+  const lowest = vertex(all, y);
   const [first, end] = [all[0], all.at(-1)], valley = y > Math.max(first[1], end[1]) + 4;
   const high = first[1] < end[1] ? first : end, wide = 6.6 * curve.name.length;
   const right = high === end && high[0] - 16 - wide > FRAME.left;
@@ -109,7 +125,7 @@ function secondCurve(at, curve) {
     : [high[0] + (right ? -16 : 16), high[1] + 5, right ? "end" : "start"];
   const said = at.h > 90 ? `<text class="over" x="${u}" y="${Math.max(FRAME.top + 12, v)}" ` +
     `text-anchor="${anchor}" style="fill:${inkOf(curve.color)}">${escape(curve.name)}</text>` : "";
-  const ring = valley ? `<circle class="low" cx="${x}" cy="${y}" r="6" stroke="${color}"/>` : "";
+  const ring = valley ? `<circle class="low" cx="${lowest}" cy="${y}" r="6" stroke="${color}"/>` : "";
   return [...parts.map((piece) => `<path class="second" stroke="${color}" d="${line(piece)}"/>`),
     ring, said];
 }

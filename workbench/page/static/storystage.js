@@ -253,11 +253,9 @@ const storyStage = {
 
 const ENDS = new Set(["start", "stop"]);  // names of places that every run has
 
-// a step from the end of the run itself has a name: "stop", "stop-1", ...
-function own(step) {
-  if (step === "start" || step === undefined || step === null) return 0;
-  return typeof step === "number" && step < 0 ? (step === -1 ? "stop" : `stop${step + 1}`) : step;
-}
+// where a place names no step it is the first; "stop" is the end of the run itself, a negative one
+// counts from the last, tries of other starts included
+const own = (step) => (step === "start" ? 0 : step ?? 0);
 
 // one name for runs of the same params
 function canonical(name) {
