@@ -9,10 +9,10 @@ from lessons.pinhole.inputs import Input
 from lessons.pinhole.models import State
 from lessons.pinhole.shot import Shot
 from workbench.captions import Quantity, counted, fixed, metres, pixels
-from workbench.geometry.cameras import camera_center
 from workbench.geometry.cameras.distortion import invertible_radius
 from workbench.geometry.motions import apply
 from workbench.lesson import Look, say
+from workbench.numerals import fixed as fixed_places
 from workbench.numerals import fixed_or_power, length
 from workbench.scene import Caption
 
@@ -49,9 +49,11 @@ def caption(look: PinholeLook) -> Caption:
     alarm = more and params.mistake == "none" and not params.forgets_k
     if not more:
         more, others = _remark(look)
+    if stage == "pixels" and more and not alarm and params.mistake == "none":
+        words, values = "", {}  # what this camera is about, and not one of its points
     tone = "wrong" if alarm else "info"
     place = PLACES.get(stage, stage)
-    return say(words + more, tone=tone, place=place, **values, **others)
+    return say((words + more).strip(), tone=tone, place=place, **values, **others)
 
 
 def blame(look: PinholeLook) -> Told:
@@ -96,14 +98,29 @@ def back_error(look: PinholeLook) -> float:
 
 
 def _world(look: PinholeLook) -> Told:
-    p = look.now.now.p_world[look.subject.k]
-    T = look.subject.T_camera_world
-    words = f"We follow {look.subject.name}, {{away}} away along its ray and {{deep}} deep."
-    away = float(np.linalg.norm(p - camera_center(T)))
-    return words, {"away": metres(away), "deep": metres(float((T[:3, :3] @ p + T[:3, 3])[2]))}
+    if _is_cropped(look):
+        return _cropped(look)
+    deep = float(apply(look.subject.T_camera_world, look.now.now.p_world[look.subject.k])[2])
+    words = f"We follow {look.subject.name}, "
+    if deep < 0:
+        return words + "{behind} behind the camera.", {"behind": metres(-deep)}
+    return words + "{deep} deep in the street.", {"deep": metres(deep)}
+
+
+def _is_cropped(look: PinholeLook) -> bool:
+    """Tell whether what was done to the picture is told, and no mistake."""
+    return "cropped" in look.params.edit and look.params.mistake == "none"
+
+
+def _cropped(look: PinholeLook) -> Told:
+    words = "The picture now begins {cut} columns further right"
+    words += ", and is half as large." if "half" in look.params.edit else "."
+    return words, {"cut": look.params.cut}
 
 
 def _camera(look: PinholeLook) -> Told:
+    if _is_cropped(look):
+        return _cropped(look)
     x, y, z = (_metres(value) for value in look.now.now.p_camera[look.subject.k])
     words = (
         f"In the camera's axes {look.subject.name} has X = {{x}}, Y = {{y}} and depth Z = {{z}}."
@@ -121,7 +138,7 @@ def _divide(look: PinholeLook) -> Told:
             "z": _metres(z)
         }
     x, y = (fixed(value, 3) for value in now.xy[k])
-    words = "Divided by its depth Z = {z} it has x = {x}, y = {y}."
+    words = f"Divided by its depth Z = {{z}}, {look.subject.name} has x = {{x}}, y = {{y}}."
     return words, {"z": _metres(z), "x": x, "y": y}
 
 
@@ -141,8 +158,8 @@ def _distort(look: PinholeLook) -> Told:
         }
     inward = np.linalg.norm(now.xy_bent[k]) < np.linalg.norm(now.xy[k])
     where = "" if moved[k] < 0.05 else " inwards" if inward else " outwards"
-    words = f"The lens moves it {{moved}}{where}; the farthest point moves {{most}}."
-    return words, {"moved": pixels(float(moved[k])), "most": most}
+    words = f"The lens moves {shot.name} by {{moved}}{where}."
+    return words, {"moved": pixels(float(moved[k]))}
 
 
 def _pixels(look: PinholeLook) -> Told:
@@ -150,7 +167,8 @@ def _pixels(look: PinholeLook) -> Told:
     if not np.isfinite(uv).all():
         return "K makes pixels of what is left; the followed point has none.", {}
     u, v = (Quantity(float(value), fixed_or_power(value, 1)) for value in uv)
-    return "K makes it column u = {u}, row v = {v}.", {"u": u, "v": v}
+    words = f"K puts {look.subject.name} at column u = {{u}}, row v = {{v}}."
+    return words, {"u": u, "v": v}
 
 
 def _back(look: PinholeLook) -> Told:
@@ -186,23 +204,29 @@ def _remark(look: PinholeLook) -> Told:
     fold = invertible_radius(shot.lens)
     without = " without the lens" * any(shot.lens)
     if stage == "distort" and fold < 1.4:
-        words = " Beyond radius {fold} this model folds back, and there is no pixel."
+        words = " Beyond radius {fold} there is no pixel."
         return words, {"fold": fixed(fold, 3)}
     if stage != "pixels":
         return "", {}
     if params.heights and math.isfinite(shot.crate) and math.isfinite(shot.tower):
         words = " The crate is {crate} high, the tower {tower}."
-        return words, {"crate": pixels(shot.crate), "tower": pixels(shot.tower)}
+        values = {"crate": whole_pixels(shot.crate), "tower": whole_pixels(shot.tower)}
+        return words, values
     if params.dolly >= 10 and math.isfinite(shot.gap):
         words = f" No corner in front is farther than {{gap}} from its orthographic pixel{without}."
         return words, {"gap": pixels(shot.gap)}
     if params.point in (3, 4) and np.isfinite(shot.vanishing).all():
         u, v = (fixed(value, 1) for value in shot.vanishing)
-        return " The rails run towards ({rail_u}, {rail_v}).", {"rail_u": u, "rail_v": v}
+        return " The rails meet at ({rail_u}, {rail_v}).", {"rail_u": u, "rail_v": v}
     if shot.ball_ratio > 1.2:
         words = f" The ball's outline is {{ratio}} times as long as wide{without}."
         return words, {"ratio": fixed(shot.ball_ratio, 2)}
     return "", {}
+
+
+def whole_pixels(value: float) -> Quantity:
+    """Return a height in the picture without decimals, as the pane says it too."""
+    return Quantity(value, f"{fixed_places(value, 0)} px")
 
 
 def depth(value: float) -> str:

@@ -16,7 +16,7 @@ from workbench.scene import Chart, Primitive, Table
 
 HEIGHTS = Chart("Heights in the picture", "how many times the distance", "px", x_range=(0.5, 10.0))
 GAP = Chart("Gap to orthographic", "how many times the distance", "px", x_range=(1.0, 50.0))
-LENS = Chart("Bent by the lens", "radius without the lens", "radius", x_range=(0.0, 1.4))
+LENS = Chart("Radius with the lens", "radius without the lens", x_range=(0.0, 1.4))
 ERROR = Chart("Error of this stage", unit="px")
 BY = np.geomspace(0.5, 10.0, 40)
 FARTHER = np.geomspace(1.0, 50.0, 18)

@@ -7,13 +7,13 @@ import functools
 import numpy as np
 
 from lessons.pinhole import charts, pane
-from lessons.pinhole.captions import PinholeLook, caption, depth
+from lessons.pinhole.captions import PinholeLook, caption, depth, whole_pixels
 from lessons.pinhole.shot import EDGES
 from workbench.data.views.street import street
 from workbench.geometry.cameras import camera_center
 from workbench.geometry.motions import apply, inverse
 from workbench.geometry.polylines import between, segments
-from workbench.numerals import coordinates, pixels
+from workbench.numerals import coordinates
 from workbench.scene import (
     PALETTE,
     Axes,
@@ -34,6 +34,7 @@ from workbench.scene import (
 FAR = 30.0  # metres that a ray is drawn
 CANDIDATES = np.array([2.0, 4.0, 8.0, 16.0])  # depths marked on the ray back
 UP = np.array([0.0, 0.0, 1.0])
+GROUND = 0.4  # opacity, so that the floor is dark where the page is
 
 
 def draw(look: PinholeLook) -> Scene:
@@ -82,7 +83,8 @@ def scenery() -> dict[str, Primitive]:
         p = np.concatenate([one.p_world[one.faces].reshape(-1, 3) for one in solids])
         colors = np.concatenate([np.repeat(one.colors, 3, axis=0) for one in solids])
         faces = np.arange(len(p), dtype=np.intp).reshape(-1, 3)
-        meshes[path] = Mesh(p, faces, colors, flat=True, name=path)
+        opacity = GROUND if path == "ground" else 1.0
+        meshes[path] = Mesh(p, faces, colors, opacity=opacity, flat=True, name=path)
     return {**meshes, "rails": Segments(scene.rails, color_rows("neutral", 2), 3, name="rails")}
 
 
@@ -113,7 +115,7 @@ def _followed_ray(look: PinholeLook) -> dict[str, Primitive]:
         parts["ray/beyond"] = dashed(beyond, "highlight", dash=0.25, width=2.0, opacity=0.7)
     if now.stage in ("world", "camera") and z > 0 and np.isfinite(shot.uv[k]).all():
         glass = pane.standing(look)
-        parts["landed"] = pane.dot(glass, shot.uv[k])
+        parts |= pane.dot(glass, shot.uv[k], ringed=bool(look.params.z))
     return parts
 
 
@@ -155,10 +157,13 @@ def _origin(look: PinholeLook, T_world_camera: np.ndarray) -> dict[str, Primitiv
         "frames/camera": Axes(T_world_camera, 0.8),
         "frames/world": Axes(None, 0.8),
         "origin": Segments(between(C, np.zeros(3)), "highlight", 6, name="camera to origin"),
+        "origin/mark": Points(np.zeros((1, 3)), "highlight", 0.1, name="origin of the world"),
         "origin/t": Label(
-            f"t = {coordinates(T[:3, 3], 2)} m, in camera axes", -0.35 * UP, "highlight"
+            f"origin: t = {coordinates(T[:3, 3], 2)} m, in camera axes", -0.3 * UP, "highlight"
         ),
-        "origin/C": Label(f"C = {coordinates(C, 2)} m, in world axes", C + 0.5 * UP, "highlight"),
+        "origin/C": Label(
+            f"camera: C = {coordinates(C, 2)} m, in world axes", C + 0.5 * UP, "highlight"
+        ),
     }
 
 
@@ -187,7 +192,7 @@ def _triangles(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
         parts[f"{name}/edges"] = Segments(segments(corners, closed=True), role, 3, name=name)
         feet, tops = pane.seen_at(glass, shot, edge)
         parts[f"{name}/height"] = Segments(between(feet, tops), role, 8)
-        parts[f"{name}/px"] = Label(pixels(height), tops + 0.15 * UP, role)
+        parts[f"{name}/px"] = Label(whole_pixels(height).text, tops + 0.15 * UP, role)
     return parts
 
 
@@ -221,5 +226,5 @@ def _back(look: PinholeLook) -> dict[str, Primitive]:
             continue
         parts[f"candidates/{i}"] = Label(f"{CANDIDATES[i]:g} m", mark + 0.25 * UP, "other")
     if np.isfinite(now.uv[k]).all():
-        parts["landed"] = pane.dot(pane.standing(look), now.uv[k])
+        parts |= pane.dot(pane.standing(look), now.uv[k], ringed=True)
     return parts

@@ -37,8 +37,8 @@ def run(
 lesson = Lesson(
     name="pinhole",
     title="The pinhole camera",
-    summary="Five steps take a point of the world to a pixel. Each step has its own typical "
-    "mistake.",
+    summary="A picture keeps directions and forgets depths. Follow one point from the street to "
+    "its pixel and back.",
     page=Path(__file__).with_name("page.md"),
     params=Input,
     setup=setup,

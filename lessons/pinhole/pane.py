@@ -11,7 +11,7 @@ from workbench.data.views.street import street
 from workbench.geometry.cameras import project, vanishing_points
 from workbench.geometry.cameras.distortion import distort, is_invertible
 from workbench.geometry.motions import apply, inverse
-from workbench.geometry.polylines import between
+from workbench.geometry.polylines import between, circle, segments
 from workbench.numerals import coordinates, fixed, pixels
 from workbench.scene import (
     Classes,
@@ -26,6 +26,7 @@ from workbench.scene import (
 
 LAYER = 0.006  # of the pane's width, from the photograph to what is drawn on it
 SPOT, FOLLOWED = 0.0055, 0.01  # radii of dots, likewise
+RING = 0.035  # of the ring around the followed dot
 BEYOND = 0.12  # of the photograph's size: so far outside of it points are shown
 ON_RAILS = (3, 4)  # the points that are on a rail
 
@@ -52,10 +53,15 @@ def places(glass: Picture, uv: np.ndarray, layers: float = 1.0) -> np.ndarray:
     return glass.places(uv, layers * LAYER * glass.width)
 
 
-def dot(glass: Picture, uv: np.ndarray) -> Points:
-    """Return the dot where the followed ray pierces the pane."""
+def dot(glass: Picture, uv: np.ndarray, *, ringed: bool) -> dict[str, Primitive]:
+    """Return the dot where the followed ray pierces the pane, with a ring where it is the topic."""
     assert glass.width is not None
-    return Points(places(glass, uv[None], 2), "highlight", FOLLOWED * glass.width, name="its dot")
+    spot = Points(places(glass, uv[None], 2), "highlight", FOLLOWED * glass.width, name="its dot")
+    if not ringed:
+        return {"landed": spot}
+    around = uv + RING * glass.size[0] * circle(48)
+    ring = Segments(segments(places(glass, around, 2)), "highlight", 4.0)
+    return {"landed": spot, "landed/ring": ring}
 
 
 def seen_at(glass: Picture, shot: Shot, p: np.ndarray) -> np.ndarray:
@@ -79,7 +85,7 @@ def landed(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
         color = Classes.marking(outside, "correspondence", "outside it", others=inside)
         parts["plane"] = replace(spots, color=color, name=None)
     if near[k]:
-        parts["landed"] = dot(glass, uv[k])
+        parts |= dot(glass, uv[k], ringed=bool(look.params.z))
     if now.stage == "pixels" and near[k]:
         words = f"(u, v) = {coordinates(uv[k], 0)}"
         at = places(glass, uv[k] - [0.0, 0.04 * glass.size[1]], 2)

@@ -54,6 +54,7 @@ VIEW = View(
 FACING = through(PLAIN)
 SIDE = View(eye=(-17.5, 3.6, 2.6), target=(-0.9, 6.2, 2.1), grid=None, axes=False)
 OBLIQUE = View(eye=(8.0, -10.2, 4.9), target=(1.1, -1.0, 1.4), grid=None, axes=False)
+ENDS = View(eye=(5.4, -5.6, 2.9), target=(0.75, -1.9, 1.0), grid=None, axes=False)
 BEHIND_VIEW = View(eye=(5.0, -8.8, 3.2), target=(0.2, 0.5, 1.4), grid=None, axes=False)
 RAILS_VIEW = View(eye=(0.5, -5.0, 2.1), target=(0.35, 2.0, 1.35), grid=None, axes=False)
 FAR_VIEW = View(eye=(4.0, -21.0, 5.0), target=(0.3, -4.0, 2.4), grid=None, axes=False)
@@ -62,6 +63,7 @@ VIEWS = {
     "facing": FACING,
     "side": SIDE,
     "frames": OBLIQUE,
+    "ends": ENDS,
     "ball": through(BALL, 96.0),
     "rails": RAILS_VIEW,
     "far": FAR_VIEW,

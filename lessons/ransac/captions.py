@@ -5,7 +5,7 @@ import numpy as np
 from lessons.ransac.inputs import Input
 from lessons.ransac.rows import Subject
 from lessons.ransac.search import chosen_sample
-from workbench.algorithms.robust.ransac import State, Stop
+from workbench.algorithms.robust.ransac import Fit, State, Stop
 from workbench.captions import Quantity, counted, metres, pixels, share
 from workbench.certain import sure
 from workbench.lesson import Look, say
@@ -63,9 +63,7 @@ def _degenerate(look: SearchLook) -> Caption:
 
 def _model(look: SearchLook) -> Caption:
     subject = look.subject
-    words = (
-        f"Sample {{n}} gives a {subject.model.name} (purple). All {subject.noun} within {{limit}}"
-    )
+    words = f"Sample {{n}} gives a {subject.model.name}. All {subject.noun} within {{limit}}"
     limit = distance(subject, subject.limit)
     return say(words + " of it vote for it.", n=look.now.iteration, limit=limit)
 
@@ -89,19 +87,16 @@ def _score(look: SearchLook) -> str:
 def _best(look: SearchLook) -> Caption:
     params, now, best = look.params, look.now, sure(look.now.best)
     values: dict = {"n": counted(now.iteration, "sample"), "votes": counted(best.count, "vote")}
-    values["share"] = share(best.count / len(best.inliers), 0)
-    words = "New best after {n}: {votes}, {share} of all."
+    words = "New best after {n}: {votes}."
     if params.sampler == "PROSAC":
         length, part = look.subject.trusted(best)
         if not length:
             return say(words + BY_CHANCE, place="new best", **values)
         words += " Of the {trusted} most trusted {part} vote for it."
         values |= {"trusted": length, "part": share(part, 0)}
-    values["confidence"] = share(params.confidence)
-    if now.needed >= params.most_samples:
-        words += " At that share the {needed} allowed are too few for {confidence} confidence."
-    else:
-        words += " At that share {needed} give {confidence} confidence of a clean one."
+    too_few = now.needed >= params.most_samples
+    words += " At that share the {needed} allowed are too few." if too_few else ""
+    words += "" if too_few else " At that share {needed} are enough."
     needed = counted(round(min(now.needed, params.most_samples)), "sample")
     return say(words, needed=needed, place="new best", **values)
 
@@ -123,28 +118,38 @@ def _refit(look: SearchLook) -> Caption:
 def _stop(look: SearchLook) -> Caption:
     subject, now, best = look.subject, look.now, look.now.best
     settled = now.stop is Stop.ENOUGH
-    reason = "" if settled else f": {sure(now.stop).message}"
-    words = f"It stops after {{n}}{reason}"
+    reason = sure(now.stop).message
     values: dict = {"n": counted(now.iteration, "sample")}
     if best is None:
+        words = "It stops after {n}" + ("" if settled else f": {reason}")
         return say(f"{words}. {_why_none(look)}", tone="wrong", place="compare", **values)
-    values |= {"votes": best.count, "all": len(best.inliers)}
-    words += " with {votes} votes of {all}" if settled else ", with {votes} votes of {all}"
+    values["votes"] = counted(best.count, "vote")
+    begun = "After" if settled else f"{reason[:1].upper()}{reason[1:]}: after"
+    words = f"{begun} {{n}} the best {subject.model.name} has {{votes}}"
     error = subject.error(best.estimate)
     if not np.isfinite(error):
         values["rms"] = distance(subject, best.rms)
-        words += f"; they lie {{rms}} from the {subject.model.name} (RMS).{_proportion(look)}"
+        words += f", and its voters lie {{rms}} from it (RMS).{_proportion(look)}"
         return say(words, place="compare", **values)
-    values["error"] = distance(subject, error)
-    words += ", {error} from the truth"
-    others = []
-    for name, estimate in (subject.rivals or {}).items():
-        key = name.split()[-1].lower()
-        others.append(f"{name} {{{key}}}")
-        values[key] = distance(subject, subject.error(estimate))
-    words += f" ({', '.join(others)})." if others else "."
+    of = voters_of(subject, best)
+    if of:
+        words += ": {wall} of the wall, {table} of the table and {clutter} of clutter."
+        values |= of
+    else:
+        words += " and is {error} off."
+        values["error"] = distance(subject, error)
     right = is_right(look.params, subject, now)
     return say(words, right=right, settled=settled, place="compare", **values)
+
+
+def voters_of(subject: Subject, fit: Fit) -> dict[str, int]:
+    """Return how many points of the wall, of the table and of the clutter vote for a fit; nothing
+    where there is no wall.
+    """
+    if subject.is_other is None or subject.is_inlier is None:
+        return {}
+    wall, table = (int(fit.inliers[rows].sum()) for rows in (subject.is_other, subject.is_inlier))
+    return {"wall": wall, "table": table, "clutter": int(fit.inliers.sum()) - wall - table}
 
 
 def _why_none(look: SearchLook) -> str:

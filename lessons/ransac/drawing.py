@@ -30,7 +30,7 @@ MOST_LINES = 150  # matches
 UP = np.array([0.0, 0.0, 0.07])
 VOTERS = Chart("Votes of both")
 BY_SHARE = Chart(
-    "Error and share of outliers",
+    "Error",
     "share of the points that belong to nothing",
     "mm",
     x_range=(0.0, 0.7),
@@ -228,7 +228,7 @@ def _histogram(subject: Subject, distances: np.ndarray) -> Curve:
     """Count how many rows lie how far from the model in question; the mark is the inlier
     distance.
     """
-    limit, unit = subject.limit, subject.model.unit
-    chart = Chart("Distances to the model", f"distance ({unit})", "how many")
+    limit, unit, noun = subject.limit, subject.model.unit, f"number of {subject.noun}"
+    chart = Chart("Distances to the model", f"distance ({unit})", noun)
     bins = np.linspace(0.0, 8.0 * limit, 33)
     return chart.histogram(distances, bins, subject.noun, "target", marks=(limit,))

@@ -28,13 +28,16 @@ WIDTHS = np.arange(5.0, 301.0, 5.0) / MM
 APARTS = np.append(np.arange(0.05, 0.5, 0.05), np.arange(0.5, 1.81, 0.1))
 REDRAWN = 30  # times the noise of two points
 STUDIES = 60  # scenes
-VOTES = Chart("Votes of each draw", "draw", "votes", y_range=(0.0, 40.0))
+VOTES = Chart("Votes of each draw", "draw", y_range=(0.0, 40.0))
 CHANCE = Chart(
-    "Chance that all are spoilt", "samples drawn", "%", x_range=(0.0, 100.0), y_range=(0.0, 100.0)
+    "Chance that all are spoilt",
+    "samples drawn",
+    "%",
+    x_range=(0.0, 100.0),
+    y_range=(0.1, 100.0),
+    log=True,
 )
-COUNTS = Chart(
-    "Votes and width", "half the width of the band", "votes", x_range=(0.0, 300.0), x_unit="mm"
-)
+COUNTS = Chart("Votes", "half the width of the band", x_range=(0.0, 300.0), x_unit="mm")
 WIDTH = Chart(
     "Error of the finished line",
     "half the width of the band",
@@ -44,9 +47,8 @@ WIDTH = Chart(
     y_range=(0.0, 30.0),
 )
 APART = Chart(
-    "Votes and distance",
+    "Median votes",
     "distance between the two points",
-    "votes",
     x_range=(0.0, 1.8),
     x_unit="m",
     y_range=(0.0, 35.0),
@@ -188,6 +190,7 @@ def chances(share: float, size: int, drawn: int, *, sizes: tuple[int, ...]) -> d
     for m in sizes:
         color: Role = "source" if m == size else "neutral"
         scene[f"chance/{m}"] = CHANCE.whole(numbers, spoilt(share, m, numbers), SIZES[m], color)
+    scene["chance/second"] = CHANCE.second(np.array([0.0, 100.0]), np.ones(2), "1 %")
     at = min(float(drawn), 100.0)
     here = float(spoilt(share, size, at))
     scene["chance/mark"] = CHANCE.mark(at, here, "drawn so far", steps="draw" if size == 2 else "")
@@ -339,7 +342,9 @@ def _of_fan(look: FlatLook, now: Fan) -> dict[str, Primitive]:
         "pair": Points(stand_up(now.p_pair, 0.01), "highlight", 1.6 * DOT, name="the two points"),
         "count": _head(f"{brief(middle)} votes in the median", 0.0, "target"),
         "apart": Chart("Distance of the two", unit="m").scalar(now.apart, "apart"),
-        "votes-median": Chart("Median votes").scalar(middle, "votes in the median", "target"),
+        "votes-median": Chart("Votes in the median").scalar(
+            middle, "votes in the median", "target"
+        ),
         "apart/whole": APART.whole(APARTS, median, "median votes", "target"),
         "apart/mark": APART.mark(now.apart, middle, "these two", "target", steps="apart"),
         "caption": say(

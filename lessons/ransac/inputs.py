@@ -23,7 +23,9 @@ class Input(Params):
     table: Literal["alone", "beside a wall", "with a wire"] = knob(
         "alone", "What stands beside the plane's points"
     )
-    wall: float = knob(2.0, "How many times as many points the wall has", 0.5, 3.0, step=0.1)
+    wall: float = knob(
+        2.0, "How many times as many points the wall has", 0.5, 3.0, unit="×", step=0.1
+    )
     taken: int = knob(0, "How many winners' voters are taken away before the run", 0, 2)
     points: int = knob(600, "Points or matches of the built-in scene", 50, MOST_POINTS, step=10)
     outliers: float = knob(0.5, "Share of them that belongs to nothing", 0, 0.9, step=0.05)

@@ -172,8 +172,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         name="rivals",
         title="Least squares and Huber beside it",
         line="Squares listen most to the farthest points. Huber's loss bounds each pull but does"
-        " not end it. Compare both planes with RANSAC's and the truth, then take the"
-        " last step for the numbers.",
+        " not end it. Compare both planes with RANSAC's and the truth.",
         params=THIRTY,
         step=-2,
     ),

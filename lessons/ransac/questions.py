@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from lessons.ransac.captions import voters_of
 from lessons.ransac.inputs import Input
 from lessons.ransac.presets import MATCHES, NEAR, THIRTY, WALL
 from lessons.ransac.rows import Subject
@@ -81,9 +82,12 @@ def _why_near(states: Search) -> str:
 
 
 def _why_plane(states: Search) -> str:
+    best = sure(end(states).best)
+    of = voters_of(states.subject, best)
     return (
-        f"{sure(end(states).best).count} points vote for its plane, and it stands upright: the"
-        f" wall. The points of the table are {length(error(states))} from it (RMS)."
+        f"Its plane has {best.count} votes: {of['wall']} of the wall, {of['table']} of the table"
+        f" and {of['clutter']} of clutter. It stands upright, and the points of the table are"
+        f" {length(error(states))} from it (RMS)."
     )
 
 

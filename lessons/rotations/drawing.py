@@ -46,7 +46,7 @@ SMALL = 0.5  # how large the house is within the rings
 ROLES: dict[str, Role] = {"x": "x", "y": "y", "z": "z"}
 GROUND = Segments(ground_grid(0.5, 0.0, 2.5), "neutral", 1, opacity=0.2, name="grid 0.5 m")
 KNOB = Chart(
-    "Degrees of knob for 1° of house",
+    "Degrees of ring for 1° of house",
     "pitch",
     "deg",
     x_range=(-90.0, 90.0),
@@ -143,6 +143,9 @@ def draw_rings(look: Look[Input, Body, Named]) -> Scene:
     }
     if amount < 99.0:
         scene["knob/mark"] = KNOB.mark(now.value, amount, "your hand", "source", steps="pitch")
+    else:
+        rim = np.full(2, now.value), np.array([0.0, 30.0])
+        scene["knob/second"] = KNOB.second(*rim, "no angle is enough", "neutral")
     return scene
 
 
@@ -158,7 +161,10 @@ def draw_readings(look: Look[Input, Body, Read]) -> Scene:
     meant = look.now if look.before is None else look.past[0]
     T = motion(meant.R, ORIGIN)
     scene: dict[str, Primitive] = {
-        **shown("body", body, T, name=meant.name),
+        "ground": GROUND,
+        **_axes("fixed", np.eye(3), "xyz", reach=1.5, width=1.5),
+        **_axes("carried", meant.R, "XYZ", reach=1.25, width=6.0),
+        **shown("body", body, T, opacity=0.45, name=meant.name),
         "off": APART.scalar(now.off, "from the right one", "truth"),
         "matrix": Table.of_matrix("R as read", ("x axis", "y axis", "z axis"), now.R),
         "numbers": numbers(now.R),
@@ -186,6 +192,19 @@ def draw_readings(look: Look[Input, Body, Read]) -> Scene:
         said = say("{name}: {off} from the right rotation.", name=now.name, off=degrees(now.off))
         return scene | {"caption": said}
     return scene | {"caption": say("{name}: the same rotation.", name=now.name)}
+
+
+def _axes(
+    path: str, R: np.ndarray, letters: str, *, reach: float, width: float
+) -> dict[str, Primitive]:
+    """Return three arrows along the columns of a rotation, each with its letter at the tip."""
+    tips = reach * R.T
+    scene: dict[str, Primitive] = {}
+    for letter, tip in zip(letters, tips, strict=True):
+        role = ROLES[letter.lower()]
+        scene[f"{path}/{letter}"] = arrows(ORIGIN[None], tip[None], role, head=0.1, width=width)
+        scene[f"{path}/{letter} name"] = Label(letter, 1.06 * tip, role)
+    return scene
 
 
 def axis_across(axis: np.ndarray) -> np.ndarray:
@@ -291,15 +310,14 @@ def draw_names(look: Look[Input, Body, Named]) -> Scene:
             between(ASIDE, np.stack([_on_dial(0.0), *tips.values()])), "neutral", 2.0
         ),
         "angle": ANGLE.scalar(now.value, "angle"),
-        "to q": LONG.whole(ENDS, ENDS, "by the way to q", "truth"),
-        "to −q": LONG.whole(ENDS, 360.0 - ENDS, "by the way to −q", "wrong"),
+        "to q": LONG.whole(ENDS, ENDS, "to q", "truth"),
+        "to −q": LONG.whole(ENDS, 360.0 - ENDS, "to −q", "wrong"),
         "mark": LONG.mark(now.value, now.value, "your hand", "truth", steps="angle"),
         "numbers": numbers(now.R),
         "caption": say(
-            "The house is turned by {angle}: q stands at {half}, −q at {other}.",
-            angle=degrees(now.value),
+            "q is {half} away, −q {other} the other way round.",
             half=degrees(half),
-            other=degrees(half + 180.0),
+            other=degrees(180.0 - half),
         ),
     }
     for name, tip in tips.items():

@@ -11,6 +11,7 @@ from workbench.lesson import Preset, Sweep, View
 VIEW = View(eye=(2.6, -3.9, 2.2), target=(0.85, 0.2, 0.32), grid=None, axes=False)
 RINGS = View(eye=(2.2, -2.9, 1.3), target=(0.0, 0.0, 0.0), grid=None, axes=False)
 NEAR = View(eye=(2.2, -2.6, 1.5), target=(0.0, 0.0, 0.35), grid=None, axes=False)
+HELD = View(eye=(2.9, -2.1, 2.0), target=(0.15, 0.1, 0.4), grid=None, axes=False)
 CORNER = View(eye=(3.0, -1.2, 1.7), target=(0.1, -0.1, 0.25), grid=None, axes=False)
 ABOVE = View(eye=(-0.5, -2.6, 3.1), target=(-0.45, 0.0, 0.2), grid=None, axes=False)
 GLOBE = View(eye=(2.4, -2.9, 1.6), target=(0.0, 0.0, 0.1), grid=None, axes=False)
@@ -18,6 +19,7 @@ NEEDLE = View(eye=(1.6, -2.6, 1.2), target=(0.0, 0.0, 0.45), grid=None, axes=Fal
 VIEWS = {
     "rings": RINGS,
     "near": NEAR,
+    "held": HELD,
     "corner": CORNER,
     "above": ABOVE,
     "globe": GLOBE,
@@ -31,6 +33,7 @@ THREE = (40.0, 30.0, 70.0)
 LOCKED = (30.0, 90.0, 50.0)
 
 GIMBAL = Input(stage="rings", angles=LOCKED)
+RINGED = Input(stage="rings", angles=THREE)
 FIXED_OWN = Input(stage="readings", angles=THREE, compare="fixed and own axes")
 CHAIN = Input(stage="chain", angles=(90.0, 0.0, 90.0))
 HALVES = Input(stage="names")
@@ -42,6 +45,7 @@ AVERAGE = Input(
 ENTRIES = Input(angles=NO_TURN, angles_end=(0.0, 0.0, 170.0), method="matrix entries", pose=HERE)
 MINUS_Q = Input(angles=NO_TURN, angles_end=(0.0, 0.0, 60.0), method="slerp to -q", pose=HERE)
 
+THIRTY = int(np.argmin(np.abs(PITCHES - THREE[1])))
 LEVEL = int(np.argmin(np.abs(PITCHES)))
 SIXTY = int(np.argmin(np.abs(ENDS - 60.0)))
 TWENTY = int(np.argmin(np.abs(APARTS - 20.0)))
@@ -56,12 +60,20 @@ PRESETS: tuple[Preset[Input], ...] = (
         view=RINGS,
     ),
     Preset(
+        name="three-rings",
+        title="Three numbers on three rings",
+        line="The inner ring is turned by 40°, the middle one by 30° and the outer one by 70°.",
+        params=RINGED,
+        step=THIRTY,
+        view=RINGS,
+    ),
+    Preset(
         name="family",
         title="One pose, many triples",
         line="At a pitch of 90° a whole family of triples makes the same pose. Step through three.",
         params=Input(stage="readings", angles=LOCKED, compare="other triples"),
         step=1,
-        view=NEAR,
+        view=HELD,
     ),
     Preset(
         name="conventions",
@@ -69,7 +81,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         line="(40, 30, 70)° are four different rotations under four conventions. Step on.",
         params=Input(stage="readings", angles=THREE),
         step=2,
-        view=NEAR,
+        view=HELD,
     ),
     Preset(
         name="fixed-own",
@@ -77,7 +89,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         line="Turns about fixed axes, read in three ways as turns about carried axes.",
         params=FIXED_OWN,
         step=0,
-        view=NEAR,
+        view=HELD,
     ),
     Preset(
         name="transpose",
@@ -88,7 +100,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         ),
         params=Input(stage="readings", angles=(0.0, 0.0, 40.0), compare="transpose"),
         step=1,
-        view=NEAR,
+        view=HELD,
     ),
     Preset(
         name="xyzw",
@@ -96,7 +108,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         line="Both are four numbers of length 1, so nothing complains. Read where the house lies.",
         params=Input(stage="readings", angles=(0.0, 0.0, 40.0), compare="xyzw for wxyz"),
         step=1,
-        view=NEAR,
+        view=HELD,
     ),
     Preset(
         name="chain",

@@ -95,7 +95,7 @@ QUESTIONS: tuple[Question, ...] = (
                 " own.",
             ),
             Choice("2"),
-            Choice("3", "Three knobs are three directions only while their axles are apart."),
+            Choice("3", "Three rings are three directions only while their axles are apart."),
         ),
     ),
     Question(

@@ -21,6 +21,7 @@ from workbench.lesson import Look, say
 from workbench.numerals import coordinates, length
 from workbench.numerals import fixed as in_places
 from workbench.scene import (
+    Caption,
     Chart,
     Color,
     Field,
@@ -41,6 +42,7 @@ UP = np.array([0.0, 0.0, 1.0])
 AXES: tuple[Role, Role, Role] = ("x", "y", "z")
 LIFT = 0.012  # metres: what lies on the ground is drawn so high over it
 CUBE = np.array([1.05, -0.35, 0.0])  # where the unit cube stands, beside the house
+LONG = 1.3  # times: how long the arrows to the front are drawn
 HIGHEST = 3.2  # metres: so high the prolonged edges are drawn
 APART = Chart(
     "Distance between the houses", "angle of the turn", "m", x_range=(0.0, 180.0), x_unit="deg"
@@ -83,11 +85,7 @@ def _columns(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
         "det": DET.scalar(det, "det T"),
         "share": SHARE.scalar(look.now.value, "share"),
         "lean": LEAN.scalar(lean, "lean"),
-        "caption": say(
-            "Blue leans by {lean}. The volume is × {det}.",
-            lean=degrees(lean),
-            det=fixed(det, 2),
-        ),
+        "caption": _where_arrows_go(look, lean, det),
     }
     for k, role in enumerate(AXES):
         column = T[:3, k]
@@ -98,6 +96,14 @@ def _columns(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
         scene[f"{role} name"] = Label(f"{role} → {coordinates(column, 2)}", out, role)
         scene[f"{role} part"] = Segments(segments(steps[k : k + 2]), role, 4.0)
     return scene
+
+
+def _where_arrows_go(look: Look[Input, Body, Held], lean: float, det: float) -> Caption:
+    """Say how far z leans and what that makes of the volume; where z stays, where x and y go."""
+    if look.params.z_tip == (0.0, 0.0, 1.0):
+        x, y = (coordinates(column, 2) for column in look.now.T[:3, :2].T)
+        return say("x goes to {x}, and y to {y}.", x=x, y=y)
+    return say("z leans by {lean}. The volume is × {det}.", lean=degrees(lean), det=fixed(det, 2))
 
 
 def _size(v: np.ndarray) -> float:
@@ -161,10 +167,13 @@ def _undo(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
         **shown("start", body, np.eye(4), color="target", opacity=0.12),
         **shown("body", body, T_moved, opacity=0.45, name="after the motion"),
-        "right": lines(body, now.T, color="truth", width=3.0),
-        **shown("wrong", body, now.T_other, color="wrong", opacity=0.5, name="by (Rᵀ, −t)"),
-        "slide": dashed(np.stack([t + at, at]), "truth", dash=0.05, width=3, name="by (Rᵀ, −Rᵀt)"),
-        "wrong slide": arrows(back[None] + at, p_wrong[None] + at, "wrong", head=0.1, width=3),
+        "undo/right": lines(body, now.T, color="truth", width=3.0),
+        **shown("undo/wrong", body, now.T_other, color="wrong", opacity=0.5, name="by (Rᵀ, −t)"),
+        "undo/slide": dashed(
+            np.stack([t + at, at]), "truth", dash=0.05, width=3, name="by (Rᵀ, −Rᵀt)"
+        ),
+        "undo/wrong slide": arrows(back[None] + at, p_wrong[None] + at, "wrong", head=0.1, width=3),
+        "move": arrows(at[None], t[None] + at, "source", head=0.1, width=3),
         "missed": MISSED.whole(
             TURNS, 2.0 * _size(t[:2]) * np.sin(np.radians(TURNS) / 2.0), "miss", "wrong"
         ),
@@ -175,11 +184,20 @@ def _undo(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     }
     if now.value and _size(t[:2]):
         scene |= arc(
-            "turn back", at, t, -now.value, about=UP, radius=_size(t[:2]), color="wrong", width=3
+            "undo/turn back",
+            at,
+            t,
+            -now.value,
+            about=UP,
+            radius=_size(t[:2]),
+            color="wrong",
+            width=3,
         )
     if missed > 0.05:
         aside = 0.62 * np.cross(UP, p_wrong) / missed
-        scene |= dimension("miss line", at, p_wrong + at, aside=aside, color="wrong")
+        text = f"misses by {length(missed)}"
+        ends = at, p_wrong + at
+        scene |= dimension("undo/miss", *ends, aside=aside, color="wrong", text=text)
     undone = bool(np.abs(now.T - np.eye(4)).max() < 1e-9)
     said = "Turned by {angle}, then moved: (Rᵀ, −t) misses the start by {missed}."
     if not undone:
@@ -267,16 +285,16 @@ def _shift(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     off = float(np.degrees(angle_between(right, taken)))
     shift = _size(now.T[:3, 3])
     scene: dict[str, Primitive] = {
-        **shown("start", body, np.eye(4), color="target", opacity=0.12),
-        **shown("body", body, now.T, opacity=0.6),
+        "start": lines(body, np.eye(4), color="target"),
+        **shown("body", body, now.T, opacity=0.12),
         "start name": above("start", body, np.eye(4), "target"),
         "path": dashed(np.stack([LIFT * UP, now.T[:3, 3] + LIFT * UP]), "neutral", dash=0.05),
         "wrong front": arrows(
-            p_door, p_door + 0.5 * taken, "wrong", head=0.1, width=5, name="taken with w = 1"
+            p_door, p_door + LONG * taken, "wrong", head=0.12, width=6, name="taken with w = 1"
         ),
-        "wrong name": Label("w = 1", p_door[0] + 0.56 * taken, "wrong"),
-        "front": front(body, now.T),
-        "front name": Label("w = 0", p_door[0] + 0.57 * right, "highlight"),
+        "wrong name": Label("w = 1", p_door[0] + (LONG + 0.12 / _size(taken)) * taken, "wrong"),
+        "front": front(body, now.T, size=LONG, width=6),
+        "front name": Label("w = 0", p_door[0] + (LONG + 0.12) * right, "highlight"),
         "error": Chart("Error", unit="deg").scalar(off, "error", "wrong"),
         "share": SHARE.scalar(now.value, "share"),
         "caption": say(
@@ -287,7 +305,7 @@ def _shift(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     }
     if off > 1.0:
         about = np.cross(right, taken)
-        scene |= arc("off", p_door[0], right, off, about=about, radius=0.4, color="wrong", width=3)
+        scene |= arc("off", p_door[0], right, off, about=about, radius=0.6, color="wrong", width=3)
     return scene
 
 

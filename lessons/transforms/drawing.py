@@ -120,11 +120,12 @@ def draw(look: Look[Input, Body, Built]) -> Scene:
     return scene
 
 
-def front(body: Body, T: np.ndarray) -> Segments:
-    """Return the arrow to the front: a direction."""
+def front(body: Body, T: np.ndarray, *, size: float = 0.5, width: float = 3.0) -> Segments:
+    """Return the arrow to the front, a direction, so many times as long as it is."""
     p_door = transform(T, body.p_door[None])
-    tip = p_door + 0.5 * transform_directions(T, FRONT[None])
-    return arrows(p_door, tip, "highlight", head=0.1, width=3, name="front: a direction, w = 0")
+    tip = p_door + size * transform_directions(T, FRONT[None])
+    name = "front: a direction, w = 0"
+    return arrows(p_door, tip, "highlight", head=0.12, width=width, name=name)
 
 
 def _ghost(ghost: Ghost, body: Body) -> dict[str, Primitive]:

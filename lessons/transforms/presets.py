@@ -3,9 +3,10 @@
 import numpy as np
 
 from lessons.transforms.by_hand import roof
+from lessons.transforms.factors import Built
 from lessons.transforms.hands import SHEARS, SLOPES, TURNS, Held
 from lessons.transforms.inputs import Input
-from workbench.certain import as_a
+from workbench.certain import as_a, sure
 from workbench.lesson import Choice, Preset, Question, States, Sweep, View
 from workbench.numerals import fixed, length
 
@@ -13,9 +14,18 @@ VIEW = View(eye=(2.6, -3.9, 2.2), target=(0.85, 0.2, 0.32), grid=None, axes=Fals
 NEAR = View(eye=(1.9, -2.8, 1.6), target=(0.2, 0.0, 0.5), grid=None, axes=False)
 ABOVE = View(eye=(0.7, -1.2, 5.5), target=(0.7, 0.55, 0.0), grid=None, axes=False)
 WAYS = View(eye=(0.0, -1.6, 6.6), target=(0.0, -0.25, 0.0), grid=None, axes=False)
+FRONT_VIEW = View(eye=(2.9, -4.0, 2.5), target=(1.35, -0.2, 0.4), grid=None, axes=False)
 LEVEL = View(eye=(0.3, -4.6, 1.2), target=(0.0, 0.0, 1.1), grid=None, axes=False)
 BESIDE = View(eye=(1.2, -3.6, 1.5), target=(0.45, 0.0, 0.5), grid=None, axes=False)
-VIEWS = {"near": NEAR, "above": ABOVE, "ways": WAYS, "level": LEVEL, "beside": BESIDE, "wide": VIEW}
+VIEWS = {
+    "near": NEAR,
+    "above": ABOVE,
+    "ways": WAYS,
+    "level": LEVEL,
+    "beside": BESIDE,
+    "front": FRONT_VIEW,
+    "wide": VIEW,
+}
 
 ONE = (1.0, 1.0, 1.0)
 NO_TURN = (0.0, 0.0, 0.0)
@@ -28,10 +38,12 @@ INVERSE = Input(scale=ONE, angles=(0.0, 0.0, -90.0), pose=ASIDE, compare="undo b
 COLUMNS = Input(stage="columns", z_tip=(1.0, 0.0, 0.0))
 READ = Input(stage="columns", x_tip=(0.0, 1.0, 0.0), y_tip=(-1.0, 0.0, 0.0))
 ORDERS = Input(stage="order", pose=AHEAD)
+THERE = Input(scale=ONE, angles=(0.0, 0.0, 90.0), pose=ASIDE, compare="undo by (Rᵀ, −t)")
 UNDOING = Input(stage="undo", pose=ASIDE)
 SHEARING = Input(stage="shear")
 DIVIDING = Input(stage="divide", shape="box", point=4)
 
+THIRTY = int(np.argmin(np.abs(TURNS - 30.0)))
 QUARTER = int(np.argmin(np.abs(TURNS - 90.0)))
 UPRIGHT = int(np.argmin(np.abs(SHEARS)))
 SHEARED = int(np.argmin(np.abs(SHEARS - 0.8)))
@@ -41,7 +53,7 @@ PRESETS: tuple[Preset[Input], ...] = (
     Preset(
         name="columns",
         title="Three arrows",
-        line="The blue arrow leans over until it lies on the red one. Watch what the house does.",
+        line="The z arrow leans over until it lies on the x arrow. Watch what the house does.",
         params=COLUMNS,
         step=0,
         view=NEAR,
@@ -51,15 +63,24 @@ PRESETS: tuple[Preset[Input], ...] = (
         title="Turn then move, move then turn",
         line="The same turn and the same shift, in both orders. The angle goes from 0° to 180°.",
         params=ORDERS,
-        step=0,
+        step=THIRTY,
         view=ABOVE,
+    ),
+    Preset(
+        name="there",
+        title="A turn, then a shift",
+        line="The house is turned by 90° and then moved. The last step takes this back, twice.",
+        params=THERE,
+        step=2,
+        view=WAYS,
+        breaks=True,
     ),
     Preset(
         name="undoing",
         title="Two ways back",
         line="A turn and a shift, taken back by (Rᵀ, −Rᵀt) in green, and by (Rᵀ, −t).",
         params=UNDOING,
-        step=0,
+        step=THIRTY,
         view=WAYS,
     ),
     Preset(
@@ -76,6 +97,7 @@ PRESETS: tuple[Preset[Input], ...] = (
         line="The arrow to the front, once with w = 0 and once with w = 1, while the house moves.",
         params=Input(stage="shift"),
         step=0,
+        view=FRONT_VIEW,
     ),
     Preset(
         name="dividing",
@@ -179,14 +201,18 @@ def apart(states: States) -> float:
     return float(np.linalg.norm(now.T[:3, 3] - now.T_other[:3, 3]))
 
 
+def _left(states: States) -> np.ndarray:
+    """Return what the wrong inverse leaves of the motion, a 4x4."""
+    return sure(as_a(Built, states[-1]).ghost).T
+
+
 def missed(states: States) -> float:
-    """Return by how much the wrong inverse misses after a quarter turn, metres."""
-    return float(np.linalg.norm(held(states, QUARTER).T_other[:3, 3]))
+    """Return by how much the wrong inverse misses, metres."""
+    return float(np.linalg.norm(_left(states)[:3, 3]))
 
 
 def _undone(states: States) -> float:
-    R_left = held(states, QUARTER).T_other[:3, :3]
-    if not np.allclose(R_left, np.eye(3)):
+    if not np.allclose(_left(states)[:3, :3], np.eye(3)):
         return 2.0
     return 1.0 if missed(states) > 1e-9 else 0.0
 
@@ -208,8 +234,8 @@ QUESTIONS: tuple[Question, ...] = (
         text="The columns are (0, 1, 0), (−1, 0, 0) and (0, 0, 1). What does the house do?",
         answer=lambda states: float(kind_of_columns(states)),
         why=lambda states: (
-            "Red goes to (0, 1, 0), where green was, and green goes to where red came from, turned"
-            " round. That is a quarter turn to the left, seen from above."
+            "x goes to (0, 1, 0), where y was, and y goes to (−1, 0, 0), opposite to where x was."
+            " That is a quarter turn to the left, seen from above."
         ),
         params=READ,
         start=0,
@@ -217,8 +243,8 @@ QUESTIONS: tuple[Question, ...] = (
             Choice("It turns by 90° about z"),
             Choice(
                 "It turns by −90° about z",
-                "That is what the rows say. The first column is where red goes: to (0, 1, 0), where"
-                " green was.",
+                "That is what the rows say. The first column is where x goes: to (0, 1, 0), where y"
+                " was.",
             ),
             Choice(
                 "It becomes a mirror image",
@@ -243,7 +269,7 @@ QUESTIONS: tuple[Question, ...] = (
         low=0.0,
         high=3.0,
         stride=0.1,
-        start=0,
+        start=THIRTY,
         step=QUARTER,
         wrong=(
             (
@@ -272,9 +298,8 @@ QUESTIONS: tuple[Question, ...] = (
             f"It stands upright and {length(missed(states), 3)} off. The shift was made after the"
             " turn, so it must be taken back before the turn is."
         ),
-        params=UNDOING,
-        start=0,
-        step=QUARTER,
+        params=THERE,
+        start=2,
         choices=(
             Choice(
                 "At its start",

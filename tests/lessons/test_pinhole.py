@@ -346,7 +346,7 @@ def test_a_lens_fed_with_pixels_is_off_by_millions():
     assert (
         Timeline(lesson, lesson.preset("lens-on-pixels").params)
         .complete()[PIXELS]
-        .caption.text.startswith("K makes it column u = ")
+        .caption.text.startswith("K puts the tower's top at column u = ")
     )
     assert not orange(run_[PIXELS].picture).any()
 
@@ -453,7 +453,21 @@ def test_the_dot_stays_while_the_lamp_goes_along_its_ray():
         assert isinstance(lamp, Points)
         assert depths(lamp.p, shot_of(presets.LAMP).T_camera_world)[0] == pytest.approx(z)
         dots.append(landed.p[0])
+        ring = timeline[0].scene["landed/ring"]
+        assert isinstance(ring, Segments)
+        np.testing.assert_allclose(ring.ends[:, 0].mean(axis=0), landed.p[0], atol=1e-9)
     np.testing.assert_allclose(dots, [dots[0]] * 3, atol=1e-9)
+
+
+def test_captions_speak_of_what_this_camera_is_about():
+    for name, step, said in (
+        ("crate", PIXELS, "The crate is 56 px high, the tower 97 px."),
+        ("rails", PIXELS, "The rails meet at (159.5, 110.0)."),
+        ("cut", 0, "The picture now begins 60 columns further right."),
+        ("lamp", PIXELS, "K puts the lamp at column u = 96.2, row v = 49.3."),
+    ):
+        shown = Timeline(lesson, lesson.preset(name).params).complete()[step]
+        assert shown.caption.text == said
 
 
 def test_behind_the_camera_the_lamp_keeps_its_dot_if_divided_anyway():

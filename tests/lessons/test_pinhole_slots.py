@@ -45,7 +45,7 @@ def test_a_dolly_about_another_target_does_not_keep_the_crate():
     shot = shot_of(params)
     before = heights(params, 1.0)[0]
     assert shot.crate < 0.9 * before
-    assert f"The crate is {shot.crate:.1f} px high" in captions(params)[PIXELS]
+    assert f"The crate is {shot.crate:.0f} px high" in captions(params)[PIXELS]
 
 
 def test_a_point_in_front_that_a_function_loses_is_not_said_to_be_behind():

@@ -183,6 +183,19 @@ def test_three_near_inliers_make_a_bad_plane():
     )  # what it reaches comes next
 
 
+def test_the_votes_of_two_planes_are_said_apart():
+    run = Timeline(lesson, presets.WALL).complete()
+    end = run[-1]
+    best, subject = end.state.best, run.states().subject
+    said = end.caption.values
+    rows = {"wall": subject.is_other, "table": subject.is_inlier}
+    rows["clutter"] = ~(subject.is_other | subject.is_inlier)
+    assert {name: said[name] for name in rows} == {
+        name: int(best.inliers[one].sum()) for name, one in rows.items()
+    }
+    assert "190 of the wall, 2 of the table and 7 of clutter" in end.caption.text
+
+
 def test_huber_lies_between_and_ransac_below():
     states = states_of(presets.THIRTY)
     errors = rivals(states)

@@ -41,6 +41,12 @@ class TestRings:
         assert found == pytest.approx(1 / np.sqrt(1 - sine))
         assert np.isinf(knob_degrees(axles(lesson.preset("gimbal").params, 90.0)))
 
+    def test_in_gimbal_lock_no_angle_is_enough(self):
+        for k in (45, 89, 90):
+            shown = scene(NAME, "gimbal", k)
+            assert ("knob/mark" in shown) == ("knob/second" not in shown) == (k != 90)
+        assert shown["knob/second"].x.tolist() == [90.0, 90.0]
+
     def test_each_ring_holds_its_own_axle_and_the_next(self):
         for k in (0, 20, 45, 70, 90):
             shown = scene(NAME, "gimbal", k)
@@ -116,6 +122,19 @@ class TestReadings:
         assert shown["turn/words"].text == "58.2°"
         assert shown["ghost"].color == "wrong"
         assert scene(NAME, "conventions", 1)["ghost"].color == "truth"
+
+    def test_the_house_carries_the_thick_axes_and_the_thin_ones_stay(self):
+        shown = scene(NAME, "conventions", 2)
+        R = shown["body"].T_world_object[:3, :3]
+        for path, letters, columns in (("fixed", "xyz", np.eye(3)), ("carried", "XYZ", R)):
+            tips = [shown[f"{path}/{letter}"].ends[0, 1] for letter in letters]
+            units = [tip / np.linalg.norm(tip) for tip in tips]
+            np.testing.assert_allclose(units, columns.T, atol=1e-12)
+        assert shown["carried/X"].width > 2 * shown["fixed/x"].width
+
+    def test_the_three_rings_hold_the_pose_that_was_meant(self):
+        ringed = states(NAME, "three-rings")[60]
+        np.testing.assert_allclose(ringed.R, states(NAME, "fixed-own")[0].R, atol=1e-12)
 
 
 class TestChain:

@@ -13,6 +13,7 @@ from lessons.transforms.inputs import Input
 from lessons.transforms.lesson import lesson
 from lessons.transforms.presets import apart, meeting, missed
 from tests.lessons.transforms_runs import of, scene, states
+from tests.runs import finished
 from workbench.geometry.motions import motion
 from workbench.geometry.motions.affine import transform
 from workbench.geometry.motions.rotations import euler_to_matrix, rotation_from_axis_angle
@@ -142,6 +143,28 @@ class TestFactors:
 
 
 class TestHands:
+    def test_the_arrows_to_the_front_stand_outside_of_the_house(self):
+        for k in (0, 20, 40):
+            shown = scene(NAME, "shifting", k)
+            tail, tip = shown["front"].ends[0]
+            other = shown["wrong front"].ends[0]
+            low = shown["body"].p[:, 1].min() + shown["body"].T_world_object[1, 3]
+            np.testing.assert_allclose([tail[1], other[0, 1]], low)
+            assert tip[1] < low - 1.0
+            assert other[1, 1] < low
+
+    def test_of_the_arrows_the_caption_names_those_that_move(self):
+        read = next(one for one in lesson.questions if one.name == "read-columns").params
+        said = finished(NAME, read)[-1].caption.text
+        assert said == "x goes to (0.00, 1.00, 0.00), and y to (−1.00, 0.00, 0.00)."
+        assert "z leans by 90°" in caption_of(scene(NAME, "columns", -1)).text
+
+    def test_the_question_takes_back_the_same_motion_as_the_hand(self):
+        there = states(NAME, "there")
+        undoing = states(NAME, "undoing")[30]
+        np.testing.assert_allclose(there[-1].ghost.T, undoing.T_other, atol=1e-12)
+        assert there[2].ghost is None
+
     @pytest.mark.parametrize("stage", VALUES)
     def test_every_value_is_a_step_and_its_own_place_on_the_chart(self, stage):
         name = {"columns": "columns", "order": "orders", "undo": "undoing", "shear": "shearing"}
@@ -239,7 +262,7 @@ class TestQuestions:
 
     def test_each_reads_the_run_and_not_the_page(self):
         assert apart(states(NAME, "orders")) == pytest.approx(1.5 * np.sqrt(2.0))
-        assert missed(states(NAME, "undoing")) == pytest.approx(np.hypot(1.3, 0.5) * np.sqrt(2.0))
+        assert missed(states(NAME, "there")) == pytest.approx(np.hypot(1.3, 0.5) * np.sqrt(2.0))
         assert meeting(states(NAME, "dividing")) == pytest.approx(2.0)
 
     def test_known_wrong_answers_are_answered_and_not_right(self):

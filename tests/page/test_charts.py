@@ -8,9 +8,10 @@ import pytest
 
 from tests import fake
 from workbench.page.charts import chart_of, outline, series_of
+from workbench.page.plots import plot_of
 from workbench.page.steps import Steps
 from workbench.run.timeline import Series, Timeline
-from workbench.scene import Caption, Curve, Scalar
+from workbench.scene import Caption, Chart, Curve, Scalar
 
 
 def curve(x, y, kind: Any = "line") -> Curve:
@@ -34,6 +35,27 @@ def test_bars_stand_on_zero_at_their_own_x_with_their_own_heights():
     assert (x.reshape(-1, 4)[:, 3] - x.reshape(-1, 4)[:, 0] < 1.0).all()
     x, _ = outline(curve([5], [2], "bars"))
     assert x.min() < 5 < x.max()
+
+
+def test_a_logarithmic_chart_shows_the_numbers_and_keeps_its_mark_on_the_axis():
+    chart = Chart("Chance", unit="%", y_range=(0.1, 100.0), log=True)
+    x = np.arange(4.0)
+    kept: list[dict[str, Any]] = []
+
+    def keep(curve: dict[str, Any]) -> int:
+        kept.append(curve)
+        return len(kept) - 1
+
+    parts = [chart.whole(x, np.array([100.0, 10.0, 1.0, 0.0]), "c"), chart.mark(3.0, 0.0, "m")]
+    plot = plot_of([*parts, chart.band(2.0, 3.0, "low")], keep)
+    assert (plot["y"]["low"], plot["y"]["high"]) == (-1.0, 2.0)
+    assert plot["y"]["words"] == ("0.1", "1", "10", "100")
+    assert kept[plot["whole"][0]]["y"] == [2, 1, 0, None]
+    assert plot["marks"][0]["y"] == -1
+    assert plot["log"]
+    assert "log" not in plot_of([Chart("Chance").whole(x, x, "c")], keep)
+    with pytest.raises(ValueError, match="above zero"):
+        Chart("Chance", y_range=(0.0, 1.0), log=True)
 
 
 def test_a_scalar_is_sent_as_it_is_for_a_number_that_was_rounded_is_not_rounded_again():

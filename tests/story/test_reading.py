@@ -90,6 +90,11 @@ def test_a_knob_without_a_sweep_is_plain_text_on_a_site(tmp_path):
     assert '<p data-beat="0">From −0.5 m.</p>' in told(tmp_path, text, "site").html
 
 
+def test_a_number_under_the_hand_may_have_ends_of_its_own(tmp_path):
+    text = "## A {#a}\n\nFrom [−0.5 m]{knob=start low=-1 high=0.5}.\n"
+    assert 'data-unit=" m" data-low="-1" data-high="0.5"' in told(tmp_path, text).html
+
+
 def test_what_is_for_one_home_keeps_the_lines_of_the_rest(tmp_path):
     text = "## A {#a}\n\n{{live: Drag\nit.}}\n\nSee [x](run:nowhere).\n"
     for home in ("live", "site"):
@@ -104,6 +109,8 @@ def test_what_is_for_one_home_keeps_the_lines_of_the_rest(tmp_path):
         ("## A {#a camera=frnt}\n\nx", "line 1: there is no camera 'frnt'; did you mean front"),
         ("## A {#a}\n\nx\n\n{step=two}\ny", "line 6: 'two' is no step"),
         ("## A {#a}\n\nx [1]{knob=speed}", "line 3: there is no knob 'speed'"),
+        ("## A {#a}\n\nx [1]{knob=start low=a}", "line 3: low and high of 'start' are numbers"),
+        ("## A {#a}\n\nx [1]{knob=start high=99}", "line 3: low and high of 'start' are numbers"),
         ("## A {#a}\n\nx\ny [b]{.blue}", "line 4: there is no colour role 'blue'"),
         ("## A {#a}\n\n::: {.ask #why}\n:::", "line 3: there is no question 'why'"),
         ("## A {#a}\n\n::: {.ask #second}\n:::\n\n::: {.ask #second}\n:::", "line 6: the question"),

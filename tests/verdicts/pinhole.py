@@ -116,6 +116,10 @@ def _ball(run: Run, k: int) -> float:
     return float(np.sqrt(values.min() / values.max()) if values.max() < 0 else np.nan)
 
 
+def _halved(params) -> int:
+    return 2 if "half" in params.edit else 1
+
+
 def _depth(params):
     """The true depth of the point that is followed: its way along the camera's axis."""
     R, t, _ = camera(params)
@@ -123,10 +127,9 @@ def _depth(params):
 
 
 VALUES = {
-    "away": lambda run, k: float(
-        np.linalg.norm(points(run.params)[followed(run.params)] - centre(run.params))
-    ),
     "deep": lambda run, k: _depth(run.params),
+    "behind": lambda run, k: -_depth(run.params),
+    "cut": lambda run, k: 320 - run.subject.picture.shape[1] * _halved(run.params),
     "x": _x_or_y(0),
     "y": _x_or_y(1),
     "z": _z,
@@ -185,13 +188,17 @@ CAPTIONS = (
         "This lens bends nothing",
         lambda run, k, m: not (run.params.k1 or run.params.k2 or run.params.p1 or run.params.p2),
     ),
-    Claim("px (inwards|outwards);", _inward),
+    Claim(
+        r"begins \d+ columns further right(, and is half as large)?",
+        lambda run, k, m: bool(m[1]) == (run.subject.picture.shape[1] < 200) and run.params.cut > 0,
+    ),
+    Claim("px (inwards|outwards)", _inward),
     Claim(
         "The followed point has no place behind the lens",
         lambda run, k, m: bool(np.isnan(calculated(run)["distort"][followed(run.params)]).all()),
     ),
     Claim(
-        "this model folds back, and there is no pixel",
+        "Beyond radius [\\d.]+ there is no pixel",
         lambda run, k, m: bool(
             np.isnan(
                 calculated(run)["distort"][

@@ -5,6 +5,7 @@ carries.
 import dataclasses
 import re
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -120,6 +121,16 @@ def rms_of_voters(run: Run, k: int) -> float:
     return rms(off[off <= limit_of(run)])
 
 
+def voters_among(run: Run, k: int, rows: np.ndarray) -> int:
+    """How many of these rows lie in the band of the best."""
+    return int((band_of_best(run, k) & rows).sum())
+
+
+def band_of_best(run: Run, k: int) -> np.ndarray:
+    off = apart(run.subject.model.name, run.states[k].best.estimate, run.subject.p)
+    return off <= limit_of(run)
+
+
 VALUES = {
     "n": lambda run, k: k + 1 if flat(run.states[k]) else run.states[k].iteration,
     "draws": lambda run, k: k + 1,
@@ -141,10 +152,16 @@ VALUES = {
     "needed": needed,
     "before": lambda run, k: votes_on(run, run.states[k - 1].best.estimate),
     "error": lambda run, k: error(run, run.states[k].best.estimate),
-    "squares": lambda run, k: error_of_rival(run, "least squares"),
-    "huber": lambda run, k: error_of_rival(run, "Huber"),
     "rms": rms_of_voters,
+    "wall": lambda run, k: voters_among(run, k, run.subject.is_other),
+    "table": lambda run, k: voters_among(run, k, run.subject.is_inlier),
+    "clutter": lambda run, k: voters_among(run, k, ~(run.subject.is_other | run.subject.is_inlier)),
 }
+
+
+def chosen(run: Run, k: int) -> Any:
+    """The fit that was kept last, before the final refit."""
+    return next(now.best for now in run.states[k::-1] if now.phase == "best")
 
 
 def stays(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -174,7 +191,7 @@ def stopped(run: Run, k: int, found: re.Match[str]) -> bool:
         share_for_stop(run, last_best), run.subject.model.sample_size, run.params.confidence
     )
     drawn_here = run.states[k].iteration
-    if found["why"] == " with":
+    if found["why"] == "A":
         return drawn_here >= asked
     return drawn_here == run.params.most_samples <= asked
 
@@ -194,9 +211,14 @@ CAPTIONS = (
         r"So few of the most trusted vote for it that chance can explain it",
         lambda run, k, _: most_trusted(run, k) == (0, 0.0),
     ),
+    Claim(r"(?P<why>number of samples is reached: a|A)fter \d+ samples? the best", stopped),
     Claim(
-        r"It stops after \d+ samples?(?P<why>: the maximum number of samples is reached| with)",
-        stopped,
+        r"the best [\w ]+ has",
+        lambda run, k, _: all(
+            now.trial.score <= chosen(run, k).score
+            for now in run.states[:k]
+            if now.phase == "inliers"
+        ),
     ),
     Claim(
         r"It looks settled, and it is wrong",
@@ -388,7 +410,10 @@ def reach_of_the_picked(run: Run, k: int, found: re.Match[str]) -> bool:
 def on_the_wall(run: Run, k: int, found: re.Match[str]) -> bool:
     best, true = run.states[-1].best, run.subject.is_inlier
     of_table = (best.inliers & true).sum() / true.sum()
-    return int(found["n"]) == best.inliers.sum() and abs(best.estimate[2]) < 0.3 and of_table < 0.1
+    k = len(run.states) - 1
+    told = [int(found[name]) for name in ("n", "wall", "table", "clutter")]
+    counts = [VALUES[name](run, k) for name in ("wall", "table", "clutter")]
+    return told == [sum(counts), *counts] and abs(best.estimate[2]) < 0.3 and of_table < 0.1
 
 
 def pull_upwards(run: Run, k: int, found: re.Match[str]) -> bool:
@@ -424,10 +449,12 @@ WHYS = {
     ),
     "predict-two-planes": (
         Claim(
-            r"(?P<n>\d+) points vote for its plane, and it stands upright: the wall", on_the_wall
+            r"(?P<n>\d+) votes: (?P<wall>\d+) of the wall, (?P<table>\d+) of the table and"
+            r" (?P<clutter>\d+) of clutter\. It stands upright",
+            on_the_wall,
         ),
         Claim(
-            rf"The points of the table are {distance('n')} from it \(RMS\)",
+            rf"the points of the table are {distance('n')} from it \(RMS\)",
             lambda run, k, found: same(found["n"], last_error(run)),
         ),
     ),

@@ -130,7 +130,7 @@ VALUES = {
     "off": off,
     "angle": lambda run, k: float(run.states[k].value),
     "half": lambda run, k: run.states[k].value / 2,
-    "other": lambda run, k: run.states[k].value / 2 + 180,
+    "other": lambda run, k: 180 - run.states[k].value / 2,
     "left": left,
     "shortest": shortest,
     "t": lambda run, k: k / (len(run.states) - 1),

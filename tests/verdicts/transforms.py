@@ -251,6 +251,12 @@ CAPTIONS = (
 )
 
 
+def left_by_the_wrong(run: Run) -> float:
+    """How far the origin ends from its start when (Rᵀ, −t) takes the whole motion back, metres."""
+    T = motion_of(run.params)
+    return float(np.linalg.norm((rigid(T[:3, :3].T, -T[:3, 3]) @ T)[:3, 3]))
+
+
 def quarter(run: Run) -> int:
     return int(np.argmin([abs(state.value - 90.0) for state in run.states]))
 
@@ -277,7 +283,7 @@ WHYS = {
     "undo": (
         Claim(
             rf"upright and ({LENGTH}) off",
-            lambda run, k, m: near_length(m[1], VALUES["missed"](run, quarter(run)), 3),
+            lambda run, k, m: near_length(m[1], left_by_the_wrong(run), 3),
         ),
     ),
     "sheared-volume": (

@@ -2,6 +2,7 @@
 bands; its axes laid out.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 from typing import Any
@@ -11,7 +12,7 @@ import numpy as np
 from workbench.page.charts import number as digits
 from workbench.page.charts import slug
 from workbench.scene import Chart, Curve
-from workbench.words.axis import Axis, axis, number, ticks, value_axis
+from workbench.words.axis import Axis, axis, number, of_powers, ticks, value_axis
 
 HEADROOM = 0.12
 """How much room stays above what a chart shows from near, as a share of its height: a second
@@ -32,6 +33,8 @@ def plot_of(parts: Sequence[Curve], keep: Callable[[dict[str, Any]], int]) -> di
     """
     chart = parts[0].plot
     assert chart is not None, "the verbs of a Chart name it"
+    if chart.log:
+        parts = [_logarithm(curve, chart) for curve in parts]
     by_part: dict[str, list[Curve]] = {part: [] for part in ("whole", "second", "mark", "band")}
     for curve in parts:
         by_part[curve.part].append(curve)
@@ -49,6 +52,7 @@ def plot_of(parts: Sequence[Curve], keep: Callable[[dict[str, Any]], int]) -> di
         "unit": chart.unit,
         "x": asdict(x_axis(chart, parts, chart.x_range)),
         "y": asdict(y_axis(chart, by_part, None)),
+        **({"log": True} if chart.log else {}),
         "near": None if chart.near is None else _near(chart, parts, by_part),
         "whole": [keep(_line(curve)) for curve in by_part["whole"]],
         "seconds": [keep(_line(curve)) for curve in by_part["second"]],
@@ -101,6 +105,16 @@ def y_axis(chart: Chart, by_part: dict[str, list[Curve]], near: tuple[float, flo
     """Return the y axis of the whole curve and the marks, of those within two ends of x where
     they are given.
     """
+    if chart.log:
+        return of_powers(
+            _y_axis(replace(chart, y_range=_powers(chart.y_range), log=False), by_part, near)
+        )
+    return _y_axis(chart, by_part, near)
+
+
+def _y_axis(
+    chart: Chart, by_part: dict[str, list[Curve]], near: tuple[float, float] | None
+) -> Axis:
     if chart.y_range is not None and near is None:
         return axis(*chart.y_range, TICKS)
     shown = [*by_part["whole"], *by_part["mark"]] or by_part["second"]
@@ -113,6 +127,20 @@ def y_axis(chart: Chart, by_part: dict[str, list[Curve]], near: tuple[float, flo
         return value_axis(values, most=TICKS)
     room = HEADROOM * (float(known.max() - known.min()) or 1.0)
     return axis(float(known.min()) - room, float(known.max()) + room, TICKS)
+
+
+def _powers(ends: tuple[float, float] | None) -> tuple[float, float] | None:
+    return None if ends is None else (math.log10(ends[0]), math.log10(ends[1]))
+
+
+def _logarithm(curve: Curve, chart: Chart) -> Curve:
+    """Return a curve of logarithms; a mark below the axis stands at its lower end."""
+    if curve.part == "band":
+        return curve
+    y = curve.y
+    if curve.part == "mark" and chart.y_range is not None:
+        y = np.maximum(y, chart.y_range[0])
+    return replace(curve, y=np.log10(np.where(y > 0.0, y, np.nan)))
 
 
 def _line(curve: Curve) -> dict[str, Any]:

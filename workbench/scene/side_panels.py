@@ -88,6 +88,7 @@ class Chart:
         near: The ends of its x axis when a scene shows it from near.
         x_unit: What is written behind the numbers of its x axis: `deg` writes °.
         y_range: The ends of its y axis; None takes those of the whole curve and the marks.
+        log: Whether the y axis of a large chart is logarithmic; what is not above zero is left out.
     """
 
     title: str
@@ -97,8 +98,13 @@ class Chart:
     near: tuple[float, float] | None = None
     x_unit: str = ""
     y_range: tuple[float, float] | None = None
+    log: bool = False
 
     def __post_init__(self) -> None:
+        need(
+            not (self.log and self.y_range) or self.y_range[0] > 0.0,
+            f"Chart.y_range of logarithms is above zero, not {self.y_range}",
+        )
         for name in ("x_range", "near", "y_range"):
             ends = getattr(self, name)
             need(

@@ -156,6 +156,16 @@ class Names:
             raise self.wrong(line, f"there is no knob {name!r}; {not_among(name, self.fields)}")
         return self.fields[name]
 
+    def ends(self, name: str, given: Mapping[str, str], line: int) -> dict[str, str]:
+        """Return the ends of a knob's values under the hand, as attributes, where they are given:
+        `low` and `high` within the knob's own.
+        """
+        knob = self.knob(name, line).knob
+        found = {one: given[one] for one in ("low", "high") if one in given}
+        if found and not _within(found, knob.low, knob.high):
+            raise self.wrong(line, f"low and high of {name!r} are numbers of the knob's own range")
+        return {f"data-{one}": value for one, value in found.items()}
+
     def question(self, name: str, line: int) -> Question:
         """Return a question that there is."""
         if name not in self.questions:
@@ -175,6 +185,18 @@ class Names:
         values of its sweep.
         """
         return self.home == "live" or (knob, run) in self._swept
+
+
+def _within(ends: Mapping[str, str], low: float | None, high: float | None) -> bool:
+    """Tell whether the ends that are given leave a range within low and high."""
+    if low is None or high is None:
+        return False
+    try:
+        first = float(ends.get("low", low))
+        last = float(ends.get("high", high))
+    except ValueError:
+        return False
+    return low <= first < last <= high
 
 
 def run_name(lesson: Lesson, params: Any) -> str:

@@ -78,7 +78,7 @@ class Words:
         given = {key: str(value) for key, value in token.attrs.items()}
         roles = given.pop("class", "").split()
         if "knob" in given:
-            return self._knob(token, given["knob"], words, line, here)
+            return self._knob(token, given, words, line, here)
         if "steps" in given:
             self._found.series.append((here.run, given["steps"], line))
             token.attrs = {
@@ -93,10 +93,13 @@ class Words:
         token.attrs = {"class": " ".join(self._names.role(role, line) for role in roles)}
         return bool(roles)
 
-    def _knob(self, token: Any, name: str, words: str, line: int, here: StagePlace) -> bool:
-        self._names.knob(name, line)
+    def _knob(
+        self, token: Any, given: dict[str, str], words: str, line: int, here: StagePlace
+    ) -> bool:
+        name = given["knob"]
+        ends = self._names.ends(name, given, line)
         self._found.knobs.append((here.run, name, line))
-        token.attrs = {"class": "num", "data-knob": name, "data-unit": unit_in(words)}
+        token.attrs = {"class": "num", "data-knob": name, "data-unit": unit_in(words), **ends}
         return self._names.can_turn(name, here.run)
 
     def _value(

@@ -110,7 +110,8 @@ const storyChart = {
 
   word(at, { x, y }) {
     const behind = at.x.words[0]?.replace(/^[−\d.,\s]+/, "") ?? "";
-    return `${number(x)}${behind}, ${number(y)} ${at.plot.unit ?? ""}`.trim();
+    const value = at.plot.log ? 10 ** y : y;
+    return `${number(x)}${behind}, ${number(value)} ${at.plot.unit ?? ""}`.trim();
   },
 
   // where a mark of this plot has been in the run up to now; nothing where a step is not known here

@@ -89,8 +89,10 @@ const storyWords = {
   // whether this home can turn the knob: computed live, from a sweep on a site
   turnable(one) {
     if (source.change) {
-      one.data = LESSON.knobs.find((knob) => knob.name === one.name && knob.low !== undefined);
-      return Boolean(one.data);
+      const found = LESSON.knobs.find((knob) => knob.name === one.name && knob.low !== undefined);
+      const { low = found?.low, high = found?.high } = one.el.dataset;  // less than the knob has
+      one.data = found && { ...found, low: Number(low), high: Number(high) };
+      return Boolean(found);
     }
     const named = (sweep) => (sweep.knob ?? sweep.names[0].split(":")[0]) === one.name;
     const of = ({ run = "default" }) => canonical(run) === canonical(one.place.run);
