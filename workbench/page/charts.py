@@ -4,7 +4,7 @@ steps of a run.
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,9 @@ from workbench.page.legend import css_color, escape
 from workbench.run.timeline import Series, plotted_values
 from workbench.scene import PALETTE, Curve, Table
 from workbench.words.axis import Axis, axis, labelled, value_axis
+from workbench.words.axis import number as number_word
 
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 NARROW_BAR = 0.96
 """How much of the room between two bars a bar takes."""
 
@@ -100,6 +102,18 @@ def series_of(series: Mapping[str, Series], start: int = 0) -> list[dict[str, An
     ]
 
 
+def power_of_ten(exponent: float) -> str:
+    """Return 10 to this power as the tick of a chart whose values are logarithms.
+
+    Examples:
+        >>> [power_of_ten(exponent) for exponent in (1.0, -2.0, -8.0, -0.5)]
+        ['10', '0.01', '10⁻⁸', '0.316']
+    """
+    if exponent == round(exponent) and not -4 < exponent < 5:
+        return "10" + f"{exponent:.0f}".translate(RAISED)
+    return number_word(10.0**exponent)
+
+
 def series_charts(series: Mapping[str, Series], known: int) -> dict[str, Any]:
     """Return the axes and words of every chart over steps."""
     charts: dict[str, list[Series]] = {}
@@ -109,8 +123,10 @@ def series_charts(series: Mapping[str, Series], known: int) -> dict[str, Any]:
     found = {}
     for chart, lines in charts.items():
         scalar = lines[0].scalar
-        head, label = labelled(chart, scalar.unit, scalar.log)
+        head, label = labelled(chart, scalar.unit, log=False)
         across, up = axes_of([steps], [plotted_values(one.scalar, one.values) for one in lines])
+        if scalar.log:
+            up = replace(up, words=tuple(power_of_ten(tick) for tick in up.ticks))
         found[chart] = {
             "name": slug(chart),
             "head": head,

@@ -43,7 +43,7 @@ const source = {
 
   // a step may be named by the run's own end, which the page finds when it is known
   open(name, step) {
-    this.send({ verb: "run", run: name, step: /^stop./.test(step) ? -1 : step });
+    this.send({ verb: "run", run: name, step: /^(stop.|last)/.test(step) ? -1 : step });
   },
   seek(k) { this.send({ verb: "seek", k }); },
   change(values) { this.send({ verb: "change", values }); },

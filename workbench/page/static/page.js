@@ -33,9 +33,9 @@ const page = {
   // the index of a step of a run: "stop" is its own end, "stop-1" the step before, a negative number
   // counts from the end of all; undefined while it is not known
   stepOf(run, step) {
-    if (typeof step === "number" && step >= 0) return step;
+    if (typeof step === "number") return step >= 0 ? step : this.stepOf(run, `last${step + 1}`);
     const last = run.finished ? run.known - 1 : undefined, own = String(step).startsWith("stop");
-    const from = own ? run.end ?? last : last, back = own ? Number(String(step).slice(4)) : step + 1;
+    const from = own ? run.end ?? last : last, back = Number(String(step).slice(4));
     return from === undefined ? undefined : Math.max(0, from + back);
   },
 
@@ -87,7 +87,7 @@ const page = {
     thisRun.show(this.run);
     const step = this.step();
     if (!step) return;
-    this.say(step.caption, step.tone);
+    this.say(step.caption, this.face === "story" && step.tone === "wrong" ? "info" : step.tone);  // a story goes wrong on purpose
     stage.legend(this.run.things[step.legend] ?? "");
     if (this.face === "bench") panels.show();
     text.show();

@@ -231,7 +231,8 @@ const storyStage = {
     const found = this.told(run).filter(([at, name], i, all) => at <= last &&
       !ENDS.has(name) && all.filter(([, other]) => other === name).length === 1);
     const inner = found.filter(([at]) => at > 0.12 * last && at < 0.88 * last).slice(0, 4);
-    const names = [[0, "start"], ...inner, [end, "stop"]];
+    const names = [[0, "start"], ...inner];
+    if (end === last || end < 0.8 * last) names.push([end, "stop"]);  // else its word has no room
     if (last > end) names.push([last, "other starts"]);
     return names.filter(([at], i) => i === 0 || at > 0).sort(([a], [b]) => a - b)
       .filter(([at], i, all) => i === 0 || at !== all[i - 1][0]);
@@ -253,10 +254,10 @@ const storyStage = {
 
 const ENDS = new Set(["start", "stop"]);  // names of places that every run has
 
-// a step from the end of the run itself has a name: "stop", "stop-1", ...
+// a step from the end has a name: "last", "last-1", ...; the end of the run itself is "stop"
 function own(step) {
   if (step === "start" || step === undefined || step === null) return 0;
-  return typeof step === "number" && step < 0 ? (step === -1 ? "stop" : `stop${step + 1}`) : step;
+  return typeof step === "number" && step < 0 ? `last${step === -1 ? "" : step + 1}` : step;
 }
 
 // one name for runs of the same params
