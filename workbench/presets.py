@@ -67,7 +67,8 @@ class Question(Generic[P, S]):
         params: The run that answers it.
         unit: The unit asked for, for numbers.
         tolerance: How far off a number still counts as right.
-        step: Where the revealed run opens; None is its last step.
+        step: Where the revealed run opens; None is the end of the run itself, before any tries of
+            other starts.
         wrong: Known wrong numbers as (lowest, highest, what is said to those who gave one); none is
             within the tolerance.
         start: In a story, the step of its run at which the stage stands still while it is asked;

@@ -39,9 +39,9 @@ ARROW = np.array(
 MM = 1000.0
 RMSE, OVERLAP = Chart("RMSE", unit="m"), Chart("Overlap", unit="%")
 TURN, SHIFT = Chart("Rotation error", unit="deg"), Chart("Translation error", unit="m")
-BASIN_TURNS = Chart("Basin: final rotation error", "start angle (deg)", "deg")
-BASIN_METRES = Chart("Basin: final RMSE and final distance", "start angle (deg)", "m")
-ENDS = Chart("Share kept", "share of the matches kept", "deg", x_range=(0.3, 1.0))
+BASIN_TURNS = Chart("Final rotation error", "how far away it starts (°)", "error of the end (°)")
+BASIN_METRES = Chart("Final RMSE and distance", "how far away it starts (°)", "m")
+ENDS = Chart("Error of the turn", "share of the matches kept", "deg", x_range=(0.3, 1.0))
 TURNS_COST = Chart(
     "Cost of turning it",
     "how far orange is turned",

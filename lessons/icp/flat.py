@@ -9,7 +9,15 @@ import numpy as np
 
 from lessons.icp.inputs import Input
 from workbench.algorithms import turning
-from workbench.algorithms.turning import State, cost, cost_of_pairs, icp_turn, turned, within_half
+from workbench.algorithms.turning import (
+    State,
+    best_turn,
+    cost,
+    cost_of_pairs,
+    icp_turn,
+    turned,
+    within_half,
+)
 from workbench.captions import Quantity, degrees
 from workbench.data.rabbit_outline import along, normals_along, rabbit_outline
 from workbench.geometry.polylines import between, segments
@@ -27,6 +35,7 @@ HAND = np.arange(-180.0, 181.0, 3.0)  # degrees: where the hand has been after a
 FINE = np.arange(-180.0, 180.5, 1.0)
 HOME = 5.0  # degrees within which an end counts as home
 DIAL, MARK = 0.72, 0.045  # metres: the radius of the dial, and half of a mark on it
+OUTLINE = 0.6  # opacity: seen in the dark too
 MM = 1000.0
 COST = Chart(
     "Cost of a turn",
@@ -118,25 +127,26 @@ def draw(look: Look[Input, Outlines, State]) -> Scene:
     shown = within_half(now.angle)
     p_moved, q = turned(lines.p_source, now.angle), lines.p_target[now.partners]
     tick = np.array([[0.0, DIAL - MARK], [0.0, DIAL + MARK]])
-    faint = 0.35
     asked = now.iteration == 1 and now.phase == "match"  # a question asks how many are right
     good = lines.right(now.partners) & (not asked)
     color = Classes.marking(good, "truth", "right partner", others=("correspondence", "partner"))
     scene: dict[str, Primitive] = {
-        "dial": Segments(dial_arc(-180.0, 180.0, DIAL), "neutral", 1.0, opacity=faint),
+        "dial": Segments(dial_arc(-180.0, 180.0, DIAL), "neutral", 1.0, opacity=0.35),
         "turn": Segments(dial_arc(0.0, shown, DIAL, 0.002), "source", 4.0),
         "true mark": Segments(upright(tick, 0.003)[None], "truth", 4.0),
         "turn mark": Segments(upright(tick, 0.003)[None], "source", 4.0, T_turn),
         "turn name": Label(
             f"{abs(shown):.0f}°", upright(on_dial(np.array([shown / 2]), DIAL + 0.08))[0], "source"
         ),
-        "target line": Segments(outlined(lines.target_line, -0.01), "target", 2.0, opacity=faint),
+        "target line": Segments(outlined(lines.target_line, -0.01), "target", 2.0, opacity=OUTLINE),
         "source line": Segments(
-            outlined(lines.source_line, -0.008), "source", 2.0, T_turn, opacity=faint
+            outlined(lines.source_line, -0.008), "source", 2.0, T_turn, opacity=OUTLINE
         ),
-        "target": Points(upright(lines.p_target), "target", 0.0115, name="target"),
+        "target": Points(upright(lines.p_target, 0.004), "target", 0.0125, name="target"),
         "source": Points(upright(lines.p_source, 0.008), "source", 0.0115, T_turn, name="source"),
-        "partners": Segments(between(upright(p_moved, 0.004), upright(q, 0.004)), color, 3.0),
+        "partners": Segments(
+            between(upright(p_moved, -0.004), upright(q, -0.004)), color, 2.5, opacity=0.8
+        ),
         "caption": caption(look),
         "angle": ANGLE.scalar(now.angle, "angle"),
         "rmse": RMSE.scalar(now.rmse, "RMSE of the partners"),
@@ -162,9 +172,13 @@ def _landscape(look: Look[Input, Outlines, State], shown: float) -> dict[str, Pr
     if now.iteration == 0:
         ball = COST.mark(shown, MM * now.rmse, "ball", steps="angle")
         return parts | {"cost/ball": ball}
-    frozen = cost_of_pairs(lines.p_target[now.partners], lines.p_source, HAND)
+    q = lines.p_target[now.partners]
+    x = np.union1d(
+        HAND, best_turn(q, lines.p_source)
+    )  # its lowest point is computed, not looked up
+    frozen = cost_of_pairs(q, lines.p_source, x)
     return parts | {
-        "cost/frozen": COST.second(HAND, MM * frozen, "partners frozen"),
+        "cost/frozen": COST.second(x, MM * frozen, "partners frozen"),
         "cost/ball": COST.mark(shown, MM * now.rmse, "ball", knob="start_angle"),
         "cost/basin": COST.band(*lines.basin, "comes home from here"),
     }

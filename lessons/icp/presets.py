@@ -6,7 +6,6 @@ import numpy as np
 
 from lessons.icp.flat import HAND
 from lessons.icp.inputs import Input
-from lessons.icp.space import ANGLES
 from workbench.lesson import Preset, Sweep, View
 
 BY_HAND = Input(stage="flat", by="hand", start_angle=-66.0)
@@ -51,7 +50,6 @@ VIEWS = {
     "wall": WALL,
     "street": STREET,
 }
-END = -1 - len(ANGLES)  # the last step of ICP itself, before the tries
 START = int(np.argmin(np.abs(HAND - BY_HAND.start_angle)))  # where the hand begins
 
 PRESETS: tuple[Preset[Input], ...] = (

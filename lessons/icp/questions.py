@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from lessons.icp.flat import Outlines
-from lessons.icp.presets import BY_HAND, END, FAR, FROM_45, FROM_75, KEEP_70, PLANE, START, VASE
+from lessons.icp.presets import BY_HAND, FAR, FROM_45, FROM_75, KEEP_70, PLANE, START, VASE
 from lessons.icp.scans import Scans
 from workbench.algorithms import turning
 from workbench.algorithms.registration import icp
@@ -219,7 +219,6 @@ QUESTIONS: tuple[Question, ...] = (
         answer=lambda states: 0.0 if came_home(states) else 2.0 if rmse_falls(states) else 1.0,
         why=_why_far,
         params=FAR,
-        step=END,
         choices=(
             Choice(
                 "Come home, only more slowly",
@@ -240,7 +239,6 @@ QUESTIONS: tuple[Question, ...] = (
         answer=lambda states: float(end(states).iteration),
         why=_why_plane,
         params=PLANE,
-        step=END,
         tolerance=3.0,
         low=1.0,
         high=80.0,
@@ -281,7 +279,6 @@ QUESTIONS: tuple[Question, ...] = (
         answer=_which_share,
         why=_why_share,
         params=KEEP_70,
-        step=END,
         choices=(
             Choice(
                 "100 %",

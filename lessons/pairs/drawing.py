@@ -3,7 +3,7 @@
 import numpy as np
 
 from lessons.pairs.inputs import Input
-from lessons.pairs.space import SHARES, SIGMAS, Scans, State
+from lessons.pairs.space import HOME_DEGREES, SHARES, SIGMAS, Scans, State
 from workbench.captions import counted, degrees, metres, number
 from workbench.captions import fixed as decimals
 from workbench.data.thinning import every
@@ -31,10 +31,12 @@ CM2 = 1e4  # square centimetres in a square metre
 NAMES = {"least": "weakest", "middle": "middle", "largest": "strongest"}
 RMSE, TURN = Chart("RMSE", unit="m"), Chart("Rotation error", unit="deg")
 FOUND = Chart("Scale", unit="×")
-OF_H = Chart("Strength of each direction", "direction", "cm²")
-PRICE = Chart("Price of a flip", "direction", "cm² added to RMSE²")
-SCALE = Chart("Scale and noise", "noise of each coordinate", "×", x_range=(0.0, 0.1), x_unit="m")
-WRONG = Chart("Wrong partners", "share of wrong partners", "deg", x_range=(0.0, 90.0), x_unit="%")
+OF_H = Chart("Strength of each direction", "direction", "strength (cm²)")
+PRICE = Chart("Price of a flip", "direction", "added to RMSE² (cm²)")
+SCALE = Chart("Scale found", "noise of each coordinate", "×", x_range=(0.0, 0.1), x_unit="m")
+WRONG = Chart(
+    "Error of the turn", "share of wrong partners", "deg", x_range=(0.0, 90.0), x_unit="%"
+)
 PLACES = {"pairs": "pairs", "centre": "middles", "cross": "matrix", "flip": "mirror?"}
 
 
@@ -108,7 +110,7 @@ def _missed(scans: Scans, state: State, T: np.ndarray) -> dict[str, Primitive]:
     true = apply(scans.T_world_target @ scans.T_target_source, p)
     shown = (T, scans.p_source), (scans.T_world_target, scans.p_target)
     high = max(float(np.percentile(apply(T_here, q)[:, 2], 99)) for T_here, q in shown)
-    home = off < 10.0
+    home = off < HOME_DEGREES
     top = np.array([scans.T_world_target[0, 3], 0.0, high + 0.2])
     scene: dict[str, Primitive] = {
         "off": Label(f"{angle(off)} from the truth", top, "truth" if home else "wrong")
@@ -138,8 +140,8 @@ def _charts(look: Look[Input, Scans, State]) -> dict[str, Primitive]:
         there, back = scans.scales["there"], scans.scales["back"]
         at = params.noise
         scene |= {
-            "scale/there": SCALE.whole(SIGMAS, there, "second to first", "source"),
-            "scale/back": SCALE.whole(SIGMAS, 1.0 / back, "1 over first to second", "target"),
+            "scale/there": SCALE.whole(SIGMAS, there, "orange to blue", "source"),
+            "scale/back": SCALE.whole(SIGMAS, 1.0 / back, "1 over blue to orange", "target"),
             "scale/truth": SCALE.second(
                 SIGMAS, np.full(len(SIGMAS), params.scale), "truth", "truth"
             ),
@@ -147,8 +149,9 @@ def _charts(look: Look[Input, Scans, State]) -> dict[str, Primitive]:
                 at, float(np.interp(at, SIGMAS, there)), "here", "source", knob="noise"
             ),
         }
-    if scans.off:
-        chosen, at = scans.off[params.mistakes], params.wrong
+    if scans.off and now.stage in ("flip", "scale"):
+        at = params.wrong
+        chosen = scans.off[params.mistakes if at else "shuffled"]
         scene |= {
             "wrong/shuffled": WRONG.whole(SHARES, scans.off["shuffled"], "shuffled", "source"),
             "wrong/together": WRONG.whole(
@@ -190,10 +193,14 @@ def caption(look: Look[Input, Scans, State]) -> Caption:
         words = "Vᵀ turns orange by {turn}, its directions onto x, y and z: RMSE {rmse}."
         return say(words, turn=turn, rmse=rmse, place=place)
     if now.stage == "out":
-        words = "U turns on to the directions of blue: RMSE {rmse}."
+        off = scans.degrees_off(now.T_target_source)
         if now.mirror:
             words = "The RMSE is {rmse}, but the determinant is −1: a mirror image."
-        return say(words, rmse=rmse, place=place)
+            return say(words, rmse=rmse, place=place)
+        words = "U turns on to the directions of blue: RMSE {rmse}"
+        if not np.isfinite(off):
+            return say(f"{words}.", rmse=rmse, place=place)
+        return say(f"{words}, the turn {{off}} off.", rmse=rmse, off=degrees(off, 2), place=place)
     off = scans.degrees_off(now.T_target_source)
     if now.stage == "flip" and np.isfinite(off):
         words = "The determinant is +1. The turn is {off} off, RMSE {rmse}."
@@ -223,12 +230,11 @@ def _of_scale(scans: Scans, state: State) -> Caption:
         return say(
             "Scale {there} by least squares, RMSE {rmse}.", there=there, rmse=rmse, place="scale"
         )
-    return say(
-        "Scale {there}, in truth {true}; the turn is {off} off.",
-        right=scans.at_home(now.T_target_source, now.scale),
-        settled=False,
-        there=there,
-        true=decimals(scans.true_scale, 3),
-        off=degrees(off),
-        place="scale",
-    )
+    words, tone = "The scale is {there}, and the turn is {off} off.", "wrong"
+    if scans.at_home(now.T_target_source, now.scale):
+        tone = "good"
+    elif off < HOME_DEGREES:
+        words = "The scale is {there} instead of {true}."
+    values = {"there": there, "true": number(scans.true_scale), "off": degrees(off, 2)}
+    values = {name: value for name, value in values.items() if f"{{{name}}}" in words}
+    return say(words, tone=tone, **values, place="scale")

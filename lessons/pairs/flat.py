@@ -19,8 +19,9 @@ BANDS = 12
 HAND = np.arange(-180.0, 181.0, 3.0)  # degrees: where the hand has been after a full turn
 FINE = np.arange(-180.0, 180.5, 1.0)
 DIAL, MARK = 0.72, 0.045  # metres: the radius of the dial, and half of a mark on it
+OUTLINE = 0.6  # opacity: seen in the dark too
 PULL = Chart(
-    "Pull of the bands", "how far orange is turned", "m", x_range=(-180.0, 180.0), x_unit="deg"
+    "RMSE of the bands", "how far orange is turned", "m", x_range=(-180.0, 180.0), x_unit="deg"
 )
 ANGLE = Chart("Angle", unit="deg")
 
@@ -97,18 +98,19 @@ def draw(look: Look[Params, Bands, Held]) -> Scene:
         "turn name": Label(
             f"{abs(shown):.0f}°", upright(on_dial(np.array([shown / 2]), DIAL + 0.08))[0], "source"
         ),
-        "target line": Segments(outlined(bands.target_line, -0.01), "target", 2.0, opacity=0.35),
+        "target line": Segments(outlined(bands.target_line, -0.01), "target", 2.0, opacity=OUTLINE),
         "source line": Segments(
-            outlined(bands.source_line, -0.008), "source", 2.0, T_turn, opacity=0.35
+            outlined(bands.source_line, -0.008), "source", 2.0, T_turn, opacity=OUTLINE
         ),
-        "target": Points(upright(bands.p_target), "target", 0.016, name="blue ends"),
+        "target": Points(upright(bands.p_target, 0.004), "target", 0.016, name="blue ends"),
         "source": Points(
             upright(bands.p_source, 0.008), "source", 0.016, T_turn, name="orange ends"
         ),
         "bands": Segments(
-            between(upright(moved, 0.004), upright(bands.p_target, 0.004)),
+            between(upright(moved, -0.004), upright(bands.p_target, -0.004)),
             "correspondence",
-            3.0,
+            2.5,
+            opacity=0.8,
             name="rubber bands",
         ),
         "caption": say(

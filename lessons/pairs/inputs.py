@@ -25,7 +25,7 @@ class Input(Params):
     )
     points: int = knob(1500, "Points of each scan", 100, 20_000, step=100)
     noise: float = knob(
-        0.01, "Noise of each coordinate (standard deviation)", 0, 0.2, unit="m", step=0.005
+        0.01, "Noise of each coordinate (standard deviation)", 0, 0.1, unit="m", step=0.005
     )
     noisy: Literal["both", "target"] = knob("both", "Which scan has the noise")
     scale: float = knob(

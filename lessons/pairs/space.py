@@ -36,7 +36,7 @@ class Scans:
         mirrored: Whether one is made as a mirror image of the other.
         own: Whether both are a person's own.
         off: Degrees that the rigid fit is off, for each kind of mistakes at each of SHARES; empty
-            where no partner is wrong.
+            where there is no truth to compare, and for own pairs.
         scales: The least-squares scale there and back at each of SIGMAS; empty where the scans are
             of one size.
     """
@@ -95,16 +95,11 @@ def built_in(params: Input) -> Scans:
     p_target, p_source = p_whole + params.noise * in_target, turned + params.noise * in_source
     T = None if mirrored else motion(params.scale * R, np.zeros(3))
     order = rng.permutation(len(shape))
-    off, scales = {}, {}
+    scales = {}
     p_paired, is_wrong = p_target, np.zeros(len(shape), bool)
     if params.wrong:
         together = params.mistakes == "together"
         p_paired, is_wrong = mispaired(p_target, params.wrong, together, order)
-        if T is not None:
-            off = {
-                name: _off(p_target, p_source, T, name == "together", order)
-                for name in ("shuffled", "together")
-            }
     if params.scale != 1.0:
         tried = [(p_whole + sigma * in_target, turned + sigma * in_source) for sigma in SIGMAS]
         scales["there"] = np.array([similarity_scale(p, q) for p, q in tried])
@@ -114,9 +109,9 @@ def built_in(params: Input) -> Scans:
         p_source=p_source,
         is_wrong=is_wrong,
         T_target_source=T,
-        T_world_target=beside(p_target, p_source, 0.0 if params.source is None else FAR),
+        T_world_target=beside(p_whole, turned, 0.0 if params.source is None else FAR),
         mirrored=mirrored,
-        off=off,
+        off={} if T is None else _offs(p_target, p_source, T, order),
         scales=scales,
     )
 
@@ -147,6 +142,14 @@ def mispaired(
     p[rows] = p_target[rows] + [ASIDE, 0.0, 0.0] if together else p_target[np.roll(rows, 1)]
     is_wrong[rows] = True
     return p, is_wrong
+
+
+def _offs(
+    p_target: np.ndarray, p_source: np.ndarray, T: np.ndarray, order: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Return how far off the turn is at each of SHARES, degrees, for both kinds of mistakes."""
+    kinds = {"shuffled": False, "together": True}
+    return {name: _off(p_target, p_source, T, same, order) for name, same in kinds.items()}
 
 
 def _off(

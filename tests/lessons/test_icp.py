@@ -11,7 +11,6 @@ from scipy.spatial.transform import Rotation
 
 from lessons.icp.inputs import Input as Params
 from lessons.icp.lesson import lesson
-from lessons.icp.presets import END
 from lessons.icp.questions import rmse_falls
 from lessons.icp.space import ANGLES
 from tests.lessons.icp_runs import (
@@ -43,6 +42,7 @@ def two_files(tmp_path) -> Params:
 
 
 TIMELINES = Timelines()
+END = -1 - len(ANGLES)  # the last step of ICP itself, before the tries
 
 
 class TestPresets:
@@ -278,6 +278,11 @@ class TestPicture:
             "other starts",
         ]
 
+    def test_the_frozen_partners_are_lowest_where_the_fit_takes_the_ball(self):
+        flat = lesson.preset("from-45").params
+        frozen, ball = (scene(flat, k)[f"cost/{name}"] for k, name in ((0, "frozen"), (1, "ball")))
+        assert frozen.x[np.argmin(frozen.y)] == pytest.approx(ball.x[0], abs=1e-6)
+
     def test_the_share_kept_has_a_curve_on_which_the_run_ends(self):
         params = lesson.preset("keep-70").params
         shown = scene(params, END)
@@ -308,7 +313,7 @@ class TestQuestions:
     def test_they_open_the_run_itself_where_the_answer_is_seen(self):
         for question in lesson.questions:
             if question.params.stage == "space":
-                k = -1 if question.step is None else question.step
+                k = answer(lesson, question, None, TIMELINES).step
                 assert states(question.params)[k].look.now.stop is not None
 
     def test_other_starts_are_calm_wherever_they_end(self):

@@ -81,8 +81,10 @@ def right(run: Run, k: int) -> bool | None:
 
 CAPTIONS = (
     Claim(r"\d+ of them wrong", None),
-    Claim(r"in truth", None),
-    Claim(r"It is wrong\.", lambda run, k, m: right(run, k) is False),
+    Claim(
+        rf"The scale is {NUMBER} instead of {NUMBER}",
+        lambda run, k, m: abs(scale(run) / true_scale(run) - 1) >= 0.02,
+    ),
 )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 from workbench.errors import AuthorError, InputError
 from workbench.lesson import Lesson, Question
 from workbench.machinery.authors import Blaming, at
-from workbench.run.timeline import Timelines
+from workbench.run.timeline import Timelines, stop_of
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def answer(lesson: Lesson, question: Question, given: Any, timelines: Timelines)
             raise AuthorError(f"{who}: {at(question.answer)}{wrong}")
     with Blaming(who, question.why):
         why = str(question.why(states))
-    step = timeline.opening(who, -1 if question.step is None else question.step)
+    step = stop_of(timeline) if question.step is None else timeline.opening(who, question.step)
     if question.choices:
         right, truth = predicted == value, str(question.choices[int(value)])
     else:

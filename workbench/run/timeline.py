@@ -426,3 +426,12 @@ class Timelines:
     def __len__(self) -> int:
         """Return how many runs are kept."""
         return len(self._kept)
+
+
+def stop_of(timeline: Timeline) -> int:
+    """Return the last step of a run itself, before those that only try other starts."""
+    tries = timeline.lesson.tries
+    if tries is None:
+        return len(timeline) - 1
+    first = next((k for k, step in enumerate(timeline.known()) if tries(step.state)), len(timeline))
+    return first - 1 if first else len(timeline) - 1

@@ -6,21 +6,12 @@ import math
 import re
 from collections.abc import Mapping
 
-from workbench.run.timeline import Series, Timeline
+from workbench.run.timeline import Series, Timeline, stop_of
 from workbench.story.model import StepName, Value
 
 LENGTHS: Mapping[str, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "µm": 1e-6, "km": 1000.0}
 """Units of length, in metres."""
 _NUMBER = re.compile(r"(?P<sign>[−-]?)(?P<digits>\d[\d,]*(?:\.\d+)?)\s*(?P<unit>.*)")
-
-
-def stop_of(timeline: Timeline) -> int:
-    """Return the last step of a run itself, before those that only try other starts."""
-    tries = timeline.lesson.tries
-    if tries is None:
-        return len(timeline) - 1
-    first = next((k for k, step in enumerate(timeline.known()) if tries(step.state)), len(timeline))
-    return first - 1 if first else len(timeline) - 1
 
 
 def step_in(timeline: Timeline, step: StepName) -> int | None:

@@ -229,9 +229,7 @@ class _Reader:
         step = question.start if at is None else at
         moved = Attributes(values={key: text for key, text in given.values.items() if key != "run"})
         start = self._moved(replace(scene.here, run=run, step=step, start=None), moved, block.line)
-        tried, last = self._names.lesson.tries is not None, question.step
-        # counted from behind the tries it is the end of the run itself
-        seen: StepName = "stop" if last is None or (last < 0 and tried) else last
+        seen: StepName = "stop" if question.step is None else question.step
         scene.here = start
         flag = "flag" in given.classes or bool(question.mark)
         scene.html.append(asked(question, scene.beat(block.line), flag=flag))
