@@ -15,15 +15,17 @@ COLORS: tuple[Role, Role, Role] = ("x", "y", "z")
 ROUNDING = 1e-16  # below this share nothing is left off the diagonal
 ENTRY = Chart("Entry off the diagonal", "turned by hand", "cm²", x_range=(-45, 45), x_unit="deg")
 HELD = Chart("Turned", unit="deg")
-OFF, TO_AXES = Chart("Off the diagonal"), Chart("Frame to the axes", unit="deg")
+OFF, TO_AXES = Chart("Off the diagonal", unit="%"), Chart("Frame to the axes", unit="deg")
 FRAME, HOME = Chart("Frame", unit=""), Chart("Come home", unit="%")
-OF_AXES = Chart("Variance of each axis", "axis", "cm²")
-BY_DIRECTION = Chart("Variance by direction", "angle in the plane (deg)", "cm²")
+OF_AXES = Chart("Variance of each axis", "axis", "variance (cm²)")
+BY_DIRECTION = Chart("Variance by direction", "angle in the plane (deg)", "variance (cm²)")
 ALONG = Chart("Along the axes", "distance from the centroid, over σ", "points")
 ENDS = Chart("Where many turns end", "rotation error (deg)", "turns")
 FRAMES = Chart("Four frames", "frame", "mm to the nearest points")
-SIDE = Chart("How far axis 1 differs", "middle side", "deg", x_range=(0.6, 1.0), x_unit="m")
-RACE = Chart("RMSE from four frames", "frame", "mm")
+SIDE = Chart(
+    "How far axis 1 differs", "middle side of the box", "deg", x_range=(0.6, 1.0), x_unit="m"
+)
+RACE = Chart("RMSE from four frames", "frame", "RMSE (mm)")
 OFF_TRUTH, GAP = Chart("Rotation error", unit="deg"), Chart("To the nearest points", unit="m")
 
 
@@ -37,7 +39,7 @@ def of_space(look: Look) -> dict[str, Primitive]:
         (max(now.off, ROUNDING), max(_to_axes(state), 1e-9)) if turning else (np.nan,) * 2
     )
     scene: dict[str, Primitive] = {
-        "off diagonal": OFF.scalar(off, "off the diagonal", log=True),
+        "off diagonal": OFF.scalar(100.0 * off, "off the diagonal", log=True),
         "to axes": TO_AXES.scalar(to_axes, "frame to the true axes", "truth", log=True),
     }
     if turning:
@@ -52,7 +54,7 @@ def of_space(look: Look) -> dict[str, Primitive]:
             scene["variance"] = _variance(state.before, now.plane, now.angle)
         return scene
     k, three = state.moment, np.arange(1.0, 4.0)
-    if k in ("order", "signs"):
+    if k in ("order", "frame", "signs"):
         scene["variances"] = OF_AXES.bars(three, CM2 * sure(state.variances), "along the axes")
     if state.frames and state.outcome is None:
         scene["frame number"] = FRAME.scalar(state.frame, "frame")

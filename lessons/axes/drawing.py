@@ -226,6 +226,11 @@ def _matrix(state: State) -> dict[str, Primitive]:
     faces = np.concatenate(
         [[[4 * k, 4 * k + 1, 4 * k + 2], [4 * k, 4 * k + 2, 4 * k + 3]] for k in range(9)]
     )
+    for k, name in enumerate("xyz"):
+        across, below = MATRIX + (k + 0.5) * right, MATRIX + (k + 0.5) * down
+        scene[f"matrix/{name} across"] = Label(name, across - 0.2 * down, COLORS[k])
+        scene[f"matrix/{name} down"] = Label(name, below - 0.2 * right, COLORS[k])
+    scene["matrix/unit"] = Label("covariance, cm²", MATRIX + 1.5 * right - 0.5 * down, "neutral")
     colors = np.repeat(color_map("diverging", np.array(levels)), 4, axis=0)
     name = "covariance in the frame, cm²"
     return scene | {"cells": Mesh(np.concatenate(corners), faces, colors, flat=True, name=name)}

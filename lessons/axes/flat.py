@@ -1,5 +1,8 @@
 """The stage `flat`: points of the rabbit's outline, a line that a hand turns, and their shadow
 on it.
+
+It is seen from -y, so that a direction is counterclockwise from 0 at the right: what shall be
+nearer to the eye has a negative depth.
 """
 
 from collections.abc import Iterator
@@ -12,10 +15,11 @@ from workbench.data.rabbit_outline import along, rabbit_outline
 from workbench.geometry.polylines import between, segments
 from workbench.geometry.upright import outlined, upright
 from workbench.lesson import Look, Params, say
-from workbench.scene import Chart, Points, Primitive, Scene, Segments, arc
+from workbench.scene import Chart, Label, Points, Primitive, Scene, Segments, arc
 
 POINTS, SIGMAS, REACH = 60, 2.0, 0.78  # points, standard deviations in the bar, metres
 HAND = np.arange(0.0, 181.0, 3.0)  # degrees: where the hand has been after half a turn
+HAND[[24, 54]] = 71.0, 161.0  # the longest shadow and the shortest are among them
 FINE = np.arange(0.0, 180.5, 1.0)
 CM2 = 1e4  # square centimetres in a square metre
 X, LABEL = (0.0, 180.0), "direction of the line"
@@ -111,17 +115,17 @@ def draw(look: Look[Params, Outline, Held]) -> Scene:
     ends = np.stack([m - SIGMAS * sd * u, m + SIGMAS * sd * u])
     reach = max(REACH, 1.1 * float(np.abs((outline.p - m) @ u).max()))
     scene: dict[str, Primitive] = {
-        "outline": Segments(outlined(outline.line, -0.01), "target", 2.0, opacity=0.35),
+        "outline": Segments(outlined(outline.line, 0.01), "target", 2.0, opacity=0.6),
         "points": Points(upright(outline.p[:POINTS]), "target", 0.012, name="60 points"),
         "line": Segments(
-            segments(upright(np.stack([m - reach * u, m + reach * u]), 0.002)), "neutral", 2.0
+            segments(upright(np.stack([m - reach * u, m + reach * u]), -0.002)), "neutral", 2.0
         ),
         "rays": Segments(
-            between(upright(outline.p, 0.001), upright(shadow, 0.001)), "correspondence", 1.0
+            between(upright(outline.p, -0.001), upright(shadow, -0.001)), "correspondence", 1.0
         ),
-        "shadow": Points(upright(shadow, 0.012), "source", 0.01, name="their shadow"),
+        "shadow": Points(upright(shadow, -0.012), "source", 0.01, name="their shadow"),
         "bar": Segments(
-            segments(upright(ends, 0.006)), "source", 6.0, name="2 standard deviations each way"
+            segments(upright(ends, -0.006)), "source", 6.0, name="2 standard deviations each way"
         ),
         "caption": say(
             "At {direction} the standard deviation of the shadow is {sd}.",
@@ -131,13 +135,20 @@ def draw(look: Look[Params, Outline, Held]) -> Scene:
         "direction": DIRECTION.scalar(now.direction, "direction"),
         "sd": SPREAD.scalar(sd, "standard deviation"),
     }
+    zero = np.stack([m, m + 0.5 * REACH * np.array([1.0, 0.0])])
+    scene["zero/line"] = Segments(segments(upright(zero, -0.001)), "neutral", 1.0, opacity=0.6)
+    scene["zero/name"] = Label("0°", upright(zero[1:] + np.array([0.05, 0.0]))[0], "neutral")
+    if now.direction > 0:
+        at = {"about": np.array([0.0, -1.0, 0.0]), "radius": 0.4 * REACH, "width": 2.0}
+        along_x = np.array([1.0, 0.0, 0.0])
+        scene |= arc("turned", upright(m[None], -0.005)[0], along_x, now.direction, **at)
     reached = 1.5 * SIGMAS * np.sqrt(float(held(outline.C, now.direction + 90.0)[0]))
     fences = np.stack([ends - reached * across, ends + reached * across], axis=1)
     scene["ellipse/line"] = Segments(
-        segments(upright(_ellipse(outline), 0.004)), "highlight", 3.0, name="ellipse of 2 sd"
+        segments(upright(_ellipse(outline), -0.004)), "highlight", 3.0, name="ellipse of 2 sd"
     )
     scene["ellipse/fences"] = Segments(
-        np.stack([upright(one, 0.003) for one in fences]), "highlight", 1.5, opacity=0.6
+        np.stack([upright(one, -0.003) for one in fences]), "highlight", 1.5, opacity=0.6
     )
     if outline.has_stray:
         scene |= _stray(outline)
@@ -159,9 +170,9 @@ def _stray(outline: Outline) -> dict[str, Primitive]:
     return {
         "stray": Points(upright(outline.p[POINTS:]), "wrong", 0.025, name="one stray point"),
         "usual": Segments(
-            segments(upright(ends, 0.003)), "truth", 3.0, name="axis 1 without the stray point"
+            segments(upright(ends, -0.003)), "truth", 3.0, name="axis 1 without the stray point"
         ),
-        **arc("moved", upright(m[None], 0.008)[0], upright(usual[None])[0], turned, **at),
+        **arc("moved", upright(m[None], -0.008)[0], upright(usual[None])[0], turned, **at),
     }
 
 

@@ -189,6 +189,20 @@ class TestFlat:
         assert along == pytest.approx([161, 71], abs=0.5)
         assert np.sqrt(w) == pytest.approx([0.243, 0.331], abs=1e-3)
 
+    def test_the_question_stands_at_the_longest_and_the_shortest_shadow(self):
+        outline, found = subject("shadow"), preset("shadow")
+        assert found[24].direction == round(outline.longest)
+        assert found[54].direction == round(outline.longest) + 90
+
+    def test_a_positive_direction_is_counterclockwise_for_the_eye(self):
+        params, view = lesson.preset("shadow").params, lesson.preset("shadow").view
+        assert view is not None
+        away = view.eye[1] < 0  # then x runs to the right
+        bar = scene(params, 10)["bar"].ends[0]
+        rising = (bar[1] - bar[0])[[0, 2]]
+        assert away
+        assert rising[0] * rising[1] > 0
+
     def test_the_lines_at_the_ends_of_the_bar_touch_the_ellipse(self):
         params, outline = lesson.preset("shadow").params, subject("shadow")
         for k in (0, 10, 24, 41):

@@ -156,6 +156,14 @@ class TestSpace:
             assert shown["wrong/mark"].y[0] == pytest.approx(error)
             assert shown["rotation error"].value == pytest.approx(error)
 
+    def test_the_chart_of_wrong_partners_begins_at_none(self):
+        mark, error = scene("pairs", 5)["wrong/mark"], scene("pairs", 5)["rotation error"]
+        assert (mark.x[0], mark.y[0]) == (0.0, pytest.approx(error.value))
+
+    def test_noise_leaves_the_first_scan_where_it_is_shown(self):
+        quiet, loud = (setup(Input(noise=noise)).T_world_target for noise in (0.0, 0.1))
+        np.testing.assert_array_equal(quiet, loud)
+
     def test_shuffled_partners_are_nobodys_own(self):
         runs = Input(), lesson.preset("half-wrong-pairs").params
         clean, wrong = (as_a(Scans, setup(params)) for params in runs)

