@@ -157,7 +157,9 @@ class TestSpace:
             assert shown["rotation error"].value == pytest.approx(error)
 
     def test_the_chart_of_wrong_partners_begins_at_none(self):
-        mark, error = scene("pairs", 5)["wrong/mark"], scene("pairs", 5)["rotation error"]
+        last = scene("pairs", 5)
+        mark = last["wrong/mark"]
+        error = last["rotation error"]
         assert (mark.x[0], mark.y[0]) == (0.0, pytest.approx(error.value))
 
     def test_noise_leaves_the_first_scan_where_it_is_shown(self):

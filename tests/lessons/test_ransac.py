@@ -186,7 +186,8 @@ def test_three_near_inliers_make_a_bad_plane():
 def test_the_votes_of_two_planes_are_said_apart():
     run = Timeline(lesson, presets.WALL).complete()
     end = run[-1]
-    best, subject = end.state.best, run.states().subject
+    best = end.state.best
+    subject = run.states().subject
     said = end.caption.values
     rows = {"wall": subject.is_other, "table": subject.is_inlier}
     rows["clutter"] = ~(subject.is_other | subject.is_inlier)

@@ -93,7 +93,8 @@ const page = {
     thisRun.show(this.run);
     const step = this.step();
     if (!step) return;
-    this.say(step.caption, step.tone);
+    // a story goes wrong on purpose
+    this.say(step.caption, this.face === "story" && step.tone === "wrong" ? "info" : step.tone);
     stage.legend(this.run.things[step.legend] ?? "");
     if (this.face === "bench") panels.show();
     text.show();

@@ -231,7 +231,8 @@ const storyStage = {
     const found = this.told(run).filter(([at, name], i, all) => at <= last &&
       !ENDS.has(name) && all.filter(([, other]) => other === name).length === 1);
     const inner = found.filter(([at]) => at > 0.12 * last && at < 0.88 * last).slice(0, 4);
-    const names = [[0, "start"], ...inner, [end, "stop"]];
+    const names = [[0, "start"], ...inner];
+    if (end === last || end < 0.8 * last) names.push([end, "stop"]);  // else its word has no room
     if (last > end) names.push([last, "other starts"]);
     return names.filter(([at], i) => i === 0 || at > 0).sort(([a], [b]) => a - b)
       .filter(([at], i, all) => i === 0 || at !== all[i - 1][0]);
