@@ -14,6 +14,8 @@ from workbench.run.timeline import Series, plotted_values
 from workbench.scene import PALETTE, Curve, Table
 from workbench.words.axis import Axis, axis, labelled, of_powers, value_axis
 
+LOGARITHM = "log₁₀ "
+"""How the label of an axis begins whose values are logarithms."""
 NARROW_BAR = 0.96
 """How much of the room between two bars a bar takes."""
 
@@ -31,10 +33,16 @@ def axes_of(
     return axis(float(x.min()), float(x.max()), whole=whole), value_axis(ys, most=4)
 
 
+def of_logarithms(label: str, found: Axis) -> tuple[str, Axis]:
+    """Return what an axis is of, and the axis; logarithms are said as the numbers they are of."""
+    name = label.removeprefix(LOGARITHM)
+    return (label, found) if name == label else (name.removeprefix("of "), of_powers(found))
+
+
 def titled(curves: Sequence[Curve]) -> tuple[str, str]:
     """Return the title of a chart of curves and the label of its values."""
     chart = curves[0].chart
-    above, label = labelled(curves[0].y_label, "")
+    above, label = labelled(curves[0].y_label.removeprefix(LOGARITHM).removeprefix("of "), "")
     return f"{chart}: {above}" if above and above != chart else chart, label
 
 
@@ -70,11 +78,13 @@ def chart_of(curves: Sequence[Curve]) -> dict[str, Any]:
     whole = all(np.array_equal(curve.x, np.rint(curve.x)) for curve in curves)
     across, up = axes_of([x for x, _ in outlines], [y for _, y in outlines], whole=whole)
     title, label = titled(curves)
+    x_label, across = of_logarithms(curves[0].x_label, across)
+    _, up = of_logarithms(curves[0].y_label, up)
     drawn = {
         "kind": "curves",
         "name": slug(curves[0].chart),
         "title": title,
-        "xLabel": curves[0].x_label,
+        "xLabel": x_label,
         "yLabel": label,
     }
     return drawn | {

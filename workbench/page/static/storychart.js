@@ -147,11 +147,13 @@ const storyChart = {
 
   // a chart of curves of this step, as the workbench has it
   curves(thing, w, h) {
-    const at = laid(thing, w, h), parts = axes(at);
+    const at = laid(thing, w, h), parts = axes(at), lines = [];
     for (const curve of thing.curves) {
-      const role = colorOf(cssRole(curve));
-      parts.push(...drawn({ ...curve, color: role }, at.px, at.py));
+      const role = cssRole(curve);
+      parts.push(...drawn({ ...curve, color: colorOf(role) }, at.px, at.py));
+      if (curve.kind === "line") lines.push({ ...curve, color: role });
     }
+    if (lines.length > 1) parts.push(...namesOf(at, lines, []));
     for (const mark of thing.curves.flatMap((one) => one.marks ?? [])) parts.push(
       `<line class="rim" x1="${at.px(mark)}" x2="${at.px(mark)}" y1="${FRAME.top}" ` +
       `y2="${h - FRAME.bottom}"/>`);

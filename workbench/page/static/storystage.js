@@ -51,6 +51,7 @@ const storyStage = {
     if (page.face !== "story" || !place) return;
     this.ask(place);
     if (!this.is(page.run, place)) return;
+    if (this.view === null) this.look(place.view);  // nothing is seen yet: the first picture is whole
     const { run } = page, k = this.found(run, place.step);
     if (k === undefined) return this.seek(run, -1);
     if (page.k !== k || !run.steps[k]) this.seek(run, k);
