@@ -212,7 +212,7 @@ def test_every_chart_that_is_named_is_drawn_and_answers_end_where_the_run_does(v
         if place.get("chart"):
             page.wait_for_function(DRAWN)
             seen.append(place["chart"])
-    assert {"basin-final-rotation-error", "share-kept"} <= set(seen)
+    assert {"final-rotation-error", "error-of-the-turn"} <= set(seen)
     for answer in answers:
         page.evaluate("place => storyStage.go(place)", answer)
         page.wait_for_function(STANDS)
