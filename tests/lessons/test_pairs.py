@@ -163,7 +163,9 @@ class TestSpace:
         assert (mark.x[0], mark.y[0]) == (0.0, pytest.approx(error.value))
 
     def test_noise_leaves_the_first_scan_where_it_is_shown(self):
-        quiet, loud = (setup(Input(noise=noise)).T_world_target for noise in (0.0, 0.1))
+        quiet, loud = (
+            as_a(Scans, setup(Input(noise=noise))).T_world_target for noise in (0.0, 0.1)
+        )
         np.testing.assert_array_equal(quiet, loud)
 
     def test_shuffled_partners_are_nobodys_own(self):

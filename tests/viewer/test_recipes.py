@@ -282,7 +282,9 @@ def test_the_container_s_recipe_agrees_with_the_project():
         if line and not line.startswith("#")
     ]
     steps = [(line.split()[0], line.partition(" ")[2]) for line in lines]
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    project = declared["project"]
+    build = declared["tool"]["hatch"]
     image = dict(steps)["FROM"]
     least = project["requires-python"].removeprefix(">=")
     version = re.fullmatch(r"python:(\d+\.\d+)-slim", image)
@@ -290,7 +292,15 @@ def test_the_container_s_recipe_agrees_with_the_project():
     assert tuple(map(int, version[1].split("."))) >= tuple(map(int, least.split(".")))
     copied = [word for kind, words in steps if kind == "COPY" for word in words.split()[:-1]]
     assert all((ROOT / name).exists() for name in copied)
-    assert {"workbench", "lessons", "pyproject.toml", project["readme"], "LICENSE"} <= set(copied)
+    carried = build["build"]["targets"]["wheel"]
+    assert {
+        *carried["packages"],
+        *carried["force-include"],
+        *(name for name in project["license-files"] if "/" not in name),
+        build["metadata"]["hooks"]["custom"]["path"],
+        "pyproject.toml",
+        "README.md",
+    } <= set(copied)
     sent = {
         line.removeprefix("!")
         for line in (ROOT / ".dockerignore").read_text().splitlines()
