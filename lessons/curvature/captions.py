@@ -113,8 +113,7 @@ def _normal(state: State) -> Caption:
             " n = 0."
         )
     return say(
-        "Each neighbour pushes the vertex away from itself, weighted by the cotangents opposite"
-        f" their edge; over twice the area the pushes at vertex {now.vertex:,} add up to 2 H n,"
+        f"Over twice the area, the pushes at vertex {now.vertex:,} add up to 2 H n,"
         f" {brief(float(np.linalg.norm(v)))} m⁻¹ long and pointing {side}."
     )
 
@@ -176,33 +175,29 @@ def _quadric(state: State) -> Caption:
 def _total(state: State) -> Caption:
     now = state.now
     expected = 2 * np.pi * now.chi
-    text = (
-        f"All {len(now.p):,} defects add up to {brief(now.total)} rad ="
-        f" {brief(now.total / np.pi)} π;"
-    )
-    text += f" V − E + F = {brief(now.chi)} promises {brief(2 * now.chi)} π."
+    text = f"All {len(now.p):,} defects add up to {brief(now.total / np.pi)} π."
     if abs(now.total - expected) < 1e-6:
         return say(
-            text
-            + " Gauss-Bonnet: no noise or resolution changes this sum, only handles, pieces and"
-            " borders do.",
+            f"{text} Gauss-Bonnet: that is 2 π times V − E + F = {brief(now.chi)}, and no noise or"
+            " resolution changes it.",
             tone="good",
         )
     halves = (now.total - expected) / np.pi
-    text += f" The sum is {brief(now.total - expected)} rad too large"
+    text += f" 2 π times V − E + F is {brief(2 * now.chi)} π. "
     if state.params.mistake == "2 pi on the border":
-        return say(f"{text}: π for each of the {halves:.0f} border vertices.", tone="wrong")
-    return say(f"{text}: some defects are wrong.", tone="wrong")
+        return say(
+            f"{text}The sum is too large: π for each of the {halves:.0f} border vertices.",
+            tone="wrong",
+        )
+    return say(f"{text}Some defects are wrong.", tone="wrong")
 
 
 def _finer(state: State) -> Caption:
     study = sure(state.study)
     text = (
-        f"From {study.counts[0]:,.0f} to {study.counts[-1]:,.0f} vertices the error of K from"
-        " angles (RMS) goes from"
+        f"With {study.counts[-1] / study.counts[0]:.0f} times as many vertices the error of K from"
+        f" angles goes from {percent(study.K[0])} to {percent(study.K[-1])}."
     )
-    text += f" {percent(study.K[0])} to {percent(study.K[-1])}, by quadric fit from"
-    text += f" {percent(study.K_fit[0])} to {percent(study.K_fit[-1])}."
     missing = {"defect taken for K": "division by the area", "H without the half": "½ in H"}.get(
         state.params.mistake
     )

@@ -10,18 +10,18 @@ from workbench.scene import Field, Label, Mesh, Primitive, Segments
 ALONG = np.array([2.4, 2.05, 0.0]) / np.hypot(2.4, 2.05)  # to the right of who looks at the lesson
 WIDTH, BETWEEN = 0.95, 1.05  # metres: how wide one mesh is drawn, and how far the next one is
 MOST_EDGES = 8000
-FURTHEST = 95  # per cent of the vertices that the colours tell apart
+SCALE = (-3.0, 1.0)  # log₁₀ of 1/m^2: one for all surfaces, so that a colour always means the same
 
 
 def drawn(state: State, study: Study) -> dict[str, Primitive]:
     """Return the four meshes on one scale of colours, each with its vertices and its error."""
     scene: dict[str, Primitive] = {}
-    limit = reach(study)
     spread = max(float(np.ptp(mesh.p, axis=0).max()) for mesh in study.meshes)
     middle = (len(study.meshes) - 1) / 2
     for k, (mesh, off) in enumerate(zip(study.meshes, study.off, strict=True)):
         p = WIDTH / spread * mesh.p + (k - middle) * BETWEEN * ALONG
-        color = Field(off, -limit, limit, "error of K from angles", "m⁻²", "diverging")
+        size = np.log10(np.maximum(np.abs(off), 10.0 ** SCALE[0]))
+        color = Field(size, *SCALE, "log₁₀ error of K from angles", "m⁻²")
         scene[f"meshes/{k + 1}"] = Mesh(p, mesh.faces, color)
         lines = edges(mesh.faces)
         if len(lines) <= MOST_EDGES:
@@ -30,12 +30,3 @@ def drawn(state: State, study: Study) -> dict[str, Primitive]:
         top = np.array([0.0, 0.0, float(p[:, 2].max()) + 0.22])
         scene[f"meshes/{k + 1} words"] = Label(words, (k - middle) * BETWEEN * ALONG + top)
     return scene
-
-
-def reach(study: Study) -> float:
-    """Return where the colours end, 1/m^2: what most vertices of the worst mesh keep to."""
-    known = [np.abs(off[np.isfinite(off)]) for off in study.off]
-    most = max(
-        (float(np.percentile(values, FURTHEST)) for values in known if len(values)), default=0.0
-    )
-    return float(f"{most:.2g}") if most > 1e-9 else 1.0

@@ -12,10 +12,8 @@ import numpy as np
 from workbench.page.legend import css_color, escape
 from workbench.run.timeline import Series, plotted_values
 from workbench.scene import PALETTE, Curve, Table
-from workbench.words.axis import Axis, axis, labelled, of_powers, value_axis
+from workbench.words.axis import LOGARITHM, Axis, axis, labelled, of_powers, value_axis
 
-LOGARITHM = "log₁₀ "
-"""How the label of an axis begins whose values are logarithms."""
 NARROW_BAR = 0.96
 """How much of the room between two bars a bar takes."""
 

@@ -70,14 +70,21 @@ def value_axis(columns: Iterable[np.ndarray], from_zero: bool = False, most: int
     return axis(low if low == 0.0 else low - room, high if high == 0.0 else high + room, most)
 
 
+LOGARITHM = "log₁₀ "
+"""How the label of an axis, or the title of a colour bar, begins whose values are logarithms."""
+
+
 def of_powers(found: Axis) -> Axis:
     """Return an axis of logarithms with the numbers themselves as words, at powers of ten where
-    there are two.
+    there are two, else at one, two and five times such powers.
     """
     places = np.array(found.ticks)
     powers = np.arange(np.ceil(found.low), np.floor(found.high) + 1)
-    if len(powers) > 1 and (len(places) < 2 or (places != np.rint(places)).any()):
-        places = powers
+    if len(places) < 2 or (places != np.rint(places)).any():
+        near = np.arange(np.floor(found.low), np.ceil(found.high))
+        finer = (near[:, None] + np.log10([1.0, 2.0, 5.0])).ravel()
+        finer = finer[(finer >= found.low) & (finer <= found.high)]
+        places = next((some for some in (powers, finer) if len(some) > 1), places)
     words = tuple(number(10.0**place) for place in places)
     return replace(found, ticks=tuple(places.tolist()), words=words)
 
