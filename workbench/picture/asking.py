@@ -46,8 +46,8 @@ class Asked:
 
 
 def is_film(out: Path, asked: Asked) -> bool:
-    """Tell whether a film is to be written: `.gif` and `.mp4` are films, and `.webp` is one unless
-    a step of it is named.
+    """Tell whether a film is to be written: `.gif` and `.mp4` are films, and `.webp` is one where
+    `--from`, `--to` or `--seconds` are given.
 
     Raises:
         InputError: On a name or a wish that does not go with the others.
@@ -56,7 +56,7 @@ def is_film(out: Path, asked: Asked) -> bool:
     if kind not in (*STILLS, *FILMS):
         raise InputError(f"{out}: a picture is .png, .svg or .webp, a film is .webp, .gif or .mp4")
     _check_style(asked)
-    film = kind in FILMS and (kind not in STILLS or asked.step is None)
+    film = kind in FILMS and (kind not in STILLS or asked.is_of_film)
     if film and asked.step is not None:
         raise InputError(f"{out}: a film has --from and --to; --step is of .png, .svg and .webp")
     if not film and asked.is_of_film:

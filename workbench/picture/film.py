@@ -137,7 +137,12 @@ def _palette(pictures: Sequence[Image.Image]) -> Image.Image:
     for one in small:
         sheet.paste(one, (0, top))
         top += one.height
-    return sheet.quantize(COLORS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    found = sheet.quantize(COLORS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    colors = np.array(found.getpalette()).reshape(-1, 3)
+    ground = np.array(sheet.getpixel((0, 0)))
+    colors[np.abs(colors - ground).sum(1).argmin()] = ground  # the largest plain part, exactly
+    found.putpalette(colors.ravel().tolist())
+    return found
 
 
 def _mp4(shown: Iterable[Shown]) -> bytes:

@@ -160,7 +160,7 @@ def scene_files(
             runs[place.run] = WholeRun.of(lesson, names.params_of(place.run), progress)
         run = runs[place.run]
         moment = moment_of(lesson, place, run.timeline, run=run.data, style=style)
-        said = f"{still.title}. {moment.caption}" if moment.caption else still.title
+        said = " ".join(filter(None, (_sentence(still.title), moment.caption)))
         pictures.append(png_of(replace(moment, caption=said, tone="info"), style))
         progress("drawn", i + 1, len(stills))
     try:
@@ -214,6 +214,10 @@ def _step(timeline: Timeline, asked: Asked, preset: str | None) -> int:
     if own is not None:
         return timeline.opening(f"lesson {lesson.name}, preset {preset}", own)
     return telling_step(lesson, timeline)
+
+
+def _sentence(title: str) -> str:
+    return title if title[-1:] in ".?!" else f"{title}."
 
 
 def _style(asked: Asked) -> Style:

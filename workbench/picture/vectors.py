@@ -5,7 +5,9 @@ import io
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from PIL import ImageColor
 
+from workbench.picture.theme import theme
 from workbench.rendering.lens import Lens
 from workbench.rendering.raster import LEAST_RADIUS, Raster, clipped
 from workbench.rendering.shapes import Discs, Shape, Sheet, Strokes, Surface
@@ -33,14 +35,14 @@ def scene_svg(shapes: Sequence[Shape], lens: Lens, *, scale: float, dark: bool) 
             f'<image width="{lens.size[0]}" height="{lens.size[1]}"'
             f' href="data:image/png;base64,{data}"/>'
         )
-    power = 0.6 if dark else 1.0
+    ground = np.array(ImageColor.getrgb(theme(dark=dark).paper))
     groups: dict[str, list[tuple[float, str]]] = {"grid": [], "vectors": []}
     for one in shapes:
         where = groups["vectors" if one.framed else "grid"]
         if isinstance(one, Discs):
-            where += _circles(one, depth, lens=lens, power=power)
+            where += _circles(one, depth, lens=lens, ground=ground)
         elif isinstance(one, Strokes):
-            where += _lines(one, depth, lens=lens, power=power)
+            where += _lines(one, depth, lens=lens, ground=ground)
     drawn = (
         f'<g class="{name}">{"".join(svg for _, svg in sorted(ones, key=lambda one: -one[0]))}</g>'
         for name, ones in groups.items()
@@ -50,19 +52,19 @@ def scene_svg(shapes: Sequence[Shape], lens: Lens, *, scale: float, dark: bool) 
 
 
 def _circles(
-    discs: Discs, depth: np.ndarray, *, lens: Lens, power: float
+    discs: Discs, depth: np.ndarray, *, lens: Lens, ground: np.ndarray
 ) -> Iterator[tuple[float, str]]:
     uv, z = lens.seen(discs.p)
     hidden = _hidden(uv, z, depth, lens=lens)
     for (u, v), far, out, color in zip(uv, z, hidden, discs.rgba, strict=True):
         if np.isfinite(far) and not out:
             radius = max(lens.focal * discs.radius / far, LEAST_RADIUS)
-            ink = _ink("fill", color, power)
+            ink = _ink("fill", color, ground)
             yield float(far), f'<circle cx="{u:.2f}" cy="{v:.2f}" r="{radius:.2f}" {ink}/>'
 
 
 def _lines(
-    strokes: Strokes, depth: np.ndarray, *, lens: Lens, power: float
+    strokes: Strokes, depth: np.ndarray, *, lens: Lens, ground: np.ndarray
 ) -> Iterator[tuple[float, str]]:
     uv, inverse, which = clipped(strokes.ends, lens, margin=strokes.width)
     share = np.linspace(0, 1, LOOKS)
@@ -78,7 +80,7 @@ def _lines(
                 float(z[first : last + 1].mean()),
                 f'<line x1="{a:.2f}" y1="{b:.2f}" x2="{c:.2f}" y2="{d:.2f}" stroke-width='
                 f'"{strokes.width:g}" stroke-linecap="round"'
-                f" {_ink('stroke', strokes.rgba[i], power)}/>",
+                f" {_ink('stroke', strokes.rgba[i], ground)}/>",
             )
 
 
@@ -91,7 +93,9 @@ def _hidden(uv: np.ndarray, z: np.ndarray, depth: np.ndarray, *, lens: Lens) -> 
     return inside & (0.997 * np.nan_to_num(z) > depth[row, column])
 
 
-def _ink(name: str, rgba: np.ndarray, power: float) -> str:
-    red, green, blue, alpha = (int(one) for one in rgba)
-    faint = "" if alpha == 255 else f' {name}-opacity="{(alpha / 255) ** power:.3g}"'
-    return f'{name}="#{red:02x}{green:02x}{blue:02x}"{faint}'
+def _ink(name: str, rgba: np.ndarray, ground: np.ndarray) -> str:
+    """Return a colour mixed with the ground, as a page does: where two lines meet is no dot."""
+    power = 0.6 if ground.mean() < 128 else 1.0
+    share = (rgba[3] / 255) ** power
+    red, green, blue = np.rint(share * rgba[:3] + (1 - share) * ground).astype(int)
+    return f'{name}="#{red:02x}{green:02x}{blue:02x}"'

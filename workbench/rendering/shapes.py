@@ -124,7 +124,7 @@ def stage_of(view: View) -> list[Shape]:
 
 
 def strong(shapes: Iterable[Shape]) -> list[Shape]:
-    """Return the shapes that a picture is framed by: faint ones only where there are no others."""
+    """Return the shapes that lead a picture: faint ones only where there are no others."""
     shapes = [one for one in shapes if one.framed]
     return [one for one in shapes if _opacity(one) >= FAINT] or shapes
 
