@@ -116,7 +116,7 @@ def _loop(cards: list[Card], root: str) -> str:
         return ""
     still, loop = (root + name for name in FRONT_PICTURES)
     return (
-        f'<figure id="loop"><img src="{still}" data-loop="{loop}" width="400" height="250"'
+        f'<figure id="loop"><img src="{still}" data-loop="{loop}" width="400" height="281"'
         ' alt="An orange rabbit turns step by step onto a blue one."><figcaption>Every lesson is a'
         f' run, step by step. This one: <a href="{escape(card.address)}">{escape(card.title)}</a>.'
         ' <button type="button" hidden>Pause</button></figcaption></figure>'
