@@ -56,6 +56,16 @@ ALLOWED = {
     "workbench.run": LESSON,
     "workbench.run.picking": DRAWING,
     "workbench.wire": LESSON | {"workbench.wire"},
+    "workbench.rendering": {"workbench.rendering", "workbench.scene", "workbench.view"},
+    "workbench.picture": (
+        LESSON
+        | {
+            "workbench.picture",
+            "workbench.rendering",
+            "workbench.page",
+            "workbench.story",
+        }
+    ),
     "workbench.recording": (LESSON | {"workbench.recording", "workbench.words", "workbench.story"}),
     "workbench.exercise": (
         LESSON | {"workbench.exercise", "workbench.recording", "workbench.numerals"}
@@ -65,7 +75,14 @@ ALLOWED = {
     ),
     "workbench.story": LESSON | {"workbench.story", "workbench.words"},
     "workbench.page": (
-        LESSON | {"workbench.page", "workbench.story", "workbench.words", "workbench.numerals"}
+        LESSON
+        | {
+            "workbench.page",
+            "workbench.rendering",
+            "workbench.story",
+            "workbench.words",
+            "workbench.numerals",
+        }
     ),
     "workbench.page.toy": {"workbench.data.rabbit_outline"},
     "workbench.page.exercise": LESSON | {"workbench.exercise"},
@@ -85,6 +102,7 @@ ALLOWED = {
             "workbench.publish",
             "workbench.computed",
             "workbench.page",
+            "workbench.picture",
             "workbench.story",
             "workbench.exercise",
             "workbench.recording",

@@ -127,6 +127,69 @@ def record(
 
 
 @command
+def picture(
+    run: RunChoice,
+    out: Annotated[
+        Path,
+        Option(
+            "File to write: .png, .svg, .webp, .gif or .mp4; a folder with --scenes.",
+            "FILE",
+            short="-o",
+        ),
+    ],
+    *,
+    step: Annotated[
+        int | None, Option("Step of a picture; negative counts from the end.", "K")
+    ] = None,
+    from_: Annotated[int | None, Option("First step of a film; 0 without it.", "K")] = None,
+    to: Annotated[int | None, Option("Last step of a film; the run's own end without it.", "K")] = (
+        None
+    ),
+    seconds: Annotated[float | None, Option("How long a film is.", "S")] = None,
+    width: Annotated[int, Option("Pixels, 160 to 3840.", "PX")] = 1200,
+    dark: Annotated[bool, Option("On a dark ground.")] = False,
+    chart: Annotated[bool, Option("Leave out the chart below the scene.")] = True,
+    captions: Annotated[
+        Literal["picture", "beside", "none"],
+        Option("In the picture, as subtitles in a file beside it, or none.", "WHERE"),
+    ] = "picture",
+    scenes: Annotated[
+        bool, Option("A picture for each scene of a story, into the folder -o names.")
+    ] = False,
+    force: Annotated[bool, Option("Replace files that are there.")] = False,
+) -> None:
+    """Draw a step of a run as a picture, a stretch of it as a film, or a story as slides."""
+    from workbench.machinery.progress import bar
+    from workbench.picture.asking import Asked
+    from workbench.picture.making import pictured, scene_files
+    from workbench.picture.sheet import Style
+
+    asked = Asked(
+        step=step,
+        first=from_,
+        last=to,
+        seconds=seconds,
+        style=Style(width=width, dark=dark, chart=chart),
+        captions=captions,
+    )
+    with bar(sys.stderr, "Drawing") as progress, called_by_flags():
+        if scenes:
+            files = scene_files(run.lesson, out, asked, force=force, progress=progress)
+        else:
+            files = pictured(
+                run.lesson,
+                run.params,
+                out,
+                asked=asked,
+                preset=run.preset,
+                force=force,
+                progress=progress,
+            )
+    for file in files:
+        sys.stdout.write(f"{file}: {file.stat().st_size / 1e3:,.0f} kB\n")
+
+
+@command
 def replay(file: Recording, /, serving: Serving, native: Native = False) -> None:
     """Play a recording in Rerun's viewer, without any network."""
     from workbench.recording.replay import replay_file

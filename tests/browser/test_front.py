@@ -226,3 +226,18 @@ def test_it_plays_without_a_server_and_keeps_its_theme(chromium, tmp_path):
     assert (published["chapter"], published["minutes"]) == (TINY.chapter, TINY.minutes)
     assert errors == []
     page.close()
+
+
+def test_a_run_loops_where_motion_is_allowed_and_stops_when_asked_to(front):
+    page = front().page
+    source = "$('#loop img').getAttribute('src').split('/').at(-1)"
+    assert page.evaluate(source) == "front-still.webp", "the reader asks for less motion"
+    page.emulate_media(reduced_motion="no-preference")
+    page.wait_for_function(f"{source} === 'front-loop.webp'")
+    page.locator("#loop button").click()
+    assert page.evaluate(source) == "front-still.webp"
+    assert page.locator("#loop button").inner_text() == "Play"
+    page.locator("#loop button").click()
+    assert page.evaluate(source) == "front-loop.webp"
+    page.emulate_media(reduced_motion="reduce")
+    page.wait_for_function(f"{source} === 'front-still.webp'")

@@ -17,8 +17,10 @@ from tests import fake
 from tests.publish.conftest import TINY
 from tests.story.hill import lesson as hill
 from workbench.lesson import View, catalog
+from workbench.picture.sheet import _legend
+from workbench.picture.stills import _index, still_svg, stills_of, with_stills
+from workbench.picture.theme import theme
 from workbench.publish import site
-from workbench.publish.stills import _index, _legend, still_svg, stills_of, with_stills
 from workbench.run.timeline import Timeline
 from workbench.story import has_story, story_of
 
@@ -119,12 +121,14 @@ def test_a_legend_has_its_colours_and_its_bars_on_lines_that_fit():
     scene = {f"a{i}": Points(p, "source", name=f"a name & number {i}") for i in range(9)}
     html = legend_html({**scene, "b": Points(p, bar)}, None)
     assert bar_html(bar) in html
-    svg, below = _legend(html, 100)
+    svg, below = _legend({**scene, "b": Points(p, bar)}, 640, 100, colors=theme(dark=False))
     root = ElementTree.fromstring(f"<svg>{svg}</svg>")
-    texts = ["".join(one.itertext()) for one in root.iter("text")]
-    assert len(texts) == 4
-    assert below == 100 + 4 * 17
-    assert all(len(text) < 100 for text in texts)
-    assert "a name & number 8" in texts[2]
-    assert texts[3] == "Height <z>: 0 to 2 m"
+    texts = list(root.iter("text"))
+    words = ["".join(one.itertext()) for one in texts]
+    assert words[8:] == ["a name & number 8", "Height <z>: 0", "2 m"]
+    rows = sorted({float(one.attrib["y"]) for one in texts})
+    assert len(rows) == 3
+    assert below > rows[-1]
+    ends = [float(one.attrib["x"]) + 7 * len(w) for one, w in zip(texts, words, strict=True)]
+    assert max(ends) < 660
     assert len(list(root.iter("stop"))) == 9

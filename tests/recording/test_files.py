@@ -188,7 +188,7 @@ def test_a_place_that_cannot_be_written_is_said_before_the_run(tmp_path, place):
 
 
 def test_a_folder_that_takes_no_files_is_said(tmp_path, monkeypatch):
-    monkeypatch.setattr("workbench.recording.write.os.access", lambda path, mode: False)
+    monkeypatch.setattr("workbench.machinery.atomic.os.access", lambda path, mode: False)
     with pytest.raises(InputError, match="cannot be written to"):
         record(fake.lesson, tmp_path / "a.rrd")
 

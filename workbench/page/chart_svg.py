@@ -30,24 +30,26 @@ MOST_CURVES = 12
 
 Run = Mapping[str, Any]
 """A run as plain data: steps, things, series, charts, end."""
+Size = tuple[int, int]
+"""Width and height of a chart, pixels."""
 
 
 def charts_svg(
-    run: Run, k: int, names: Sequence[str], *, hide: Sequence[str] = ()
+    run: Run, k: int, names: Sequence[str], *, hide: Sequence[str] = (), wide: int = WIDTH
 ) -> tuple[str, int]:
-    """Return the charts of a step, one below the other, as the inside of an SVG of WIDTH pixels,
-    and their height.
+    """Return the charts of a step, one below the other, as the inside of an SVG, and their height.
 
     Args:
         run: All of a run, as `Steps.whole` returns it.
         k: The step.
         names: What is drawn, by the names of page.md; what the step does not have is left out.
         hide: Names of parts that are left out.
+        wide: Pixels of the SVG's width.
     """
     found = [one for one in (_named(run, k, name) for name in names) if one is not None]
     room = HIGH if len(found) == 1 else ROW
     parts = [
-        f'<g transform="translate(0 {i * room})">{"".join(draw(room, hide))}</g>'
+        f'<g transform="translate(0 {i * room})">{"".join(draw((wide, room), hide))}</g>'
         for i, draw in enumerate(found)
     ]
     return "".join(parts), room * len(found)
@@ -76,26 +78,26 @@ def _things(run: Run, k: int) -> list[dict[str, Any]]:
     return [one for one in things if isinstance(one, dict)]
 
 
-def _named(run: Run, k: int, name: str) -> Callable[[int, Sequence[str]], Iterator[str]] | None:
+def _named(run: Run, k: int, name: str) -> Callable[[Size, Sequence[str]], Iterator[str]] | None:
     """Return what draws a chart of a name; None where the step has none."""
     base, _, near = name.partition("@")
     for one in _things(run, k):
         if one["kind"] == "plot" and one["name"] == base:
             axes = one["near"] if near and one["near"] else one
-            return lambda high, hide: _plot(
-                run, one | {"x": axes["x"], "y": axes["y"]}, high, hide=hide
+            return lambda size, hide: _plot(
+                run, one | {"x": axes["x"], "y": axes["y"]}, size, hide=hide
             )
     by_name = {about["name"]: title for title, about in run["charts"].items()}
     by_name |= {slug(one[key]): one["chart"] for one in run["series"] for key in ("path", "name")}
     if base in by_name:
-        return lambda high, hide: _over_steps(run, by_name[base], k=k, high=high)
+        return lambda size, hide: _over_steps(run, by_name[base], k=k, size=size)
     for one in _things(run, k):
         if one["kind"] == "curves" and base in (one["name"], slug(one["title"].split(":")[0])):
-            return lambda high, hide: _curves(one, high)
+            return lambda size, hide: _curves(one, size)
     return None
 
 
-def _plot(run: Run, plot: Mapping[str, Any], high: int, *, hide: Sequence[str]) -> Iterator[str]:
+def _plot(run: Run, plot: Mapping[str, Any], size: Size, *, hide: Sequence[str]) -> Iterator[str]:
     def kept(kind: str) -> list[Any]:
         parts = [run["things"][one] if isinstance(one, int) else one for one in plot[kind]]
         role = kind.rstrip("s")
@@ -103,14 +105,14 @@ def _plot(run: Run, plot: Mapping[str, Any], high: int, *, hide: Sequence[str]) 
 
     whole = kept("whole")
     seconds = kept("seconds")
-    box = _Box(plot["x"], plot["y"], high)
+    box = _Box(plot["x"], plot["y"], size)
     yield from box.axes(plot["x_label"], plot["y_label"])
-    yield from _names([*whole, *seconds])
+    yield from _names([*whole, *seconds], size)
     for band in kept("bands"):
         low = box.px(band["low"])
         end = box.px(band["high"])
         yield (
-            f'<rect x="{low:.1f}" y="{high - BOTTOM - 3}" width="{max(0.0, end - low):.1f}"'
+            f'<rect x="{low:.1f}" y="{size[1] - BOTTOM - 3}" width="{max(0.0, end - low):.1f}"'
             f' height="6" fill="{_ink(band["color"])}"/>'
         )
     for one in whole:
@@ -122,12 +124,12 @@ def _plot(run: Run, plot: Mapping[str, Any], high: int, *, hide: Sequence[str]) 
         yield from box.dots({"x": [one["x"]], "y": [y], "color": one["color"]}, 6)
 
 
-def _over_steps(run: Run, chart: str, *, k: int, high: int) -> Iterator[str]:
+def _over_steps(run: Run, chart: str, *, k: int, size: Size) -> Iterator[str]:
     lines = [one for one in run["series"] if one["chart"] == chart]
     about = run["charts"][chart]
     end = run["end"] if run["end"] is not None and k <= run["end"] else len(run["steps"]) - 1
     across = {"low": 0, "high": max(1, end), "ticks": [0, end], "words": ["0", f"{end} steps"]}
-    box = _Box(across, about["y"], high)
+    box = _Box(across, about["y"], size)
     label = about["yLabel"]
     head = (
         label
@@ -136,7 +138,7 @@ def _over_steps(run: Run, chart: str, *, k: int, high: int) -> Iterator[str]:
     )
     yield from box.axes("", head)
     yield box.upright(k)
-    yield from _names(lines)
+    yield from _names(lines, size)
     for one in lines:
         values = [_plotted(value, one["log"]) for value in one["values"][: end + 1]]
         yield from box.line({"x": range(len(values)), "y": values, "color": one["color"]})
@@ -148,10 +150,10 @@ def _plotted(value: float | None, log: bool) -> float | None:
     return float(np.log10(value)) if value > 0 else None
 
 
-def _curves(chart: Mapping[str, Any], high: int) -> Iterator[str]:
-    box = _Box(chart["x"], chart["y"], high)
+def _curves(chart: Mapping[str, Any], size: Size) -> Iterator[str]:
+    box = _Box(chart["x"], chart["y"], size)
     yield from box.axes(chart["xLabel"], chart["yLabel"] or chart["title"])
-    yield from _names(chart["curves"])
+    yield from _names(chart["curves"], size)
     for one in chart["curves"]:
         if one["kind"] == "dots":
             yield from box.dots(one, 2.5)
@@ -162,7 +164,7 @@ def _curves(chart: Mapping[str, Any], high: int) -> Iterator[str]:
         yield from map(box.upright, one["marks"])
 
 
-def _names(curves: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+def _names(curves: Sequence[Mapping[str, Any]], size: Size) -> Iterator[str]:
     """Return the names of several curves, in their colours, in the upper right corner."""
     if len(curves) < 2:
         return
@@ -170,7 +172,7 @@ def _names(curves: Sequence[Mapping[str, Any]]) -> Iterator[str]:
         f'<tspan fill="{_ink(one["color"])}" dx="10">● </tspan><tspan>{escape(one["name"])}</tspan>'
         for one in curves[:MOST_CURVES]
     )
-    yield f'<text x="{WIDTH - RIGHT}" y="{TOP - 2}" text-anchor="end">{words}</text>'
+    yield f'<text x="{size[0] - RIGHT}" y="{TOP - 2}" text-anchor="end">{words}</text>'
 
 
 def _ink(color: str) -> str:
@@ -178,17 +180,17 @@ def _ink(color: str) -> str:
 
 
 class _Box:
-    """Where the values of two axes are in a chart of a height, pixels."""
+    """Where the values of two axes are in a chart of a size, pixels."""
 
-    def __init__(self, x: Mapping[str, Any], y: Mapping[str, Any], high: int):
+    def __init__(self, x: Mapping[str, Any], y: Mapping[str, Any], size: Size):
         self._x = x
         self._y = y
-        self._high = high
+        self._wide, self._high = size
 
     def px(self, x: float) -> float:
         """Return the column of a value."""
         share = (x - self._x["low"]) / (self._x["high"] - self._x["low"])
-        return LEFT + share * (WIDTH - LEFT - RIGHT)
+        return LEFT + share * (self._wide - LEFT - RIGHT)
 
     def py(self, y: float) -> float:
         """Return the row of a value."""
@@ -202,15 +204,15 @@ class _Box:
         for tick, word in ticks[:: -(-len(ticks) // room)]:
             y = self.py(tick)
             yield (
-                f'<line x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}"'
+                f'<line x1="{LEFT}" x2="{self._wide - RIGHT}" y1="{y:.1f}" y2="{y:.1f}"'
                 f' stroke="{GRID}"/><text x="{LEFT - 7}" y="{y + 4:.1f}"'
                 f' text-anchor="end">{escape(word)}</text>'
             )
         low = self._high - BOTTOM + 17
         for tick, word in zip(self._x["ticks"], self._x["words"], strict=True):
             x = self.px(tick)
-            anchor = "middle" if x + 4 * len(word) < WIDTH else "end"
-            place = x if anchor == "middle" else WIDTH - 4
+            anchor = "middle" if x + 4 * len(word) < self._wide else "end"
+            place = x if anchor == "middle" else self._wide - 4
             yield f'<text x="{place:.1f}" y="{low}" text-anchor="{anchor}">{escape(word)}</text>'
         said = f"{up}, over {across}" if across.strip() else up
         yield f'<text x="4" y="12" fill="{INK}" font-weight="600">{escape(said)}</text>'

@@ -20,6 +20,10 @@ STANDS_STILL = (
 )
 FRONT_FILES = ("front.css", "front.js")
 """The page's own styles and script, beside those of every page."""
+FRONT_PICTURES = ("front-still.webp", "front-loop.webp")
+"""A picture of a run, and the run as a loop: `python -m assets.make_pictures` makes them."""
+LOOP_OF = "icp"
+"""The lesson that the loop is of."""
 SHORT = 2
 """Lessons of a chapter that leaves room for another beside it."""
 
@@ -75,6 +79,7 @@ def course_document(
     return (
         f"{document_head(COURSE, WELCOME, root, more=head, math=False)}"
         f'<body class="front">{skip}{_hero(cards, said)}{_line(chapters)}<main id="course">'
+        + _loop(cards, root)
         + "".join(_chapter(chapter, own, titles) for chapter, own in chapters)
         + f"{_map(chapters)}</main>"
         f"{footer}"
@@ -101,6 +106,20 @@ def _hero(cards: list[Card], said: str) -> str:
         ' class="target">blue</b>: drag it to move it, drag its ring to turn it. Six numbers are'
         f" all that a computer knows of what you do.</p>{begin}</div>{toy_html()}</header>"
         f'<noscript><p class="unscripted">{STANDS_STILL}</p></noscript>'
+    )
+
+
+def _loop(cards: list[Card], root: str) -> str:
+    """Return a run as a loop, which the page's script starts where the reader allows motion."""
+    card = next((one for one in cards if one.name == LOOP_OF), None)
+    if card is None:
+        return ""
+    still, loop = (root + name for name in FRONT_PICTURES)
+    return (
+        f'<figure id="loop"><img src="{still}" data-loop="{loop}" width="400" height="281"'
+        ' alt="An orange rabbit turns step by step onto a blue one."><figcaption>Every lesson is a'
+        f' run, step by step. This one: <a href="{escape(card.address)}">{escape(card.title)}</a>.'
+        ' <button type="button" hidden>Pause</button></figcaption></figure>'
     )
 
 

@@ -1,9 +1,10 @@
-"""The legend of a scene and the bar of a colour map, as HTML. Whatever a lesson or its params say
-is escaped.
+"""The legend of a scene and the bar of a colour map: as entries, and as HTML of these. Whatever a
+lesson or its params say is escaped there.
 """
 
 import html
-from typing import Any, cast
+from dataclasses import dataclass
+from typing import Any, TypeAlias, cast
 
 from workbench.numerals import brief
 from workbench.scene import PALETTE, Classes, Field, Primitive, Role, Scene, color_map, in_space
@@ -19,46 +20,90 @@ def css_color(rgb: tuple[int, int, int]) -> str:
     return "#{:02x}{:02x}{:02x}".format(*rgb)
 
 
-def legend_html(scene: Scene, grid: float | None) -> str:
+@dataclass(frozen=True)
+class Swatch:
+    """A colour, `#rrggbb`, and what it is of."""
+
+    color: str
+    name: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bar:
+    """The bar of a colour map: its title, the colours from low to high, its ends as they are
+    written, and their unit, empty for none.
+    """
+
+    title: str
+    colors: tuple[str, ...]
+    low: str
+    high: str
+    unit: str
+
+
+Entry: TypeAlias = Swatch | Bar
+
+
+def legend_entries(scene: Scene) -> dict[Entry, list[str]]:
     """Return the legend of a scene: every named thing with its colour, every colour map with its
-    bar and unit.
+    bar; each with the paths of what it is about.
+    """
+    found: dict[Entry, list[str]] = {}
+    for path, primitive in scene.items():
+        for entry in _entries(primitive) if in_space(primitive) else ():
+            found.setdefault(entry, []).append(path)
+    return found
+
+
+def legend_html(scene: Scene, grid: float | None) -> str:
+    """Return the legend of a scene, and the spacing of its grid, metres.
 
     Each row names the paths of what it is about, so that a page can tell which thing is meant.
     """
-    rows: dict[str, list[str]] = {}
-    for path, primitive in scene.items():
-        for row in _legend_rows(primitive) if in_space(primitive) else ():
-            rows.setdefault(row, []).append(path)
     found = [
-        f'<span data-things="{escape("|".join(paths))}">{row}</span>' for row, paths in rows.items()
+        f'<span data-things="{escape("|".join(paths))}">{_html(entry)}</span>'
+        for entry, paths in legend_entries(scene).items()
     ]
     if grid is not None:
         found.append(f"<span>grid {grid:g} m</span>")
     return f'<div class="wb-legend">{"".join(found)}</div>' if found else ""
 
 
-def _legend_rows(primitive: Primitive) -> list[str]:
+def _entries(primitive: Primitive) -> list[Entry]:
     color: Any = getattr(primitive, "color", None)
     name = getattr(primitive, "name", "")
     field = color if isinstance(color, Field) else getattr(primitive, "image", None)
     if isinstance(field, Field):
-        return [bar_html(field)]
+        return [bar_of(field)]
     if isinstance(color, Classes):
-        return [_dot(PALETTE[role], label) for role, label in color.present()]
+        return [Swatch(css_color(PALETTE[role]), label) for role, label in color.present()]
     if isinstance(color, str) and name:
-        return [_dot(PALETTE[cast(Role, color)], name)]
+        return [Swatch(css_color(PALETTE[cast(Role, color)]), name)]
     return []
+
+
+def bar_of(field: Field) -> Bar:
+    """Return the colour bar of a field; short lengths are in millimetres."""
+    colors = (css_color(tuple(color_map(field.map, i / 8).tolist())) for i in range(9))  # type: ignore[arg-type]
+    small = field.unit == "m" and max(abs(field.low), abs(field.high)) < 0.1
+    scale, unit = (1e3, "mm") if small else (1.0, field.unit)
+    return Bar(
+        title=field.title,
+        colors=tuple(colors),
+        low=brief(scale * field.low),
+        high=brief(scale * field.high),
+        unit=unit,
+    )
 
 
 def bar_html(field: Field) -> str:
     """Return the colour bar of a field: its title, ends and unit."""
-    stops = ",".join(css_color(tuple(color_map(field.map, i / 8).tolist())) for i in range(9))  # type: ignore[arg-type]
-    small = field.unit == "m" and max(abs(field.low), abs(field.high)) < 0.1
-    scale, unit = (1e3, "mm") if small else (1.0, field.unit)
-    low, high = (brief(scale * value) for value in (field.low, field.high))
-    bar = f'<b style="background:linear-gradient(90deg,{stops})"></b>'
-    return f"{escape(field.title)}: {low}{bar}{high}{escape(f' {unit}') if unit else ''}"
+    return _html(bar_of(field))
 
 
-def _dot(rgb: tuple[int, int, int], label: str) -> str:
-    return f'<i style="background:{css_color(rgb)}"></i>{escape(label)}'
+def _html(entry: Entry) -> str:
+    if isinstance(entry, Swatch):
+        return f'<i style="background:{entry.color}"></i>{escape(entry.name)}'
+    bar = f'<b style="background:linear-gradient(90deg,{",".join(entry.colors)})"></b>'
+    unit = escape(f" {entry.unit}") if entry.unit else ""
+    return f"{escape(entry.title)}: {entry.low}{bar}{entry.high}{unit}"

@@ -17,9 +17,9 @@ from workbench.page.article import article_html
 from workbench.page.course import Card, course_document
 from workbench.page.document import COMPUTING, in_script, lesson_document
 from workbench.page.exercise import exercises_html
+from workbench.picture.stills import stills_of, with_stills
 from workbench.publish.manifest import Listed
 from workbench.publish.runs import PAGE, question_run
-from workbench.publish.stills import stills_of, with_stills
 from workbench.run.questions import answer
 from workbench.run.timeline import Timelines
 from workbench.story import story_of

@@ -17,8 +17,8 @@ from workbench.page.about import short_notice
 from workbench.page.article import LINK
 from workbench.page.document import STATIC, in_script, lesson_document
 from workbench.page.steps import Steps
+from workbench.picture.stills import Still, still_svg, stills_of
 from workbench.publish.sources import sources_digest
-from workbench.publish.stills import Still, still_svg, stills_of
 from workbench.recording import file_name, record_bytes
 from workbench.run.links import show_command
 from workbench.run.timeline import Timeline

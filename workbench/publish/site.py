@@ -21,7 +21,7 @@ from workbench.page.about import (
     missing_document,
     notices_document,
 )
-from workbench.page.course import FRONT_FILES, WELCOME
+from workbench.page.course import FRONT_FILES, FRONT_PICTURES, WELCOME
 from workbench.page.document import (
     COURSE,
     DRESS,
@@ -178,7 +178,9 @@ def _publish(
         f"{PAGE}/{name}": bare(STATIC / name).encode()
         for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS, *EMBED)
     }
-    shared |= {f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in (*FONTS, ICON)}
+    shared |= {
+        f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in (*FONTS, ICON, *FRONT_PICTURES)
+    }
     shared |= {
         f"{PAGE}/{MATH}": math_font_css(MATH_FONT).encode(),
         f"{PAGE}/{MATH_FONT}": math_font(),

@@ -1,7 +1,6 @@
 """Writes runs to recordings: into a whole file or none, into a pipe, or into bytes."""
 
 import json
-import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +12,7 @@ import rerun as rr
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, course, find
-from workbench.machinery.atomic import remove_leftovers, write_atomic
+from workbench.machinery.atomic import check_place, write_place
 from workbench.machinery.licence import NOTICE
 from workbench.machinery.progress import Progress, bar
 from workbench.machinery.version import __version__
@@ -84,7 +83,7 @@ def record(
         params = knobs.make(
             found.params, values, base=None if preset is None else found.preset(preset).params
         )
-    _check_place(Path(path), force, how="force=True")
+    check_place(Path(path), force, how="force=True")
     record_file(found, params, Path(path), preset=preset, force=force)
     return Path(path)
 
@@ -104,11 +103,11 @@ def record_file(
         InputError: If the run fails, or the file is there or cannot be written; then nothing has
             changed.
     """
-    _check_place(path, force)
+    check_place(path, force)
     with bar(progress, "Recording") as tell:
         timeline = _run(lesson, params, tell)
         data = record_bytes(timeline, preset=preset, progress=tell)
-    _write(path, data)
+    write_place(path, data)
     return Written(len(timeline), len(data), timeline.stopped)
 
 
@@ -233,26 +232,3 @@ def _facts(timeline: Timeline, preset: str | None) -> dict[str, Any]:
             {"workbench": __version__, "rerun": rr.__version__, "numpy": np.__version__}
         ),
     }
-
-
-def _check_place(path: Path, force: bool, how: str = "--force") -> None:
-    """Raise InputError before a long run where its end would be for nothing."""
-    if path.exists() and not path.is_file():
-        raise InputError(f"{path}: is not a file")
-    if path.exists() and not force:
-        raise InputError(f"{path}: exists already; {how} replaces it")
-    folder = path.absolute().parent
-    if not folder.is_dir():
-        raise InputError(f"{folder}: no such folder")
-    if not os.access(folder, os.W_OK):
-        raise InputError(f"{folder}: cannot be written to")
-
-
-def _write(path: Path, data: bytes) -> None:
-    """Put the whole file in place, or nothing; a link is followed, killed writers' leftovers go."""
-    final = path.resolve()
-    try:
-        remove_leftovers(final.parent)
-        write_atomic(final, data)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error

@@ -3,7 +3,8 @@ argparse.
 
 A command is a function whose parameters are `Annotated[type, Option(...)]`, positional on the
 command line where they are positional-only. A parameter of type `RunChoice` becomes LESSON,
---preset and one flag per Params field; one of type `Serving` becomes --host, --port and
+--preset and one flag per Params field: `--NAME`, or `--LESSON-NAME` where the command itself has an
+option of that name; one of type `Serving` becomes --host, --port and
 --no-browser, and `ServingLive` --open, --behind and --workers too. Whatever cannot be used raises
 InputError with one line.
 """
@@ -33,6 +34,10 @@ these names.
 """
 
 HELP = {"-h", "--help"}
+_PARAM = "param "
+"""What the value of a Params field is kept under begins so: an option of the command may have its
+name.
+"""
 
 
 @dataclass(frozen=True)
@@ -117,14 +122,12 @@ def parse(
     asked = _asked(words, signature.parameters.values())
     if any(one.annotation is RunChoice for one in signature.parameters.values()):
         words, asked = _led_on(words, *asked)
-    readers = {
-        name: (
-            _lesson_reader(parser, words, *asked)
-            if one.annotation is RunChoice
-            else _reader(parser, one)
-        )
-        for name, one in signature.parameters.items()
+    own = {
+        name: one for name, one in signature.parameters.items() if one.annotation is not RunChoice
     }
+    readers = {name: _reader(parser, one) for name, one in own.items()}
+    for name in [name for name in signature.parameters if name not in own]:
+        readers[name] = _lesson_reader(parser, words, *asked)
     places = "".join(
         f"{action.metavar} " for action in parser._actions if not action.option_strings
     )
@@ -194,7 +197,10 @@ def _option(
     if not required and default not in (None, ()):
         about += f" (default: {default})"
     kinds = (kind, *get_args(kind))
-    more: dict[str, Any] = {"type": int if int in kinds else str, "help": about}
+    more: dict[str, Any] = {
+        "type": next((one for one in (int, float) if one in kinds), str),
+        "help": about,
+    }
     if positional:
         group.add_argument(name, nargs="*" if many else "?", metavar=option.placeholder, **more)
     else:
@@ -290,13 +296,15 @@ def _lesson_reader(
         knobs.fields_of(lesson.params),
     )
     for field in fields_:
-        _add_param(group, field, getattr(base, field.name))
+        taken = _flag(field.name) in parser._option_string_actions
+        flag = _flag(f"{lesson.name}_{field.name}" if taken else field.name)
+        _add_param(group, field, getattr(base, field.name), flag=flag)
 
     def read(values: argparse.Namespace) -> RunChoice:
         given = {
             field.name: value
             for field in fields_
-            if (value := getattr(values, field.name)) is not None
+            if (value := getattr(values, _PARAM + field.name)) is not None
         }
         path = Path(name) if is_path(name) else None
         made = knobs.make(lesson.params, given, base=base)
@@ -310,13 +318,17 @@ def _lesson_reader(
     return read
 
 
-def _add_param(group: Any, field: knobs.ParamField, default: Any) -> None:
+def _flag(name: str) -> str:
+    return "--" + name.replace("_", "-")
+
+
+def _add_param(group: Any, field: knobs.ParamField, default: Any, *, flag: str) -> None:
     """Add the flag of a Params field. It takes text: `knobs` knows kind and range, and says what is
     allowed.
     """
-    knob, about, flag = field.knob, field.knob.hint.rstrip("."), "--" + field.name.replace("_", "-")
+    knob, about = field.knob, field.knob.hint.rstrip(".")
     shown = "" if default in (None, "") else f" (default: {knobs.text_of(default)})"
-    more: dict[str, Any] = {"dest": field.name}
+    more: dict[str, Any] = {"dest": _PARAM + field.name}
     if field.kind == "bool":
         shown = f" (default: {'on' if default else 'off'})"
         more |= {"action": argparse.BooleanOptionalAction, "default": None}

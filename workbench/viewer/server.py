@@ -27,7 +27,7 @@ from workbench.exercise.watching import WatchedFile
 from workbench.lesson import Lesson, catalog
 from workbench.machinery.hosts import listening
 from workbench.page.code import source_html
-from workbench.page.course import FRONT_FILES
+from workbench.page.course import FRONT_FILES, FRONT_PICTURES
 from workbench.page.document import (
     ICON,
     LIVE,
@@ -54,7 +54,17 @@ from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
 from workbench.words.typeset import math_font, math_font_css
 
-FILES = (*STYLES, *LIVE, *SCRIPTS, *STORY_FILES, *FRONT_FILES, ICON, UNSCRIPTED, THIRD_PARTIES)
+FILES = (
+    *STYLES,
+    *LIVE,
+    *SCRIPTS,
+    *STORY_FILES,
+    *FRONT_FILES,
+    *FRONT_PICTURES,
+    ICON,
+    UNSCRIPTED,
+    THIRD_PARTIES,
+)
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200

@@ -160,3 +160,21 @@ for (const [name, box] of boxes) {
   for (const kind of ["pointerenter", "focus"]) box.addEventListener(kind, () => light(name));
   for (const kind of ["pointerleave", "blur"]) box.addEventListener(kind, () => light(null));
 }
+
+// a run as a loop: it moves where the reader allows motion, and stops when they say so
+const loop = {
+  image: $("#loop img"), button: $("#loop button"), still: $("#loop img")?.getAttribute("src"),
+  calm: matchMedia("(prefers-reduced-motion: reduce)"),
+  play(on) {
+    this.on = on;
+    this.image.src = on ? this.image.dataset.loop : this.still;
+    this.button.textContent = on ? "Pause" : "Play";
+  },
+  begin() {
+    this.button.hidden = false;
+    this.button.onclick = () => this.play(!this.on);
+    this.calm.onchange = () => this.play(!this.calm.matches);
+    this.play(!this.calm.matches);
+  },
+};
+if (loop.image) loop.begin();

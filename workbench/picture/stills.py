@@ -2,31 +2,23 @@
 else of each experiment, what the stage shows, with its legend and its chart.
 """
 
-import base64
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from html import escape, unescape
+from html import escape
 from typing import Any
 
 from workbench.lesson import Lesson, View
-from workbench.page.chart_svg import SOFT, WIDTH, charts_svg, telling_chart
-from workbench.page.thumbnail import picture_of
+from workbench.page.chart_svg import WIDTH, telling_chart
+from workbench.picture.sheet import Moment, Style, paper_svg
+from workbench.rendering.framing import framed
+from workbench.rendering.shapes import shapes_of
 from workbench.run.timeline import Timeline
-from workbench.story import StagePlace, Story, TextScene, story_of
+from workbench.story import StagePlace, Story, TextScene, has_story, story_of
 from workbench.story.names import views_of
 
-PICTURE = 800, 500
-"""Pixels of the picture, which stands in the still with WIDTH of them."""
+PAPER = Style(width=WIDTH, caption=False)
+"""How a picture for paper looks."""
 FOLDER = "stills"
-SIGN = 6.4
-LINE = 17
-"""Pixels that a sign of a legend takes, and a line of it."""
-_BAR = re.compile(
-    r"<span[^>]*>([^<]*)"
-    r'<b style="background:linear-gradient\(90deg,((?:#[0-9a-f]{6},?)+)\)"></b>([^<]*)</span>'
-)
-_ROW = re.compile(r'<i style="background:(#[0-9a-f]{6})"></i>([^<]*)</span>')
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,8 +106,40 @@ def with_stills(story: Story, stills: tuple[Still, ...]) -> Story:
     return replace(story, scenes=tuple(scenes))
 
 
+def moment_of(
+    lesson: Lesson, place: StagePlace, timeline: Timeline, *, run: Mapping[str, Any], style: Style
+) -> Moment:
+    """Return what a picture shows at a place of a complete run.
+
+    Args:
+        lesson: Whose run.
+        place: Step, camera, charts, what is hidden.
+        timeline: The run.
+        run: It as plain data.
+        style: How the picture will look.
+    """
+    k = _index(place.step, len(timeline), run["end"])
+    view: View = views_of(lesson).get(place.view) or lesson.view_of(timeline.params)
+    step = timeline[k]
+    hidden = {path for path in step.scene for hid in place.hide if _is_under(path, hid)}
+    scene = {path: one for path, one in step.scene.items() if path not in hidden}
+    told = bool(place.chart) or has_story(lesson)
+    names = place.chart.split(",") if told else [telling_chart(run, k, lesson.telling)]
+    return Moment(
+        scene=scene,
+        view=view,
+        lens=framed([shapes_of(scene)], view, style.scene_size),
+        caption=step.caption.text,
+        tone=step.caption.tone,
+        run=run,
+        step=k,
+        charts=tuple(name for name in names if name),
+        hide=place.hide,
+    )
+
+
 def still_svg(lesson: Lesson, still: Still, timeline: Timeline, *, run: Mapping[str, Any]) -> bytes:
-    """Return a picture of a complete run as SVG.
+    """Return a picture of a complete run as SVG for paper, its scene as one picture.
 
     Args:
         lesson: Whose run.
@@ -123,64 +147,11 @@ def still_svg(lesson: Lesson, still: Still, timeline: Timeline, *, run: Mapping[
         timeline: The run.
         run: It as plain data.
     """
-    place = still.place
-    k = _index(place.step, len(timeline), run["end"])
-    view: View = views_of(lesson).get(place.view) or lesson.view_of(timeline.params)
-    hidden = {path for path in timeline[k].scene for hid in place.hide if _is_under(path, hid)}
-    scene = {path: one for path, one in timeline[k].scene.items() if path not in hidden}
-    picture = base64.b64encode(picture_of(scene, view, PICTURE)).decode()
-    wide = WIDTH
-    high = WIDTH * PICTURE[1] // PICTURE[0]
-    story = story_of(lesson, "site") is not None
-    names = place.chart.split(",") if story else [telling_chart(run, k, lesson.telling)]
-    charts, below = charts_svg(run, k, [name for name in names if name], hide=place.hide)
-    legend, ended = _legend(str(run["things"][run["steps"][k]["legend"]]), high)
-    top = ended + 8
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {wide} {top + below}"'
-        f' width="{wide}" height="{top + below}" font-family="system-ui,sans-serif" font-size="12"'
-        f' fill="{SOFT}"><image width="{wide}" height="{high}"'
-        f' href="data:image/webp;base64,{picture}"/>{legend}<g transform="translate(0'
-        f' {top})">{charts}</g></svg>\n'
-    ).encode()
+    return paper_svg(moment_of(lesson, still.place, timeline, run=run, style=PAPER), PAPER)
 
 
 def _is_under(path: str, other: str) -> bool:
     return path == other or path.startswith(f"{other}/")
-
-
-def _legend(html: str, top: int) -> tuple[str, int]:
-    """Return the colours of a legend with their names, and the bars of its colour maps, as lines of
-    SVG below `top`; and where they end.
-    """
-    lines: list[list[str]] = [[]]
-    room = 0.0
-    for color, name in _ROW.findall(html):
-        wide = SIGN * (len(unescape(name)) + 4)
-        if lines[-1] and room + wide > WIDTH:
-            lines.append([])
-            room = 0.0
-        room += wide
-        lines[-1].append(f'<tspan fill="{color}" dx="8">● </tspan><tspan>{name}</tspan>')
-    parts = [
-        f'<text x="0" y="{top + LINE * (i + 1)}">{"".join(line)}</text>'
-        for i, line in enumerate(lines)
-        if line
-    ]
-    below = top + LINE * len(parts)
-    for before, colors, after in _BAR.findall(html):
-        stops = colors.split(",")
-        marks = "".join(
-            f'<stop offset="{i / (len(stops) - 1):g}" stop-color="{color}"/>'
-            for i, color in enumerate(stops)
-        )
-        parts.append(
-            f'<linearGradient id="bar{below}">{marks}</linearGradient><rect x="8" y="{below + 4}"'
-            f' width="90" height="9" fill="url(#bar{below})"/><text x="106" y="{below + 13}">'
-            f"{before} to {after}</text>"
-        )
-        below += LINE
-    return "".join(parts), below
 
 
 def _index(step: int | str, known: int, end: int | None) -> int:

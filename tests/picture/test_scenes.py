@@ -1,0 +1,74 @@
+"""A story as slides, and the words over a scene: in order, in place, and not over one another."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from tests import fake
+from tests.story.hill import lesson as hill
+from workbench.errors import InputError
+from workbench.picture.asking import Asked
+from workbench.picture.labels import labels_svg
+from workbench.picture.making import scene_files
+from workbench.picture.sheet import Style
+from workbench.picture.stills import stills_of
+from workbench.picture.theme import theme
+from workbench.rendering.lens import Lens
+from workbench.rendering.shapes import Word
+from workbench.view import View
+
+ASKED = Asked(style=Style(width=300))
+
+
+def quiet(*_) -> None:
+    pass
+
+
+def test_a_story_has_a_slide_for_each_scene_in_order(tmp_path):
+    out = tmp_path / "slides"
+    files = scene_files(hill, out, ASKED, force=False, progress=quiet)
+    assert sorted(out.iterdir()) == files
+    assert [file.name[:3] for file in files] == [
+        f"{i:02d}-" for i in range(1, len(stills_of(hill)) + 1)
+    ]
+    for file in files:
+        with Image.open(file) as image:
+            assert image.width == 300
+    before = files[0].read_bytes()
+    with pytest.raises(InputError, match="exists already"):
+        scene_files(hill, out, ASKED, force=False, progress=quiet)
+    scene_files(hill, out, ASKED, force=True, progress=quiet)
+    assert files[0].read_bytes() == before
+
+
+def test_slides_need_a_story_and_a_folder(tmp_path):
+    with pytest.raises(InputError, match="has no story"):
+        scene_files(fake.lesson, tmp_path, ASKED, force=False, progress=quiet)
+    file = tmp_path / "file"
+    file.touch()
+    with pytest.raises(InputError, match="is not a folder"):
+        scene_files(hill, file, ASKED, force=False, progress=quiet)
+
+
+def boxes(words: list[Word]) -> np.ndarray:
+    from xml.etree import ElementTree
+
+    lens = Lens.of(View(eye=(0.0, -5.0, 0.0)), (400, 250))
+    root = ElementTree.fromstring(f"<g>{labels_svg(words, lens, theme(dark=False))}</g>")
+    names = ("x", "y", "width", "height")
+    rows = [[float(one.attrib[name]) for name in names] for one in root.iter("rect")]
+    return np.array(rows).reshape(-1, 4)
+
+
+def test_words_at_one_place_do_not_cover_each_other():
+    found = boxes([Word(text=f"word {i}", p=np.zeros(3)) for i in range(4)])
+    assert len(found) == 4
+    tops = np.sort(found[:, 1])
+    assert (np.diff(tops) >= found[0, 3] - 0.1).all()
+
+
+def test_a_word_at_the_side_is_whole_and_one_outside_is_left_out():
+    (box,) = boxes([Word(text="a long word at the side", p=np.array([3.25, 0.0, 0.0]))])
+    assert box[0] + box[2] <= 400.1
+    assert len(boxes([Word(text="away", p=np.array([9.0, 0.0, 0.0]))])) == 0
+    assert len(boxes([Word(text="behind", p=np.array([0.0, -9.0, 0.0]))])) == 0

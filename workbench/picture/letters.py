@@ -1,0 +1,92 @@
+"""Words as pixels: in the page's own letters, with those of formulas for what they lack."""
+
+import functools
+import importlib.util
+import io
+from collections.abc import Iterator
+from pathlib import Path
+
+from fontTools.ttLib import TTFont
+from PIL import Image, ImageDraw, ImageFont
+
+from workbench.page.document import STATIC
+
+SERIF = "source-serif-4-latin-wght-normal.woff2"
+PLAIN = 400
+BOLD = 600
+"""Weights."""
+
+
+@functools.cache
+def _files() -> tuple[tuple[bytes, frozenset[int]], ...]:
+    """Return the fonts, best first, as files that Pillow reads, each with the characters it
+    has.
+    """
+    package = importlib.util.find_spec("ziamath")
+    origin = None if package is None else package.origin
+    others = [] if origin is None else sorted(Path(origin).parent.rglob("STIXTwoMath*.ttf"))
+    found = []
+    for path in (STATIC / SERIF, *others[:1]):
+        font = TTFont(path)
+        font.flavor = None
+        file = io.BytesIO()
+        font.save(file, reorderTables=None)
+        found.append((file.getvalue(), frozenset(font.getBestCmap() or ())))
+    return tuple(found)
+
+
+@functools.lru_cache(64)
+def _font(which: int, size: float, weight: int) -> ImageFont.FreeTypeFont:
+    data, _ = _files()[which]
+    font = ImageFont.truetype(io.BytesIO(data), size, layout_engine=ImageFont.Layout.BASIC)
+    if which == 0:
+        font.set_variation_by_axes([weight])
+    return font
+
+
+def _runs(text: str) -> Iterator[tuple[int, str]]:
+    """Yield pieces of a text with the number of the font that has them."""
+    start = 0
+    before = None
+    for i, sign in enumerate(text):
+        has = (k for k, (_, known) in enumerate(_files()) if ord(sign) in known)
+        which = next(has, len(_files()) - 1)
+        if before is not None and which != before:
+            yield before, text[start:i]
+            start = i
+        before = which
+    if before is not None:
+        yield before, text[start:]
+
+
+def width(text: str, size: float, weight: int = PLAIN) -> float:
+    """Return how wide a line of text is, in the unit of its size."""
+    fine = 64.0
+    wide = sum(_font(which, fine, weight).getlength(part) for which, part in _runs(text))
+    return wide * size / fine
+
+
+def write(
+    image: Image.Image, place: tuple[float, float], text: str, *, size: float, weight: int, ink: str
+) -> None:
+    """Write a line of text into an image, its baseline beginning at a place, pixels."""
+    draw = ImageDraw.Draw(image)
+    x, y = place
+    for which, part in _runs(text):
+        font = _font(which, round(size, 2), weight)
+        draw.text((x, y), part, fill=ink, font=font, anchor="ls")
+        x += font.getlength(part)
+
+
+def lines(text: str, size: float, room: float, *, most: int = 6) -> list[str]:
+    """Return a text in lines that fit a width; beyond `most` of them it ends."""
+    found = [""]
+    for word in text.split():
+        longer = f"{found[-1]} {word}".strip()
+        if found[-1] and width(longer, size) > room:
+            found.append(word)
+        else:
+            found[-1] = longer
+    if len(found) > most:
+        found = [*found[: most - 1], f"{found[most - 1]} …"]
+    return [line for line in found if line]
