@@ -495,7 +495,7 @@ def states_of(params: Input):
 
 def test_a_blur_of_two_metres_finds_home_farther_than_the_blob():
     """As the page says: with little blur the cloud at home is nearer, with the widest it is not."""
-    held = tuple(catalog()["chamfer_emd"].form.states(Input(stage="blur")))
+    held = tuple(lesson.form.states(Input(stage="blur")))
     assert held[-1].blur == 2.0
     assert held[0].costs[1] < held[0].costs[0]
     assert held[-1].costs[1] > held[-1].costs[0]

@@ -132,3 +132,11 @@ def test_a_legend_has_its_colours_and_its_bars_on_lines_that_fit():
     ends = [float(one.attrib["x"]) + 7 * len(w) for one, w in zip(texts, words, strict=True)]
     assert max(ends) < 660
     assert len(list(root.iter("stop"))) == 9
+
+
+def test_the_bar_of_logarithms_says_the_numbers_they_are_of():
+    from workbench.page.legend import bar_of
+    from workbench.scene import Field
+
+    bar = bar_of(Field(np.array([0.0]), -3.0, 1.0, "log₁₀ error", "m"))
+    assert (bar.title, bar.low, bar.high, bar.unit) == ("error", "0.001", "10", "m")

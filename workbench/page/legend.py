@@ -8,6 +8,7 @@ from typing import Any, TypeAlias, cast
 
 from workbench.numerals import brief
 from workbench.scene import PALETTE, Classes, Field, Primitive, Role, Scene, color_map, in_space
+from workbench.words.axis import LOGARITHM
 
 
 def escape(text: str) -> str:
@@ -83,15 +84,19 @@ def _entries(primitive: Primitive) -> list[Entry]:
 
 
 def bar_of(field: Field) -> Bar:
-    """Return the colour bar of a field; short lengths are in millimetres."""
+    """Return the colour bar of a field; short lengths are in millimetres, logarithms are said as
+    the numbers they are of.
+    """
     colors = (css_color(tuple(color_map(field.map, i / 8).tolist())) for i in range(9))  # type: ignore[arg-type]
     small = field.unit == "m" and max(abs(field.low), abs(field.high)) < 0.1
     scale, unit = (1e3, "mm") if small else (1.0, field.unit)
+    logarithms = field.title.startswith(LOGARITHM)
+    low, high = (10.0**end if logarithms else scale * end for end in (field.low, field.high))
     return Bar(
-        title=field.title,
+        title=field.title.removeprefix(LOGARITHM),
         colors=tuple(colors),
-        low=brief(scale * field.low),
-        high=brief(scale * field.high),
+        low=brief(low),
+        high=brief(high),
         unit=unit,
     )
 
