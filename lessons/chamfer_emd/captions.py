@@ -19,6 +19,9 @@ ALMOST_NONE = 0.1  # of the mass: who has less out of place has come to the targ
 
 def caption(state: State) -> Caption:
     """Return what happened in this step and why."""
+    nothing_to_do = state.before is None and state.params.lowers == "source to target"
+    if _looks_left(state) and not nothing_to_do:
+        return _missing(state)
     if state.before is None:
         return _start(state)
     values: dict[str, Any] = {
@@ -39,6 +42,34 @@ def caption(state: State) -> Caption:
         left_end=_end(state.left),
         right_end=_end(state.right),
         **values,
+    )
+
+
+def _looks_left(state: State) -> bool:
+    """Return whether a step is of the ring without a part, where the story shows the left face
+    alone.
+    """
+    params = state.params
+    built_in = params.shape == "ring" and params.target is None and params.source is None
+    return built_in and params.start == "part missing"
+
+
+def _missing(state: State) -> Caption:
+    now = state.left.numbers
+    if state.before is None:
+        return say(
+            "A part of the ring has no dots: Chamfer is {chamfer}.", chamfer=in_squares(now.chamfer)
+        )
+    left = share(now.out_of_place, 0)
+    if not state.last:
+        return say(
+            "Step {step}: {left} of the left mass is out of place.", step=state.step, left=left
+        )
+    return say(
+        "The left flow {left_end} with {left} of its mass out of place.",
+        tone="good" if now.out_of_place <= ALMOST_NONE else "info",
+        left_end=_end(state.left),
+        left=left,
     )
 
 

@@ -384,6 +384,14 @@ CAPTIONS = [
     Claim(
         rf"with {SHARE} of its mass out of place, the right one [\w ]+ with {SHARE}", _both_sides
     ),
+    Claim(
+        rf"{SHARE} of (?:the left mass is|its mass) out of place\.",
+        lambda run, k, m: says(m[1], 100 * out_of_place(run, k, "left")),
+    ),
+    Claim(
+        rf"A part of the ring has no dots: Chamfer is {FIGURE} m²\.",
+        lambda run, k, m: near(m[1], chamfer(moving(run, 0, "left"), run)),
+    ),
     Claim(rf"The left flow {WHY}", _why("left")),
     Claim(rf"the right one {WHY}", _why("right")),
     *BY_HAND,
