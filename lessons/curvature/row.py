@@ -9,7 +9,7 @@ from workbench.scene import Field, Label, Mesh, Primitive, Segments
 
 ALONG = np.array([2.4, 2.05, 0.0]) / np.hypot(2.4, 2.05)  # to the right of who looks at the lesson
 WIDTH, BETWEEN = 0.95, 1.05  # metres: how wide one mesh is drawn, and how far the next one is
-MOST_EDGES = 8000
+MOST_EDGES = 4000  # more of them hide the colours
 SCALE = (-3.0, 1.0)  # log₁₀ of 1/m^2: one for all surfaces, so that a colour always means the same
 
 

@@ -6,6 +6,7 @@ import io
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 from fontTools.ttLib import TTFont
 from PIL import Image, ImageDraw, ImageFont
 
@@ -15,6 +16,10 @@ SERIF = "source-serif-4-latin-wght-normal.woff2"
 PLAIN = 400
 BOLD = 600
 """Weights."""
+FINE = 256.0
+"""The size at which letters are measured, pixels."""
+OVER = 4
+"""How many times as large letters are drawn before they are made small."""
 
 
 @functools.cache
@@ -61,21 +66,29 @@ def _runs(text: str) -> Iterator[tuple[int, str]]:
 
 def width(text: str, size: float, weight: int = PLAIN) -> float:
     """Return how wide a line of text is, in the unit of its size."""
-    fine = 64.0
-    wide = sum(_font(which, fine, weight).getlength(part) for which, part in _runs(text))
-    return wide * size / fine
+    wide = sum(_font(which, FINE, weight).getlength(part) for which, part in _runs(text))
+    return wide * size / FINE
 
 
 def write(
     image: Image.Image, place: tuple[float, float], text: str, *, size: float, weight: int, ink: str
 ) -> None:
-    """Write a line of text into an image, its baseline beginning at a place, pixels."""
-    draw = ImageDraw.Draw(image)
-    x, y = place
+    """Write a line of text into an image, its baseline beginning at a place, pixels.
+
+    Pillow sets every letter on a whole pixel. So it is drawn `OVER` times as large and made small:
+    else words would stand too close or too far apart, and a long line end elsewhere than measured.
+    """
+    left, base = (int(OVER * at) for at in place)
+    high = OVER * int(np.ceil(2 * size))
+    wide = OVER * int(np.ceil(width(text, size, weight) + 2 * size))
+    mask = Image.new("L", (wide, 2 * high))
+    draw = ImageDraw.Draw(mask)
+    x = left % OVER
     for which, part in _runs(text):
-        font = _font(which, round(size, 2), weight)
-        draw.text((x, y), part, fill=ink, font=font, anchor="ls")
+        font = _font(which, round(OVER * size, 2), weight)
+        draw.text((x, high + base % OVER), part, fill=255, font=font, anchor="ls")
         x += font.getlength(part)
+    image.paste(ink, (left // OVER, base // OVER - high // OVER), mask.reduce(OVER))
 
 
 def lines(text: str, size: float, room: float, *, most: int = 6) -> list[str]:
