@@ -46,12 +46,10 @@ KINDS = {
     "stripes": ("repeated pattern", (80, 60)),
 }
 COLORS: dict[str, Role] = {"texture": "truth", "bare wall": "target", "stripes": "wrong"}
-CROSSING = Chart("Distance of the crossing", "the window has moved", "m", x_unit="px")
-THREE = Chart("Three curves", "the window has moved", "grey levels", x_unit="px")
+COSTS = Chart("Cost of each shift", "shift", "grey levels", x_unit="px")
+THREE = Chart("Costs at three places", "shift", "grey levels", x_unit="px")
 SHIFT = Chart("Shift", unit="px")
-MOVED = Chart("Window moved", unit="px")
 COST = Chart("Cost")
-AWAY = Chart("Distance", unit="m")
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,7 +174,6 @@ def draw(look: RowLook) -> Scene:
         **_crossed(look),
         **_charts(look),
         "shift": SHIFT.scalar(now.d, "shift"),
-        "moved": MOVED.scalar(-now.d, "moved"),
         "cost": COST.scalar(cost, "cost at this shift"),
         "lowest": COST.scalar(float(costs[now.best]), "lowest so far", "highlight"),
         "caption": say(words, **values),
@@ -309,35 +306,30 @@ def _crossed(look: RowLook) -> dict[str, Primitive]:
 
 
 def _charts(look: RowLook) -> dict[str, Primitive]:
-    """Return how far away the rays cross at each shift, and the curves of three kinds of place."""
+    """Return the cost of each shift tried so far, and the curves of three kinds of place."""
     pictures = look.subject
     now = look.now
     scene: dict[str, Primitive] = {}
     shifts = np.arange(len(now.costs), dtype=float)
-    crossing, three = (replace(chart, x_range=(-shifts[-1], 0.0)) for chart in (CROSSING, THREE))
-    if pictures.metric:
-        depths = pictures.pair.camera.depth(shifts)
-        near = np.isfinite(depths) & (depths <= pictures.far)
-        here = float(depths[now.d])
-        scene["away"] = AWAY.scalar(here if near[now.d] else math.nan, "distance")
-        if near.any():
-            scene["crossing/whole"] = crossing.whole(
-                -shifts[near][::-1], depths[near][::-1], "where the rays cross", "source"
-            )
-        if near[now.d]:
-            scene["crossing/mark"] = crossing.mark(-now.d, here, "here", "source", steps="moved")
+    ends = (0.0, float(shifts[-1]))
+    costs, three = (replace(chart, x_range=ends) for chart in (COSTS, THREE))
+    tried = np.flatnonzero(np.isfinite(now.known))
+    top = 1.06 * float(now.costs[np.isfinite(now.costs)].max(initial=0.0))
+    if top > 0.0:
+        unit = "grey levels" if look.params.cost == "SAD" else "cost"
+        costs = replace(costs, unit=unit, y_range=(0.0, top))
+    if len(tried):
+        scene["tried/whole"] = costs.whole(shifts[tried], now.costs[tried], "tried", "highlight")
+    if now.d in tried:
+        cost = float(now.costs[now.d])
+        scene["tried/mark"] = costs.mark(now.d, cost, "here", "source", steps="shift")
     if pictures.left.shape == SIZE[::-1] and look.params.cost == "SAD":
-        for name, costs in three_curves(look.params).items():
+        for name, values in three_curves(look.params).items():
             color = COLORS[name]
-            scene[f"three/{name}"] = three.whole(-shifts_of(costs), costs[::-1], name, color)
+            scene[f"three/{name}"] = three.whole(np.arange(len(values)), values, name, color)
         if math.isfinite(cost := float(now.costs[now.d])):
-            scene["three/mark"] = three.mark(-now.d, cost, "here", "source", steps="moved")
+            scene["three/mark"] = three.mark(now.d, cost, "here", "source", steps="shift")
     return scene
-
-
-def shifts_of(costs: np.ndarray) -> np.ndarray:
-    """Return the shifts of costs from the largest to 0."""
-    return np.arange(len(costs), dtype=float)[::-1]
 
 
 def _truth(look: RowLook, strips: Strips, pictures: Pictures) -> dict[str, Primitive]:
