@@ -46,7 +46,7 @@ def test_the_cloud_has_a_floor():
 
 
 def test_the_mesh_is_a_torus():
-    assert "add up to 0 rad" in run("curvature", mesh="torus.ply")[-1].caption.text
+    assert "add up to 0 π" in run("curvature", mesh="torus.ply")[-1].caption.text
 
 
 def test_the_pair_of_pictures_has_depth():

@@ -217,7 +217,7 @@ class TestRecord:
 
     def test_a_folder_of_somebody_else_is_said(self, capsys, tmp_path, monkeypatch):
         monkeypatch.setattr(
-            "workbench.recording.write.os.access", lambda path, mode: False
+            "workbench.machinery.atomic.os.access", lambda path, mode: False
         )  # root may write anywhere
         assert "cannot be written to" in refused(capsys, "record", FAKE, "-o", tmp_path / "a.rrd")
 
