@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from lessons.curvature import ring
+from lessons.curvature import ring, row
 from lessons.curvature.inputs import Input
+from lessons.curvature.lesson import lesson
 from tests.lessons.curvature_runs import at, part, preset, scene, states, surface_field, timeline
 from workbench.scene import Mesh, Points, Segments, Table
 
@@ -127,3 +128,8 @@ def test_every_step_draws_on_own_meshes_and_on_the_border(tmp_path):
     trimesh.creation.box().export(tmp_path / "box.obj")
     box = timeline(Input(mesh=tmp_path / "box.obj"))  # eight vertices
     assert box[-1].state.now.total == pytest.approx(4 * np.pi)
+
+
+def test_the_page_says_where_the_row_is_dark_and_yellow():
+    low, high = (10.0**end for end in row.SCALE)
+    assert f"dark up to {low:g} m⁻², yellow from {high:g} m⁻² on" in lesson.page.read_text("utf-8")
