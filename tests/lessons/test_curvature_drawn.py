@@ -132,4 +132,5 @@ def test_every_step_draws_on_own_meshes_and_on_the_border(tmp_path):
 
 def test_the_page_says_where_the_row_is_dark_and_yellow():
     low, high = (10.0**end for end in row.SCALE)
+    assert lesson.page is not None
     assert f"dark up to {low:g} m⁻², yellow from {high:g} m⁻² on" in lesson.page.read_text("utf-8")
