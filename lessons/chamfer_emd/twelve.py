@@ -25,7 +25,12 @@ COUNT = 12
 ASIDE = 2.7  # metres to the right: where the second ring stands
 T_WORLD = {"left": np.eye(4), "right": motion(np.eye(3), np.array([ASIDE, 0.0, 0.0]))}
 PLACE, DOT = 0.075, 0.042  # metres: the radii of a place and of a dot
-BOTH = Chart("Both numbers of the heap", "dots heaped on the first", "m², m", x_range=(0.0, 11.0))
+BOTH = Chart(
+    "Both numbers of the heap",
+    "dots heaped on the first",
+    "% of the largest heap's",
+    x_range=(0.0, 11.0),
+)
 CHAMFER = Chart("Chamfer", unit="m²")
 EMD = Chart("Earth mover's", unit="m")
 HEAPED = Chart("Heaped dots")
@@ -52,6 +57,11 @@ class Twelve:
     p_target: np.ndarray
     chamfer: np.ndarray
     earth_movers: np.ndarray
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """What makes of either number per cent of what it is with all dots in one place."""
+        return 100 / float(self.chamfer[-1]), 100 / float(self.earth_movers[-1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,15 +118,22 @@ def draw(look: Look[Input, Twelve, Held]) -> Scene:
     now, target = look.now, look.subject.p_target
     near, matching = nearest_both_ways(now.p, target), best_matching(now.p, target)
     heaps = np.arange(float(COUNT))
+    of_chamfer, of_emd = look.subject.shares
     scene: Scene = {
         **_ring("left", now, target),
         **_ring("right", now, target),
         "right/pairs": _lines(now.p[matching.i_a], target[matching.i_b], "right", "one each"),
         **_titled("right", "one for each", metres(now.earth_movers)),
-        "chamfer/whole": BOTH.whole(heaps, look.subject.chamfer, "Chamfer, m²", "source"),
-        "chamfer/mark": BOTH.mark(now.heaped, now.chamfer, "here", "source", steps="heaped"),
-        "emd/whole": BOTH.whole(heaps, look.subject.earth_movers, "earth mover's, m", "other"),
-        "emd/mark": BOTH.mark(now.heaped, now.earth_movers, "here", "other", steps="heaped"),
+        "chamfer/whole": BOTH.whole(heaps, of_chamfer * look.subject.chamfer, "Chamfer", "source"),
+        "chamfer/mark": BOTH.mark(
+            now.heaped, of_chamfer * now.chamfer, "here", "source", steps="heaped"
+        ),
+        "emd/whole": BOTH.whole(
+            heaps, of_emd * look.subject.earth_movers, "earth mover's", "other"
+        ),
+        "emd/mark": BOTH.mark(
+            now.heaped, of_emd * now.earth_movers, "here", "other", steps="heaped"
+        ),
         "heaped": HEAPED.scalar(now.heaped, "heaped"),
         "chamfer": CHAMFER.scalar(now.chamfer, "Chamfer"),
         "emd": EMD.scalar(now.earth_movers, "earth mover's", "other"),

@@ -15,8 +15,8 @@ class Input(Params):
     looked at.
     """
 
-    stage: Literal["mesh", "paper"] = knob(
-        "mesh", "A mesh to measure, or a ring of paper that a hand bends"
+    stage: Literal["mesh", "paper", "balls"] = knob(
+        "mesh", "A mesh to measure; a ring of paper that a hand bends; or four balls, ever finer"
     )
     surface: Literal["torus", "sphere", "cylinder", "saddle", "catenoid", "plane"] = knob(
         "torus", "A surface whose curvature is known in closed form"

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lessons.curvature import drawing, paper
+from lessons.curvature import balls, drawing, paper
 from lessons.curvature.inputs import Input
 from lessons.curvature.mesh import subject_of
 from lessons.curvature.presets import GAUSSIAN, PRESETS, SWEEPS, UNFOLDING, VIEW, VIEWS
@@ -32,25 +32,27 @@ from workbench.lesson import Lesson, Look
 from workbench.scene import Scene
 
 
-def setup(params: Input) -> Subject | paper.Sheet:
-    """Return the mesh to measure, or the ring of paper.
+def setup(params: Input) -> Subject | paper.Sheet | balls.Balls:
+    """Return the mesh to measure, the ring of paper, or the four balls.
 
     Raises:
         InputError: If an own mesh cannot be used.
     """
-    return paper.Sheet() if params.stage == "paper" else subject_of(params)
+    if params.stage == "paper":
+        return paper.Sheet()
+    return balls.balls() if params.stage == "balls" else subject_of(params)
 
 
 def run(
     params: Input,
-    subject: Subject | paper.Sheet,
+    subject: Subject | paper.Sheet | balls.Balls,
     *,
     angle_defects: Defects = curvature.angle_defects,
     gaussian_curvature: Gaussian = curvature.gaussian_curvature,
     mean_curvature_normals: MeanNormals = curvature.mean_curvature_normals,
-) -> Iterator[Step | paper.Held]:
+) -> Iterator[Step | paper.Held | balls.Held]:
     """Yield the stages of measuring one mesh, then, where the truth is known, the errors on ever
-    finer meshes; or the ring of paper between an overlap and a gap.
+    finer meshes; or the ring of paper between an overlap and a gap; or one ball after the other.
     """
     if isinstance(subject, paper.Sheet):
         yield from paper.hand()
@@ -58,6 +60,9 @@ def run(
     defects, gaussian, normals = with_mistake(
         params, angle_defects, gaussian_curvature, mean_curvature_normals
     )
+    if isinstance(subject, balls.Balls):
+        yield from balls.run(subject, defects, gaussian)
+        return
     errors: dict[str, float] = {}
     step = None
     for now in measure_curvature(
@@ -81,6 +86,8 @@ def draw(look: Look) -> Scene:
     """Return the picture of one step."""
     if isinstance(look.subject, paper.Sheet):
         return paper.draw(look)
+    if isinstance(look.subject, balls.Balls):
+        return balls.draw(look)
     return drawing.draw(state_of(look))
 
 

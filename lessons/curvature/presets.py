@@ -23,8 +23,17 @@ SPHERE_SUM = Input(surface="sphere", vertices=1000, jitter=0.25, noise=0.01)
 
 SHEET = View(eye=(1.15, -4.3, 1.0), target=(1.15, 0.0, -0.05), grid=None, axes=False)
 NEAR = View(eye=(1.8, -2.1, 1.55), target=(0.35, -0.4, 0.1), grid=None, axes=False)
+BALLS = View(eye=(6.2, -7.26, 1.7), target=(0.0, 0.0, -0.15), grid=None, axes=False)
 ROW = View(eye=(2.45, -2.85, 1.4), target=(0.0, 0.0, 0.05), grid=None, axes=False)
-VIEWS = {"paper": SHEET, "close": CLOSE, "side": SIDE, "row": ROW, "near": NEAR, "twice": TWICE}
+VIEWS = {
+    "paper": SHEET,
+    "close": CLOSE,
+    "side": SIDE,
+    "row": ROW,
+    "near": NEAR,
+    "twice": TWICE,
+    "balls": BALLS,
+}
 CONE = int(np.argmin(np.abs(paper.HAND - 60.0)))
 
 PRESETS: tuple[Preset[Input], ...] = (
@@ -46,6 +55,17 @@ PRESETS: tuple[Preset[Input], ...] = (
         params=Input(surface="sphere", vertices=60),
         step=1,
         view=CLOSE,
+    ),
+    Preset(
+        name="balls",
+        title="Smaller gaps, the same K",
+        line=(
+            "Four balls of radius 1 m, ever finer. The gap at a vertex shrinks with its cell, and "
+            "their quotient settles on 1 m⁻²."
+        ),
+        params=Input(stage="balls"),
+        step=3,
+        view=BALLS,
     ),
     Preset(
         name="cylinder",

@@ -137,19 +137,23 @@ def _unbent(along: np.ndarray, angles: np.ndarray) -> np.ndarray:
 
 
 def cell(now: Measured) -> dict[str, Primitive]:
-    """Return the mixed area of the vertex, piece by piece: its part of each face around."""
+    """Return the mixed area of the vertex, and how large it is."""
     lift = 2 * LIFT * edge_length(now) * now.normals[now.vertex]
-    quads = mixed_cell(now.p, now.faces[now.ring_faces], now.vertex)
-    p = np.concatenate(quads) + lift
+    text = f"A = {brief(now.areas[now.vertex])} m²"
+    return {
+        **cell_of("cell", mixed_cell(now.p, now.faces[now.ring_faces], now.vertex) + lift),
+        "cell label": Label(text, _lifted(now, 0.5), "highlight"),
+    }
+
+
+def cell_of(name: str, quads: np.ndarray) -> dict[str, Primitive]:
+    """Return a mixed area (f, 4, 3), piece by piece: its part of each face around."""
     start = 4 * np.arange(len(quads))[:, None]
     faces = (start + np.array([[0, 1, 2, 0, 2, 3]])).reshape(-1, 3)
-    rim = np.concatenate([np.stack([q[[1, 2]], q[[2, 3]]]) for q in quads]) + lift
+    rim = np.concatenate([np.stack([q[[1, 2]], q[[2, 3]]]) for q in quads])
     return {
-        "cell": Mesh(p, faces, "highlight", opacity=0.6, flat=True),
-        "cell rim": Segments(rim, "highlight", 3),
-        "cell label": Label(
-            f"A = {brief(now.areas[now.vertex])} m²", _lifted(now, 0.5), "highlight"
-        ),
+        name: Mesh(quads.reshape(-1, 3), faces, "highlight", opacity=0.6, flat=True),
+        f"{name} rim": Segments(rim, "highlight", 3),
     }
 
 

@@ -26,7 +26,9 @@ def drawn(state: State, study: Study) -> dict[str, Primitive]:
         lines = edges(mesh.faces)
         if len(lines) <= MOST_EDGES:
             scene[f"meshes/{k + 1} edges"] = Segments(p[lines], "neutral", 1, opacity=0.35)
-        words = f"{len(p):,} vertices: {percent(study.K[k])}"
+        at = (k - middle) * BETWEEN * ALONG
         top = np.array([0.0, 0.0, float(p[:, 2].max()) + 0.22])
-        scene[f"meshes/{k + 1} words"] = Label(words, (k - middle) * BETWEEN * ALONG + top)
+        below = np.array([0.0, 0.0, float(p[:, 2].min()) - 0.4])
+        scene[f"meshes/{k + 1} words"] = Label(f"{len(p):,} vertices", at + below)
+        scene[f"meshes/{k + 1} error"] = Label(percent(study.K[k]), at + top, "source")
     return scene

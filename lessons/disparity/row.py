@@ -31,6 +31,9 @@ TOPS = {"left": 1.08, "right": 0.5}
 TALL = 0.42  # of a strip
 CHART = (-0.95, 0.85)  # where the cost 0 is, and how high the largest is drawn
 LAYER = 0.006
+FULL = (
+    40.0  # grey levels a pixel: a window that differs by less is drawn lower than the full height
+)
 DOT = 0.02
 BLOCK = 12  # pixels in which a pixel of a strip is drawn, so that it stays sharp
 # columns that are shown left of the last partner, and right of the pixel
@@ -203,8 +206,10 @@ def _rows(look: RowLook, strips: Strips) -> dict[str, Primitive]:
 
 
 def _height(look: RowLook, costs: np.ndarray) -> np.ndarray:
-    """Return how high costs are drawn."""
-    top = max(float(np.nanmax(look.now.costs, initial=0.0)), 1e-9)
+    """Return how high costs are drawn: the low ones of a bare wall are not enlarged."""
+    params = look.params
+    full = FULL * params.window**2 if params.cost == "SAD" else 1e-9
+    top = max(float(np.nanmax(look.now.costs, initial=0.0)), full)
     return CHART[0] + CHART[1] * costs / top
 
 

@@ -218,3 +218,19 @@ def test_every_chart_that_is_named_is_drawn_and_answers_end_where_the_run_does(v
         page.wait_for_function(STANDS)
         if answer["step"] == "stop":
             assert page.evaluate("page.k === (page.run.end ?? page.known() - 1)"), answer
+
+
+def test_the_places_of_a_slider_stand_apart_and_a_comma_stays_with_its_number(visit):
+    page = visit("?lesson=chamfer_emd#price").page
+    page.wait_for_function(STANDS)
+    page.wait_for_function("$('#marks').childElementCount > 1")
+    boxes = page.evaluate(
+        "$$('#marks button').map((e) => e.getBoundingClientRect()).map((r) => [r.left, r.right])"
+    )
+    assert len(boxes) >= 3
+    assert all(end <= start for (_, end), (start, _) in zip(boxes, boxes[1:], strict=False))
+    assert page.evaluate(
+        "$$('#story .num[role=slider]').filter((e) => /^[,.;:]/.test(e.nextSibling?.data ?? ''))"
+        ".every((e) => getComputedStyle(e.parentElement).whiteSpace === 'nowrap')"
+    )
+    assert page.locator("#story .together").count() > 0

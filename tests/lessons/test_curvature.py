@@ -4,7 +4,9 @@ import dataclasses
 
 import numpy as np
 import pytest
+import trimesh
 
+from lessons.curvature import balls
 from lessons.curvature.captions import caption
 from lessons.curvature.inputs import Input
 from lessons.curvature.lesson import lesson
@@ -19,6 +21,8 @@ from tests.lessons.curvature_runs import (
     surface_field,
     timeline,
 )
+from workbench.certain import as_a
+from workbench.data.shapes.surfaces import Surface
 from workbench.geometry.meshes import curvature
 from workbench.geometry.meshes.laplacian import mixed_areas
 from workbench.geometry.points.normals import surface_variation
@@ -249,3 +253,24 @@ def test_a_borders_rows_of_a_students_function_may_hold_anything():
     assert at_stage(states, "gaussian").errors["K"] == pytest.approx(
         at(preset("border"), "gaussian").errors["K"]
     )
+
+
+def test_the_balls_gaps_shrink_with_their_cells_and_k_settles_on_one():
+    done = [as_a(balls.Held, state) for state in timeline(Input(stage="balls")).states()]
+    subject = balls.balls()
+    last = done[-1]
+    for k, (surface, v) in enumerate(zip(subject.surfaces, subject.vertices, strict=True)):
+        total = np.radians(gap_of_all(surface))
+        assert total.sum() == pytest.approx(4 * np.pi)  # Gauss and Bonnet, whatever the mesh
+        assert last.gaps[k] == pytest.approx(gap_of_all(surface)[v])
+        assert np.radians(last.gaps[k]) / last.areas[k] == pytest.approx(last.K[k])
+    counts = np.array([len(one.p) for one in subject.surfaces])
+    slope = np.polyfit(np.log(counts), np.log(last.errors), 1)[0]
+    assert slope == pytest.approx(-1.0, abs=0.05)  # second order in the edges
+    assert abs(last.K[-1] - 1.0) < 1e-3
+
+
+def gap_of_all(surface: Surface) -> np.ndarray:
+    """Return the gap at every vertex, degrees, from trimesh's angles."""
+    mesh = trimesh.Trimesh(surface.p, surface.faces, process=False)
+    return 360.0 - np.degrees(np.asarray(mesh.face_angles_sparse.sum(axis=1)).ravel())

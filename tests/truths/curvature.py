@@ -17,8 +17,8 @@ from workbench.certain import as_a
 
 
 def shown(run: Run) -> Run:
-    """Return the run with each step beside its mesh and inputs; a run of the paper as it is."""
-    if run.params.stage == "paper":
+    """Return the run with each step beside its mesh and inputs; other runs as they are."""
+    if run.params.stage != "mesh":
         return run
     states = tuple(beside_its_mesh(run.params, run.subject, step) for step in run.states)
     return Run(run.params, states, run.subject)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq
 
-from lessons.curvature import paper
+from lessons.curvature import balls, paper
 from lessons.curvature.captions import caption as caption_of_mesh
 from lessons.curvature.inputs import Input
 from lessons.curvature.state import state_of
@@ -54,6 +54,8 @@ def caption(look: Look) -> Caption:
     """Return the caption alone, without the picture."""
     if isinstance(look.subject, paper.Sheet):
         return paper.caption(look.now)
+    if isinstance(look.subject, balls.Balls):
+        return balls.caption(look.subject, look.now)
     return caption_of_mesh(state_of(look))
 
 
@@ -63,7 +65,7 @@ def claim(words: str, holds: Callable[[Run, int, re.Match[str]], bool]) -> Claim
 
 
 def right(run: Run, k: int) -> bool | None:
-    if run.params.stage == "paper":
+    if run.params.stage != "mesh":
         return None
     run = shown(run)
     state = run.states[k]
@@ -211,9 +213,34 @@ def _height(run: Run, k: int) -> float:
     return up if gap > 0 else 2 * up
 
 
+def _ball(k: int) -> tuple[int, float, float]:
+    """Return how many vertices a ball has, and at its vertex the gap in radians and the area, both
+    from the edges alone: the law of cosines, and Meyer's cotangents of angles that are all acute.
+    """
+    subject = balls.balls()
+    surface, v = subject.surfaces[k], subject.vertices[k]
+    gap, area = 2 * np.pi, 0.0
+    for face in surface.faces[(surface.faces == v).any(axis=1)]:
+        corner, a, b = surface.p[np.roll(face, -int(np.flatnonzero(face == v)[0]))]
+        u, w, far = (float(np.linalg.norm(d)) for d in (a - corner, b - corner, b - a))
+        gap -= np.arccos((u * u + w * w - far * far) / (2 * u * w))
+        at_a = np.arccos((u * u + far * far - w * w) / (2 * u * far))
+        at_b = np.arccos((w * w + far * far - u * u) / (2 * w * far))
+        area += (u * u / np.tan(at_b) + w * w / np.tan(at_a)) / 8
+    return len(surface.p), float(gap), area
+
+
+def _gap_said(run: Run, k: int) -> float:
+    """Return the gap in degrees, of the paper or of a ball."""
+    return float(np.degrees(_ball(k)[1])) if run.params.stage == "balls" else run.states[k].gap
+
+
 VALUES = {
+    "vertices": lambda run, k: _ball(k)[0],
+    "area": lambda run, k: _ball(k)[2],
+    "K": lambda run, k: _ball(k)[1] / _ball(k)[2],
     "angle": lambda run, k: 60.0 - run.states[k].gap / 6,
-    "gap": lambda run, k: run.states[k].gap,
+    "gap": _gap_said,
     "overlap": lambda run, k: -run.states[k].gap,
     "height": _height,
 }

@@ -222,6 +222,7 @@ const storyStage = {
       if (at === k) button.setAttribute("aria-current", "true");
       return button;
     }));
+    thin([...$("#marks").children]);
     const free = !ticks && !named.some(([at]) => at > 0.3 * last && at < 0.7 * last);
     const round = free && k > 0 && k < end && this.round(run, k, end);
     if (round) $("#marks").append(element("output", { textContent: round }));
@@ -252,6 +253,18 @@ const storyStage = {
     return `round ${starts.filter((at) => at <= k).length} of ${starts.length}: ${now[1]}`;
   },
 };
+
+// takes words away that would stand over others: the ends stay, of the others the first ones
+function thin(words) {
+  const boxes = new Map(words.map((word) => [word, word.getBoundingClientRect()]));
+  const kept = [words[0], words.at(-1)];
+  for (const word of words.slice(1, -1)) {
+    const { left, right } = boxes.get(word);
+    const free = (one) => boxes.get(one).right < left || right < boxes.get(one).left;
+    if (kept.every(free)) kept.push(word);
+    else word.remove();
+  }
+}
 
 const ENDS = new Set(["start", "stop"]);  // names of places that every run has
 

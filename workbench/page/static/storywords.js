@@ -69,6 +69,7 @@ const storyWords = {
     el.setAttribute("aria-label", this.label(el));
     this.draggable(one);
     this.keyed(one);
+    together(el);
   },
 
   // the home has learnt to compute: every knob's number turns, at any value
@@ -235,16 +236,20 @@ const storyWords = {
     const values = one && at ? this.valuesOf(one) : [];
     if (!values.length) return null;
     const places = at.ticks.map((tick, i) => [nearest(values, tick), at.words[i]]);
-    const kept = [], gap = 0.07 * (values.length - 1), end = Math.max(...places.map(([k]) => k));
-    for (const place of places.sort(([a], [b]) => a - b)) {
-      const near = kept.length && place[0] - kept.at(-1)[0] < gap;
-      if (near && place[0] < end) continue;
-      if (near && kept.length > 1) kept.pop();
-      if (!kept.length || place[0] > kept.at(-1)[0]) kept.push(place);
-    }
+    const kept = [...new Map(places.reverse())].sort(([a], [b]) => a - b);
     return kept.length > 1 ? kept : null;  // an axis of something else says nothing of the steps
   },
 };
+
+// keeps a comma behind a number on its line
+function together(el) {
+  const behind = el.nextSibling, [mark] = /^[.,;:!?)]*/.exec(behind?.data ?? "");
+  if (!mark) return;
+  const pair = element("span", { className: "together" });
+  el.replaceWith(pair);
+  pair.append(el, mark);
+  behind.data = behind.data.slice(mark.length);
+}
 
 // how a number is written: its digits after the point, and what stands behind it
 function formOf(text) {
