@@ -198,6 +198,39 @@ def test_the_end_of_a_series_keeps_its_whole_number(told, value, said):
     assert said in re.findall(r'class="value over"[^>]*>([^<]*)<', drawn)
 
 
+def test_the_ends_of_series_stand_in_the_chart_and_apart(told):
+    y = {"low": 0, "high": 0.4, "ticks": [0], "words": ["0"]}
+    pair = [("dots", 0.0001), ("places", 0.0066)]
+    series = [
+        {"chart": "a", "name": name, "values": [0.3, end], "color": "source", "unit": "m²"}
+        for name, end in pair
+    ]
+    boxes = told().page.evaluate(
+        """([run, room]) => {
+          const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+          svg.innerHTML = seriesRow(run, "a", room).join("");
+          $("#story-chart").replaceChildren(svg);
+          return [...svg.querySelectorAll(".value")].map((word) => word.getBBox())
+            .map(({ x, y, width, height }) => [x + width, y, y + height]);
+        }""",
+        [
+            {"series": series, "charts": {"a": {"y": y, "yLabel": ""}}},
+            {"w": 600, "top": 10, "height": 120, "k": 1, "end": 1, "last": True},
+        ],
+    )
+    (right, top, low), (other_right, other_top, other_low) = boxes
+    assert max(right, other_right) <= 600
+    assert other_low <= top + 3 or low <= other_top + 3
+
+
+def test_a_chart_is_never_named_by_a_unit_alone(told):
+    page = told().page
+    said = page.evaluate(
+        "['rad', 'm', 'error (%)', ''].map((yLabel) => named({ title: 'Sum', yLabel }))"
+    )
+    assert said == ["Sum (rad)", "Sum (m)", "error (%)", "Sum"]
+
+
 def test_every_chart_that_is_named_is_drawn_and_answers_end_where_the_run_does(visit):
     """ICP tries other starts behind its own end: what is told of these is seen there only."""
     page = visit("?lesson=icp").page

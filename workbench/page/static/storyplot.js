@@ -59,7 +59,7 @@ function axes(at) {
   parts.push(...thinned(x, (w - left - right) / 56).map(([tick, word]) =>
     `<text x="${px(tick)}" y="${h - bottom + 26}" text-anchor="middle">${escape(word)}</text>`));
   const words = (plot.x_label ?? plot.xLabel ?? "").trim();
-  const up = plot.y_label || plot.yLabel || plot.title;
+  const up = plot.y_label || named(plot);
   parts.push(`<text x="${left - 38}" y="${top - 13}">${escape(up)}</text>`);
   const room = 7 * (up.length + words.length) + 60 < w;
   if (words) parts.push(room  // beside the other name, or else over its own axis
@@ -201,10 +201,15 @@ function flagAt(at, x) {
     `text-anchor="${cloth < 0 ? "end" : "start"}">you</text>`];
 }
 
+// what a chart of curves is of: the label of its values, and its title where that is a mere unit
+const UNIT = /^([kcm]?m[²³]?|rad|°|px|%|×|s)$/;
+const named = ({ title, yLabel }) => (UNIT.test(yLabel) ? `${title} (${yLabel})` : yLabel || title);
+
 // scalars over the steps of the run itself, as one row of a chart; drawn up to the step k
 function seriesRow(run, chart, { w, top, height, k, end, last }) {
   const lines = run.series.filter((one) => one.chart === chart), about = run.charts[chart];
-  const { y } = about, { left } = FRAME, right = 82, low = top + height;
+  const { y } = about, { left } = FRAME, low = top + height;
+  const right = Math.min(w / 3, Math.max(82, ...lines.map((one) => endRoom(one, lines.length > 1))));
   const px = (step) => left + (step / Math.max(1, end)) * (w - left - right);
   const py = (v) => low - ((v - y.low) / (y.high - y.low)) * (height - 18);
   const said = (v, l) => (l.log ? (v > 0 ? Math.log10(v) : null) : v);
@@ -222,11 +227,10 @@ function seriesRow(run, chart, { w, top, height, k, end, last }) {
     if (!shown.length) continue;
     const [x, v] = shown.at(-1);
     parts.push(`<circle r="5" cx="${x}" cy="${v}" fill="${color}"/>`);
-    const at = taken.some((other) => Math.abs(other - v) < 16) ? v + 16 : v;
+    const free = (place) => taken.every((other) => Math.abs(other - place) >= 16);
+    const at = [v, v + 16, v - 16, v - 32].find((place) => free(place) && place <= low) ?? v;
     taken.push(at);
-    const name = lines.length > 1 ? `${one.name} ` : "";
-    const value = one.values[shown.at(-1)[2]], whole = `${Math.trunc(Math.abs(value))}`.length;
-    const words = `${name}${measured(Number(value.toPrecision(Math.max(2, whole))), one.unit)}`;
+    const words = endWords(one, one.values[shown.at(-1)[2]], lines.length > 1);
     parts.push(`<text class="value over" x="${x + 10}" y="${at + 4}" style="fill:${ink}">` +
       `${escape(words)}</text>`);
   }
@@ -237,6 +241,18 @@ function seriesRow(run, chart, { w, top, height, k, end, last }) {
   if (last) parts.push(`<text x="${left}" y="${low + 17}">0</text>`,
     `<text x="${w - right}" y="${low + 17}" text-anchor="end">${end} steps</text>`);
   return parts;
+}
+
+// what stands behind the end of a line: its value, with its name where there are several
+function endWords(one, value, named) {
+  const digits = Math.max(2, `${Math.trunc(Math.abs(value))}`.length);
+  return (named ? `${one.name} ` : "") + measured(Number(value.toPrecision(digits)), one.unit);
+}
+
+// pixels that the longest of these words takes, whichever step is shown
+function endRoom(one, named) {
+  const words = one.values.filter((value) => value !== null).map((v) => endWords(one, v, named));
+  return 14 + 8.4 * Math.max(0, ...words.map((text) => text.length));
 }
 
 // the role of a series: it comes as a colour of the palette, or as the role itself
