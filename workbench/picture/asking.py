@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from workbench.errors import InputError
+from workbench.picture.film import frames_of
 from workbench.picture.sheet import Style
-from workbench.run.timeline import Timeline
+from workbench.run.timeline import MOST_STEPS, Timeline
 
 STILLS = (".png", ".svg", ".webp")
 FILMS = (".webp", ".gif", ".mp4")
@@ -65,7 +66,32 @@ def is_film(out: Path, asked: Asked) -> bool:
         raise InputError("--captions beside: subtitles stand beside films; picture or none")
     if kind == ".mp4":
         check_encoder()
+    _check_reach(out, asked)
     return film
+
+
+def check_slides(asked: Asked) -> None:
+    """Raise InputError on a wish that does not go with slides of a story."""
+    _check_style(asked)
+    if asked.step is not None or asked.is_of_film:
+        raise InputError("--scenes: a story says its steps; --step, --from, --to, --seconds do not")
+    if asked.captions == "beside":
+        raise InputError("--captions beside: subtitles stand beside films; picture or none")
+
+
+def _check_reach(out: Path, asked: Asked) -> None:
+    """Raise InputError where no run is long enough, or where the steps of a film that are named are
+    too many, before there is a run.
+    """
+    named = {"--step": asked.step, "--from": asked.first, "--to": asked.last}
+    for flag, step in named.items():
+        if step is not None and not -MOST_STEPS <= step < MOST_STEPS:
+            raise InputError(f"{flag} {step}: a run has {MOST_STEPS} steps at most")
+    first = asked.first or 0
+    last = asked.last
+    if last is not None and (first < 0) == (last < 0):
+        seconds = seconds_of(asked, abs(last - first) + 1)
+        check_memory(out, len(frames_of(first, last, seconds)), asked.style)
 
 
 def _check_style(asked: Asked) -> None:

@@ -15,7 +15,14 @@ from workbench.machinery.progress import Progress
 from workbench.page.chart_svg import telling_chart
 from workbench.page.steps import Steps
 from workbench.page.thumbnail import telling_step
-from workbench.picture.asking import Asked, check_memory, index_of, is_film, seconds_of
+from workbench.picture.asking import (
+    Asked,
+    check_memory,
+    check_slides,
+    index_of,
+    is_film,
+    seconds_of,
+)
 from workbench.picture.film import Frame, Shown, beside, between, film_bytes, frames_of, subtitles
 from workbench.picture.sheet import (
     Moment,
@@ -140,8 +147,10 @@ def scene_files(
     """Write a picture of each scene of a story into a folder, and return the files, in order.
 
     Raises:
-        InputError: If the lesson has no story, or the folder cannot be written to.
+        InputError: If the lesson has no story, what is asked for does not go with slides, or the
+            folder cannot be written to.
     """
+    check_slides(asked)
     if not has_story(lesson):
         raise InputError(f"{lesson.name} has no story; without --scenes a picture is of a step")
     stills = stills_of(lesson)
