@@ -10,7 +10,7 @@ from typing import Any
 
 from workbench.errors import InputError
 from workbench.lesson import Lesson
-from workbench.machinery.atomic import check_place, write_place
+from workbench.machinery.atomic import check_place, write_place, write_places
 from workbench.machinery.progress import Progress
 from workbench.page.chart_svg import telling_chart
 from workbench.page.steps import Steps
@@ -113,12 +113,12 @@ def film_file(run: WholeRun, out: Path, asked: Asked, *, progress: Progress) -> 
     style = _style(asked)
     check_memory(out, len(frames), style)
     data = film_bytes(_shown(run, frames, style, progress=progress), out.suffix.lower())
-    write_place(out, data)
-    if asked.captions != "beside":
-        return [out]
-    captions = [step.caption.text for step in timeline.known()]
-    write_place(beside(out), subtitles(frames, captions).encode())
-    return [out, beside(out)]
+    files = {out: data}
+    if asked.captions == "beside":
+        captions = [step.caption.text for step in timeline.known()]
+        files[beside(out)] = subtitles(frames, captions).encode()
+    write_places(files)
+    return list(files)
 
 
 def _shown(
@@ -176,8 +176,7 @@ def scene_files(
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"{out}: cannot be made: {error.strerror or error}") from error
-    for file, data in zip(files, pictures, strict=True):
-        write_place(file, data)
+    write_places(dict(zip(files, pictures, strict=True)))
     return files
 
 
