@@ -108,6 +108,12 @@ def test_an_mp4_has_equal_frames_twice_and_is_as_long_as_asked():
     assert all(np.array_equal(a, b) for a, b in zip(*seen, strict=True))
 
 
+def test_an_mp4_begins_with_what_a_player_needs_first():
+    pytest.importorskip("av")
+    data = film_bytes(frames(), ".mp4")
+    assert 0 < data.index(b"moov") < data.index(b"mdat")
+
+
 def test_without_an_encoder_an_mp4_is_one_line(monkeypatch, tmp_path, capsys):
     monkeypatch.setitem(sys.modules, "av", None)
     assert main(["picture", FAKE, "-o", str(tmp_path / "x.mp4")]) == 2
