@@ -156,6 +156,8 @@ def test_a_step_counts_from_the_end_too(tmp_path, capsys):
         (["-o", "x.gif", "--width", "3840", "--seconds", "100"], "too many"),
         (["-o", "x.png", "--captions", "beside"], "beside films"),
         (["-o", "x.png", "--captions", "loud"], "picture, beside, none"),
+        (["-o", "x.png", "--as", "svg"], "is of --scenes"),
+        (["-o", "folder", "--scenes", "--as", "gif"], "png, svg"),
         (["-o", "missing/x.png"], "no such folder"),
         (["-o", "folder", "--scenes"], "has no story"),
     ],

@@ -19,6 +19,7 @@ MOST_PIXELS = 400_000_000
 """Pixels of all pictures of a .gif or .webp together: they are in memory at once."""
 SECONDS_A_STEP = 0.6
 Captions = Literal["picture", "beside", "none"]
+Slides = Literal["png", "svg"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +32,7 @@ class Asked:
         seconds: How long the film is; None for so many a step.
         style: How it looks.
         captions: Where captions are.
+        slides: What files the slides of a story are; None for `.png`.
     """
 
     step: int | None = None
@@ -39,6 +41,7 @@ class Asked:
     seconds: float | None = None
     style: Style
     captions: Captions = "picture"
+    slides: Slides | None = None
 
     @property
     def is_of_film(self) -> bool:
@@ -57,6 +60,8 @@ def is_film(out: Path, asked: Asked) -> bool:
     if kind not in (*STILLS, *FILMS):
         raise InputError(f"{out}: a picture is .png, .svg or .webp, a film is .webp, .gif or .mp4")
     _check_style(asked)
+    if asked.slides is not None:
+        raise InputError(f"--as {asked.slides}: is of --scenes; else the name of the file says it")
     film = kind in FILMS and (kind not in STILLS or asked.is_of_film)
     if film and asked.step is not None:
         raise InputError(f"{out}: a film has --from and --to; --step is of .png, .svg and .webp")
@@ -73,6 +78,8 @@ def is_film(out: Path, asked: Asked) -> bool:
 def check_slides(asked: Asked) -> None:
     """Raise InputError on a wish that does not go with slides of a story."""
     _check_style(asked)
+    if asked.slides not in (None, *get_args(Slides)):
+        raise InputError(f"--as {asked.slides}: one of {', '.join(get_args(Slides))}")
     if asked.step is not None or asked.is_of_film:
         raise InputError("--scenes: a story says its steps; --step, --from, --to, --seconds do not")
     if asked.captions == "beside":

@@ -154,7 +154,8 @@ def scene_files(
     if not has_story(lesson):
         raise InputError(f"{lesson.name} has no story; without --scenes a picture is of a step")
     stills = stills_of(lesson)
-    files = [out / f"{i:02d}-{_slug(still.title)}.png" for i, still in enumerate(stills, 1)]
+    kind = asked.slides or "png"
+    files = [out / f"{i:02d}-{_slug(still.title)}.{kind}" for i, still in enumerate(stills, 1)]
     if out.exists() and not out.is_dir():
         raise InputError(f"{out}: is not a folder")
     for file in files if out.is_dir() else ():
@@ -170,7 +171,8 @@ def scene_files(
         run = runs[place.run]
         moment = moment_of(lesson, place, run.timeline, run=run.data, style=style)
         said = " ".join(filter(None, (_sentence(still.title), moment.caption)))
-        pictures.append(png_of(replace(moment, caption=said, tone="info"), style))
+        slide = replace(moment, caption=said, tone="info")
+        pictures.append(svg_of(slide, style) if kind == "svg" else png_of(slide, style))
         progress("drawn", i + 1, len(stills))
     try:
         out.mkdir(parents=True, exist_ok=True)
