@@ -13,12 +13,13 @@ HERE = Path(__file__).parent / "pictures"
 STATIC = Path(__file__).parents[1] / "workbench" / "page" / "static"
 STEPS = {"icp": 60, "ransac": 46, "chamfer_emd": 10, "disparity": 44, "features": 6}
 """The step of a lesson's picture, where it is not the one that tells most."""
+FRONT = "icp --preset from-45 --width 400 --no-chart --captions none"
 LOOPS = {
     "loop.webp": "icp --preset from-45 --seconds 10 --width 640",
-    "front-loop.webp": (
-        "icp --preset from-45 --to 24 --seconds 6 --width 400 --no-chart --captions none"
-    ),
-    "front-still.webp": "icp --preset from-45 --step 8 --width 400 --no-chart --captions none",
+    "front-loop.webp": f"{FRONT} --to 24 --seconds 6",
+    "front-still.webp": f"{FRONT} --step 8",
+    "front-loop-dark.webp": f"{FRONT} --to 24 --seconds 6 --dark",
+    "front-still-dark.webp": f"{FRONT} --step 8 --dark",
 }
 """What `workbench picture` is told of the loops, but for the file."""
 

@@ -156,6 +156,9 @@ def picture(
     scenes: Annotated[
         bool, Option("A picture for each scene of a story, into the folder -o names.")
     ] = False,
+    as_: Annotated[
+        Literal["png", "svg"] | None, Option("What the pictures of scenes are; png without it.")
+    ] = None,
     force: Annotated[bool, Option("Replace files that are there.")] = False,
 ) -> None:
     """Draw a step of a run as a picture, a stretch of it as a film, or a story as slides."""
@@ -171,6 +174,7 @@ def picture(
         seconds=seconds,
         style=Style(width=width, dark=dark, chart=chart),
         captions=captions,
+        slides=as_,
     )
     with bar(sys.stderr, "Drawing") as progress, called_by_flags():
         if scenes:

@@ -4,6 +4,7 @@ where one was, the map.
 
 import json
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -11,6 +12,7 @@ from tests.browser.homes import PHONE, barriers
 from tests.publish.conftest import TINY
 from workbench.chapters import CHAPTERS, NAMES
 from workbench.lesson import course
+from workbench.page.course import LOOP_OF
 from workbench.publish import site
 
 pytestmark = pytest.mark.browser
@@ -241,3 +243,35 @@ def test_a_run_loops_where_motion_is_allowed_and_stops_when_asked_to(front):
     assert page.evaluate(source) == "front-loop.webp"
     page.emulate_media(reduced_motion="reduce")
     page.wait_for_function(f"{source} === 'front-still.webp'")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_loop_is_as_light_or_dark_as_the_page_and_no_other_is_loaded(
+    chromium, tmp_path, scheme
+):
+    site.publish(tmp_path, [replace(TINY, name=LOOP_OF)])
+    page = chromium.new_page(color_scheme=scheme, reduced_motion="no-preference")
+    asked = []
+    page.on("request", lambda request: asked.append(request.url.split("/")[-1]))
+    page.goto((tmp_path / "index.html").as_uri())
+    page.wait_for_function("$('#loop img').complete && $('#loop img').naturalWidth === 400")
+    names = {"light": "front-loop.webp", "dark": "front-loop-dark.webp"}
+    assert [name for name in asked if name.startswith("front-") and ".webp" in name] == [
+        names[scheme]
+    ]
+    page.keyboard.press("t")
+    (other,) = (name for theme, name in names.items() if theme != scheme)
+    page.wait_for_function(f"$('#loop img').src.endsWith('/{other}')")
+    page.locator("#loop button").click()
+    assert page.evaluate("$('#loop img').src.split('/').at(-1)") == other.replace("loop", "still")
+    page.close()
+
+
+def test_without_a_script_the_loop_is_a_picture(chromium, tmp_path):
+    site.publish(tmp_path, [replace(TINY, name=LOOP_OF)])
+    page = chromium.new_context(java_script_enabled=False, color_scheme="dark").new_page()
+    page.goto((tmp_path / "index.html").as_uri())
+    (image,) = page.locator("#loop img").all()
+    assert image.get_attribute("src") == "page/front-still.webp"
+    assert image.get_attribute("alt")
+    page.context.close()

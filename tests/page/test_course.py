@@ -10,7 +10,7 @@ import pytest
 from tests import fake
 from workbench.chapters import CHAPTERS, MORE, NAMES, chapter_of, place
 from workbench.lesson import Lesson, catalog, course, place_of
-from workbench.page.course import FRONT_PICTURES, Card, course_document
+from workbench.page.course import FRONT_DARK, FRONT_LIGHT, Card, course_document
 from workbench.page.document import FONTS, STATIC, bare
 from workbench.viewer.documents import course_page
 
@@ -103,7 +103,8 @@ def test_the_page_is_light_before_its_pictures():
     files = {
         name.partition("/")[2] for name in re.findall(r'(?:href|src)="(page/[\w.-]+)"', html)
     } - {"third-parties.txt", "front-still.webp"}  # the loop comes where motion is allowed
-    assert sum((STATIC / name).stat().st_size for name in FRONT_PICTURES) < BUDGET
+    for names in (FRONT_LIGHT, FRONT_DARK):
+        assert sum((STATIC / name).stat().st_size for name in names) < BUDGET
     assert {"front.css", "front.js", "progress.js"} <= files
     assert "math.css" not in files, "no formula stands here"
     weight = len(html.encode()) + sum(len(bare(STATIC / name).encode()) for name in files)

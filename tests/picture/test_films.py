@@ -1,6 +1,8 @@
 """Films: how long what is seen, what glides, equal bytes on two runs, and subtitles beside."""
 
+import errno
 import io
+import os
 import re
 import sys
 from pathlib import Path
@@ -13,6 +15,8 @@ from PIL import Image
 
 from tests import fake
 from workbench.cli import main
+from workbench.errors import InputError
+from workbench.machinery.atomic import write_places
 from workbench.picture.film import (
     RATE,
     Frame,
@@ -104,6 +108,12 @@ def test_an_mp4_has_equal_frames_twice_and_is_as_long_as_asked():
     assert all(np.array_equal(a, b) for a, b in zip(*seen, strict=True))
 
 
+def test_an_mp4_begins_with_what_a_player_needs_first():
+    pytest.importorskip("av")
+    data = film_bytes(frames(), ".mp4")
+    assert 0 < data.index(b"moov") < data.index(b"mdat")
+
+
 def test_without_an_encoder_an_mp4_is_one_line(monkeypatch, tmp_path, capsys):
     monkeypatch.setitem(sys.modules, "av", None)
     assert main(["picture", FAKE, "-o", str(tmp_path / "x.mp4")]) == 2
@@ -142,6 +152,47 @@ def test_a_film_from_the_command_line_with_subtitles_beside_it(tmp_path, capsys)
     assert main([*words, "--captions", "beside"]) == 2
     assert "x.vtt: exists already" in capsys.readouterr().err
     assert not out.exists()
+
+
+def _fails_at(monkeypatch, name: str, suffix: str) -> None:
+    """Let a call on a file fail as on a full disk, where its last argument ends so."""
+    original = getattr(os, name)
+
+    def fails(*arguments):
+        if str(arguments[-1]).endswith(suffix):
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return original(*arguments)
+
+    monkeypatch.setattr(f"workbench.machinery.atomic.os.{name}", fails)
+
+
+@pytest.mark.parametrize("before", [{}, {"x.gif": b"mine", "x.vtt": b"mine too"}])
+def test_a_film_and_its_subtitles_are_written_both_or_not_at_all(
+    before, tmp_path, monkeypatch, capsys
+):
+    for name, data in before.items():
+        (tmp_path / name).write_bytes(data)
+    out = tmp_path / "x.gif"
+    words = ["picture", FAKE, "--to", "1", "--width", "200", "-o", str(out), "--force"]
+    _fails_at(monkeypatch, "replace", "x.vtt")
+    assert main([*words, "--captions", "beside"]) == 2
+    err = capsys.readouterr().err
+    assert err.count("\n") == 1
+    assert "x.vtt: cannot be written: No space left" in err
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_what_was_there_is_kept_by_a_copy_where_a_disk_has_no_links(tmp_path, monkeypatch):
+    files = {tmp_path / name: name.encode() for name in ("a", "b")}
+    write_places(files)
+    _fails_at(monkeypatch, "link", "")
+    write_places(dict.fromkeys(files, b"new"))
+    assert {path.read_bytes() for path in tmp_path.iterdir()} == {b"new"}
+    _fails_at(monkeypatch, "replace", "b")
+    with pytest.raises(InputError, match=r"b: cannot be written"):
+        write_places(dict.fromkeys(files, b"newer"))
+    assert {path.read_bytes() for path in tmp_path.iterdir()} == {b"new"}
+    assert len(list(tmp_path.iterdir())) == 2
 
 
 def test_all_frames_of_a_film_are_of_one_size(tmp_path):

@@ -149,10 +149,15 @@ def test_a_step_counts_from_the_end_too(tmp_path, capsys):
         (["-o", "x.gif", "--step", "1"], "--from and --to"),
         (["-o", "x.gif", "--seconds", "0"], "0.1 to 120"),
         (["-o", "x.gif", "--seconds", "inf"], "0.1 to 120"),
-        (["-o", "x.gif", "--from", "99999"], "the run has"),
+        (["-o", "x.gif", "--from", "999"], "the run has"),
+        (["-o", "folder", "--scenes", "--width", "4000"], "160 to 3840"),
+        (["-o", "folder", "--scenes", "--step", "1"], "a story says its steps"),
+        (["-o", "folder", "--scenes", "--captions", "beside"], "beside films"),
         (["-o", "x.gif", "--width", "3840", "--seconds", "100"], "too many"),
         (["-o", "x.png", "--captions", "beside"], "beside films"),
         (["-o", "x.png", "--captions", "loud"], "picture, beside, none"),
+        (["-o", "x.png", "--as", "svg"], "is of --scenes"),
+        (["-o", "folder", "--scenes", "--as", "gif"], "png, svg"),
         (["-o", "missing/x.png"], "no such folder"),
         (["-o", "folder", "--scenes"], "has no story"),
     ],
@@ -162,6 +167,40 @@ def test_what_cannot_be_is_one_line_and_writes_nothing(words, said, tmp_path, mo
     assert main(["picture", FAKE, *words]) == 2
     assert said in told(capsys)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["-o", "x.png", "--step", "5000"], "--step 5000: a run has 5000 steps at most"),
+        (["-o", "x.png", "--step", "-5001"], "5000 steps at most"),
+        (["-o", "x.gif", "--from", "9999"], "--from 9999: a run has"),
+        (["-o", "x.gif", "--to", "9999"], "--to 9999: a run has"),
+        (["-o", "x.gif", "--to", "400", "--width", "3840"], "too many for .gif"),
+        (["-o", "x.webp", "--from", "-400", "--to", "-1", "--width", "3840"], "too many for .webp"),
+        (["-o", "x.gif", "--from", "9", "--to", "0", "--seconds", "90", "--width", "3840"], "many"),
+    ],
+)
+def test_what_is_known_before_the_run_is_said_before_it(words, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(WholeRun, "of", lambda *_: pytest.fail("the run was computed"))
+    assert main(["picture", FAKE, *words]) == 2
+    assert said in told(capsys)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "words", [["x.png", "--step", "999"], ["x.gif", "--from", "0", "--to", "9"]]
+)
+def test_a_step_beyond_the_end_is_said_before_anything_is_drawn(
+    words, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("workbench.picture.making.image_of", lambda *_: pytest.fail("was drawn"))
+    monkeypatch.setattr("workbench.picture.making.png_of", lambda *_: pytest.fail("was drawn"))
+    assert main(["picture", FAKE, "-o", *words]) == 2
+    n = len(WholeRun.of(fake.lesson, fake.lesson.params(), quiet).timeline)
+    assert f"the run has {n} steps: 0 to {n - 1}" in told(capsys)
 
 
 def test_a_file_that_is_there_stays_without_force(tmp_path, capsys):

@@ -1,5 +1,8 @@
 """A story as slides, and the words over a scene: in order, in place, and not over one another."""
 
+from dataclasses import replace
+from xml.etree import ElementTree
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -41,6 +44,17 @@ def test_a_story_has_a_slide_for_each_scene_in_order(tmp_path):
     assert files[0].read_bytes() == before
 
 
+def test_slides_are_vectors_where_asked_to(tmp_path):
+    asked = replace(ASKED, slides="svg")
+    files = scene_files(hill, tmp_path, asked, force=False, progress=quiet)
+    assert len(files) == len(stills_of(hill))
+    for file in files:
+        root = ElementTree.parse(file).getroot()
+        assert file.suffix == ".svg"
+        assert root.tag == "{http://www.w3.org/2000/svg}svg"
+        assert root.get("width") == "300"
+
+
 def test_slides_need_a_story_and_a_folder(tmp_path):
     with pytest.raises(InputError, match="has no story"):
         scene_files(fake.lesson, tmp_path, ASKED, force=False, progress=quiet)
@@ -51,8 +65,6 @@ def test_slides_need_a_story_and_a_folder(tmp_path):
 
 
 def boxes(words: list[Word]) -> np.ndarray:
-    from xml.etree import ElementTree
-
     lens = Lens.of(View(eye=(0.0, -5.0, 0.0)), (400, 250))
     root = ElementTree.fromstring(f"<g>{labels_svg(words, lens, theme(dark=False))}</g>")
     names = ("x", "y", "width", "height")

@@ -176,13 +176,24 @@ def test_the_page_of_licences_names_them_all_and_what_is_accessible(out):
 
 
 def test_the_source_is_linked_where_the_package_says_where_it_is(monkeypatch):
-    said = [["Documentation, https://a.example", "Source, https://b.example/x"], ["Source, x"], []]
-    for urls, address in zip(said, ("https://b.example/x", None, None), strict=True):
+    monkeypatch.delenv(about.ADDRESS, raising=False)
+    said = [["Documentation, https://a.example", "Source, https://b.example/X"], ["Source, x"], []]
+    for urls, address in zip(said, ("https://b.example/X", None, None), strict=True):
         monkeypatch.setattr(
             about, "metadata", lambda _, urls=urls: type("M", (), {"get_all": lambda *_: urls})()
         )
         assert about.source_address() == address
         assert (f'href="{address}"' in about.footer_html("")) == (address is not None)
+
+
+def test_who_publishes_may_say_where_the_source_is(monkeypatch, tmp_path):
+    monkeypatch.setenv("WORKBENCH_ADDRESS", "https://c.example/Ours?a&b")
+    site.publish(tmp_path, [TINY])
+    for name in ("index.html", "notices.html", f"{TINY.name}/index.html"):
+        assert 'href="https://c.example/Ours?a&amp;b"' in text_of(tmp_path, name), name
+    monkeypatch.setenv("WORKBENCH_ADDRESS", "javascript:alert(1)")
+    assert about.source_address() is None
+    assert "javascript" not in about.footer_html("")
 
 
 def test_the_project_names_both_licences():

@@ -1,10 +1,13 @@
 """Scenes as pixels: places by the pinhole's own formula, what hides what, and what is glass."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from workbench.rendering import raster
 from workbench.rendering.framing import framed
 from workbench.rendering.lens import Lens
 from workbench.rendering.raster import clipped, painted
@@ -138,3 +141,40 @@ def test_a_narrow_picture_shows_as_much_in_its_width():
     wide = Lens.of(VIEW, (240, 200))
     narrow = Lens.of(VIEW, (100, 200))
     assert 240 / wide.focal == pytest.approx(100 / narrow.focal)
+
+
+def everything() -> dict:
+    rng = np.random.default_rng(0)
+    p = rng.normal(size=(60, 3)) * [1.5, 0.8, 1.0]
+    image = rng.integers(0, 255, (20, 30, 3), np.uint8)
+    return {
+        "points": Points(p, "source", 0.05),
+        "lines": Segments(p.reshape(-1, 2, 3), "target", width=4.0),
+        "level": Segments(np.array([[[-9.0, 0, 0.3], [9.0, 0, 0.3]]]), "truth"),
+        "upright": Segments(np.array([[[0.2, 0, -9.0], [0.2, 0, 9.0]]]), "truth"),
+        "glass": Mesh(WALL, FACES, "target", opacity=0.5),
+        "twice": Mesh(1.3 * WALL, np.array([*FACES, *FACES]), "wrong", opacity=0.3),
+        "wall": Mesh(WALL + np.array([1.0, 0.4, 0.2]), FACES, "highlight"),
+        "sheet": Picture(image, width=3.0, opacity=0.7, T_world_object=VIEW.facing(0.0, 0.0)),
+    }
+
+
+@pytest.mark.parametrize("rows", [1, 7, 64])
+def test_a_picture_that_is_made_in_bands_is_the_one_that_is_made_whole(monkeypatch, rows):
+    whole = pixels(everything())
+    monkeypatch.setattr(raster, "BAND", 3 * SIZE[0] * 3 * rows)
+    monkeypatch.setattr(raster, "MOST", 5000)
+    assert np.array_equal(pixels(everything()), whole)
+    assert len(np.unique(whole[..., :3].reshape(-1, 3), axis=0)) > 500
+
+
+def test_the_memory_of_a_wide_picture_is_that_of_a_band():
+    lens = LENS.scaled(12)
+    shapes = shapes_of({name: everything()[name] for name in ("glass", "wall", "sheet")})
+    tracemalloc.start()
+    try:
+        painted(shapes, lens, scale=12.0)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most < 300e6

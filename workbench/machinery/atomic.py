@@ -5,8 +5,10 @@ killed left behind.
 import os
 import platform
 import re
+import shutil
 import sys
 import zlib
+from collections.abc import Mapping
 from pathlib import Path
 from uuid import uuid4
 
@@ -26,15 +28,23 @@ def write_atomic(path: Path, data: bytes) -> None:
     Raises:
         OSError: If it cannot be written.
     """
-    part = path.with_name(f".{path.name[:100]}.{_MACHINE}-{os.getpid()}-{uuid4().hex[:8]}.part")
+    part = _part(path)
     try:
-        with part.open("xb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
+        _fill(part, data)
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
+
+
+def _part(path: Path) -> Path:
+    return path.with_name(f".{path.name[:100]}.{_MACHINE}-{os.getpid()}-{uuid4().hex[:8]}.part")
+
+
+def _fill(part: Path, data: bytes) -> None:
+    with part.open("xb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
 
 
 def check_place(path: Path, force: bool, how: str = "--force") -> None:
@@ -68,6 +78,51 @@ def write_place(path: Path, data: bytes) -> None:
         write_atomic(final, data)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def write_places(files: Mapping[Path, bytes]) -> None:
+    """Put all of some files in place, or none of them: what stood there stays where one fails.
+
+    Each is written whole under another name before the first is put in place. Links are followed.
+
+    Raises:
+        InputError: If one cannot be written.
+    """
+    finals = {path: path.resolve() for path in files}
+    parts = {path: _part(final) for path, final in finals.items()}
+    kept = {path: _part(final) for path, final in finals.items()}
+    path = Path()
+    placed: list[Path] = []
+    try:
+        for path, data in files.items():
+            remove_leftovers(finals[path].parent)
+            _fill(parts[path], data)
+        for path, final in finals.items():
+            if final.exists():
+                _keep(final, kept[path])
+            os.replace(parts[path], final)
+            placed.append(path)
+    except BaseException as error:
+        for done in placed:
+            if kept[done].exists():
+                os.replace(kept[done], finals[done])
+            else:
+                finals[done].unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            why = error.strerror or error
+            raise InputError(f"{path}: cannot be written: {why}") from error
+        raise
+    finally:
+        for part in (*parts.values(), *kept.values()):
+            part.unlink(missing_ok=True)
+
+
+def _keep(path: Path, other: Path) -> None:
+    """Give what stands at a path another name too."""
+    try:
+        os.link(path, other)
+    except OSError:  # a file system without links
+        shutil.copy2(path, other)
 
 
 def remove_leftovers(folder: Path) -> None:

@@ -2,6 +2,7 @@
 the page that stands where none is.
 """
 
+import os
 from collections.abc import Mapping
 from html import escape
 from importlib.metadata import PackageNotFoundError, metadata
@@ -9,6 +10,8 @@ from importlib.metadata import PackageNotFoundError, metadata
 from workbench.machinery.licence import CC_BY, CC_BY_TEXT, PACKAGE
 from workbench.page.document import COURSE, THIRD_PARTIES, document_head, in_script
 
+ADDRESS = "WORKBENCH_ADDRESS"
+"""Of the environment: where the source is, when a distribution is built and a course published."""
 NOTICES_PAGE = "notices.html"
 MISSING_PAGE = "404.html"
 PLAIN = "plain.js"
@@ -49,14 +52,20 @@ document.head.append(base);
 
 
 def source_address() -> str | None:
-    """Return where the package says that its source is; None where it names no https address."""
+    """Return where the source is, as `WORKBENCH_ADDRESS` of the environment says, else the package;
+    None where neither names an https address.
+    """
+    found = os.environ.get(ADDRESS) or _packaged_address()
+    return found if found.startswith("https://") else None
+
+
+def _packaged_address() -> str:
     try:
         urls = metadata(PACKAGE).get_all("Project-URL") or []
     except PackageNotFoundError:
-        return None
-    named = dict(url.lower().split(", ", 1) for url in urls if ", " in url)
-    found = named.get("source", "")
-    return found if found.startswith("https://") else None
+        return ""
+    named = dict(url.split(", ", 1) for url in urls if ", " in url)
+    return next((url for name, url in named.items() if name.lower() == "source"), "")
 
 
 def footer_html(root: str, *, ours: bool = True) -> str:

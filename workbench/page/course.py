@@ -20,8 +20,12 @@ STANDS_STILL = (
 )
 FRONT_FILES = ("front.css", "front.js")
 """The page's own styles and script, beside those of every page."""
-FRONT_PICTURES = ("front-still.webp", "front-loop.webp")
-"""A picture of a run, and the run as a loop: `python -m assets.make_pictures` makes them."""
+FRONT_LIGHT = ("front-still.webp", "front-loop.webp")
+FRONT_DARK = ("front-still-dark.webp", "front-loop-dark.webp")
+FRONT_PICTURES = (*FRONT_LIGHT, *FRONT_DARK)
+"""A picture of a run, and the run as a loop, light and dark: `python -m assets.make_pictures` makes
+them.
+"""
 LOOP_OF = "icp"
 """The lesson that the loop is of."""
 SHORT = 2
@@ -110,14 +114,17 @@ def _hero(cards: list[Card], said: str) -> str:
 
 
 def _loop(cards: list[Card], root: str) -> str:
-    """Return a run as a loop, which the page's script starts where the reader allows motion."""
+    """Return a run as a loop, which the page's script shows, light or dark, and starts where the
+    reader allows motion.
+    """
     card = next((one for one in cards if one.name == LOOP_OF), None)
     if card is None:
         return ""
-    still, loop = (root + name for name in FRONT_PICTURES)
+    light, dark = (" ".join(root + name for name in names) for names in (FRONT_LIGHT, FRONT_DARK))
     return (
-        f'<figure id="loop"><img src="{still}" data-loop="{loop}" width="400" height="281"'
-        ' alt="An orange rabbit turns step by step onto a blue one."><figcaption>Every lesson is a'
+        f'<figure id="loop" data-light="{light}" data-dark="{dark}"><noscript><img'
+        f' src="{root}{FRONT_LIGHT[0]}" width="400" height="281" alt="An orange rabbit turns step'
+        ' by step onto a blue one."></noscript><figcaption>Every lesson is a'
         f' run, step by step. This one: <a href="{escape(card.address)}">{escape(card.title)}</a>.'
         ' <button type="button" hidden>Pause</button></figcaption></figure>'
     )

@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from workbench.errors import InputError
+from workbench.picture.film import frames_of
 from workbench.picture.sheet import Style
-from workbench.run.timeline import Timeline
+from workbench.run.timeline import MOST_STEPS, Timeline
 
 STILLS = (".png", ".svg", ".webp")
 FILMS = (".webp", ".gif", ".mp4")
@@ -18,6 +19,7 @@ MOST_PIXELS = 400_000_000
 """Pixels of all pictures of a .gif or .webp together: they are in memory at once."""
 SECONDS_A_STEP = 0.6
 Captions = Literal["picture", "beside", "none"]
+Slides = Literal["png", "svg"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,6 +32,7 @@ class Asked:
         seconds: How long the film is; None for so many a step.
         style: How it looks.
         captions: Where captions are.
+        slides: What files the slides of a story are; None for `.png`.
     """
 
     step: int | None = None
@@ -38,6 +41,7 @@ class Asked:
     seconds: float | None = None
     style: Style
     captions: Captions = "picture"
+    slides: Slides | None = None
 
     @property
     def is_of_film(self) -> bool:
@@ -56,6 +60,8 @@ def is_film(out: Path, asked: Asked) -> bool:
     if kind not in (*STILLS, *FILMS):
         raise InputError(f"{out}: a picture is .png, .svg or .webp, a film is .webp, .gif or .mp4")
     _check_style(asked)
+    if asked.slides is not None:
+        raise InputError(f"--as {asked.slides}: is of --scenes; else the name of the file says it")
     film = kind in FILMS and (kind not in STILLS or asked.is_of_film)
     if film and asked.step is not None:
         raise InputError(f"{out}: a film has --from and --to; --step is of .png, .svg and .webp")
@@ -65,7 +71,34 @@ def is_film(out: Path, asked: Asked) -> bool:
         raise InputError("--captions beside: subtitles stand beside films; picture or none")
     if kind == ".mp4":
         check_encoder()
+    _check_reach(out, asked)
     return film
+
+
+def check_slides(asked: Asked) -> None:
+    """Raise InputError on a wish that does not go with slides of a story."""
+    _check_style(asked)
+    if asked.slides not in (None, *get_args(Slides)):
+        raise InputError(f"--as {asked.slides}: one of {', '.join(get_args(Slides))}")
+    if asked.step is not None or asked.is_of_film:
+        raise InputError("--scenes: a story says its steps; --step, --from, --to, --seconds do not")
+    if asked.captions == "beside":
+        raise InputError("--captions beside: subtitles stand beside films; picture or none")
+
+
+def _check_reach(out: Path, asked: Asked) -> None:
+    """Raise InputError where no run is long enough, or where the steps of a film that are named are
+    too many, before there is a run.
+    """
+    named = {"--step": asked.step, "--from": asked.first, "--to": asked.last}
+    for flag, step in named.items():
+        if step is not None and not -MOST_STEPS <= step < MOST_STEPS:
+            raise InputError(f"{flag} {step}: a run has {MOST_STEPS} steps at most")
+    first = asked.first or 0
+    last = asked.last
+    if last is not None and (first < 0) == (last < 0):
+        seconds = seconds_of(asked, abs(last - first) + 1)
+        check_memory(out, len(frames_of(first, last, seconds)), asked.style)
 
 
 def _check_style(asked: Asked) -> None:

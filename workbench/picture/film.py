@@ -2,6 +2,7 @@
 
 import io
 import math
+import tempfile
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -146,11 +147,19 @@ def _palette(pictures: Sequence[Image.Image]) -> Image.Image:
 
 
 def _mp4(shown: Iterable[Shown]) -> bytes:
-    """Return frames as H.264, encoded by one thread: equal frames each time."""
+    """Return frames as H.264, encoded by one thread: equal frames each time. What a player needs
+    first is in front, so that a film from a server begins before all of it is there.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "film.mp4"  # its front is moved there by reading it a second time
+        _encode(shown, file)
+        return file.read_bytes()
+
+
+def _encode(shown: Iterable[Shown], file: Path) -> None:
     import av
 
-    file = io.BytesIO()
-    with av.open(file, "w", format="mp4") as film:
+    with av.open(str(file), "w", format="mp4", options={"movflags": "faststart"}) as film:
         stream: Any = None
         at = 0
         for frame, image in shown:
@@ -167,7 +176,6 @@ def _mp4(shown: Iterable[Shown]) -> bytes:
                 at += 1
                 film.mux(stream.encode(picture))
         film.mux(stream.encode())
-    return file.getvalue()
 
 
 def subtitles(frames: Sequence[Frame], captions: Sequence[str]) -> str:

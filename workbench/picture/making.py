@@ -10,12 +10,19 @@ from typing import Any
 
 from workbench.errors import InputError
 from workbench.lesson import Lesson
-from workbench.machinery.atomic import check_place, write_place
+from workbench.machinery.atomic import check_place, write_place, write_places
 from workbench.machinery.progress import Progress
 from workbench.page.chart_svg import telling_chart
 from workbench.page.steps import Steps
 from workbench.page.thumbnail import telling_step
-from workbench.picture.asking import Asked, check_memory, index_of, is_film, seconds_of
+from workbench.picture.asking import (
+    Asked,
+    check_memory,
+    check_slides,
+    index_of,
+    is_film,
+    seconds_of,
+)
 from workbench.picture.film import Frame, Shown, beside, between, film_bytes, frames_of, subtitles
 from workbench.picture.sheet import (
     Moment,
@@ -106,12 +113,12 @@ def film_file(run: WholeRun, out: Path, asked: Asked, *, progress: Progress) -> 
     style = _style(asked)
     check_memory(out, len(frames), style)
     data = film_bytes(_shown(run, frames, style, progress=progress), out.suffix.lower())
-    write_place(out, data)
-    if asked.captions != "beside":
-        return [out]
-    captions = [step.caption.text for step in timeline.known()]
-    write_place(beside(out), subtitles(frames, captions).encode())
-    return [out, beside(out)]
+    files = {out: data}
+    if asked.captions == "beside":
+        captions = [step.caption.text for step in timeline.known()]
+        files[beside(out)] = subtitles(frames, captions).encode()
+    write_places(files)
+    return list(files)
 
 
 def _shown(
@@ -140,12 +147,15 @@ def scene_files(
     """Write a picture of each scene of a story into a folder, and return the files, in order.
 
     Raises:
-        InputError: If the lesson has no story, or the folder cannot be written to.
+        InputError: If the lesson has no story, what is asked for does not go with slides, or the
+            folder cannot be written to.
     """
+    check_slides(asked)
     if not has_story(lesson):
         raise InputError(f"{lesson.name} has no story; without --scenes a picture is of a step")
     stills = stills_of(lesson)
-    files = [out / f"{i:02d}-{_slug(still.title)}.png" for i, still in enumerate(stills, 1)]
+    kind = asked.slides or "png"
+    files = [out / f"{i:02d}-{_slug(still.title)}.{kind}" for i, still in enumerate(stills, 1)]
     if out.exists() and not out.is_dir():
         raise InputError(f"{out}: is not a folder")
     for file in files if out.is_dir() else ():
@@ -161,14 +171,14 @@ def scene_files(
         run = runs[place.run]
         moment = moment_of(lesson, place, run.timeline, run=run.data, style=style)
         said = " ".join(filter(None, (_sentence(still.title), moment.caption)))
-        pictures.append(png_of(replace(moment, caption=said, tone="info"), style))
+        slide = replace(moment, caption=said, tone="info")
+        pictures.append(svg_of(slide, style) if kind == "svg" else png_of(slide, style))
         progress("drawn", i + 1, len(stills))
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"{out}: cannot be made: {error.strerror or error}") from error
-    for file, data in zip(files, pictures, strict=True):
-        write_place(file, data)
+    write_places(dict(zip(files, pictures, strict=True)))
     return files
 
 

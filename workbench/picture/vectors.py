@@ -5,11 +5,11 @@ import io
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from PIL import ImageColor
+from PIL import Image, ImageColor
 
 from workbench.picture.theme import theme
 from workbench.rendering.lens import Lens
-from workbench.rendering.raster import LEAST_RADIUS, Raster, clipped
+from workbench.rendering.raster import LEAST_RADIUS, bands, clipped
 from workbench.rendering.shapes import Discs, Shape, Sheet, Strokes, Surface
 
 FINER = 2
@@ -23,13 +23,16 @@ def scene_svg(shapes: Sequence[Shape], lens: Lens, *, scale: float, dark: bool) 
     """
     surfaces = [one for one in shapes if isinstance(one, Surface | Sheet)]
     finer = lens.scaled(FINER * scale)
-    raster = Raster(finer, FINER * scale, dark=dark)
-    raster.paint(surfaces)
-    depth = raster.depth.reshape(finer.size[::-1])
+    depth = np.empty(finer.size[::-1], np.float32)
+    wide, high = (-(-side // FINER) for side in finer.size)
+    sheet = Image.new("RGBA", (wide, high))
+    for raster in bands(surfaces, finer, FINER, scale=FINER * scale, dark=dark):
+        depth[raster.rows.start : raster.rows.stop] = raster.depth
+        sheet.paste(raster.image(FINER), (0, raster.rows.start // FINER))
     image = ""
     if surfaces:
         file = io.BytesIO()
-        raster.image(FINER).save(file, "PNG", compress_level=9)
+        sheet.save(file, "PNG", compress_level=9)
         data = base64.b64encode(file.getvalue()).decode()
         image = (
             f'<image width="{lens.size[0]}" height="{lens.size[1]}"'

@@ -12,8 +12,12 @@ from PIL import Image
 from workbench.rendering.lens import NEAR, Lens
 from workbench.rendering.shapes import Discs, Shape, Sheet, Strokes, Surface
 
-MOST = 1 << 21
+LARGE = 1 << 21
+"""Pixels of a box beyond which it is drawn before smaller ones; samples of lines drawn together."""
+MOST = 1 << 18
 """Candidate pixels that are looked at together."""
+BAND = 1 << 22
+"""Pixels of a picture that are in memory at once, about: a wide one is made in bands of rows."""
 LIGHT = np.array([0.35, -0.6, -0.72])
 """Where light comes from, in the frame of the eye."""
 LEAST_RADIUS = 0.7
@@ -37,21 +41,43 @@ def painted(
         dark: Whether the ground will be dark: faint things keep more of their colour then.
     """
     finer = 3 if lens.size[0] <= 1300 else 2
-    raster = Raster(lens.scaled(finer), scale * finer, dark=dark)
-    raster.paint(shapes)
-    return raster.image(finer)
+    sheet = Image.new("RGBA", lens.size)
+    for raster in bands(shapes, lens.scaled(finer), finer, scale=scale * finer, dark=dark):
+        sheet.paste(raster.image(finer), (0, raster.rows.start // finer))
+    return sheet
+
+
+def bands(
+    shapes: Iterable[Shape], lens: Lens, finer: int, *, scale: float, dark: bool = False
+) -> Iterator["Raster"]:
+    """Yield a picture of shapes in bands of rows from above, each but the last of a multiple of
+    `finer` rows; the other arguments are those of `painted`.
+    """
+    shapes = list(shapes)
+    width, height = lens.size
+    rows = finer * max(1, BAND // (finer * width))
+    for top in range(0, height, rows):
+        raster = Raster(lens, range(top, min(top + rows, height)), scale=scale, dark=dark)
+        raster.paint(shapes)
+        yield raster
 
 
 class Raster:
-    """A picture in the making: colours and depths of pixels."""
+    """A band of a picture in the making: colours and depths of the pixels of some of its rows."""
 
-    def __init__(self, lens: Lens, scale: float, *, dark: bool = False):
-        width, height = lens.size
+    def __init__(self, lens: Lens, rows: range, *, scale: float, dark: bool = False):
+        n = lens.size[0] * len(rows)
         self.lens = lens
-        self.depth = np.full(width * height, np.inf, np.float32)
-        self._rgba = np.zeros((width * height, 4), np.uint8)
+        self.rows = rows
+        self._depth = np.full(n, np.inf, np.float32)
+        self._rgba = np.zeros((n, 4), np.uint8)
         self._scale = scale
         self._power = 0.6 if dark else 1.0
+
+    @property
+    def depth(self) -> np.ndarray:
+        """The depth (rows, columns) of what is seen, metres; infinite where nothing is."""
+        return self._depth.reshape(len(self.rows), self.lens.size[0])
 
     def paint(self, shapes: Iterable[Shape]) -> None:
         """Draw shapes: those that hide what is behind them first."""
@@ -64,9 +90,8 @@ class Raster:
             self._lay_over(one)
 
     def image(self, finer: int) -> Image.Image:
-        """Return the picture, so many times smaller along each side, its ground transparent."""
-        width, height = self.lens.size
-        whole = Image.fromarray(self._rgba.reshape(height, width, 4), "RGBA")
+        """Return the band, so many times smaller along each side, its ground transparent."""
+        whole = Image.fromarray(self._rgba.reshape(*self.depth.shape, 4), "RGBA")
         return whole.convert("RGBa").reduce(finer).convert("RGBA")
 
     def _far(self, shape: Shape) -> float:
@@ -74,30 +99,23 @@ class Raster:
         return float(self.lens.before(p)[:, 2].mean())
 
     def _put(self, pixels: np.ndarray, z: np.ndarray, rgba: np.ndarray) -> None:
-        np.minimum.at(self.depth, pixels, z)
-        nearest = z <= self.depth[pixels]
+        np.minimum.at(self._depth, pixels, z)
+        nearest = z <= self._depth[pixels]
         self._rgba[pixels[nearest]] = rgba[nearest]
 
     def _lay_over(self, shape: Shape) -> None:
         """Blend the nearest of a translucent shape over what is farther away."""
-        parts = []
+        depth = self._depth.copy()
+        nearest = np.zeros_like(self._rgba)
         for pixels, z, rgba in self._fragments(shape):
-            before = z < self.depth[pixels]
-            parts.append((pixels[before], z[before], rgba[before]))
-        if not parts:
-            return
-        pixels, z, rgba = (np.concatenate(column) for column in zip(*parts, strict=True))
-        order = np.lexsort((z, pixels))
-        first = np.ones(len(order), bool)
-        first[1:] = pixels[order][1:] != pixels[order][:-1]
-        chosen = order[first]
-        under = self._rgba[pixels[chosen]].astype(np.float32)
-        over = rgba[chosen].astype(np.float32)
-        a = over[:, 3:] / 255
-        b = under[:, 3:] / 255 * (1 - a)
-        alpha = a + b
-        color = (a * over[:, :3] + b * under[:, :3]) / np.maximum(alpha, 1e-6)
-        self._rgba[pixels[chosen]] = np.rint(np.hstack([color, 255 * alpha])).astype(np.uint8)
+            before = np.flatnonzero(z < depth[pixels])
+            np.minimum.at(depth, pixels[before], z[before])
+            before = before[z[before] == depth[pixels[before]]][::-1]  # of equals the first stays
+            nearest[pixels[before]] = rgba[before]
+        chosen = np.flatnonzero(depth < self._depth)
+        for start in range(0, len(chosen), MOST):
+            pixels = chosen[start : start + MOST]
+            self._rgba[pixels] = _blended(nearest[pixels], self._rgba[pixels])
 
     def _fragments(self, shape: Shape) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         if isinstance(shape, Discs):
@@ -117,16 +135,18 @@ class Raster:
     def _boxes(
         self, low: np.ndarray, high: np.ndarray
     ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Yield which box, column and row of all pixels in boxes, so many at a time as memory
-        likes; low and high are (n, 2) pixels.
+        """Yield which box, column and row of all pixels of the band in boxes, so many at a time as
+        memory likes; low and high are (n, 2) pixels.
         """
         width, height = self.lens.size
         size = np.array([width, height])
         first = np.clip(np.floor(low), 0, size).astype(np.intp)
         last = np.clip(np.ceil(high) + 1, 0, size).astype(np.intp)
+        large = np.prod(last - first, axis=1, dtype=float) > LARGE
+        first[:, 1] = np.maximum(first[:, 1], self.rows.start)
+        last[:, 1] = np.minimum(last[:, 1], self.rows.stop)
         rows = max(1, MOST // width)
-        large = np.prod(last - first, axis=1, dtype=float) > MOST
-        for top in range(0, height, rows) if large.any() else ():
+        for top in range(self.rows.start, self.rows.stop, rows) if large.any() else ():
             yield from _cells(
                 np.flatnonzero(large),
                 np.maximum(first[large], [0, top]),
@@ -135,19 +155,30 @@ class Raster:
         small = np.flatnonzero(~large)
         yield from _cells(small, first[small], last[small])
 
+    def _pixels(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the indices in the band of columns and rows of the picture."""
+        return (y - self.rows.start) * self.lens.size[0] + x
+
+    def _touches(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """Tell what has some of the band's rows, by its lowest and highest row; what has NaN for
+        them has none.
+        """
+        return (high >= self.rows.start - 2) & (low <= self.rows.stop + 1)
+
     def _discs(self, discs: Discs) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         uv, depth = self.lens.seen(discs.p)
-        seen = np.flatnonzero(np.isfinite(depth))
+        radius = np.maximum(self.lens.focal * discs.radius / depth, LEAST_RADIUS * self._scale)
+        seen = np.flatnonzero(self._touches(uv[:, 1] - radius, uv[:, 1] + radius))
         uv = uv[seen]
         depth = depth[seen]
-        radius = np.maximum(self.lens.focal * discs.radius / depth, LEAST_RADIUS * self._scale)
+        radius = radius[seen]
         rgba = self._paled(discs.rgba[seen])
         for which, x, y in self._boxes(uv - radius[:, None], uv + radius[:, None]):
             du = x + 0.5 - uv[which, 0]
             dv = y + 0.5 - uv[which, 1]
             inside = du * du + dv * dv <= radius[which] ** 2
             chosen = which[inside]
-            pixels = y[inside] * self.lens.size[0] + x[inside]
+            pixels = self._pixels(x[inside], y[inside])
             yield pixels, (DISCS_NEARER * depth[chosen]).astype(np.float32), rgba[chosen]
 
     def _strokes(self, strokes: Strokes) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
@@ -161,20 +192,40 @@ class Raster:
         across = np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(length, 1e-9)[:, None]
         ticks = np.linspace(-0.5, 0.5, int(np.ceil(wide)) + 1) * (wide - 1.0 if wide > 1 else 0.0)
         counts = np.ceil(1.5 * length).astype(np.intp) + 2
-        width, height = self.lens.size
-        for part in _chunks(counts * len(ticks)):
-            n = counts[part]
+        first, last = self._crossing(uv, counts - 1, wide)
+        width = self.lens.size[0]
+        for part in _chunks(counts * len(ticks), LARGE):
+            n = last[part] - first[part]
             one = np.repeat(np.arange(part.start, part.stop), n)
-            at = np.arange(n.sum()) - np.repeat(np.cumsum(n) - n, n)
+            at = np.arange(n.sum()) - np.repeat(np.cumsum(n) - n - first[part], n)
             t = at / (counts[one] - 1)
             middle = uv[one, 0] + t[:, None] * along[one]
             z = 1.0 / (inverse[one, 0] + t * (inverse[one, 1] - inverse[one, 0]))
             for tick in ticks:
                 place = np.floor(middle + tick * across[one]).astype(np.intp)
-                inside = ((place >= 0) & (place < [width, height])).all(1)
-                pixels = place[inside, 1] * width + place[inside, 0]
+                inside = (place >= [0, self.rows.start]) & (place < [width, self.rows.stop])
+                inside = inside.all(1)
+                pixels = self._pixels(*place[inside].T)
                 depth = (LINES_NEARER * z[inside]).astype(np.float32)
                 yield pixels, depth, rgba[one[inside]]
+
+    def _crossing(
+        self, uv: np.ndarray, steps: np.ndarray, wide: float
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the first step along each line that may be in the band, and the one after the
+        last; `uv` (n, 2, 2) are ends, `wide` is how thick a line is.
+        """
+        start = uv[:, 0, 1]
+        end = uv[:, 1, 1]
+        flat = np.abs(end - start) < 1e-9
+        slope = np.where(flat, 1.0, end - start)
+        rows = np.array([[self.rows.start - wide - 1], [self.rows.stop + wide + 1]])
+        t = np.sort((rows - start) / slope, axis=0)
+        t = np.where(flat, [[0.0], [1.0]], np.clip(t, 0, 1))
+        first = np.floor(t[0] * steps).astype(np.intp)
+        last = np.ceil(t[1] * steps).astype(np.intp) + 1
+        away = ~self._touches(np.minimum(start, end) - wide, np.maximum(start, end) + wide)
+        return first, np.where(away, first, last)
 
     def _faces(self, surface: Surface) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         uv, depth = self.lens.seen(surface.corners)
@@ -182,6 +233,7 @@ class Raster:
         second = uv[:, 2] - uv[:, 0]
         area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
         kept = np.isfinite(area) & (np.abs(np.nan_to_num(area)) > 1e-9)
+        kept &= self._touches(uv[..., 1].min(1), uv[..., 1].max(1))
         uv = uv[kept]
         depth = depth[kept]
         first = first[kept]
@@ -196,7 +248,7 @@ class Raster:
             c = (dv * first[which, 0] - du * first[which, 1]) / area[which]
             inside = (b >= -1e-9) & (c >= -1e-9) & (b + c <= 1 + 1e-9)
             which = which[inside]
-            pixels = (y * self.lens.size[0] + x)[inside]
+            pixels = self._pixels(x, y)[inside]
             weights = np.column_stack([1 - b - c, b, c])[inside] / depth[which]
             inverse = weights.sum(1)
             color = np.einsum("ni,nij->nj", weights / inverse[:, None], rgb[which])
@@ -228,7 +280,7 @@ class Raster:
             color = _between(image, across[on], along[on])
             alpha = np.full((len(color), 1), 255 * sheet.opacity)
             rgba = np.rint(np.hstack([color, alpha])).astype(np.uint8)
-            yield y[on] * width + x[on], z[on].astype(np.float32), rgba
+            yield self._pixels(x[on], y[on]), z[on].astype(np.float32), rgba
 
 
 def clipped(
@@ -280,13 +332,24 @@ def _is_glass(shape: Shape) -> bool:
     return isinstance(shape, Surface | Sheet) and shape.opacity < 1
 
 
-def _chunks(counts: np.ndarray) -> Iterator[slice]:
-    """Yield slices whose counts sum to at most MOST, or that have one alone."""
+def _blended(over: np.ndarray, under: np.ndarray) -> np.ndarray:
+    """Return colours (n, 4) laid over others, uint8."""
+    over = over.astype(np.float32)
+    under = under.astype(np.float32)
+    a = over[:, 3:] / 255
+    b = under[:, 3:] / 255 * (1 - a)
+    alpha = a + b
+    color = (a * over[:, :3] + b * under[:, :3]) / np.maximum(alpha, 1e-6)
+    return np.rint(np.hstack([color, 255 * alpha])).astype(np.uint8)
+
+
+def _chunks(counts: np.ndarray, most: int) -> Iterator[slice]:
+    """Yield slices whose counts sum to at most `most`, or that have one alone."""
     total = np.cumsum(counts)
     start = 0
     while start < len(counts):
         before = total[start - 1] if start else 0
-        stop = max(start + 1, int(np.searchsorted(total, before + MOST, "right")))
+        stop = max(start + 1, int(np.searchsorted(total, before + most, "right")))
         yield slice(start, stop)
         start = stop
 
@@ -301,7 +364,7 @@ def _cells(
     first = first[some]
     sides = sides[some]
     counts = counts[some]
-    for part in _chunks(counts):
+    for part in _chunks(counts, MOST):
         n = counts[part]
         at = np.arange(n.sum()) - np.repeat(np.cumsum(n) - n, n)
         wide = np.repeat(sides[part, 0], n)

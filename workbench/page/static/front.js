@@ -8,6 +8,7 @@ const theme = {
     const dark = document.documentElement.dataset.theme !== "dark";
     theme.set(dark);
     kept.set("dark", dark);
+    loop.show();
   },
 };
 theme.set(kept.get("dark") ?? matchMedia("(prefers-color-scheme: dark)").matches);
@@ -161,20 +162,28 @@ for (const [name, box] of boxes) {
   for (const kind of ["pointerleave", "blur"]) box.addEventListener(kind, () => light(null));
 }
 
-// a run as a loop: it moves where the reader allows motion, and stops when they say so
+// a run as a loop, as light or dark as the page: only what is shown is loaded. It moves where the
+// reader allows motion, and stops when they say so
 const loop = {
-  image: $("#loop img"), button: $("#loop button"), still: $("#loop img")?.getAttribute("src"),
-  calm: matchMedia("(prefers-reduced-motion: reduce)"),
+  figure: $("#loop"), button: $("#loop button"), calm: matchMedia("(prefers-reduced-motion: reduce)"),
+  show() {
+    const [still, moving] = this.figure?.dataset[document.documentElement.dataset.theme].split(" ") ?? [];
+    if (still) this.image.src = this.on ? moving : still;
+  },
   play(on) {
     this.on = on;
-    this.image.src = on ? this.image.dataset.loop : this.still;
+    this.show();
     this.button.textContent = on ? "Pause" : "Play";
   },
   begin() {
+    const unscripted = document.createElement("template");  // within it no picture is loaded
+    unscripted.innerHTML = $("noscript", this.figure).textContent;
+    this.image = unscripted.content.firstChild;
     this.button.hidden = false;
     this.button.onclick = () => this.play(!this.on);
     this.calm.onchange = () => this.play(!this.calm.matches);
     this.play(!this.calm.matches);
+    this.figure.prepend(this.image);
   },
 };
-if (loop.image) loop.begin();
+if (loop.figure) loop.begin();
