@@ -14,6 +14,8 @@ from workbench.geometry.refinement import levenberg_marquardt
 _FLAT = 1e-9
 _SMALLEST = 1e-300
 _NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
+_ROUNDS = 15  # of inverse iteration at most
+_STILL = 1e-14  # how far a unit vector moves in its last one at most
 
 
 def homogeneous(p: Float[np.ndarray, "*k n d"]) -> Float[np.ndarray, "*k n d+1"]:
@@ -157,6 +159,35 @@ def _fitted(uv_a: np.ndarray, uv_b: np.ndarray, root: np.ndarray) -> np.ndarray:
 def null_vector(A: Float[np.ndarray, "*k n c"]) -> Float[np.ndarray, "*k c"]:
     """Return the unit vector that A makes smallest: its last right singular vector."""
     return np.linalg.svd(np.linalg.qr(A, mode="r"), full_matrices=True)[2][..., -1, :]
+
+
+def null_vectors(A: Float[np.ndarray, "k n c"]) -> Float[np.ndarray, "k c"]:
+    """Return `null_vector` of many small matrices, to round-off and the sign, by inverse iteration.
+
+    With A = Q R each round solves R'R x = x before; what it leaves of other directions shrinks by
+    the square of the two least singular values' ratio. What still moves after it is left to the
+    decomposition, such as where the two are alike or the least is 0.
+    Reference: Golub and Van Loan, Matrix Computations, 4th ed., 8.2.2.
+    """
+    R = np.moveaxis(np.linalg.qr(A, mode="r"), 0, -1).copy()  # a row of numbers for each entry
+    x = np.zeros((R.shape[1], len(A)))
+    x[-1] = 1.0
+    moving = np.ones(len(A), bool)
+    with np.errstate(all="ignore"):
+        for _ in range(_ROUNDS):
+            before = x.copy()
+            for i in range(len(x)):  # R' y = x
+                x[i] = (x[i] - (R[:i, i] * x[:i]).sum(axis=0)) / R[i, i]
+            for i in reversed(range(len(x))):  # R x = y
+                x[i] = (x[i] - (R[i, i + 1 :] * x[i + 1 :]).sum(axis=0)) / R[i, i]
+            x /= np.sqrt((x * x).sum(axis=0))
+            moving = ~(np.abs(x - before).max(axis=0) < _STILL)
+            if not moving.any():
+                break
+    found = np.ascontiguousarray(x.T)
+    if moving.any():
+        found[moving] = null_vector(A[moving])
+    return found
 
 
 def refine_homography(
