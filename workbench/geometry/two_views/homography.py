@@ -72,9 +72,14 @@ def transfer_distances(
     uv_b: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
     """Return how far each pixel of image a lands from its match, in pixels of b; maybe infinite."""
-    off = transform_pixels(H_b_a, uv_a) - uv_b
-    distances = np.sqrt(off[..., 0] ** 2 + off[..., 1] ** 2)
-    return np.where(np.isnan(distances), np.asarray(np.inf, distances.dtype), distances)
+    uv_b_h = H_b_a[..., :2] @ uv_a.T + H_b_a[..., 2:]
+    off = uv_b_h[..., :2, :]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        off /= uv_b_h[..., 2:, :]
+        off -= uv_b.T
+        off *= off
+        distances = np.sqrt(off[..., 0, :] + off[..., 1, :])
+    return np.fmin(distances, np.inf, out=distances)  # at infinity on all sides: not a number
 
 
 def four_in_general_position(
@@ -147,7 +152,7 @@ def fit_homographies(
 
 def _fitted(uv_a: np.ndarray, uv_b: np.ndarray, root: np.ndarray) -> np.ndarray:
     """Return homographies, at any scale, from matches with the roots of their weights."""
-    T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
+    T_a, T_b = normalising_similarity(np.stack([uv_a, uv_b]))
     x, y = (homogeneous(uv) @ np.swapaxes(T, -1, -2) for uv, T in ((uv_a, T_a), (uv_b, T_b)))
     x, zero = x * root[:, None], np.zeros_like(x)
     rows_v = np.concatenate([zero, -x, y[..., 1:2] * x], axis=-1)
@@ -200,7 +205,7 @@ def refine_homography(
 ) -> Float[np.ndarray, "3 3"]:
     """Return the homography near `H_b_a` of least squared transfer distances (HZ 4.2.2, 4.5)."""
     root = np.ones(len(uv_a)) if weights is None else np.sqrt(weights)
-    T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
+    T_a, T_b = normalising_similarity(np.stack([uv_a, uv_b]))
     # One match per column: sums over rows are quick
     x = T_a @ homogeneous(uv_a).T
     y = (T_b @ homogeneous(uv_b).T)[:2]
