@@ -11,6 +11,8 @@ from workbench.geometry.two_views.homography import (
     homogeneous,
     homographies_from_four,
     normalising_similarity,
+    null_vector,
+    null_vectors,
     refine_homography,
     transfer_distances,
     transform_pixels,
@@ -163,3 +165,25 @@ def test_a_grid_stays_a_grid_under_the_identity_and_goes_where_its_corners_go():
         warped_grid(H, size, cells=4, pieces=3),
         transform_pixels(H, ends.reshape(-1, 2)).reshape(-1, 2, 2),
     )
+
+
+@pytest.mark.parametrize("columns", [2, 4, 9])
+def test_the_null_vectors_of_many_small_matrices_are_those_of_each(columns):
+    rng = np.random.default_rng(columns)
+    A = rng.normal(size=(60, columns + 1, columns))
+    A[:20] *= np.geomspace(1.0, 1e-6, columns)  # a clear least direction
+    A[20] = 0.0
+    A[21, :, 0] = A[21, :, -1]  # singular
+    A[22] = np.eye(columns + 1, columns)  # no direction is the least
+    found = null_vectors(A)
+    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0)
+    least = np.linalg.svd(A)[1][:, -1]
+    lengths = np.linalg.norm(A @ found[..., None], axis=(1, 2))
+    np.testing.assert_allclose(lengths, least, rtol=1e-9, atol=1e-14)
+    for one, A_one in zip(found[:20], A[:20], strict=True):
+        known = null_vector(A_one)
+        np.testing.assert_allclose(one * np.sign(one @ known), known, atol=1e-12)
+
+
+def test_no_matrices_have_no_null_vectors():
+    assert null_vectors(np.zeros((0, 4, 4))).shape == (0, 4)

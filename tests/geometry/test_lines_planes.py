@@ -7,6 +7,7 @@ from workbench.geometry.motions import exp_so3
 from workbench.geometry.shapes.lines_planes import (
     angle_between_planes,
     fit_hyperplane,
+    fit_hyperplanes,
     hyperplane_distances,
     line_from_points,
     plane_from_points,
@@ -105,6 +106,21 @@ def test_weight_zero_is_absence_and_weight_two_is_twice():
     weights = np.array([0.0] * 2 + [1.0] * 5 + [2.0] * 5)
     repeated = np.concatenate([p[2:7], p[7:], p[7:]])
     np.testing.assert_allclose(fit_hyperplane(p, weights), fit_hyperplane(repeated), atol=1e-12)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_many_weights_give_what_each_gives_alone(d):
+    rng = np.random.default_rng(4)
+    p = rng.normal(size=(40, d)) * np.array([1.0, 1.0, 0.01])[-d:] + 1e3
+    weights = rng.random((6, 40))
+    weights[1] = weights[1] > 0.5
+    weights[2] = 0.0
+    weights[2, : d - 1] = 1.0
+    together = fit_hyperplanes(p, weights)
+    assert np.isnan(together[2]).all()
+    for k in (0, 1, 3, 4, 5):
+        np.testing.assert_allclose(together[k], fit_hyperplane(p, weights[k]), rtol=1e-9)
+    np.testing.assert_allclose(fit_hyperplanes(p, weights[1:2] > 0), together[1:2], rtol=1e-12)
 
 
 def test_too_few_points_are_refused():

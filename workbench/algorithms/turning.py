@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import scipy
 from jaxtyping import Float, Int
 
 from workbench.algorithms.registration.icp import Stop
@@ -68,8 +69,7 @@ def within_half(degrees: float) -> float:
 
 def nearest(p_target: Float[np.ndarray, "m 2"], p: Flat) -> Partners:
     """Return for each point the index of the nearest target point."""
-    gaps = p[:, None] - p_target[None]
-    return np.einsum("ijk,ijk->ij", gaps, gaps).argmin(axis=1).astype(np.intp)
+    return scipy.spatial.distance.cdist(p, p_target, "sqeuclidean").argmin(axis=1).astype(np.intp)
 
 
 def cost(p_target: Float[np.ndarray, "m 2"], p_source: Flat, degrees: float) -> float:
@@ -195,6 +195,6 @@ def basin(
 
 def _pull(p_match: np.ndarray, p_source: np.ndarray) -> tuple[float, float]:
     """Return the mean of the products along and across: how strongly pairs hold, and turn."""
-    along = float(np.mean(np.sum(p_match * p_source, axis=1)))
-    cross = p_source[:, 0] * p_match[:, 1] - p_source[:, 1] * p_match[:, 0]
-    return along, float(np.mean(cross))
+    (x, y), (u, v) = p_source.T, p_match.T
+    n = len(p_source)
+    return float((u * x + v * y).sum()) / n, float((x * v - y * u).sum()) / n

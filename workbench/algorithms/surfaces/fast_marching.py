@@ -34,9 +34,10 @@ def eikonal_update(
         >>> eikonal_update(np.array([1.0, 0.0]), np.array([1.0, 2.0]), 1.0).round(4).tolist()
         [1.7071, 1.0]
     """
-    low, high = np.minimum(a, b), np.maximum(a, b)
-    apart = np.minimum(high - low, h)
-    return np.where(apart < h, low + (apart + np.sqrt(2 * h * h - apart * apart)) / 2, low + h)
+    low = np.minimum(a, b)
+    apart = np.minimum(np.maximum(a, b) - low, h)
+    # apart = h, the front along one axis, gives low + h too: the root of h * h is h
+    return low + (apart + np.sqrt(2 * h * h - apart * apart)) / 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +85,7 @@ def march(
     inner[1:-1, 1:-1] = free
     flat, width = d.ravel(), m + 2
     open_ = (inner & ~np.isfinite(d)).ravel()  # may still fall; what was given stays
-    beside = np.array([1, -1, width, -width])
+    beside = np.array([-width, width, -1, 1])[:, None]
     asked = np.zeros(flat.shape, bool)
     changed, reach = np.flatnonzero(np.isfinite(flat)), 0.0
     yield March(start.copy(), np.isfinite(start), reach)
@@ -92,21 +93,20 @@ def march(
         reach += band
         waiting = []
         for _ in range(n * m):  # values below the reach spread until none falls
-            ready = flat[changed] <= reach
-            waiting.append(changed[~ready])
-            asked[changed[ready, None] + beside] = True
-            at = np.flatnonzero(asked & open_)  # each once
-            asked[:] = False
+            ready = flat.take(changed) <= reach
+            waiting.append(changed.compress(~ready))
+            asked[beside + changed.compress(ready)] = True
+            at = (asked & open_).nonzero()[0]  # each once
+            asked.fill(False)
             if not len(at):
                 break
-            left, up = (
-                np.minimum(flat[at - width], flat[at + width]),
-                np.minimum(flat[at - 1], flat[at + 1]),
-            )
+            near = flat.take(beside + at)
+            left, up = np.minimum(near[::2], near[1::2])
             found = np.asarray(update(left, up, h), float)
-            falls = (found < flat[at] - 1e-12 * h) & (found >= np.minimum(left, up))
-            changed = at[falls]
-            flat[changed] = found[falls]
+            falls = found < flat.take(at) - 1e-12 * h
+            falls &= found >= np.minimum(left, up)
+            changed = at.compress(falls)
+            flat[changed] = found.compress(falls)
         changed = np.unique(np.concatenate(waiting)) if waiting else changed[:0]
         now = d[1:-1, 1:-1].copy()
         yield March(now, now <= reach, reach)

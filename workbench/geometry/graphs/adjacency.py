@@ -150,7 +150,9 @@ def gcn_layer(
     adjacency: Matrix, features: Float[np.ndarray, "n a"], weights: Float[np.ndarray, "a b"]
 ) -> Float[np.ndarray, "n b"]:
     """Return ReLU(D^(-1/2) (A + I) D^(-1/2) X W) (Kipf and Welling 2017, eq. 2)."""
-    return np.maximum(propagation(adjacency) @ (features @ weights), 0.0)
+    root = 1 / np.sqrt(degrees(adjacency) + 1.0)[:, None]  # D^(-1/2) of A + I
+    sent = root * (features @ weights)
+    return np.maximum(root * (adjacency @ sent + sent), 0.0)
 
 
 def cut_weight(adjacency: Sparse, side: Bool[np.ndarray, " n"]) -> float:

@@ -6,7 +6,7 @@ distance.
 """
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Shaped
 
 _FLAT = 1e-9
 
@@ -55,6 +55,30 @@ def fit_hyperplane(
     normal = np.linalg.eigh((v * weights) @ v.T)[1][:, 0]
     normal = normal * np.sign(normal[np.argmax(np.abs(normal))])
     return np.append(normal, -normal @ center)
+
+
+def fit_hyperplanes(
+    p: Float[np.ndarray, "n d"], weights: Shaped[np.ndarray, "m n"]
+) -> Float[np.ndarray, "m d+1"]:
+    """Return `fit_hyperplane` of the same points under each row of weights; NaN where it raises.
+
+    Args:
+        p: The points, metres.
+        weights: Of each fit a weight for each point, or whether it counts.
+    """
+    d = p.shape[1]
+    few = np.count_nonzero(weights > 0, axis=1) < d
+    middle = p.mean(axis=0)  # about it, sums of squares lose no digits
+    q = p - middle
+    products = (q[:, :, None] * q[:, None, :]).reshape(-1, d * d)
+    sums = weights.astype(float) @ np.column_stack([np.ones(len(p)), q, products])
+    total = np.where(few, 1.0, sums[:, 0])[:, None]
+    mean = sums[:, 1 : d + 1] / total
+    scatter = (sums[:, d + 1 :] / total).reshape(-1, d, d) - mean[:, :, None] * mean[:, None]
+    normal = np.linalg.eigh(scatter)[1][..., 0]
+    most = np.take_along_axis(normal, np.abs(normal).argmax(axis=1)[:, None], axis=1)
+    normal = np.where(few[:, None], np.nan, normal * np.sign(most))
+    return np.column_stack([normal, -(normal * (mean + middle)).sum(axis=1)])
 
 
 def regression_line(p: Float[np.ndarray, "n 2"], on: int) -> Float[np.ndarray, "3"]:

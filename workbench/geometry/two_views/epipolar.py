@@ -153,7 +153,7 @@ def fit_fundamental(
             f"eight points need at least 8 pairs of pixels, got {uv_first.shape} and"
             f" {uv_second.shape}"
         )
-    T_first, T_second = normalising_similarity(uv_first), normalising_similarity(uv_second)
+    T_first, T_second = normalising_similarity(np.stack([uv_first, uv_second]))
     constraints = epipolar_constraints(
         (T_first @ homogeneous(uv_first).T).T, (T_second @ homogeneous(uv_second).T).T
     )

@@ -14,6 +14,8 @@ from workbench.geometry.refinement import levenberg_marquardt
 _FLAT = 1e-9
 _SMALLEST = 1e-300
 _NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
+_ROUNDS = 15  # of inverse iteration at most
+_STILL = 1e-14  # how far a unit vector moves in its last one at most
 
 
 def homogeneous(p: Float[np.ndarray, "*k n d"]) -> Float[np.ndarray, "*k n d+1"]:
@@ -70,9 +72,14 @@ def transfer_distances(
     uv_b: Float[np.ndarray, "n 2"],
 ) -> Float[np.ndarray, "*k n"]:
     """Return how far each pixel of image a lands from its match, in pixels of b; maybe infinite."""
-    off = transform_pixels(H_b_a, uv_a) - uv_b
-    distances = np.sqrt(off[..., 0] ** 2 + off[..., 1] ** 2)
-    return np.where(np.isnan(distances), np.asarray(np.inf, distances.dtype), distances)
+    uv_b_h = H_b_a[..., :2] @ uv_a.T + H_b_a[..., 2:]
+    off = uv_b_h[..., :2, :]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        off /= uv_b_h[..., 2:, :]
+        off -= uv_b.T
+        off *= off
+        distances = np.sqrt(off[..., 0, :] + off[..., 1, :])
+    return np.fmin(distances, np.inf, out=distances)  # at infinity on all sides: not a number
 
 
 def four_in_general_position(
@@ -145,7 +152,7 @@ def fit_homographies(
 
 def _fitted(uv_a: np.ndarray, uv_b: np.ndarray, root: np.ndarray) -> np.ndarray:
     """Return homographies, at any scale, from matches with the roots of their weights."""
-    T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
+    T_a, T_b = normalising_similarity(np.stack([uv_a, uv_b]))
     x, y = (homogeneous(uv) @ np.swapaxes(T, -1, -2) for uv, T in ((uv_a, T_a), (uv_b, T_b)))
     x, zero = x * root[:, None], np.zeros_like(x)
     rows_v = np.concatenate([zero, -x, y[..., 1:2] * x], axis=-1)
@@ -159,6 +166,35 @@ def null_vector(A: Float[np.ndarray, "*k n c"]) -> Float[np.ndarray, "*k c"]:
     return np.linalg.svd(np.linalg.qr(A, mode="r"), full_matrices=True)[2][..., -1, :]
 
 
+def null_vectors(A: Float[np.ndarray, "k n c"]) -> Float[np.ndarray, "k c"]:
+    """Return `null_vector` of many small matrices, to round-off and the sign, by inverse iteration.
+
+    With A = Q R each round solves R'R x = x before; what it leaves of other directions shrinks by
+    the square of the two least singular values' ratio. What still moves after it is left to the
+    decomposition, such as where the two are alike or the least is 0.
+    Reference: Golub and Van Loan, Matrix Computations, 4th ed., 8.2.2.
+    """
+    R = np.moveaxis(np.linalg.qr(A, mode="r"), 0, -1).copy()  # a row of numbers for each entry
+    x = np.zeros((R.shape[1], len(A)))
+    x[-1] = 1.0
+    moving = np.ones(len(A), bool)
+    with np.errstate(all="ignore"):
+        for _ in range(_ROUNDS):
+            before = x.copy()
+            for i in range(len(x)):  # R' y = x
+                x[i] = (x[i] - (R[:i, i] * x[:i]).sum(axis=0)) / R[i, i]
+            for i in reversed(range(len(x))):  # R x = y
+                x[i] = (x[i] - (R[i, i + 1 :] * x[i + 1 :]).sum(axis=0)) / R[i, i]
+            x /= np.sqrt((x * x).sum(axis=0))
+            moving = ~(np.abs(x - before).max(axis=0) < _STILL)
+            if not moving.any():
+                break
+    found = np.ascontiguousarray(x.T)
+    if moving.any():
+        found[moving] = null_vector(A[moving])
+    return found
+
+
 def refine_homography(
     H_b_a: Float[np.ndarray, "3 3"],
     uv_a: Float[np.ndarray, "n 2"],
@@ -169,7 +205,7 @@ def refine_homography(
 ) -> Float[np.ndarray, "3 3"]:
     """Return the homography near `H_b_a` of least squared transfer distances (HZ 4.2.2, 4.5)."""
     root = np.ones(len(uv_a)) if weights is None else np.sqrt(weights)
-    T_a, T_b = normalising_similarity(uv_a), normalising_similarity(uv_b)
+    T_a, T_b = normalising_similarity(np.stack([uv_a, uv_b]))
     # One match per column: sums over rows are quick
     x = T_a @ homogeneous(uv_a).T
     y = (T_b @ homogeneous(uv_b).T)[:2]

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from workbench.geometry.motions import apply
-from workbench.geometry.two_views.homography import homogeneous
+from workbench.geometry.two_views.homography import homogeneous, null_vectors
 
 
 def camera_matrix(
@@ -35,7 +35,7 @@ def triangulate(
     ]
     A = np.stack(rows, axis=1)
     A /= np.linalg.norm(A, axis=2, keepdims=True)
-    p_h = np.linalg.svd(A)[2][:, -1]
+    p_h = null_vectors(A)
     with np.errstate(divide="ignore", invalid="ignore"):
         return p_h[:, :3] / p_h[:, 3:]
 
