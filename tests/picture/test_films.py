@@ -168,7 +168,7 @@ def _fails_at(monkeypatch, name: str, suffix: str) -> None:
 
 @pytest.mark.parametrize("before", [{}, {"x.gif": b"mine", "x.vtt": b"mine too"}])
 def test_a_film_and_its_subtitles_are_written_both_or_not_at_all(
-    before, tmp_path, monkeypatch, capsys
+    before, *, tmp_path, monkeypatch, capsys
 ):
     for name, data in before.items():
         (tmp_path / name).write_bytes(data)

@@ -181,7 +181,9 @@ def test_what_cannot_be_is_one_line_and_writes_nothing(words, said, tmp_path, mo
         (["-o", "x.gif", "--from", "9", "--to", "0", "--seconds", "90", "--width", "3840"], "many"),
     ],
 )
-def test_what_is_known_before_the_run_is_said_before_it(words, said, tmp_path, monkeypatch, capsys):
+def test_what_is_known_before_the_run_is_said_before_it(
+    words, said, *, tmp_path, monkeypatch, capsys
+):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(WholeRun, "of", lambda *_: pytest.fail("the run was computed"))
     assert main(["picture", FAKE, *words]) == 2
@@ -193,7 +195,7 @@ def test_what_is_known_before_the_run_is_said_before_it(words, said, tmp_path, m
     "words", [["x.png", "--step", "999"], ["x.gif", "--from", "0", "--to", "9"]]
 )
 def test_a_step_beyond_the_end_is_said_before_anything_is_drawn(
-    words, tmp_path, monkeypatch, capsys
+    words, *, tmp_path, monkeypatch, capsys
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("workbench.picture.making.image_of", lambda *_: pytest.fail("was drawn"))
