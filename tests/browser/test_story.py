@@ -1,6 +1,7 @@
 """The story in a real browser: what is read stands on the stage, and the hand can take it."""
 
 import re
+from itertools import pairwise
 
 import pytest
 
@@ -148,6 +149,28 @@ def test_an_answer_plays_to_the_runs_own_end_and_other_starts_have_their_chart(v
     assert "error of the end (°)" in page.locator("#story-chart svg").inner_html()
 
 
+@pytest.mark.parametrize(
+    ("scene", "run", "step"),
+    [
+        ("curvature#paper", "paper", 10),  # back from a flat ring to an overlap
+        ("curvature#area", "double", 8),  # another run's picture
+        ("pinhole#divide", "dolly", 4),
+    ],
+)
+def test_an_answer_is_seen_where_its_own_run_shows_it(visit, scene, run, step):
+    page = visit(f"?lesson={scene}").page
+    page.wait_for_function(STANDS)
+    page.evaluate(HELPERS)
+    form = page.locator(f"#{scene.split('#')[1]} .ask").first
+    before = page.evaluate("[page.run.name, page.k]")
+    form.locator("[data-skip]").click()
+    form.locator(".reply:not(:empty)").wait_for()
+    rests(page, "the answer")
+    after = page.evaluate("[canonical(page.run.name), page.k]")
+    assert after == [run, step]
+    assert after != before
+
+
 def test_a_pick_says_on_the_stage_what_it_is_and_b_gives_it_back(told):
     page = told("#mirror").page
     assert not page.locator("#mirror .pick").first.is_visible()  # it would show the answer
@@ -237,7 +260,7 @@ def test_every_chart_that_is_named_is_drawn_and_answers_end_where_the_run_does(v
     page.wait_for_function(STANDS)
     places = page.evaluate("story.beats.map((beat) => beat.place)")
     starts = page.evaluate("Object.values(STORY.starts)")
-    answers = [{**start, "step": start["to"] or "stop", "from": None} for start in starts]
+    answers = [start["seen"] for start in starts]
     seen = []
     for place in {repr(one): one for one in (*places, *answers)}.values():
         page.evaluate("place => storyStage.go({ ...place, from: undefined })", place)
@@ -261,7 +284,7 @@ def test_the_places_of_a_slider_stand_apart_and_a_comma_stays_with_its_number(vi
         "$$('#marks button').map((e) => e.getBoundingClientRect()).map((r) => [r.left, r.right])"
     )
     assert len(boxes) >= 3
-    assert all(end <= start for (_, end), (start, _) in zip(boxes, boxes[1:], strict=False))
+    assert all(end <= start for (_, end), (start, _) in pairwise(boxes))
     assert page.evaluate(
         "$$('#story .num[role=slider]').filter((e) => /^[,.;:]/.test(e.nextSibling?.data ?? ''))"
         ".every((e) => getComputedStyle(e.parentElement).whiteSpace === 'nowrap')"

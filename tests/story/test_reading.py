@@ -68,7 +68,9 @@ def test_behind_a_question_stands_what_its_answer_shows(tmp_path):
     assert beats(story) == [("far", None, 0), ("far", None, 2), ("far", None, "stop")]
     assert '<p class="later" data-beat="2">' in story.html
     start = story_data(lesson, story)["starts"]["second"]
-    assert (start["run"], start["step"], start["to"], start["view"]) == ("far", 2, "stop", "side")
+    assert (start["run"], start["step"], start["view"]) == ("far", 2, "side")
+    seen = start["seen"]
+    assert (seen["run"], seen["step"], seen["view"]) == ("far", "stop", "side")
 
 
 def test_runs_are_named_as_every_home_names_them(tmp_path):

@@ -32,7 +32,8 @@ def story_data(lesson: Lesson, story: Story) -> dict[str, Any]:
             name: view_data(views[name]) for name in sorted(named | own | presets | {"default"})
         },
         "starts": {
-            name: place.data() | {"to": seen} for name, (place, seen) in story.starts.items()
+            name: place.data() | {"seen": seen.data()}
+            for name, (place, seen) in story.starts.items()
         },
         "places": {},
     }

@@ -110,13 +110,13 @@ class Story:
         title: The lesson's title.
         scenes: What is told, in order.
         reference: What stands folded behind it, as HTML.
-        starts: Where each question is asked, with the place where its answer is seen.
+        starts: Where each question is asked, and where its answer is seen: a step of its own run.
     """
 
     title: str
     scenes: tuple[TextScene, ...]
     reference: str
-    starts: Mapping[str, tuple[StagePlace, StepName]]
+    starts: Mapping[str, tuple[StagePlace, StagePlace]]
 
     @property
     def html(self) -> str:

@@ -104,7 +104,7 @@ class _Reader:
     def __init__(self, names: Names):
         self._names = names
         self._scenes: list[TextScene] = []
-        self._starts: dict[str, tuple[StagePlace, StepName]] = {}
+        self._starts: dict[str, tuple[StagePlace, StagePlace]] = {}
         self._lines: dict[str, int] = {}  # of the scenes, by name
 
     def read(self, parts: list[Section]) -> Story:
@@ -234,9 +234,9 @@ class _Reader:
         flag = "flag" in given.classes or bool(question.mark)
         scene.html.append(asked(question, scene.beat(block.line), flag=flag))
         scene.here = replace(start, run=self._names.run(question.name, block.line), step=seen)
+        self._starts[question.name] = start, scene.here
         scene.questions.append(question.name)
         scene.is_later = True
-        self._starts[question.name] = start, seen
 
     def _moved(self, here: StagePlace, given: Attributes, line: int) -> StagePlace:
         """Return the place to which attributes move the stage."""

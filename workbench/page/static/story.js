@@ -69,9 +69,10 @@ const story = {
   answered(form) {
     const beat = this.beats.find(({ el }) => el === form);
     if (!beat) return;
-    const { from, ...place } = beat.place, { to } = STORY.starts[form.dataset.question] ?? {};
-    beat.place = { ...place, step: to ?? "stop" };
+    const { from, ...place } = beat.place, { seen } = STORY.starts[form.dataset.question] ?? {};
+    beat.place = { ...place, step: "stop", ...seen };
     beat.key = `${beat.scene.id} ${JSON.stringify(beat.place)}`;
+    if (this.here === beat && !this.hand) storyStage.go(beat.place);  // words took it meanwhile
   },
 
   // reading ---------------------------------------------------------------------------------------

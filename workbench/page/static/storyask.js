@@ -88,8 +88,12 @@ const storyAsk = {
     });
     if (told.trouble) return this.again(form, told.trouble);
     await story.took(async () => {
-      const place = { ...story.placeAt(form), ...start, from: undefined };
-      if (await storyStage.go(place)) await storyStage.play(start.to ?? "stop", 7);
+      const { seen = { step: "stop" }, ...asked } = start;
+      const place = { ...story.placeAt(form), ...asked, from: undefined };
+      const here = (seen.run ?? place.run) === place.run;  // else its picture is another run's
+      if (!(await storyStage.go(place))) return;
+      if (here) await storyStage.play(seen.step, 7, { back: true });
+      else await storyStage.go({ ...place, ...seen });
     }, { lasts: () => story.here?.el !== form });  // other words are read: it is their hand's
     this.tell(form, { ...told, given });
     const kept_ = kept.get(`answers ${LESSON.name}`) ?? {}, before = kept_[question];

@@ -133,8 +133,9 @@ const storyStage = {
 
   // playing ---------------------------------------------------------------------------------------
 
-  // plays on to a step within so many seconds; resolves true when it got there
-  async play(to, seconds) {
+  // plays on to a step within so many seconds, or back to it where that is meant; resolves true when
+  // it got there
+  async play(to, seconds, { back = false } = {}) {
     this.pause();
     const token = this.token = {};
     if (isStill()) return this.go({ ...this.place, step: to });
@@ -142,13 +143,15 @@ const storyStage = {
     await pausing(250);
     while (this.token === token) {
       const { run, k } = page, last = this.found(run, own(to));
-      if (last !== undefined && k >= last) break;
+      if (last !== undefined && (back ? k === last : k >= last)) break;
       if (token.last !== last) Object.assign(token, { last, k, began: performance.now() });
-      const left = last === undefined ? 1 : last - token.k, spent = performance.now() - token.began;
+      const far = last === undefined ? 1 : last - token.k, spent = performance.now() - token.began;
+      const left = Math.abs(far), way = Math.sign(far);
       const whole = Math.min(1000 * seconds, 650 * left);  // what is slow to come is passed over
-      const due = last === undefined ? k + 1 : token.k + Math.ceil((left * (spent + 1)) / whole);
-      const next = Math.max(k + 1, Math.min(last ?? due, due));
-      const rest = last === undefined ? 200 : (whole * (next - token.k)) / left - spent;
+      const due = last === undefined ? 1 : Math.ceil((left * (spent + 1)) / whole);
+      const ahead = last === undefined ? due : Math.min(left, Math.max(way * (k - token.k) + 1, due));
+      const next = last === undefined ? k + 1 : token.k + way * ahead;
+      const rest = last === undefined ? 200 : (whole * ahead) / left - spent;
       const shown = this.go({ ...this.place, step: next });
       const [came] = await Promise.all([shown, pausing(Math.max(30, Math.min(650, rest)))]);
       if (!came) return this.ended(token, false);
