@@ -174,11 +174,11 @@ def icp(
 
     for iteration in range(1, max_iterations + 1):
         indices = match(p_target, p_moved)  # step a: closest points
-        p_match = p_target[indices]
+        p_match = p_target.take(indices, axis=0)  # rows by take and compress: a third of the time
         distances = lengths(p_match - p_moved)
         limit = gate.limit(distances)
         kept = distances <= limit
-        n_match = None if n_target is None else n_target[indices]
+        n_match = None if n_target is None else n_target.take(indices, axis=0)
         stop = Stop.TOO_FEW_MATCHES if np.count_nonzero(kept) < fewest else None
         residual = misfit(p_match, p_moved, n_match, distances=distances, kept=kept)
         yield summary(
@@ -188,10 +188,11 @@ def icp(
             return
 
         if n_match is None:
-            T_new = align(p_match[kept], p_source[kept])  # step b: Umeyama 1991, eq. 40-42
+            used = (p.compress(kept, axis=0) for p in (p_match, p_source))
+            T_new = align(*used)  # step b: Umeyama 1991, eq. 40-42
         else:
-            # Low 2004, eq. 10
-            T_new = step(p_match[kept], p_moved[kept], n_match[kept]) @ T_target_source
+            used = (p.compress(kept, axis=0) for p in (p_match, p_moved, n_match))
+            T_new = step(*used) @ T_target_source  # Low 2004, eq. 10
         if not np.isfinite(T_new).all():
             yield summary(
                 "fit",
@@ -238,7 +239,7 @@ def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3
 
     def match(_p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
         indices = np.empty(len(p_source), dtype=np.intp)
-        indices[order] = tree.query(p_source[order], workers=workers)[1]
+        indices[order] = tree.query(p_source.take(order, axis=0), workers=workers)[1]
         return indices
 
     return match

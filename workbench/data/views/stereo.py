@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
 from workbench.data.files import read_image, shipped_array, shipped_image
-from workbench.data.views.stereo_scenes import SCENES, look, rays
+from workbench.data.views.stereo_scenes import SCENES, look, nearest_depth, rays
 from workbench.errors import InputError
 from workbench.geometry.cameras.stereo import StereoCamera
 
@@ -57,7 +57,7 @@ def synthetic_pair(
     depth, left = look(things, np.zeros(3), rays(u, v, camera.f, camera.cx, camera.cy))
     _, right = look(things, p_right, rays(u, v, camera.f, camera.cx + camera.doffs, camera.cy))
     d = camera.f * camera.baseline / depth  # without doffs
-    behind, _ = look(things, p_right, rays(u - d, v, camera.f, camera.cx, camera.cy))
+    behind = nearest_depth(things, p_right, rays(u - d, v, camera.f, camera.cx, camera.cy))
     partner = u - (d - camera.doffs)
     visible = (
         (partner >= 0)

@@ -36,18 +36,32 @@ class Board:
     paint: Paint
     color: int = 0
 
-    def hit(self, p_eye: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return per ray the depth of the hit, or infinity, and the surface point (s, t)."""
-        corner, right, down = (
-            np.array(a, float) for a in (self.p_corner, self.v_right, self.v_down)
-        )
+    def depth(self, p_eye: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Return per ray the depth of the hit, or infinity."""
+        corner, right, down = self._edges()
         normal = np.cross(right, down)
         with np.errstate(divide="ignore", invalid="ignore"):
             depth = ((corner - p_eye) @ normal) / (v @ normal)
-            from_corner = p_eye + depth[..., None] * v - corner
-            s, t = from_corner @ right / (right @ right), from_corner @ down / (down @ down)
+            s, t = self._shares(p_eye, v, depth)
             on = (depth > 0) & (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
-        return np.where(on, depth, np.inf), s * np.linalg.norm(right), t * np.linalg.norm(down)
+        return np.where(on, depth, np.inf)
+
+    def place(
+        self, p_eye: np.ndarray, v: np.ndarray, depth: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the surface points (s, t) where rays hit it."""
+        _, right, down = self._edges()
+        s, t = self._shares(p_eye, v, depth)
+        return s * np.linalg.norm(right), t * np.linalg.norm(down)
+
+    def _edges(self) -> tuple[np.ndarray, ...]:
+        return tuple(np.array(a, float) for a in (self.p_corner, self.v_right, self.v_down))
+
+    def _shares(self, p_eye: np.ndarray, v: np.ndarray, depth: np.ndarray) -> list[np.ndarray]:
+        """Return how far along both sides the rays are at a depth, in shares of them."""
+        corner, *sides = self._edges()
+        from_corner = p_eye + depth[..., None] * v - corner
+        return [from_corner @ a / (a @ a) for a in sides]
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,17 +73,21 @@ class Ball:
     paint: Paint
     color: int = 0
 
-    def hit(self, p_eye: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return per ray the depth of the nearer hit, or infinity, and the point (s, t)."""
+    def depth(self, p_eye: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Return per ray the depth of the nearer hit, or infinity."""
         to_center = np.array(self.p_center, float) - p_eye
         a, b = np.einsum("...i,...i->...", v, v), v @ to_center
         root = b * b - a * (to_center @ to_center - self.radius**2)
         depth = np.where(root > 0, (b - np.sqrt(np.maximum(root, 0.0))) / a, np.inf)
-        depth = np.where(depth > 0, depth, np.inf)
-        x, y, z = np.moveaxis(
-            np.where(np.isfinite(depth), depth, 0.0)[..., None] * v - to_center, -1, 0
-        )
-        return depth, self.radius * np.arctan2(x, -z), y + self.radius
+        return np.where(depth > 0, depth, np.inf)
+
+    def place(
+        self, p_eye: np.ndarray, v: np.ndarray, depth: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the surface points (s, t) where rays hit it."""
+        to_center = np.array(self.p_center, float) - p_eye
+        x, y, z = np.moveaxis(depth[..., None] * v - to_center, -1, 0)
+        return self.radius * np.arctan2(x, -z), y + self.radius
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,9 +97,15 @@ class Sky:
     paint: Paint
     color: int = 0
 
-    def hit(self, p_eye: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return infinity for every ray, and its slopes as the surface point."""
-        return np.full(v.shape[:-1], np.inf), v[..., 0] + 4.0, v[..., 1] + 4.0
+    def depth(self, p_eye: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Return infinity for every ray."""
+        return np.full(v.shape[:-1], np.inf)
+
+    def place(
+        self, p_eye: np.ndarray, v: np.ndarray, depth: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the slopes of the rays as the surface point."""
+        return v[..., 0] + 4.0, v[..., 1] + 4.0
 
 
 Thing = Board | Ball | Sky
@@ -94,19 +118,20 @@ def look(
 
     The first thing is seen where no other is hit.
     """
-    depth = np.full(v.shape[:-1], np.inf)
-    seen = np.zeros(v.shape[:-1], np.intp)
-    points = []
-    for k, thing in enumerate(things):
-        hit, s, t = thing.hit(p_eye, v)
-        seen[hit < depth] = k
-        depth = np.minimum(depth, hit)
-        points.append((s, t))
+    depths = [thing.depth(p_eye, v) for thing in things]
+    seen = np.argmin(depths, axis=0)
+    depth = np.minimum.reduce(depths)
     color = np.zeros(v.shape)
-    for k, (thing, (s, t)) in enumerate(zip(things, points, strict=True)):
+    for k, thing in enumerate(things):
         here = seen == k
-        color[here] = thing.paint(s[here], t[here])[:, None] * COLORS[thing.color]
+        s, t = thing.place(p_eye, v[here], depth[here])
+        color[here] = thing.paint(s, t)[:, None] * COLORS[thing.color]
     return depth, color
+
+
+def nearest_depth(things: tuple[Thing, ...], p_eye: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Return per ray the depth of the nearest thing, as `look` does without a look at colours."""
+    return np.minimum.reduce([thing.depth(p_eye, v) for thing in things])
 
 
 def speckle(rng: np.random.Generator, grain: float, contrast: float = 1.0) -> Paint:

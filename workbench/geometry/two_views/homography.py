@@ -174,7 +174,8 @@ def null_vectors(A: Float[np.ndarray, "k n c"]) -> Float[np.ndarray, "k c"]:
     decomposition, such as where the two are alike or the least is 0.
     Reference: Golub and Van Loan, Matrix Computations, 4th ed., 8.2.2.
     """
-    R = np.moveaxis(np.linalg.qr(A, mode="r"), 0, -1).copy()  # a row of numbers for each entry
+    triangles = np.asarray(np.linalg.qr(A, mode="r"))
+    R = np.moveaxis(triangles, 0, -1).copy()  # a row of numbers for each entry
     x = np.zeros((R.shape[1], len(A)))
     x[-1] = 1.0
     moving = np.ones(len(A), bool)
