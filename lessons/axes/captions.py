@@ -90,7 +90,7 @@ def _of_pose(look: Look) -> Caption:
     off = degrees(outcome.rotation)
     words = "Frame on frame: {off} from the truth, {gap} (RMS) to the nearest points."
     if look.subject.what == "one box":  # half a turn takes it to itself: its axes are lines
-        words = "Axis 1, as a line, differs by {line} between the two scans."
+        words = "Axis 1, as a line, differs by {line} between these two scans."
         return say(words, line=degrees(float(sure(outcome.axes)[0]), 2), place=place)
     if np.isfinite(state.box):
         words = "The frame is {off} off, and its box holds {box} times the shape's own."

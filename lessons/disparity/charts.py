@@ -56,7 +56,7 @@ def _numbers(look: MapLook) -> dict[str, Primitive]:
     if pair.disparity is not None and pair.visible is not None:
         hidden = np.isfinite(pair.disparity) & ~pair.visible
         given_up = 100 * float(np.isnan(look.now.disparity[hidden]).mean()) if hidden.any() else 0.0
-        known["hidden"] = PIXELS.scalar(given_up, "hidden", "other")
+        known["hidden"] = PIXELS.scalar(given_up, "hidden, found", "other")
     return known | {
         "wrong": PIXELS.scalar(100 * look.now.wrong, "over 1 px off", "truth"),
         "unknown": PIXELS.scalar(100 * look.now.unknown, "unknown", "correspondence"),

@@ -199,7 +199,7 @@ QUESTIONS: tuple[Question, ...] = (
             (
                 90.0,
                 100.0,
-                "That would be pure chance: 3 shifts of 32 are within a pixel, so 91 % would be"
+                "That would be pure chance: 2 shifts of 32 are within a pixel, so 94 % would be"
                 " wrong. The grey value does help.",
             ),
         ),

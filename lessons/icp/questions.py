@@ -194,7 +194,7 @@ QUESTIONS: tuple[Question, ...] = (
                 -30.0,
                 63.0,
                 (
-                    "To get there the ball would have to climb over the rim at 68° first, and it"
+                    "To get there the ball would have to climb over the ridge at 68° first, and it"
                     " never climbs."
                 ),
             ),
