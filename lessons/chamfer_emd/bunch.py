@@ -127,11 +127,11 @@ def draw(look: Look[Input, Rings, Held]) -> Scene:
         **titled("right", "L: 5 % larger", both(now.larger_chamfer, now.larger_emd), T_WORLD_RIGHT),
         "larger": TIMES.second(x, np.ones(len(x)), "L", "truth"),
         "chamfer/whole": TIMES.whole(x, rings.chamfer / rings.larger_chamfer, "Chamfer", "source"),
-        "emd/whole": TIMES.whole(x, rings.earth_movers / rings.larger_emd, "EMD", "other"),
+        "emd/whole": TIMES.whole(x, rings.earth_movers / rings.larger_emd, "EMD", "highlight"),
         **_marks(now),
         "bunched": SHARE.scalar(here, "bunched"),
         "chamfer": CHAMFER.scalar(now.chamfer, "Chamfer"),
-        "emd": EMD.scalar(now.earth_movers, "earth mover's", "other"),
+        "emd": EMD.scalar(now.earth_movers, "earth mover's", "highlight"),
         "caption": caption(now),
     }
 
@@ -140,7 +140,7 @@ def _marks(now: Held) -> dict[str, Primitive]:
     """Return both numbers of this bunch in units of those of the larger ring."""
     pairs: tuple[tuple[str, float, float, Role], ...] = (
         ("Chamfer", now.chamfer, now.larger_chamfer, "source"),
-        ("EMD", now.earth_movers, now.larger_emd, "other"),
+        ("EMD", now.earth_movers, now.larger_emd, "highlight"),
     )
     return {
         f"{name.lower()}/mark": TIMES.mark(

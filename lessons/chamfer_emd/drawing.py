@@ -191,7 +191,7 @@ def _curves(state: State) -> dict[str, Primitive]:
     left, right = state.left, state.right
     sides: tuple[tuple[str, Side, Role], ...] = (
         ("left", left, "source"),
-        ("right", right, "other"),
+        ("right", right, "highlight"),
     )
     curves: dict[str, Primitive] = {}
     for name, side, role in sides:
@@ -199,11 +199,11 @@ def _curves(state: State) -> dict[str, Primitive]:
         curves[f"{name}/out of place"] = OUT_OF_PLACE.scalar(share, name, role)
     return curves | {
         "left/lowered": LOWERED.scalar(left.flow.value, "left, m²", "source"),
-        "right/lowered": LOWERED.scalar(right.flow.value, "right, m", "other"),
+        "right/lowered": LOWERED.scalar(right.flow.value, "right, m", "highlight"),
         "left/to places": SIDES.scalar(round(left.numbers.to_target, 4), "dots", "correspondence"),
         "left/to dots": SIDES.scalar(round(left.numbers.to_source, 4), "places", "other"),
         "left/served": _served(left, "left", "source"),
-        "right/served": _served(right, "right", "other"),
+        "right/served": _served(right, "right", "highlight"),
     }
 
 

@@ -34,7 +34,7 @@ from workbench.scene import (
 
 FAR = np.round(np.arange(0.0, 1.81, 0.1), 1)
 NAMES = ("Hausdorff", "Chamfer", "EMD")
-ROLES: tuple[Role, ...] = ("wrong", "source", "other")
+ROLES: tuple[Role, ...] = ("wrong", "source", "highlight")
 TIMES = Chart(
     "Times the ring 5 % larger", "how far off the dot is", "×", x_range=(0.0, 1.8), x_unit="m"
 )

@@ -129,14 +129,14 @@ def draw(look: Look[Input, Twelve, Held]) -> Scene:
             now.heaped, of_chamfer * now.chamfer, "here", "source", steps="heaped"
         ),
         "emd/whole": BOTH.whole(
-            heaps, of_emd * look.subject.earth_movers, "earth mover's", "other"
+            heaps, of_emd * look.subject.earth_movers, "earth mover's", "highlight"
         ),
         "emd/mark": BOTH.mark(
-            now.heaped, of_emd * now.earth_movers, "here", "other", steps="heaped"
+            now.heaped, of_emd * now.earth_movers, "here", "highlight", steps="heaped"
         ),
         "heaped": HEAPED.scalar(now.heaped, "heaped"),
         "chamfer": CHAMFER.scalar(now.chamfer, "Chamfer"),
-        "emd": EMD.scalar(now.earth_movers, "earth mover's", "other"),
+        "emd": EMD.scalar(now.earth_movers, "earth mover's", "highlight"),
         "rows": ROWS.scalar(now.by_row, "by row", "highlight"),
         "caption": caption(look.params, now),
     }

@@ -86,8 +86,10 @@ def draw(look: Look[Params, Balls, Held]) -> Scene:
         scene |= _ball(k, surface)
         if k < len(now.K):
             scene |= _measured(k, subject, now)
-    x = np.log10([len(one.p) for one in subject.surfaces])[: len(now.K)]
-    y = np.log10(100 * np.array(now.errors))
+    x = np.log10([len(one.p) for one in subject.surfaces])
+    y = np.full(len(x), np.nan)
+    y[: len(now.K)] = np.log10(100 * np.array(now.errors))
+    here = slice(len(now.K) - 1, len(now.K))
     return scene | {
         "vertices": VERTICES.scalar(len(subject.surfaces[len(now.K) - 1].p), "vertices"),
         "gap scalar": GAP.scalar(now.gaps[-1], "gap", "other"),
@@ -95,7 +97,7 @@ def draw(look: Look[Params, Balls, Held]) -> Scene:
         "K scalar": CURVATURE.scalar(now.K[-1], "K"),
         "error scalar": ERROR.scalar(100 * now.errors[-1], "error of K"),
         "finer": FINER.curve(x, y, "K from angles"),
-        "finer/here": FINER.dots(x[-1:], y[-1:], "here"),
+        "finer/here": FINER.dots(x[here], y[here], "here"),
         "caption": caption(look.subject, now),
     }
 

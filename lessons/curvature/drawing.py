@@ -63,7 +63,7 @@ def _color(state: State) -> Color:
     now, stage = state.now, state.stage
     if stage == "gaussian":
         return _signed(state, now.K, K_SCALE, "Gaussian curvature K", "m⁻²")
-    if stage in ("mean", "principal"):
+    if stage == "mean":
         return _signed(state, now.H, H_SCALE, "mean curvature H", "m⁻¹")
     if stage in ("defect", "total"):
         return _signed(state, now.defects, DEFECT_SCALE, "angle defect", "rad")

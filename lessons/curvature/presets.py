@@ -22,7 +22,7 @@ PAPER = Input(stage="paper")
 SPHERE_SUM = Input(surface="sphere", vertices=1000, jitter=0.25, noise=0.01)
 
 SHEET = View(eye=(1.15, -4.3, 1.0), target=(1.15, 0.0, -0.05), grid=None, axes=False)
-NEAR = View(eye=(1.8, -2.1, 1.55), target=(0.35, -0.4, 0.1), grid=None, axes=False)
+NEAR = View(eye=(1.5, -2.0, 1.0), target=(0.83, -0.88, 0.36), grid=None, axes=False)
 BALLS = View(eye=(6.2, -7.26, 1.7), target=(0.0, 0.0, -0.15), grid=None, axes=False)
 ROW = View(eye=(2.45, -2.85, 1.4), target=(0.0, 0.0, 0.05), grid=None, axes=False)
 VIEWS = {

@@ -165,14 +165,22 @@ def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
         parts = scale * vertex_pushes(now.p[now.vertex], now.p[now.ring], now.areas[now.vertex])
         chain = np.cumsum(np.vstack([np.zeros(3), parts]), axis=0) + start
         scene["pushes"] = Segments(
-            segments(chain), "other", 3, name="cotangent × edge, neighbour after neighbour"
+            between(np.broadcast_to(start, parts.shape), start + parts),
+            "other",
+            5,
+            name="what each neighbour pushes: cotangents × edge",
+        )
+        scene["pushes/chain"] = Segments(
+            segments(chain), "other", 2, opacity=0.7, name="one push after the other"
         )
         tip = start + scale * total
         scene["mean normal"] = Segments(
             between(start, tip), "highlight", 6, name="their sum: 2 H n"
         )
         scene["mean label"] = Label(
-            f"|2 H n| = {brief(float(np.linalg.norm(total)))} m⁻¹", tip, "highlight"
+            f"|2 H n| = {brief(float(np.linalg.norm(total)))} m⁻¹",
+            start + 1.25 * (tip - start),
+            "highlight",
         )
     return scene
 

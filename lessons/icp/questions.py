@@ -85,8 +85,8 @@ def _why_matches(states: States) -> str:
 def _why_rest(states: States) -> str:
     last = flat_end(states)
     return (
-        f"{angle(within_half(last.angle), 2)}, at an RMSE of {length(last.rmse)}. From 75° the way"
-        " down leads to the right, away from home."
+        f"{angle(within_half(last.angle), 2)}. From 75° the way down leads to the right, away from"
+        " home."
     )
 
 

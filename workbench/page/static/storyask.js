@@ -17,7 +17,11 @@ const storyAsk = {
       $("[data-skip]", form).onclick = () => this.answer(form, null);
       for (const input of $$("input:not([type=radio], [type=range])", form))
         input.addEventListener("input", () => this.ready(form, this.given(form) !== undefined));
-      if (range) range.addEventListener("input", () => this.put(form, Number(range.value)));
+      if (range) {
+        range.addEventListener("input", () => this.put(form, Number(range.value)));
+        $(".given", form).textContent =
+          `${this.said(form, range.min)} to ${this.said(form, range.max)}`;
+      }
       for (const label of $$("label", form)) this.wrapped(label);
     }
     this.recall();
@@ -123,9 +127,10 @@ const storyAsk = {
       label.classList.toggle("missed", !skipped && value === given && !right);
     }
     const radio = $("[type=radio]", form), known = reply ? [reply] : [];
-    const truly = radio ? [] : [skipped ? `It is ${this.worded(truth)}.` : reply
+    const truly = radio ? [] : [skipped ? `It is ${this.worded(truth)}.` : why
       ? `You said ${this.said(form, given)}.`
       : `You said ${this.said(form, given)}, it is ${this.worded(truth)}.`];
+    if (skipped) this.shown(form, truth);
     const words = right ? [why] : skipped ? [why || truly[0]] : [...truly, ...known, why];
     $(".reply", form).replaceChildren(...(right ? [element("b", { textContent: "Right. " })] : []),
       words.filter(Boolean).join(" "));
@@ -133,6 +138,14 @@ const storyAsk = {
     this.entered(story.scene);
     story.measure();
     storyChart.show();
+  },
+
+  // where a reader said no number, the slider stands at the right one
+  shown(form, truth) {
+    const range = $("[type=range]", form), value = parseFloat(truth);
+    if (!range || !Number.isFinite(value)) return;
+    range.value = value;
+    $(".given", form).textContent = this.said(form, range.value);
   },
 
   worded: (truth) => String(truth).replace(/^-/, "−").replace(/ deg$/, "°"),

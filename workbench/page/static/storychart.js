@@ -155,7 +155,7 @@ const storyChart = {
     }
     if (lines.length > 1) parts.push(...namesOf(at, lines, []));
     for (const mark of thing.curves.flatMap((one) => one.marks ?? [])) parts.push(
-      `<line class="rim" x1="${at.px(mark)}" x2="${at.px(mark)}" y1="${FRAME.top}" ` +
+      `<line class="rim" x1="${at.px(mark)}" x2="${at.px(mark)}" y1="${at.top}" ` +
       `y2="${h - FRAME.bottom}"/>`);
     return parts;
   },

@@ -29,15 +29,20 @@ function axisOf(axis, words) {
 // a plot laid out in a box of w x h pixels: where its values are
 function laid(plot, w, h) {
   const x = axisOf(plot.x, plot.ticks?.x), y = axisOf(plot.y, plot.ticks?.y);
-  const { left, right, top, bottom } = FRAME, wide = w - left - right, high = h - top - bottom;
+  const { left, right, bottom } = FRAME, [up, across] = namesOfAxes(plot);
+  const crowded = across && 7 * (up.length + across.length) + 60 > w;  // each name has its own line
+  const top = FRAME.top + (crowded ? 14 : 0), wide = w - left - right, high = h - top - bottom;
   return {
-    plot, w, h, x, y,
+    plot, w, h, x, y, up, across, top,
     px: (value) => left + ((value - x.low) / (x.high - x.low)) * wide,
     py: (value) => h - bottom - ((value - y.low) / (y.high - y.low)) * high,
     value: (px) => Math.min(x.high, Math.max(x.low,
       x.low + ((px - left) / wide) * (x.high - x.low))),
   };
 }
+
+const namesOfAxes = (plot) =>
+  [plot.y_label || named(plot), (plot.x_label ?? plot.xLabel ?? "").trim()];
 
 function line(points) {
   return points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
@@ -52,19 +57,15 @@ function thinned(axis, room) {
 }
 
 function axes(at) {
-  const { plot, w, h, x, y, px, py } = at, { left, right, top, bottom } = FRAME;
+  const { w, h, x, y, px, py, up, across, top } = at, { left, right, bottom } = FRAME;
   const parts = thinned(y, (h - top - bottom) / 26).map(([tick, word]) =>
     `<line class="axis" x1="${left}" x2="${w - right}" y1="${py(tick)}" y2="${py(tick)}"/>` +
     `<text x="${left - 7}" y="${py(tick) + 4}" text-anchor="end">${escape(word)}</text>`);
   parts.push(...thinned(x, (w - left - right) / 56).map(([tick, word]) =>
     `<text x="${px(tick)}" y="${h - bottom + 26}" text-anchor="middle">${escape(word)}</text>`));
-  const words = (plot.x_label ?? plot.xLabel ?? "").trim();
-  const up = plot.y_label || named(plot);
-  parts.push(`<text x="${left - 38}" y="${top - 13}">${escape(up)}</text>`);
-  const room = 7 * (up.length + words.length) + 60 < w;
-  if (words) parts.push(room  // beside the other name, or else over its own axis
-    ? `<text x="${w - right}" y="${top - 13}" text-anchor="end">${escape(words)} →</text>`
-    : `<text class="over" x="${w - right}" y="${h - bottom - 7}" text-anchor="end">${escape(words)} →</text>`);
+  parts.push(`<text x="${left - 38}" y="12">${escape(up)}</text>`);
+  if (across) parts.push(
+    `<text x="${w - right}" y="${top - 13}" text-anchor="end">${escape(across)} →</text>`);
   return parts;
 }
 
@@ -99,7 +100,7 @@ function heightAt(curve, x) {
 // what a mark says that is above the axis: it stands at its edge
 function beyond(at, one) {
   const x = at.px(one.x), left = x > 0.6 * at.w, words = `${one.name} ${number(one.y)} ${at.plot.unit ?? ""} ↑`;
-  return `<text class="over" x="${x + (left ? -14 : 14)}" y="${FRAME.top + 5}" ` +
+  return `<text class="over" x="${x + (left ? -14 : 14)}" y="${at.top + 5}" ` +
     `text-anchor="${left ? "end" : "start"}" style="fill:${inkOf(one.color)}">${escape(words.replace("  ", " "))}</text>`;
 }
 
@@ -121,9 +122,9 @@ function secondCurve(at, curve) {
   const high = first[1] < end[1] ? first : end, wide = 6.6 * curve.name.length;
   const right = high === end && high[0] - 16 - wide > FRAME.left;
   const [u, v, anchor] = valley
-    ? [Math.min(at.w - 70, Math.max(FRAME.left + 60, (first[0] + end[0]) / 2)), FRAME.top + 14, "middle"]
+    ? [Math.min(at.w - 70, Math.max(FRAME.left + 60, (first[0] + end[0]) / 2)), at.top + 14, "middle"]
     : [high[0] + (right ? -16 : 16), high[1] + 5, right ? "end" : "start"];
-  const said = at.h > 90 ? `<text class="over" x="${u}" y="${Math.max(FRAME.top + 12, v)}" ` +
+  const said = at.h > 90 ? `<text class="over" x="${u}" y="${Math.max(at.top + 12, v)}" ` +
     `text-anchor="${anchor}" style="fill:${inkOf(curve.color)}">${escape(curve.name)}</text>` : "";
   const ring = valley ? `<circle class="low" cx="${lowest}" cy="${y}" r="6" stroke="${color}"/>` : "";
   return [...parts.map((piece) => `<path class="second" stroke="${color}" d="${line(piece)}"/>`),
@@ -141,7 +142,7 @@ function namesOf(at, curves, others) {
       if (y === undefined || y === null) continue;
       const u = Math.min(room.right - half, Math.max(room.left + half, at.px(x)));
       const box = { u, v: at.py(y) + up, left: u - half, right: u + half };
-      const inside = box.v > FRAME.top + 8 && box.v < at.h - FRAME.bottom - 2;
+      const inside = box.v > at.top + 8 && box.v < at.h - FRAME.bottom - 2;
       places.push({ ...box, bad: (inside ? 0 : 4) + clashes(at, box, [...curves, ...others], taken) });
     }
     if (!places.length) return "";
