@@ -36,8 +36,8 @@ def caption(state: State) -> Caption:
         )
     almost = max(state.left.numbers.out_of_place, state.right.numbers.out_of_place) <= ALMOST_NONE
     return say(
-        "The left flow {left_end} with {left} of its mass out of place, the right one {right_end}"
-        " with {other}.",
+        "The left flow {left_end}, {left} of its mass out of place; the right one {right_end},"
+        " {other}.",
         tone="good" if almost else "info",
         left_end=_end(state.left),
         right_end=_end(state.right),
@@ -66,7 +66,7 @@ def _missing(state: State) -> Caption:
             "Step {step}: {left} of the left mass is out of place.", step=state.step, left=left
         )
     return say(
-        "The left flow {left_end} with {left} of its mass out of place.",
+        "The flow {left_end}, {left} of its mass out of place.",
         tone="good" if now.out_of_place <= ALMOST_NONE else "info",
         left_end=_end(state.left),
         left=left,
@@ -103,7 +103,7 @@ def _start(state: State) -> Caption:
 def _end(side: Side) -> str:
     return {
         Stop.ARRIVED: "arrived",
-        Stop.SETTLED: "settled where no step lowers its number",
+        Stop.SETTLED: "came to rest",
         Stop.MAX_STEPS: "used up its steps",
         None: "goes on",
     }[side.flow.stop]

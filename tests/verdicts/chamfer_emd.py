@@ -205,7 +205,7 @@ def _why(side: str):
         value = lowered(run, k) if side == "left" else emd(run, k)
         return {
             "arrived": stop is Stop.ARRIVED and value < 1e-9,
-            "settled where no step lowers its number": (
+            "came to rest": (
                 stop is Stop.SETTLED and value > 1e-9 and settled(run, k, side)
             ),
             "used up its steps": (
@@ -217,7 +217,7 @@ def _why(side: str):
     return holds
 
 
-WHY = r"(arrived|settled where no step lowers its number|used up its steps)"
+WHY = r"(arrived|came to rest|used up its steps)"
 
 
 def _held(run: Run, k: int) -> tuple[float, float]:
@@ -382,7 +382,7 @@ CAPTIONS = [
         _both_sides,
     ),
     Claim(
-        rf"with {SHARE} of its mass out of place, the right one [\w ]+ with {SHARE}", _both_sides
+        rf"{SHARE} of its mass out of place; the right one [\w ]+, {SHARE}", _both_sides
     ),
     Claim(
         rf"{SHARE} of (?:the left mass is|its mass) out of place\.",
@@ -392,7 +392,7 @@ CAPTIONS = [
         rf"A part of the ring has no dots: Chamfer is {FIGURE} m²\.",
         lambda run, k, m: near(m[1], chamfer(moving(run, 0, "left"), run)),
     ),
-    Claim(rf"The left flow {WHY}", _why("left")),
+    Claim(rf"[Tt]he (?:left )?flow {WHY}", _why("left")),
     Claim(rf"the right one {WHY}", _why("right")),
     *BY_HAND,
 ]

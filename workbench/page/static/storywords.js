@@ -235,7 +235,10 @@ const storyWords = {
     const at = storyChart.named(run, page.k, storyStage.place.chart?.split(",")[0] ?? "")?.plot?.x;
     const values = one && at ? this.valuesOf(one) : [];
     if (!values.length) return null;
-    const places = at.ticks.map((tick, i) => [nearest(values, tick), at.words[i]]);
+    const low = Math.min(...values), high = Math.max(...values), slack = 1e-6 * (high - low);
+    const places = at.ticks.map((tick, i) => [tick, at.words[i]])
+      .filter(([tick]) => tick >= low - slack && tick <= high + slack)
+      .map(([tick, word]) => [nearest(values, tick), word]);
     const kept = [...new Map(places.reverse())].sort(([a], [b]) => a - b);
     return kept.length > 1 ? kept : null;  // an axis of something else says nothing of the steps
   },
