@@ -4,15 +4,15 @@ baselines.
 
 import functools
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from lessons.disparity.above import eyes, stand
 from lessons.disparity.inputs import Input
 from lessons.disparity.matching import OTHER_COSTS
-from lessons.disparity.pairs import Pictures, taken
+from lessons.disparity.pairs import SIZE, Pictures, taken
 from lessons.disparity.row import DOT, FACING, LAYER
 from lessons.disparity.truth import judged
 from workbench.algorithms.stereo.cost_volume import CostVolume, sad_cost_volume
@@ -21,7 +21,8 @@ from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.algorithms.stereo.semiglobal import semi_global
 from workbench.captions import fixed as decimals
 from workbench.captions import metres, number, pixels, share
-from workbench.data.views.stereo import StereoPair, grey
+from workbench.data.views.stereo import StereoPair, grey, shares_hidden
+from workbench.geometry.cameras.stereo import StereoCamera
 from workbench.geometry.motions import motion
 from workbench.geometry.polylines import fan
 from workbench.lesson import Look, say
@@ -87,12 +88,14 @@ class Tried:
         disparity: The map, pixels.
         share: Of the pixels that both see, those over 1 px off; or of all, those that are hidden.
         sigma: With a baseline: the part of itself by which half a pixel moves the wall's depth.
+        wrong: With a price: the wrong pixels (%) of each scene of PRICED at this price.
     """
 
     value: float
     disparity: np.ndarray
     share: float
     sigma: float = math.nan
+    wrong: Mapping[str, float] = field(default_factory=dict)
 
 
 StudyLook = Look[Input, Pictures, Tried]
@@ -105,7 +108,7 @@ def run(
     if params.stage == "baselines":
         for baseline in BASELINES:
             pair = _with(params, baseline)
-            yield Tried(baseline, _true(pair), hidden(pair), _sigma(pair))
+            yield Tried(baseline, _true(pair), hidden(pair), _sigma(pair.camera))
         return
     compare = OTHER_COSTS.get(params.cost, cost_volume)
     most = pictures.max_disparity
@@ -113,15 +116,24 @@ def run(
         window, price = (value, 0.0) if params.stage == "windows" else (params.window, value)
         cost = compare(pictures.left, pictures.right, most, int(window))
         found = smoothed(cost, price).astype(np.float32)
-        yield Tried(float(value), found, judged(pictures, found)[0])
+        off = judged(pictures, found)[0]
+        wrong = (
+            {name: wrong_at_price(name, params.seed, price) for name in PRICED}
+            if params.stage == "penalties" and math.isfinite(off)
+            else {}
+        )
+        yield Tried(float(value), found, off, wrong=wrong)
+
+
+def _scene(params: Input) -> str:
+    return "posts" if params.scene == "Motorcycle" else params.scene
 
 
 def _with(params: Input, baseline: float) -> StereoPair:
     """Return the scene's pair with another baseline."""
     noise = params.noise
     seed = params.seed
-    scene = "posts" if params.scene == "Motorcycle" else params.scene
-    return taken(scene, params.focal_length, baseline, noise=noise, seed=seed)
+    return taken(_scene(params), params.focal_length, baseline, noise=noise, seed=seed)
 
 
 def _true(pair: StereoPair) -> np.ndarray:
@@ -135,8 +147,14 @@ def hidden(pair: StereoPair) -> float:
     return 1.0 - float(pair.visible.mean())
 
 
-def _sigma(pair: StereoPair) -> float:
-    return WALL / (pair.camera.f * pair.camera.baseline) * UNCERTAIN
+@functools.lru_cache(maxsize=16)
+def hidden_over_baselines(scene: str, camera: StereoCamera) -> np.ndarray:
+    """Return `hidden` at each of BASELINES; else the cameras are as the one given."""
+    return shares_hidden(scene, [replace(camera, baseline=one) for one in BASELINES], SIZE)
+
+
+def _sigma(camera: StereoCamera) -> float:
+    return WALL / (camera.f * camera.baseline) * UNCERTAIN
 
 
 def smoothed(cost: np.ndarray, price: float) -> np.ndarray:
@@ -158,12 +176,17 @@ def wrong_over_windows(scene: str, noise: float, seed: int) -> np.ndarray:
     )
 
 
-@functools.lru_cache(maxsize=16)
-def wrong_over_prices(scene: str, noise: float, seed: int) -> np.ndarray:
-    """Return the share of wrong pixels (%) at each of PRICES, with a window of 3."""
-    pair = taken(scene, 150.0, 0.1, noise=noise, seed=seed)
-    cost = sad_cost_volume(grey(pair.left), grey(pair.right), 31, 3)
-    return np.array([_off(pair, smoothed(cost, price)) for price in PRICES])
+@functools.lru_cache(maxsize=16 * len(PRICED) * len(PRICES))
+def wrong_at_price(scene: str, seed: int, price: float) -> float:
+    """Return the share of wrong pixels (%) at one price, with a noise of 4 and a window of 3."""
+    pair, cost = _compared(scene, seed)
+    return _off(pair, smoothed(cost, price))
+
+
+@functools.lru_cache(maxsize=len(PRICED))
+def _compared(scene: str, seed: int) -> tuple[StereoPair, np.ndarray]:
+    pair = taken(scene, 150.0, 0.1, noise=4.0, seed=seed)
+    return pair, sad_cost_volume(grey(pair.left), grey(pair.right), 31, 3)
 
 
 def _off(pair: StereoPair, disparity: np.ndarray) -> float:
@@ -257,12 +280,14 @@ def _of_price(look: StudyLook) -> Scene:
     price = decimals(now.value, 1)
     if not math.isfinite(now.share):
         return scene | {"caption": say("A jump costs {price} usual costs.", price=price)}
+    tried = [*look.past, now]
+    top = max(100 * tried[0].share, *tried[0].wrong.values())  # no price is as bad as none
+    chart = replace(OF_PRICE, y_range=(0.0, 1.05 * top + 0.1))
     for name, role in PRICED.items():
-        curve = wrong_over_prices(name, 4.0, look.params.seed)
-        scene[f"prices/{name}"] = OF_PRICE.whole(np.array(PRICES), curve, name, role)
-    scene["prices/mark"] = OF_PRICE.mark(
-        now.value, 100 * now.share, "here", "source", steps="price"
-    )
+        curve = np.full(len(PRICES), math.nan)
+        curve[: len(tried)] = [one.wrong[name] for one in tried]
+        scene[f"prices/{name}"] = chart.whole(np.array(PRICES), curve, name, role)
+    scene["prices/mark"] = chart.mark(now.value, 100 * now.share, "here", "source", steps="price")
     return scene | {
         "caption": say(
             "A jump costs {price} usual costs: {wrong} of the pixels are wrong.",
@@ -280,9 +305,10 @@ def _of_baseline(look: StudyLook) -> Scene:
     assert pair.visible is not None
     shown[~pair.visible] = PALETTE["wrong"]
     left = _picture(shown, "left picture", -SIDE)
-    pairs = [_with(params, baseline) for baseline in BASELINES]
-    x = np.array(BASELINES)
     here = now.value
+    x = np.array(BASELINES)
+    behind = hidden_over_baselines(_scene(params), replace(pair.camera, baseline=BASELINES[0]))
+    errors = np.array([_sigma(replace(pair.camera, baseline=one)) for one in BASELINES])
     scene: Scene = {
         "left/picture": left,
         "left/name": _named(
@@ -293,12 +319,8 @@ def _of_baseline(look: StudyLook) -> Scene:
         "baseline": TURNED.scalar(here, "baseline"),
         "hidden": HIDDEN.scalar(100 * now.share, "hidden", "wrong"),
         "sigma": HIDDEN.scalar(100 * now.sigma, "error of the depth", "target"),
-        "trade/hidden": OF_BASELINE.whole(
-            x, np.array([100 * hidden(one) for one in pairs]), "hidden, of all pixels", "wrong"
-        ),
-        "trade/sigma": OF_BASELINE.whole(
-            x, np.array([100 * _sigma(one) for one in pairs]), "½ px, of the wall's depth", "target"
-        ),
+        "trade/hidden": OF_BASELINE.whole(x, 100 * behind, "hidden, of all pixels", "wrong"),
+        "trade/sigma": OF_BASELINE.whole(x, 100 * errors, "½ px, of the wall's depth", "target"),
         "trade/mark": OF_BASELINE.mark(here, 100 * now.share, "here", "wrong", steps="baseline"),
         "caption": say(
             "Cameras {baseline} apart: {hidden} hidden, and half a pixel is {sigma} of the wall's"

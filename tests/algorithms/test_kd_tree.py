@@ -4,9 +4,9 @@ looked at.
 
 import numpy as np
 import pytest
-import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial import cKDTree  # here: loaded within a test it would be timed with it
 
 from workbench.algorithms.spatial.kd_tree import LEAF, build_tree, looked_at, search
 
@@ -16,13 +16,15 @@ def tree_of(p: np.ndarray):
 
 
 @settings(max_examples=40)
-@given(st.integers(1, 200), st.integers(1, 6), st.integers(0, 999), st.booleans())
-def test_the_nearest_is_the_nearest(n, d, seed, on_a_grid):
+@given(
+    n=st.integers(1, 200), d=st.integers(1, 6), seed=st.integers(0, 999), on_a_grid=st.booleans()
+)
+def test_the_nearest_is_the_nearest(*, n, d, seed, on_a_grid):
     rng = np.random.default_rng(seed)
     p = rng.integers(0, 3, (n, d)).astype(float) if on_a_grid else rng.random((n, d))
     q, tree = rng.random(d) * 2, tree_of(p)
     *_, last = search(tree, q)
-    assert last.distance == pytest.approx(scipy.spatial.cKDTree(p).query(q)[0])
+    assert last.distance == pytest.approx(cKDTree(p).query(q)[0])
     assert np.linalg.norm(tree.p[last.nearest] - q) == pytest.approx(last.distance)
 
 

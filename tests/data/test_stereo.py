@@ -2,6 +2,7 @@
 one line.
 """
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from workbench.data.views.stereo import (
     in_both,
     motorcycle_pair,
     read_pair,
+    shares_hidden,
     shrunk,
     synthetic_pair,
 )
@@ -68,6 +70,14 @@ def test_what_is_hidden_is_nearer_in_the_right_picture(scene):
     assert (
         in_both(pair.disparity) == pair.visible
     ).mean() > 0.97  # judged from rounded pixels it is nearly the same
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_what_is_hidden_needs_no_colours(scene):
+    cameras = [replace(CAMERA, baseline=baseline) for baseline in (0.05, 0.1, 0.3)]
+    pairs = [made(scene, camera, noise=4.0, seed=3) for camera in cameras]
+    shares = shares_hidden(scene, cameras, (160, 120))
+    assert shares.tolist() == [1.0 - pair.visible.mean() for pair in pairs]
 
 
 def test_a_plane_is_linear_in_disparity_and_boards_are_where_they_say():

@@ -20,7 +20,7 @@ from tests.lessons.disparity_runs import timeline
 from workbench.algorithms.stereo.cost_volume import sad_cost_volume
 from workbench.algorithms.stereo.disparity import Stage
 from workbench.run.timeline import Timeline
-from workbench.scene import Label, Mesh, Picture, Points, Scalar, Scene, Segments
+from workbench.scene import Curve, Label, Mesh, Picture, Points, Scalar, Scene, Segments
 
 Kind = TypeVar("Kind")
 
@@ -163,6 +163,19 @@ class TestFromAbove:
         for k, error in enumerate(ERRORS):
             said = timeline(NET)[k].caption.values
             assert said["found"] == pytest.approx(80.0 / (4.0 + error))
+
+
+def test_the_curves_of_the_prices_grow_with_the_steps():
+    found = states(PRICES)
+    for k in (0, 4, 10):
+        curve = part(timeline(PRICES)[k].scene, "prices/plain wall", Curve)
+        assert np.isfinite(curve.y).tolist() == [one <= k for one in range(11)]
+        assert curve.y[k] == found[k].wrong["plain wall"]
+    assert curve.y == pytest.approx(
+        [29.6, 24.7, 20.2, 15.5, 9.0, 5.2, 2.2, 0.7, 0.5, 0.5, 0.5], abs=0.05
+    )
+    for now in found:  # its pictures are those of the curve
+        assert now.wrong["repeated pattern"] == pytest.approx(100 * now.share)
 
 
 def test_an_own_pair_of_450_by_375_pixels_is_shown_step_by_step(tmp_path):

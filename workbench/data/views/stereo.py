@@ -1,6 +1,7 @@
 """Rectified pairs: made ones with known disparities, the Middlebury motorcycle, people's."""
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -8,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
 from workbench.data.files import read_image, shipped_array, shipped_image
-from workbench.data.views.stereo_scenes import SCENES, look, nearest_depth, rays
+from workbench.data.views.stereo_scenes import SCENES, Thing, look, nearest_depth, rays
 from workbench.errors import InputError
 from workbench.geometry.cameras.stereo import StereoCamera
 
@@ -51,23 +52,51 @@ def synthetic_pair(
     picture when its point lies inside that and nothing stands nearer on the way to it.
     """
     things = SCENES[scene](rng, 1.0 / camera.f)
-    w, h = size
-    u, v = np.meshgrid(np.arange(w, dtype=float), np.arange(h, dtype=float))
+    u, v = _pixels(size)
     p_right = np.array([camera.baseline, 0.0, 0.0])
     depth, left = look(things, np.zeros(3), rays(u, v, camera.f, camera.cx, camera.cy))
     _, right = look(things, p_right, rays(u, v, camera.f, camera.cx + camera.doffs, camera.cy))
+    visible = _seen_by_both(things, camera, depth)
     d = camera.f * camera.baseline / depth  # without doffs
-    behind = nearest_depth(things, p_right, rays(u - d, v, camera.f, camera.cx, camera.cy))
-    partner = u - (d - camera.doffs)
-    visible = (
-        (partner >= 0)
-        & (partner <= w - 1)
-        & ((behind >= depth * (1 - 1e-9)) | np.isinf(depth) & np.isinf(behind))
-    )
     left, right = (
         _exposed(picture + rng.normal(0.0, noise, picture.shape)) for picture in (left, right)
     )
     return StereoPair(left, right, camera, d - camera.doffs, visible)
+
+
+def shares_hidden(
+    scene: str, cameras: Sequence[StereoCamera], size: tuple[int, int]
+) -> Float[np.ndarray, " n"]:
+    """Return the share of left pixels that the right camera does not see, of cameras that differ in
+    nothing but the baseline: as of a `synthetic_pair`, from the depths alone.
+    """
+    left = cameras[0]
+    things = SCENES[scene](np.random.default_rng(0), 1.0 / left.f)  # which colours is all the same
+    u, v = _pixels(size)
+    depth = nearest_depth(things, np.zeros(3), rays(u, v, left.f, left.cx, left.cy))
+    return np.array([1.0 - _seen_by_both(things, camera, depth).mean() for camera in cameras])
+
+
+def _pixels(size: tuple[int, int]) -> list[np.ndarray]:
+    w, h = size
+    return list(np.meshgrid(np.arange(w, dtype=float), np.arange(h, dtype=float)))
+
+
+def _seen_by_both(
+    things: tuple[Thing, ...], camera: StereoCamera, depth: Float[np.ndarray, "h w"]
+) -> Bool[np.ndarray, "h w"]:
+    """Say of which left pixels, of these depths, the right camera sees the point too."""
+    h, w = depth.shape
+    u, v = _pixels((w, h))
+    p_right = np.array([camera.baseline, 0.0, 0.0])
+    d = camera.f * camera.baseline / depth  # without doffs
+    behind = nearest_depth(things, p_right, rays(u - d, v, camera.f, camera.cx, camera.cy))
+    partner = u - (d - camera.doffs)
+    return (
+        (partner >= 0)
+        & (partner <= w - 1)
+        & ((behind >= depth * (1 - 1e-9)) | np.isinf(depth) & np.isinf(behind))
+    )
 
 
 @functools.lru_cache(maxsize=1)
