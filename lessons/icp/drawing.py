@@ -194,9 +194,9 @@ def _about_vertical(scans: Scans, T_target_source: np.ndarray) -> float:
 
 
 def _basin(look: SpaceLook) -> dict[str, Primitive]:
-    tries, params = tries_of(look), look.params
+    tries = tries_of(look)
     angles = np.array([one.start_angle for one in tries], float)
-    marks = (abs(params.start_angle),) if params.target is None else ()
+    marks = (tries[-1].start_angle,)
 
     def curve(chart: Chart, values: list[float], name: str, color: Role) -> Curve:
         return chart.curve(angles, np.array(values), name, color, marks=marks)

@@ -38,7 +38,7 @@ FRONT = View(eye=(0.0, 2.15, 0.0), target=(0.0, 0.0, 0.0), grid=None, axes=False
 VIEW = View(eye=(0.85, 1.25, 0.55), target=(0.05, 0.0, 0.18), grid=None, axes=False)
 NEAR = View(eye=(0.75, 0.75, 0.75), target=(0.12, 0.0, 0.4), grid=None, axes=False)
 ABOVE = View(eye=(0.4, 1.0, 2.0), target=(0.0, 0.05, 0.0), grid=None, axes=False)
-SIDE = View(eye=(0.3, 1.9, 0.7), target=(0.0, 0.0, 0.0), grid=None, axes=False)
+SIDE = View(eye=(1.25, -1.45, 0.95), target=(0.08, -0.08, 0.0), grid=None, axes=False)
 WALL = View(eye=(1.9, -1.9, 1.3), target=(0.0, -0.1, 0.0), grid=None, axes=False)
 STREET = View(eye=(0.55, -0.95, 1.0), target=(0.0, 0.0, -0.05), grid=None, axes=False)
 VIEWS = {

@@ -273,7 +273,7 @@ QUESTIONS: tuple[Question, ...] = (
     Question(
         name="best-share",
         text=(
-            "Three in ten orange points belong to nothing. Which share of the closest matches would"
+            "Three in ten points belong to nothing. Which share of the closest matches would"
             " you keep?"
         ),
         answer=_which_share,

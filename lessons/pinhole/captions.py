@@ -71,6 +71,10 @@ def blame(look: PinholeLook) -> Told:
         why = MISTAKES[params.mistake]
     elif params.forgets_k:
         why = "K is still that of the full picture."
+    if params.mistake == "none" and _slides(look):
+        across, down = (pixels(float(by)) for by in _slid(look.subject))
+        words = " The outlines are {across} too far right and {down} too low."
+        return f" {why}{words}", {"across": across, "down": down}
     if state.error > VISIBLE:
         return f" {why} Half of the points are off by {{error}} or more.", {
             "error": pixels(state.error)
@@ -79,13 +83,27 @@ def blame(look: PinholeLook) -> Told:
         lost = counted(state.missed, "point loses its pixel", "points lose their pixel")
         return f" {why} {{missed}}.", {"missed": lost}
     if state.false:
-        gained = counted(state.false, "point has", "points have")
-        return f" {why} {{false}} a pixel that the camera does not give.", {"false": gained}
+        gained = counted(state.false, "point gets", "points get")
+        them = "it" if state.false == 1 else "them"
+        return f" {why} {{false}} a pixel, though the camera cannot see {them}.", {"false": gained}
     if back > MISPLACED:
         return f" {why} Half of the points come back {{apart}} off or more.", {
             "apart": metres(back)
         }
     return f" {why}", {}
+
+
+def _slides(look: PinholeLook) -> bool:
+    """Tell whether all pixels are off alike, by what the crop took away."""
+    shot, params = look.subject, look.params
+    if not params.forgets_k or params.edit != "cropped":
+        return False
+    return np.allclose(look.now.now.uv, shot.uv + _slid(shot), equal_nan=True)
+
+
+def _slid(shot: Shot) -> np.ndarray:
+    """Return how far the principal point of the full picture is from that of the edited one, px."""
+    return shot.K_first[:2, 2] - shot.K[:2, 2]
 
 
 def back_error(look: PinholeLook) -> float:
@@ -121,11 +139,8 @@ def _cropped(look: PinholeLook) -> Told:
 def _camera(look: PinholeLook) -> Told:
     if _is_cropped(look):
         return _cropped(look)
-    x, y, z = (_metres(value) for value in look.now.now.p_camera[look.subject.k])
-    words = (
-        f"In the camera's axes {look.subject.name} has X = {{x}}, Y = {{y}} and depth Z = {{z}}."
-    )
-    return words, {"x": x, "y": y, "z": z}
+    z = _metres(look.now.now.p_camera[look.subject.k, 2])
+    return f"In the camera's axes {look.subject.name} has a depth of Z = {{z}}.", {"z": z}
 
 
 def _divide(look: PinholeLook) -> Told:
@@ -138,8 +153,8 @@ def _divide(look: PinholeLook) -> Told:
             "z": _metres(z)
         }
     x, y = (fixed(value, 3) for value in now.xy[k])
-    words = f"Divided by its depth Z = {{z}}, {look.subject.name} has x = {{x}}, y = {{y}}."
-    return words, {"z": _metres(z), "x": x, "y": y}
+    words = f"Divided by its depth Z, {look.subject.name} has x = {{x}}, y = {{y}}."
+    return words, {"x": x, "y": y}
 
 
 def _distort(look: PinholeLook) -> Told:

@@ -137,7 +137,7 @@ def measured(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     if min(cx, cy) > 1:
         right, down = (at - left) / cx, (at - top) / cy
         for path, end, aside, c in (("cx", left, down, cx), ("cy", top, right, cy)):
-            text = f"{path} = {fixed(c, 2)}"
+            text = "should be " * params.forgets_k + f"{path} = {fixed(c, 2)}"
             parts |= dimension(path, end, at, aside=0.06 * h * aside, color="truth", text=text)
     return parts
 
@@ -153,7 +153,6 @@ def vanishing(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     above = places(glass, uv - [0.0, 0.05 * glass.size[1]], 2)
     parts: dict[str, Primitive] = {
         "vanishing": Points(place[None], "truth", 1.5 * FOLLOWED * glass.width, name="K R d"),
-        "vanishing/name": Label("K R d", above, "truth"),
     }
     for i, rail in enumerate(street().rails):
         near = rail[0] + np.array([0.0, 2.0, 0.0])
@@ -162,16 +161,14 @@ def vanishing(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
             line = places(glass, np.concatenate([start, uv[None]]))
             parts[f"prolonged/{i}"] = dashed(line, "truth", dash=0.02 * glass.width)
     if not (params.turn or params.aside):
-        return parts
+        return parts | {"vanishing/name": Label("K R d", above, "truth")}
     first = pinhole_of(replace(params, turn=0.0, aside=0.0), params.dolly)
     before = vanishing_points(ALONG_RAILS, first.T_camera_world, first.K)[0]
     away = float(np.linalg.norm(uv - before))
     spot = places(glass, before, 1.5)
     parts["vanishing/before"] = Points(spot[None], "neutral", FOLLOWED * glass.width, name="before")
-    parts["vanishing/moved"] = Label(
-        f"moved by {pixels(away)}", places(glass, uv + np.array([0.0, 12.0]), 2), "truth"
-    )
-    return parts
+    words = f"K R d, moved by {pixels(away)}"
+    return parts | {"vanishing/name": Label(words, above, "truth")}
 
 
 def _near(glass: Picture, uv: np.ndarray, beyond: float = BEYOND) -> np.ndarray:

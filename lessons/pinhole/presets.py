@@ -52,11 +52,11 @@ VIEW = View(
     eye=(2.2, -5.3, 2.3), target=(0.15, 0.6, 1.75), grid=None, grid_height=-0.02, axes=False
 )
 FACING = through(PLAIN)
-SIDE = View(eye=(-17.5, 3.6, 2.6), target=(-0.9, 6.2, 2.1), grid=None, axes=False)
+SIDE = View(eye=(-21.5, 3.3, 3.0), target=(-0.9, 5.7, 2.1), grid=None, axes=False)
 OBLIQUE = View(eye=(8.0, -10.2, 4.9), target=(1.1, -1.0, 1.4), grid=None, axes=False)
-ENDS = View(eye=(5.4, -5.6, 2.9), target=(0.75, -1.9, 1.0), grid=None, axes=False)
+ENDS = View(eye=(5.8, -5.9, 3.05), target=(1.315, -2.0, 1.15), grid=None, axes=False)
 BEHIND_VIEW = View(eye=(5.0, -8.8, 3.2), target=(0.2, 0.5, 1.4), grid=None, axes=False)
-RAILS_VIEW = View(eye=(0.5, -5.0, 2.1), target=(0.35, 2.0, 1.35), grid=None, axes=False)
+RAILS_VIEW = View(eye=(1.0, -5.6, 2.2), target=(0.95, 2.0, 1.35), grid=None, axes=False)
 FAR_VIEW = View(eye=(4.0, -21.0, 5.0), target=(0.3, -4.0, 2.4), grid=None, axes=False)
 VIEWS = {
     "behind": VIEW,

@@ -9,7 +9,7 @@ from lessons.ransac.rows import Subject
 from workbench.algorithms.robust.ransac import State, iterations_needed
 from workbench.certain import sure
 from workbench.lesson import Choice, Question, States
-from workbench.numerals import length, percent
+from workbench.numerals import brief, length, percent
 
 Search = States[Input, Subject, State]
 
@@ -92,10 +92,10 @@ def _why_plane(states: Search) -> str:
 
 
 def _why_huber(states: Search) -> str:
-    names = ("Huber", "least squares")
-    huber, squares = (length(error(states, name)) for name in names)
+    names = ("", "Huber", "least squares")
+    ours, huber, squares = (f"{brief(1e3 * error(states, name))} mm" for name in names)
     return (
-        f"RANSAC {length(error(states))}, Huber {huber}, least squares {squares} off (RMS). An"
+        f"RANSAC {ours}, Huber {huber}, least squares {squares} off (RMS). An"
         " outlier pulls on Huber's plane as hard as a point at the corner of its loss, however far"
         " it is; here nearly all of them pull upwards."
     )

@@ -144,8 +144,9 @@ def draw_rings(look: Look[Input, Body, Named]) -> Scene:
     if amount < 99.0:
         scene["knob/mark"] = KNOB.mark(now.value, amount, "your hand", "source", steps="pitch")
     else:
-        rim = np.full(2, now.value), np.array([0.0, 30.0])
-        scene["knob/second"] = KNOB.second(*rim, "no angle is enough", "neutral")
+        rims = np.array([-90.0, -90.0, -90.0, 90.0, 90.0])
+        upright = np.array([0.0, 30.0, np.nan, 0.0, 30.0])
+        scene["knob/second"] = KNOB.second(rims, upright, "no angle is enough", "neutral")
     return scene
 
 

@@ -144,6 +144,8 @@ VALUES = {
         np.linalg.norm(calculated(run)["back"] - points(run.params), axis=1)[followed(run.params)]
     ),
     "error": median_off,
+    "across": lambda run, k: 320 - run.subject.picture.shape[1],
+    "down": lambda run, k: 240 - run.subject.picture.shape[0],
     "missed": lambda run, k: lost(run, k)[0],
     "false": lambda run, k: lost(run, k)[1],
     "apart": lambda run, k: median_back(run),
@@ -245,6 +247,18 @@ CAPTIONS = (
         lambda run, k, m: bool(np.linalg.norm(camera(run.params)[1] - centre(run.params)) > 0.1),
     ),
     Claim("The length of the ray was taken for the depth Z", _wrong("ray length for depth")),
+    Claim(
+        "The outlines are [^ ]+ px too far right and [^ ]+ px too low",
+        lambda run, k, m: close(
+            both(run, k)[0],
+            both(run, k)[1] + np.array([VALUES["across"](run, k), VALUES["down"](run, k)]),
+            equal_nan=True,
+        ),
+    ),
+    Claim(
+        r"(points? gets? a pixel), though the camera cannot see (it|them)",
+        lambda run, k, m: (lost(run, k)[1] == 1) == (m[2] == "it"),
+    ),
     Claim(
         "K is still that of the full picture",
         lambda run, k, m: run.params.edit != "none" and not run.params.k_follows,
