@@ -72,9 +72,9 @@ def _defect(state: State) -> Caption:
         if here > 0
         else f"Laid flat, it overlaps by {-here:.2f}°"
     )
-    text += ": the angle defect, curvature times area and not curvature yet."
+    text += ": the angle defect."
     if not state.on_border:
-        return say(text + " A finer mesh has smaller defects.")
+        return say(text)
     if state.params.mistake == "2 pi on the border":
         return say(
             f"Taken from 360°, a border vertex misses {here:.2f}°: half a turn that is not there.",
@@ -129,9 +129,7 @@ def _mean(state: State) -> Caption:
             text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), tone="wrong"
         )
     text = f"H is half the normal's length, positive where it points outward: {brief(H)} m⁻¹"
-    return say(
-        text + _truth(true, "m⁻¹") + _error(state, "H") + _colors(state, now.H, H_SCALE, "m⁻¹")
-    )
+    return say(text + _truth(true, "m⁻¹") + _colors(state, now.H, H_SCALE, "m⁻¹"))
 
 
 def _principal(state: State) -> Caption:

@@ -50,6 +50,7 @@ PRICED: dict[str, Role] = {
     "plain wall": "target",
     "spheres": "truth",
 }
+CALLED = {"repeated pattern": "stripes", "plain wall": "bare wall", "spheres": "balls"}
 UNCERTAIN = 0.5  # pixels: the error of a jump for which depths are judged
 # metres: the distances in the scene of posts
 POST = 1.1
@@ -286,7 +287,7 @@ def _of_price(look: StudyLook) -> Scene:
     for name, role in PRICED.items():
         curve = np.full(len(PRICES), math.nan)
         curve[: len(tried)] = [one.wrong[name] for one in tried]
-        scene[f"prices/{name}"] = chart.whole(np.array(PRICES), curve, name, role)
+        scene[f"prices/{name}"] = chart.whole(np.array(PRICES), curve, CALLED[name], role)
     scene["prices/mark"] = chart.mark(now.value, 100 * now.share, "here", "source", steps="price")
     return scene | {
         "caption": say(
