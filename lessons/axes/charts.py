@@ -25,7 +25,7 @@ FRAMES = Chart("Four frames", "frame", "mm to the nearest points")
 SIDE = Chart(
     "How far axis 1 differs", "middle side of the box", "deg", x_range=(0.6, 1.0), x_unit="m"
 )
-RACE = Chart("RMSE from four frames", "frame", "RMSE (mm)")
+RACE = Chart("RMSE from four frames", "frame", "RMSE, dots: before ICP (mm)")
 OFF_TRUTH, GAP = Chart("Rotation error", unit="deg"), Chart("To the nearest points", unit="m")
 
 

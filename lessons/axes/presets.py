@@ -286,7 +286,15 @@ def _why_stray(states: States) -> str:
 
 def _wins(states: States) -> float:
     race = as_a(Race, states[-1])
-    return 0.0 if race.off[race.winner] < HOME_DEGREES else 1.0
+    if race.off[race.winner] < HOME_DEGREES:
+        return 0.0
+    return 2.0 if race.off[fallen_most(states)] < HOME_DEGREES else 1.0
+
+
+def fallen_most(states: States) -> int:
+    """Return the frame, from 0, whose RMSE has fallen most."""
+    first = as_a(Race, states[0])
+    return int(np.argmax(first.rmse - as_a(Race, states[-1]).rmse))
 
 
 def _why_wins(states: States) -> str:
@@ -445,9 +453,9 @@ QUESTIONS: tuple[Question, ...] = (
                 " starts was near.",
             ),
             Choice(
-                "The one that began with the lowest RMSE",
-                "Often it is the same one. But a scan that saw less has a tilted frame, and then"
-                " another frame can begin with the lowest RMSE.",
+                "The one whose RMSE fell most, however low it ends",
+                "That one began high up, and it stops in a wrong valley: it is half a turn off. Not"
+                " the way down counts, but where it ends.",
             ),
         ),
     ),

@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from lessons.axes.inputs import Input
 from lessons.axes.lesson import lesson, run, setup
+from lessons.axes.presets import fallen_most
 from lessons.axes.scans import scans_of
 from lessons.axes.space import Turns, many_turns
 from tests.runs import finished
@@ -303,6 +304,12 @@ class TestQuestions:
         assert 17 < answers.pop("predict-signs") < 33
         assert (answers["predict-rotations"], answers["predict-frames"]) == (8, 4)
         assert (answers["second"], answers["one-stray"], answers["which-wins"]) == (0, 2, 0)
+
+    def test_the_rmse_that_fell_most_is_half_a_turn_off(self):
+        race = states(lesson.preset("starts").params)
+        fallen = fallen_most(race)
+        assert race[-1].off[fallen] > 170
+        assert race[0].rmse[fallen] > np.sort(race[0].rmse)[1]
 
     def test_known_wrong_answers_are_answered_and_not_right(self):
         for question in lesson.questions:
