@@ -142,6 +142,18 @@ def test_counts_without_a_small_common_multiple_go_through_the_programme():
     )
 
 
+@pytest.mark.parametrize("made", [sphere_and_blob, ring_and_line, with_twins, far_away, two_scales])
+@pytest.mark.parametrize(("n", "m"), [(83, 61), (40, 171)])
+def test_pairs_that_a_programme_leaves_out_would_not_make_it_cheaper(monkeypatch, made, *, n, m):
+    p_a, p_b = made(np.random.default_rng(n), max(n, m))
+    D = scipy.spatial.distance.cdist(p_a[:n], p_b[:m])
+    some = best_plan_by_programme(D)
+    monkeypatch.setattr("workbench.algorithms.transport.exact._FEW_PAIRS", D.size)
+    assert np.vdot(some, D) == pytest.approx(np.vdot(best_plan_by_programme(D), D), rel=1e-8)
+    np.testing.assert_allclose(some.sum(axis=0), 1 / m, rtol=1e-9)
+    np.testing.assert_allclose(some.sum(axis=1), 1 / n, rtol=1e-9)
+
+
 @few
 @given(seeds, counts, counts)
 def test_every_point_gives_and_gets_its_share(seed, n, m):

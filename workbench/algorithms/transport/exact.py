@@ -9,12 +9,13 @@ transport, 2019, sections 2.3 and 3.
 """
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import scipy
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from workbench.algorithms.transport.sinkhorn import check_cost, kernel, sinkhorn, tight_potentials
 from workbench.geometry.points.shape_distances import check_clouds
@@ -27,6 +28,12 @@ MOST_UNEQUAL = (
 )
 
 _BLURS = ((0.05, 5), (0.01, 10), (0.002, 25))  # share of the median cost, sweeps
+_FINER_BLURS = ((0.05, 20), (0.02, 30), (0.01, 50), (0.005, 80), (0.002, 100))
+# of a linear programme: pairs up to which all are taken at once; else of each row and column at
+# first, and in each of the rounds after
+_FEW_PAIRS = 2_000
+_FIRST = 6
+_MORE = 4
 # exponent of a sweep's scalings, 1 to below 2: at 1 the solver takes up to four times as long
 _RELAXATION = 1.6
 _FEWEST = 250  # rows from which potentials gain more than they cost,
@@ -200,24 +207,72 @@ def best_plan(
 def best_plan_by_programme(cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, "n m"]:
     """Return the cheapest plan by a linear programme: row and column sums are its constraints.
 
+    It begins with the pairs that blurred transport finds likely, and takes in those whose cost is
+    below the sum of the prices (dual potentials) of their row and column, until there are none:
+    then no pair that was left out could make the plan cheaper.
+
     Raises:
         ValueError: If the solver finds no solution.
 
-    Reference: Peyre and Cuturi 2019, equation 2.11.
+    References: Peyre and Cuturi 2019, equation 2.11 and proposition 3.3 (complementary
+    slackness); Dantzig and Wolfe, Decomposition principle for linear programs, 1960 (columns by
+    their prices).
+    """
+    taken = _likely(cost)
+    tolerance = 1e-11 * cost.max()
+    while True:
+        plan, f, g = _solved(cost, taken)
+        gain = np.where(taken, 0.0, cost - f[:, None] - g)
+        cheap = gain < -tolerance
+        if not cheap.any():
+            return plan
+        taken |= cheap & _lowest(gain, _MORE)
+
+
+def _likely(cost: Float[np.ndarray, "n m"]) -> Bool[np.ndarray, "n m"]:
+    """Return the pairs that a programme begins with: all of few, else those that are near the best
+    by blurred potentials, and enough of others that some plan exists.
     """
     n, m = cost.shape
-    rows = scipy.sparse.kron(scipy.sparse.eye_array(n), np.ones((1, m)))
-    columns = scipy.sparse.kron(np.ones((1, n)), scipy.sparse.eye_array(m))
-    row_and_column_sums: Any = scipy.sparse.vstack([rows, columns])
+    if cost.size <= _FEW_PAIRS:
+        return np.ones(cost.shape, bool)
+    f, g = tight_potentials(cost, blurred_potentials(cost, _FINER_BLURS))
+    likely = _lowest(cost - f[:, None] - g, _FIRST)
+    ends = np.union1d(np.arange(n) * m, np.arange(m) * n)  # both masses laid along one line, n m
+    likely[ends // m, ends // n] = True
+    return likely
+
+
+def _lowest(values: Float[np.ndarray, "n m"], count: int) -> Bool[np.ndarray, "n m"]:
+    """Return which entries are among so many lowest of their row or of their column."""
+    found = np.zeros(values.shape, bool)
+    for axis in (0, 1):
+        few = min(count, values.shape[axis])
+        lowest = np.argpartition(values, few - 1, axis).take(np.arange(few), axis)
+        np.put_along_axis(found, lowest, True, axis)
+    return found
+
+
+def _solved(
+    cost: Float[np.ndarray, "n m"], taken: Bool[np.ndarray, "n m"]
+) -> tuple[Float[np.ndarray, "n m"], Float[np.ndarray, "n"], Float[np.ndarray, "m"]]:
+    """Return the cheapest plan that uses these pairs alone, and its dual potentials."""
+    n, m = cost.shape
+    i, j = np.nonzero(taken)
+    pair = np.arange(len(i))
+    places = np.concatenate([i, n + j]), np.concatenate([pair, pair])
+    sums: Any = scipy.sparse.csc_array((np.ones(2 * len(i)), places), shape=(n + m, len(i)))
     masses = np.concatenate([np.full(n, 1 / n), np.full(m, 1 / m)])
-    solved = scipy.optimize.linprog(
-        cost.ravel(), A_eq=row_and_column_sums, b_eq=masses, method="highs-ds"
+    solved: Any = scipy.optimize.linprog(
+        cost[i, j], A_eq=sums, b_eq=masses, method="highs-ds", options={"presolve": False}
     )
     if solved.x is None:
         raise ValueError(
             f"the transport between {n} and {m} points was not solved: {solved.message}"
         )
-    return solved.x.reshape(n, m)
+    plan = np.zeros(cost.shape)
+    plan[i, j] = solved.x
+    return plan, solved.eqlin.marginals[:n], solved.eqlin.marginals[n:]
 
 
 def contested(cost: Float[np.ndarray, "n m"]) -> float:
@@ -225,8 +280,13 @@ def contested(cost: Float[np.ndarray, "n m"]) -> float:
     return 1 - len(np.unique(cost.argmin(axis=1))) / cost.shape[1]
 
 
-def blurred_potentials(cost: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n"]:
+def blurred_potentials(
+    cost: Float[np.ndarray, "n m"], blurs: Sequence[tuple[float, int]] = _BLURS
+) -> Float[np.ndarray, "m"]:
     """Return column potentials near the best: overrelaxed Sinkhorn sweeps at ever smaller blur.
+
+    Args:
+        blurs: Each a share of the median cost, and its sweeps.
 
     Single precision will do, since any numbers leave the best assignment the best. The products are
     taken row by row (`vecdot`), because a matrix product that is spread over threads waits for all
@@ -238,7 +298,8 @@ def blurred_potentials(cost: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n"]
     rough = cost.astype(np.float32)
     typical = np.median(rough[:: 1 + len(rough) // 300])
     g = np.zeros(rough.shape[1], np.float32)
-    for blur, sweeps in _BLURS if typical > 0 else ():
+    rows_to_a_column = len(rough) / len(g)
+    for blur, sweeps in blurs if typical > 0 else ():
         regularisation = float(blur * typical)
         f, g = tight_potentials(rough, g)
         K = kernel(rough, f, g, regularisation)
@@ -247,7 +308,7 @@ def blurred_potentials(cost: Float[np.ndarray, "n n"]) -> Float[np.ndarray, "n"]
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             for _ in range(sweeps):
                 u *= (u * np.vecdot(K, v)) ** -_RELAXATION
-                v *= (v * np.vecdot(K_transposed, u)) ** -_RELAXATION
+                v *= (v * np.vecdot(K_transposed, u) / rows_to_a_column) ** -_RELAXATION
         # overrelaxed scalings may run away; what was found before will do
         if not (np.isfinite(v) & (v > 0)).all():
             break
