@@ -18,7 +18,7 @@ from workbench.data.thinning import some_points, spacing, voxel_means
 from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, inverse, motion, turn_about
 from workbench.geometry.motions.alignment import MotionError, motion_error
-from workbench.geometry.points.normals import point_normals
+from workbench.geometry.points.normals import Normals
 from workbench.knobs import called
 from workbench.lesson import cached
 
@@ -43,8 +43,8 @@ class Scans:
         cell: The edge of its squares, metres of the scans.
         p_target_shown: The target as the picture has it.
         p_source_shown: The source likewise, before any motion.
-        n_target: Gives the normals of the target, computed when first asked for: unit vectors, or
-            zero for a point that shall not pull because its neighbours lie along a line.
+        n_target: Gives the normals of the target, each computed when first asked for: unit vectors,
+            or zero for a point that shall not pull because its neighbours lie along a line.
     """
 
     p_target: np.ndarray
@@ -58,7 +58,7 @@ class Scans:
     cell: float
     p_target_shown: np.ndarray
     p_source_shown: np.ndarray
-    n_target: Callable[[], np.ndarray]
+    n_target: Callable[[], Normals]
 
     @property
     def known(self) -> bool:
@@ -230,8 +230,5 @@ def _framed(p_target: np.ndarray, p_source: np.ndarray, how: Frame, spread: bool
     )
 
 
-def _normals_when_asked(p: np.ndarray, *, spread: bool) -> Callable[[], np.ndarray]:
-    def normals() -> np.ndarray:
-        return point_normals(p, spread=spread)
-
-    return functools.cache(normals)
+def _normals_when_asked(p: np.ndarray, *, spread: bool) -> Callable[[], Normals]:
+    return functools.cache(functools.partial(Normals, p, spread=spread))

@@ -80,7 +80,7 @@ def _steps(
         scans.p_target,
         p_source,
         T_start,
-        n_target=scans.n_target() if params.fit == "point-to-plane" else None,
+        n_target=scans.n_target().at if params.fit == "point-to-plane" else None,
         gate=gate_of(params, scans),
         match=match,
         align=fits.get(params.fit, align or align_rigid),

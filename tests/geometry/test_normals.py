@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from workbench.geometry.motions import exp_so3
 from workbench.geometry.points.normals import (
+    Normals,
     _least_directions,
     _neighbourhoods,
     on_a_line,
@@ -109,9 +110,22 @@ def test_the_oracle_of_plain_principal_components():
     assert angles(point_normals(p, k=12), expected).max() < 1e-4
 
 
+@pytest.mark.parametrize("spread", [False, True])
+def test_normals_of_some_points_are_those_of_all(spread):
+    rng = np.random.default_rng(3)
+    on_lines = rng.uniform(-1, 1, (6000, 3)) * [1, 1e-3, 1e-3]
+    for p in (np.concatenate([on_lines, rng.normal(size=(3000, 3))]), on_lines):
+        some = Normals(p, spread=spread)
+        for rows in (np.array([5, 3, 3]), rng.integers(0, len(p), 4000), np.arange(len(p))):
+            np.testing.assert_allclose(
+                some.at(rows), point_normals(p, spread=spread)[rows], atol=1e-12
+            )
+
+
 def lines(p: np.ndarray) -> np.ndarray:
     found = np.zeros(len(p), bool)
-    for rows, covariances in _neighbourhoods(p, 16):
+    everywhere = np.ones(len(p), bool)
+    for rows, covariances in _neighbourhoods(p, scipy.spatial.KDTree(p), 16, wanted=everywhere):
         found[rows] = on_a_line(covariances)
     return found
 

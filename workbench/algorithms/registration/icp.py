@@ -8,6 +8,7 @@ to plane); Chetverikov, Svirko, Stepanov and Krsek, The trimmed iterative closes
 2002 (keeping a fraction).
 """
 
+import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
@@ -30,6 +31,8 @@ Align = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """align(p_target, p_source) -> T_target_source of paired points."""
 PlaneStep = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 """step(p_target, p_source, n_target) -> the small motion to be composed on the left."""
+NormalsAt = Callable[[Int[np.ndarray, "n"]], Float[np.ndarray, "n 3"]]
+"""normals_at(indices) -> the unit normals of these target points."""
 
 IDENTITY = np.eye(4)
 IDENTITY.setflags(write=False)
@@ -133,7 +136,7 @@ def icp(
     p_source: Float[np.ndarray, "n 3"],
     T_target_source: Float[np.ndarray, "4 4"] = IDENTITY,
     *,
-    n_target: Float[np.ndarray, "m 3"] | None = None,
+    n_target: Float[np.ndarray, "m 3"] | NormalsAt | None = None,
     gate: Gate = Gate(),
     match: Match | None = None,
     align: Align = align_rigid,
@@ -147,8 +150,8 @@ def icp(
     the RMSE of the kept matches never rises; a small RMSE is no proof of a right answer.
 
     Args:
-        n_target: Unit normals. With them each fit is one point-to-plane `step`, without them
-            `align`.
+        n_target: Unit normals, or what gives those of some points, as `Normals.at` does. With them
+            each fit is one point-to-plane `step`, without them `align`.
         match: Finds partners; None means `matcher`'s, which keeps one k-d tree for the whole run.
         align: Fits a motion to pairs: `align_rigid`, `align_similarity`, `align_affine`, or one's
             own.
@@ -170,6 +173,10 @@ def icp(
     shortest_move = tolerance * np.linalg.norm(corners[-1] - corners[0])
     fewest = 3 if n_target is None else 6
     p_moved = apply(T_target_source, p_source)
+    if isinstance(n_target, np.ndarray):
+        normals_at = functools.partial(n_target.take, axis=0)
+    else:
+        normals_at = n_target
     last_seen = {}  # by matches: the iteration that had them
 
     for iteration in range(1, max_iterations + 1):
@@ -178,7 +185,7 @@ def icp(
         distances = lengths(p_match - p_moved)
         limit = gate.limit(distances)
         kept = distances <= limit
-        n_match = None if n_target is None else n_target.take(indices, axis=0)
+        n_match = None if normals_at is None else normals_at(indices)
         stop = Stop.TOO_FEW_MATCHES if np.count_nonzero(kept) < fewest else None
         residual = misfit(p_match, p_moved, n_match, distances=distances, kept=kept)
         yield summary(

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 
 import numpy as np
 import scipy
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
 CHUNK = 4096
+ALONE = 1000  # points up to which threads cost more than they save
 LINE = 0.2
 
 
@@ -29,18 +30,61 @@ def point_normals(
     Raises:
         ValueError: If there are fewer than 3 points, k is below 3, or a coordinate is not finite.
     """
-    if len(p) < 3 or k < 3:
-        raise ValueError(f"normals need at least 3 points and 3 neighbours, not {len(p)} and {k}")
-    if not np.isfinite(p).all():
-        raise ValueError("a point is not finite; drop such points first")
-    normals, line = np.empty_like(p, dtype=float), np.zeros(len(p), bool)
-    for rows, covariances in _neighbourhoods(p, k):
-        normals[rows] = _least_directions(covariances)
-        if spread:
-            line[rows] = on_a_line(covariances)
-    outwards = p - p.mean(axis=0) if viewpoint is None else viewpoint - p
-    normals = np.where(np.einsum("ij,ij->i", normals, outwards)[:, None] < 0, -normals, normals)
-    return normals * (line if line.all() else ~line)[:, None] if spread else normals
+    return Normals(p, k, viewpoint, spread=spread).at(np.arange(len(p)))
+
+
+class Normals:
+    """The normals of a cloud, each computed when it is first asked for: those of `point_normals`.
+
+    Raises:
+        ValueError: As `point_normals`.
+    """
+
+    def __init__(
+        self,
+        p: Float[np.ndarray, "n 3"],
+        k: int = 16,
+        viewpoint: Float[np.ndarray, "3"] | None = None,
+        *,
+        spread: bool = False,
+    ) -> None:
+        if len(p) < 3 or k < 3:
+            raise ValueError(
+                f"normals need at least 3 points and 3 neighbours, not {len(p)} and {k}"
+            )
+        if not np.isfinite(p).all():
+            raise ValueError("a point is not finite; drop such points first")
+        self._p = p
+        self._k = min(k, len(p))
+        self._outwards = p - p.mean(axis=0) if viewpoint is None else viewpoint - p
+        self._spread = spread
+        self._tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
+        self._normals = np.empty_like(p, dtype=float)
+        self._line = np.ones(len(p), bool)  # unless known better
+        self._known = np.zeros(len(p), bool)
+
+    def at(self, rows: Int[np.ndarray, "m"]) -> Float[np.ndarray, "m 3"]:
+        """Return the normals of these points."""
+        self._compute(rows)
+        normals = self._normals.take(rows, axis=0)
+        if not self._spread:
+            return normals
+        if self._line.all():  # of those known: whether all are decides what counts
+            self._compute(np.arange(len(self._p)))
+        line = self._line
+        return normals * (line if line.all() else ~line).take(rows)[:, None]
+
+    def _compute(self, rows: np.ndarray) -> None:
+        wanted = np.zeros(len(self._p), bool)
+        wanted[rows] = True
+        wanted &= ~self._known
+        for chunk, covariances in _neighbourhoods(self._p, self._tree, self._k, wanted=wanted):
+            normals = _least_directions(covariances)
+            inwards = np.einsum("ij,ij->i", normals, self._outwards[chunk]) < 0
+            self._normals[chunk] = np.where(inwards[:, None], -normals, normals)
+            if self._spread:
+                self._line[chunk] = on_a_line(covariances)
+        self._known |= wanted  # last, for whoever asks meanwhile
 
 
 def on_a_line(covariances: Float[np.ndarray, "6 n"]) -> Bool[np.ndarray, "n"]:
@@ -64,14 +108,15 @@ def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
     return float(values[0] / values.sum()) if values.sum() > 0 else 0.0
 
 
-def _neighbourhoods(p: np.ndarray, k: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield rows of p and the covariances of their k nearest points, in chunks for the cache."""
-    tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
-    k = min(k, len(p))
-    # In tree order, so that consecutive queries touch the same leaves
-    for start in range(0, len(p), CHUNK):
-        rows = tree.indices[start : start + CHUNK]
-        neighbours = np.asarray(tree.query(p[rows], k=k, workers=-1)[1])
+def _neighbourhoods(
+    p: np.ndarray, tree: "scipy.spatial.KDTree", k: int, *, wanted: np.ndarray
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield wanted rows of p and the covariances of their k nearest, in chunks for the cache."""
+    order = tree.indices[wanted[tree.indices]]  # so that consecutive queries touch the same leaves
+    workers = -1 if len(order) > ALONE else 1
+    for start in range(0, len(order), CHUNK):
+        rows = order[start : start + CHUNK]
+        neighbours = np.asarray(tree.query(p[rows], k=k, workers=workers)[1])
         yield rows, _covariances(p, rows, neighbours)
 
 
