@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from workbench.machinery.threads import one_each
+from workbench.machinery.warming import load_scipy
 
 one_each()  # as the server does, before numpy comes
 
@@ -64,6 +65,7 @@ def first_picture(lesson: Lesson, params: Any) -> tuple[Timeline, float]:
 
 def main(names: list[str]) -> None:
     """Print a row per lesson, and below it the knobs whose first picture takes too long."""
+    load_scipy()  # as the server does when it starts
     print(
         f"{'processor time, ms':<18}{'opened':>8}{'its run':>9}{'knobs':>7}{'median':>8}{'worst':>7}"  # noqa: E501
         "  of a whole run"
