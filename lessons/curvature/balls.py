@@ -22,7 +22,7 @@ from workbench.scene import Caption, Chart, Label, Mesh, Primitive, Scene, Segme
 
 COUNTS = (42, 252, 1002, 4002)
 BETWEEN = 2.35  # metres from one ball to the next
-MOST_EDGES = 4000  # more of them hide the ball
+MOST_EDGES = 1000  # more of them hide the ball
 VERTICES = Chart("Vertices")
 GAP = Chart("Gap at the vertex", unit="deg")
 AREA = Chart("Area of the cell", unit="m²")

@@ -205,9 +205,7 @@ def _why(side: str):
         value = lowered(run, k) if side == "left" else emd(run, k)
         return {
             "arrived": stop is Stop.ARRIVED and value < 1e-9,
-            "came to rest": (
-                stop is Stop.SETTLED and value > 1e-9 and settled(run, k, side)
-            ),
+            "came to rest": (stop is Stop.SETTLED and value > 1e-9 and settled(run, k, side)),
             "used up its steps": (
                 stop is Stop.MAX_STEPS
                 and getattr(run.states[k], side).flow.step == run.params.steps
@@ -381,9 +379,7 @@ CAPTIONS = [
         rf"Step \d+: {SHARE} of the left mass is out of place, and {SHARE} of the right",
         _both_sides,
     ),
-    Claim(
-        rf"{SHARE} of its mass out of place; the right one [\w ]+, {SHARE}", _both_sides
-    ),
+    Claim(rf"{SHARE} of its mass out of place; the right one [\w ]+, {SHARE}", _both_sides),
     Claim(
         rf"{SHARE} of (?:the left mass is|its mass) out of place\.",
         lambda run, k, m: says(m[1], 100 * out_of_place(run, k, "left")),
