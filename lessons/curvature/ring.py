@@ -163,15 +163,11 @@ def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {}
     if np.isfinite(total).all():
         parts = scale * vertex_pushes(now.p[now.vertex], now.p[now.ring], now.areas[now.vertex])
-        chain = np.cumsum(np.vstack([np.zeros(3), parts]), axis=0) + start
         scene["pushes"] = Segments(
             between(np.broadcast_to(start, parts.shape), start + parts),
             "other",
             5,
             name="what each neighbour pushes: cotangents × edge",
-        )
-        scene["pushes/chain"] = Segments(
-            segments(chain), "other", 2, opacity=0.7, name="one push after the other"
         )
         tip = start + scale * total
         scene["mean normal"] = Segments(
