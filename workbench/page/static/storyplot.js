@@ -245,14 +245,14 @@ function seriesRow(run, chart, { w, top, height, k, end, last }) {
 }
 
 // what stands behind the end of a line: its value, with its name where there are several
-function endWords(one, value, named) {
+function endWords(one, value, several) {
   const digits = Math.max(2, `${Math.trunc(Math.abs(value))}`.length);
-  return (named ? `${one.name} ` : "") + measured(Number(value.toPrecision(digits)), one.unit);
+  return (several ? `${one.name} ` : "") + measured(Number(value.toPrecision(digits)), one.unit);
 }
 
 // pixels that the longest of these words takes, whichever step is shown
-function endRoom(one, named) {
-  const words = one.values.filter((value) => value !== null).map((v) => endWords(one, v, named));
+function endRoom(one, several) {
+  const words = one.values.filter((value) => value !== null).map((v) => endWords(one, v, several));
   return 14 + 8.4 * Math.max(0, ...words.map((text) => text.length));
 }
 
