@@ -6,24 +6,22 @@ numbers, and every number of the table has a blind spot.
 """
 
 from collections.abc import Iterator
-from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from lessons.chamfer_emd import blurred, bunch, distances, drawing, far_dot, twelve
-from lessons.chamfer_emd.clouds import clouds_of
-from lessons.chamfer_emd.distances import Measures, measured, numbers_of_yardsticks
+from lessons.chamfer_emd import blurred, bunch, far_dot, flows, twelve
+from lessons.chamfer_emd.distances import Measures
 from lessons.chamfer_emd.inputs import Input
 from lessons.chamfer_emd.presets import PRESETS, SWEEPS, VIEW, VIEWS
 from lessons.chamfer_emd.questions import QUESTIONS
-from lessons.chamfer_emd.state import Clouds, Step
+from lessons.chamfer_emd.state import Clouds
 from workbench.algorithms.transport import exact as transport
-from workbench.algorithms.transport.flow import Distance, Flow, flow
+from workbench.algorithms.transport.flow import Distance
 from workbench.geometry.points import shape_distances
 from workbench.lesson import Lesson, Look
 from workbench.scene import Scene
 
-STAGES = {"twelve": twelve, "bunch": bunch, "far dot": far_dot, "blur": blurred}
+STAGES = {"flows": flows, "twelve": twelve, "bunch": bunch, "far dot": far_dot, "blur": blurred}
 Subject = Clouds | twelve.Twelve | bunch.Rings | far_dot.Ring | blurred.Pairs
 
 
@@ -33,7 +31,7 @@ def setup(params: Input) -> Subject:
     Raises:
         InputError: If an own file cannot be used, or a source is given without its target.
     """
-    return clouds_of(params) if params.stage == "flows" else STAGES[params.stage].setup(params)
+    return STAGES[params.stage].setup(params)
 
 
 def run(
@@ -48,49 +46,12 @@ def run(
     goes through.
     """
     measures = Measures(chamfer, earth_movers, one_sided)
-    if isinstance(subject, Clouds):
-        yield from flows(params, subject, measures)
-    else:
-        yield from STAGES[params.stage].run(params, subject, measures)
-
-
-def flows(params: Input, clouds: Clouds, measures: Measures) -> Iterator[Step]:
-    """Yield both flows from one cloud, the left one down Chamfer and the right one down the earth
-    mover's distance.
-    """
-    p_source, p_target = clouds.p_source, clouds.p_target
-    limits = {"longest_step": params.longest_step, "max_steps": params.steps}
-    lefts = flow(p_source, p_target, *distances.left(params.lowers, measures), **limits)
-    rights = flow(p_source, p_target, *distances.right(measures), **limits)
-    known = numbers_of_yardsticks(clouds, params, measures)
-    left = right = before = None
-    for step, (now_left, now_right) in enumerate(side_by_side(lefts, rights)):
-        left = measured(now_left, left, p_target, params, measures)
-        right = measured(now_right, right, p_target, params, measures)
-        yield Step(
-            step=step,
-            left=left,
-            right=right,
-            before=before,
-            yardsticks=known,
-            last=now_left.stop is not None and now_right.stop is not None,
-        )
-        before = left.numbers, right.numbers
-
-
-def side_by_side(lefts: Iterator[Flow], rights: Iterator[Flow]) -> Iterator[tuple[Flow, Flow]]:
-    """Yield both flows at the same step; the one that ended first waits where it is."""
-    left = right = None
-    for now_left, now_right in zip_longest(lefts, rights):
-        left, right = now_left or left, now_right or right
-        if left and right:
-            yield left, right
+    yield from STAGES[params.stage].run(params, subject, measures)
 
 
 def draw(look: Look) -> Scene:
     """Return the picture of one step."""
-    stage = look.params.stage
-    return drawing.draw(look) if stage == "flows" else STAGES[stage].draw(look)
+    return STAGES[look.params.stage].draw(look)
 
 
 lesson = Lesson(

@@ -8,15 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from lessons.curvature import ring
+from lessons.curvature.functions import Functions, with_mistake
+from lessons.curvature.inputs import Input
 from lessons.curvature.mesh import front_of
 from lessons.curvature.row import ALONG
 from lessons.curvature.study import error_of
-from workbench.algorithms.surfaces.curvature import Defects, Gaussian
 from workbench.captions import counted, degrees, number, square_metres
 from workbench.data.shapes.surfaces import Surface, sphere
 from workbench.geometry.meshes import edges, on_boundary
 from workbench.geometry.meshes.laplacian import mixed_areas, mixed_cell
-from workbench.lesson import Look, Params, say
+from workbench.lesson import Look, say
 from workbench.numerals import angle, brief
 from workbench.scene import Caption, Chart, Label, Mesh, Primitive, Scene, Segments
 
@@ -56,21 +57,22 @@ class Held:
     errors: tuple[float, ...]
 
 
-def balls() -> Balls:
+def setup(params: Input) -> Balls:
     """Return the balls, and of each a vertex in front."""
     surfaces = tuple(sphere(count) for count in COUNTS)
     fronts = (front_of(one.p, one.normals, on_boundary(one.faces, len(one.p))) for one in surfaces)
     return Balls(surfaces, tuple(fronts))
 
 
-def run(subject: Balls, angle_defects: Defects, gaussian_curvature: Gaussian) -> Iterator[Held]:
+def run(params: Input, subject: Balls, functions: Functions) -> Iterator[Held]:
     """Measure one ball after the other."""
+    functions = with_mistake(params, functions)
     held = Held((), (), (), ())
     for surface, v in zip(subject.surfaces, subject.vertices, strict=True):
         p, faces = surface.p, surface.faces
-        K = gaussian_curvature(p, faces)
+        K = functions.gaussian(p, faces)
         held = Held(
-            (*held.gaps, float(np.degrees(angle_defects(p, faces)[v]))),
+            (*held.gaps, float(np.degrees(functions.defects(p, faces)[v]))),
             (*held.areas, float(mixed_areas(p, faces)[v])),
             (*held.K, float(K[v])),
             (*held.errors, error_of(surface, np.ones(len(p), dtype=bool), "gaussian", K)),
@@ -78,7 +80,7 @@ def run(subject: Balls, angle_defects: Defects, gaussian_curvature: Gaussian) ->
         yield held
 
 
-def draw(look: Look[Params, Balls, Held]) -> Scene:
+def draw(look: Look[Input, Balls, Held]) -> Scene:
     """Return the four balls, cell and numbers of those that are measured, and the error of each."""
     now, subject = look.now, look.subject
     scene: dict[str, Primitive] = {}
@@ -98,7 +100,7 @@ def draw(look: Look[Params, Balls, Held]) -> Scene:
         "error scalar": ERROR.scalar(100 * now.errors[-1], "error of K"),
         "finer": FINER.curve(x, y, "K from angles"),
         "finer/here": FINER.dots(x[here], y[here], "here"),
-        "caption": caption(look.subject, now),
+        "caption": caption(look),
     }
 
 
@@ -131,8 +133,9 @@ def _measured(k: int, subject: Balls, now: Held) -> dict[str, Primitive]:
     }
 
 
-def caption(subject: Balls, now: Held) -> Caption:
+def caption(look: Look[Input, Balls, Held]) -> Caption:
     """Say the gap, and what is left of it when it is divided by the area."""
+    now, subject = look.now, look.subject
     k = len(now.K) - 1
     if not np.isfinite([now.gaps[k], now.K[k]]).all():
         return say(f"On ball {k + 1} of {len(COUNTS)} the gap or K is no number.", tone="wrong")

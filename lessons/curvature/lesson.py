@@ -7,29 +7,21 @@ the mesh but its number of holes.
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
-import numpy as np
-
-from lessons.curvature import balls, drawing, paper
+from lessons.curvature import balls, paper, whole_mesh
+from lessons.curvature.functions import Functions
 from lessons.curvature.inputs import Input
-from lessons.curvature.mesh import subject_of
-from lessons.curvature.presets import GAUSSIAN, PRESETS, SWEEPS, UNFOLDING, VIEW, VIEWS
+from lessons.curvature.presets import GAUSSIAN, PRESETS, SWEEPS, VIEW, VIEWS
 from lessons.curvature.questions import QUESTIONS
-from lessons.curvature.state import Step, Subject, state_of
-from lessons.curvature.study import error_of, study_of
-from workbench.algorithms.surfaces.curvature import (
-    Defects,
-    Gaussian,
-    MeanNormals,
-    Measured,
-    measure_curvature,
-)
-from workbench.geometry.meshes import curvature, on_boundary
-from workbench.geometry.meshes.laplacian import mixed_areas
+from lessons.curvature.state import Subject
+from workbench.algorithms.surfaces.curvature import Defects, Gaussian, MeanNormals
+from workbench.geometry.meshes import curvature
 from workbench.lesson import Lesson, Look
 from workbench.scene import Scene
+
+STAGES = {"mesh": whole_mesh, "paper": paper, "balls": balls}
 
 
 def setup(params: Input) -> Subject | paper.Sheet | balls.Balls:
@@ -38,90 +30,27 @@ def setup(params: Input) -> Subject | paper.Sheet | balls.Balls:
     Raises:
         InputError: If an own mesh cannot be used.
     """
-    if params.stage == "paper":
-        return paper.Sheet()
-    return balls.balls() if params.stage == "balls" else subject_of(params)
+    return STAGES[params.stage].setup(params)
 
 
 def run(
     params: Input,
-    subject: Subject | paper.Sheet | balls.Balls,
+    subject: Any,
     *,
     angle_defects: Defects = curvature.angle_defects,
     gaussian_curvature: Gaussian = curvature.gaussian_curvature,
     mean_curvature_normals: MeanNormals = curvature.mean_curvature_normals,
-) -> Iterator[Step | paper.Held | balls.Held]:
-    """Yield the stages of measuring one mesh, then, where the truth is known, the errors on ever
+) -> Iterator[Any]:
+    """Yield the parts of measuring one mesh, then, where the truth is known, the errors on ever
     finer meshes; or the ring of paper between an overlap and a gap; or one ball after the other.
     """
-    if isinstance(subject, paper.Sheet):
-        yield from paper.hand()
-        return
-    defects, gaussian, normals = with_mistake(
-        params, angle_defects, gaussian_curvature, mean_curvature_normals
-    )
-    if isinstance(subject, balls.Balls):
-        yield from balls.run(subject, defects, gaussian)
-        return
-    errors: dict[str, float] = {}
-    step = None
-    for now in measure_curvature(
-        subject.p,
-        subject.faces,
-        subject.front if params.vertex < 0 else params.vertex % len(subject.p),
-        angle_defects=defects,
-        gaussian_curvature=gaussian,
-        mean_curvature_normals=normals,
-    ):
-        errors = errors | new_errors(subject, now)
-        step = Step(now=now, errors=errors)
-        if now.stage == "defect":
-            yield from (replace(step, unfolded=share) for share in UNFOLDING)
-        yield step
-    if step is not None and subject.truth is not None:
-        yield replace(step, study=study_of(params, gaussian, normals))
+    functions = Functions(angle_defects, gaussian_curvature, mean_curvature_normals)
+    yield from STAGES[params.stage].run(params, subject, functions)
 
 
 def draw(look: Look) -> Scene:
     """Return the picture of one step."""
-    if isinstance(look.subject, paper.Sheet):
-        return paper.draw(look)
-    if isinstance(look.subject, balls.Balls):
-        return balls.draw(look)
-    return drawing.draw(state_of(look))
-
-
-def new_errors(subject: Subject, now: Measured) -> dict[str, float]:
-    """Return the errors that this stage lets one know."""
-    surface, inside = subject.truth, subject.inside
-    if surface is None:
-        return {}
-    if now.stage == "gaussian":
-        return {"K": error_of(surface, inside, "gaussian", now.K)}
-    if now.stage == "mean":
-        return {"H": error_of(surface, inside, "mean", now.H)}
-    if now.stage == "quadric" and now.quadrics is not None:
-        K, H = now.quadrics.curvatures()
-        both = error_of(surface, inside, "gaussian", K), error_of(surface, inside, "mean", H)
-        return {"K by fit": both[0], "H by fit": both[1]}
-    return {}
-
-
-def with_mistake(
-    params: Input, defects: Defects, gaussian: Gaussian, normals: MeanNormals
-) -> tuple[Defects, Gaussian, MeanNormals]:
-    """Return the three functions, one of them spoilt by the chosen mistake."""
-    if params.mistake == "2 pi on the border":
-        return (
-            lambda p, faces: defects(p, faces) + np.pi * on_boundary(faces, len(p)),
-            gaussian,
-            normals,
-        )
-    if params.mistake == "defect taken for K":
-        return defects, lambda p, faces: gaussian(p, faces) * mixed_areas(p, faces), normals
-    if params.mistake == "H without the half":
-        return defects, gaussian, lambda p, faces: 2 * normals(p, faces)
-    return defects, gaussian, normals
+    return STAGES[look.params.stage].draw(look)
 
 
 lesson = Lesson(

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lessons.curvature.functions import Functions
+from lessons.curvature.inputs import Input
 from workbench.captions import degrees, metres
 from workbench.geometry.polylines import between, fan, segments
-from workbench.lesson import Look, Params, say
+from workbench.lesson import Look, say
 from workbench.scene import Caption, Chart, Label, Mesh, Points, Primitive, Scene, Segments, arc
 
 TRIANGLES = 6
@@ -43,7 +45,12 @@ class Held:
         return (360.0 - self.gap) / TRIANGLES
 
 
-def hand() -> Iterator[Held]:
+def setup(params: Input) -> Sheet:
+    """Return the paper."""
+    return Sheet()
+
+
+def run(params: Input, subject: Sheet, functions: Functions) -> Iterator[Held]:
     """Yield the rings from the largest overlap to the largest gap."""
     for gap in HAND:
         yield Held(float(gap))
@@ -81,7 +88,7 @@ def spokes(now: Held) -> np.ndarray:
     return np.stack([np.cos(turn), np.zeros(len(turn)), np.sin(turn)], axis=1)
 
 
-def draw(look: Look[Params, Sheet, Held]) -> Scene:
+def draw(look: Look[Input, Sheet, Held]) -> Scene:
     """Return the ring in space, the same ring laid flat beside it, and its height over the gap."""
     now = look.now
     p = np.vstack([np.zeros(3), rim(now.gap), rim(now.gap)[:1]])
@@ -100,7 +107,7 @@ def draw(look: Look[Params, Sheet, Held]) -> Scene:
             "gap scalar": GAP.scalar(now.gap, "gap"),
             "height/whole": HEIGHT.whole(FINE, HEIGHTS, "height of the ring", "highlight"),
             "height/mark": HEIGHT.mark(now.gap, height, "your hand", "source", steps="gap"),
-            "caption": caption(now),
+            "caption": caption(look),
         }
     )
 
@@ -137,8 +144,9 @@ def _flat(now: Held) -> dict[str, Primitive]:
     )
 
 
-def caption(now: Held) -> Caption:
+def caption(look: Look[Input, Sheet, Held]) -> Caption:
     """Say what the ring is, and the angle that makes it so."""
+    now = look.now
     angle, place = degrees(now.angle), PLACES.get(now.gap, "")
     if now.gap == 0:
         return say(

@@ -257,7 +257,7 @@ def test_a_borders_rows_of_a_students_function_may_hold_anything():
 
 def test_the_balls_gaps_shrink_with_their_cells_and_k_settles_on_one():
     done = [as_a(balls.Held, state) for state in timeline(Input(stage="balls")).states()]
-    subject = balls.balls()
+    subject = balls.setup(Input(stage="balls"))
     last = done[-1]
     for k, (surface, v) in enumerate(zip(subject.surfaces, subject.vertices, strict=True)):
         total = np.radians(gap_of_all(surface))

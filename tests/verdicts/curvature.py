@@ -8,10 +8,9 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq
 
-from lessons.curvature import balls, paper
-from lessons.curvature.captions import caption as caption_of_mesh
+from lessons.curvature import balls
 from lessons.curvature.inputs import Input
-from lessons.curvature.state import state_of
+from lessons.curvature.lesson import STAGES
 from tests.own_seed import of_preset
 from tests.readings import NUMBER, number, says_percent
 from tests.truths.curvature import (
@@ -52,11 +51,7 @@ def near(said: str, value: float, relative: float = DIGITS) -> bool:
 
 def caption(look: Look) -> Caption:
     """Return the caption alone, without the picture."""
-    if isinstance(look.subject, paper.Sheet):
-        return paper.caption(look.now)
-    if isinstance(look.subject, balls.Balls):
-        return balls.caption(look.subject, look.now)
-    return caption_of_mesh(state_of(look))
+    return STAGES[look.params.stage].caption(look)
 
 
 def claim(words: str, holds: Callable[[Run, int, re.Match[str]], bool]) -> Claim:
@@ -217,7 +212,7 @@ def _ball(k: int) -> tuple[int, float, float]:
     """Return how many vertices a ball has, and at its vertex the gap in radians and the area, both
     from the edges alone: the law of cosines, and Meyer's cotangents of angles that are all acute.
     """
-    subject = balls.balls()
+    subject = balls.setup(Input(stage="balls"))
     surface, v = subject.surfaces[k], subject.vertices[k]
     gap, area = 2 * np.pi, 0.0
     for face in surface.faces[(surface.faces == v).any(axis=1)]:

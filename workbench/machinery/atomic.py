@@ -66,20 +66,6 @@ def check_place(path: Path, force: bool, how: str = "--force") -> None:
         raise InputError(f"{folder}: cannot be written to")
 
 
-def write_place(path: Path, data: bytes) -> None:
-    """Put the whole file in place, or nothing; a link is followed, killed writers' leftovers go.
-
-    Raises:
-        InputError: If it cannot be written.
-    """
-    final = path.resolve()
-    try:
-        remove_leftovers(final.parent)
-        write_atomic(final, data)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
-
-
 def write_places(files: Mapping[Path, bytes]) -> None:
     """Put all of some files in place, or none of them: what stood there stays where one fails.
 

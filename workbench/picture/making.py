@@ -10,7 +10,7 @@ from typing import Any
 
 from workbench.errors import InputError
 from workbench.lesson import Lesson
-from workbench.machinery.atomic import check_place, write_place, write_places
+from workbench.machinery.atomic import check_place, write_places
 from workbench.machinery.progress import Progress
 from workbench.page.chart_svg import telling_chart
 from workbench.page.steps import Steps
@@ -97,7 +97,7 @@ def picture_file(
         data = file.getvalue()
     else:
         data = svg_of(moment, style) if kind == ".svg" else png_of(moment, style)
-    write_place(out, data)
+    write_places({out: data})
     return [out]
 
 

@@ -12,7 +12,7 @@ import rerun as rr
 from workbench import knobs
 from workbench.errors import InputError
 from workbench.lesson import Lesson, course, find
-from workbench.machinery.atomic import check_place, write_place
+from workbench.machinery.atomic import check_place, write_places
 from workbench.machinery.licence import NOTICE
 from workbench.machinery.progress import Progress, bar
 from workbench.machinery.version import __version__
@@ -107,7 +107,7 @@ def record_file(
     with bar(progress, "Recording") as tell:
         timeline = _run(lesson, params, tell)
         data = record_bytes(timeline, preset=preset, progress=tell)
-    write_place(path, data)
+    write_places({path: data})
     return Written(len(timeline), len(data), timeline.stopped)
 
 
