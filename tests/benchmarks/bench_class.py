@@ -1,7 +1,7 @@
 """A class at one live server: how long a student waits, and what the server spends.
 
     python -m tests.benchmarks.bench_class [--students 100] [--seconds 15] [--only mixed] [--threads
-    2]
+    2] [--lesson icp]
 
 The server runs in processes of its own, the students, each a page and its scene, in this one.
 "words" is from the wish to the last byte of the step's words, "scene" to the last byte of its
@@ -164,7 +164,7 @@ async def one_knob(page: FakePage, rng: np.random.Generator) -> bool:
 async def one_lesson(server: Served, given: argparse.Namespace) -> dict[str, Waits]:
     """All on one lesson, stepping once a second."""
     found = {"one lesson": Waits()}
-    pages = await class_of(server, ["?lesson=icp"] * given.students)
+    pages = await class_of(server, [f"?lesson={given.lesson}"] * given.students)
     await asyncio.gather(*(page.until(lambda page: page.run["finished"]) for page in pages))
     await measured(
         server,
@@ -339,6 +339,7 @@ def main() -> None:
     parser.add_argument("--students", type=int, default=100)
     parser.add_argument("--seconds", type=float, default=15.0)
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--lesson", default="icp", help="of those who are all on one")
     parser.add_argument("--only", nargs="+", choices=sorted(SCENARIOS), default=list(SCENARIOS))
     parser.add_argument(
         "--lessons",

@@ -3,8 +3,8 @@ true.
 
 A lesson's module in this folder has
 
-- `caption(state)`: the caption of a state, where that is cheaper than drawing it whole (optional);
-  of a lesson with a `setup` it takes what `draw` takes, a `Look`;
+- `caption(look)`: the caption of a step of a lesson with a `setup`, which takes what `draw` takes;
+  other lessons' captions are taken from their `captions.caption(state)`;
 - `until_the_end(params)`: a lesson's run up to its algorithm's end, where it goes on with costly
   tries (optional): what seeds other than a preset's own are held to in a quick audit;
 - `right(run, k)`: whether the state is truly right (True), truly wrong (False), or neither is

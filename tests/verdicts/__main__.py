@@ -17,7 +17,7 @@ from typing import Any
 
 from tests.verdicts import Claim, Run, misvalued, untrue
 from workbench.lesson import Lesson, Look, States, catalog
-from workbench.scene import caption_of
+from workbench.scene import Caption
 
 WHOLE, QUICK = range(20), range(2)
 MOST = 5  # findings shown of a run
@@ -93,11 +93,11 @@ def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Itera
     """Return what is not true of one run: in its captions, in their tone, and in what is said of
     it.
     """
-    caption = getattr(judge, "caption", None)
+    caption = captioner(lesson, judge)
     for k, state in enumerate(run.states):
         look = Look(params=run.params, subject=run.subject, now=state, past=run.states[:k])
         given = state if lesson.setup is None else look
-        said = caption(given) if caption else caption_of(lesson.form.draw(look))
+        said = caption(given)
         yield from (f"step {k}: {what}" for what in untrue(said.text, judge.CAPTIONS, run, k))
         if lesson.setup is not None:
             yield from (f"step {k}: {what}" for what in misvalued(said, judge.VALUES, run, k))
@@ -108,6 +108,13 @@ def judged(lesson: Lesson, judge: Any, run: Run, texts: Sequence[Text]) -> Itera
         yield from (
             f"{name}: {what}" for what in untrue(text(run), claims, run, len(run.states) - 1)
         )
+
+
+def captioner(lesson: Lesson, judge: Any) -> Callable[[Any], Caption]:
+    """Return what makes the caption of a state alone: the judge's function, or the lesson's."""
+    if hasattr(judge, "caption"):
+        return judge.caption
+    return importlib.import_module(f"lessons.{lesson.name}.captions").caption
 
 
 def wordless(run: Run, texts: Sequence[Text]) -> list[str]:
