@@ -7,10 +7,10 @@
 
 A mutant is a module with one change (`mutants`). It is killed when its own tests fail, or take far
 longer than before. Of these, the tests run that come to the changed line, shortest first, up to a
-bound of time; where none does (code of child processes), the shortest of all. The project is
-copied, so that child processes meet the mutant too and nobody's files change. Each mutant runs in
-a fork of a process that has imported numpy, scipy and pytest. `equivalent.txt` names, with
-reasons, the mutants that nobody could tell from the original; these do not count.
+bound of time; where none does (code of child processes), the shortest that start another process.
+The project is copied, so that child processes meet the mutant too and nobody's files change. Each
+mutant runs in a fork of a process that has imported numpy, scipy and pytest. `equivalent.txt`
+names, with reasons, the mutants that nobody could tell from the original; these do not count.
 """
 
 import argparse
@@ -213,7 +213,8 @@ class House:
                 ]
         covered = bool(wanted)
         chosen, seconds = [], 0.0
-        for one in sorted(wanted or tests, key=lambda one: one["seconds"]):
+        elsewhere = [one for one in tests if one["starts"]] or tests
+        for one in sorted(wanted or elsewhere, key=lambda one: one["seconds"]):
             if seconds + one["seconds"] <= TESTED_FOR or not chosen:
                 chosen.append(one["test"])
                 seconds += one["seconds"]
@@ -299,17 +300,29 @@ class House:
             os._exit(code)
 
 
+STARTING = {"subprocess.Popen", "os.fork", "os.posix_spawn"}
+"""Events by which Python says that a process is started."""
+
+
 class Lines:
-    """A plugin that notes to which lines of ours each test comes."""
+    """A plugin that notes to which lines of ours each test comes, and whether it starts other
+    processes.
+    """
 
     def __init__(self, root: Path, file: Path) -> None:
         self.root, self.file, self.tests = f"{root}/workbench/", file, dict[str, dict]()
         self.common, self.at = dict[str, set[int]](), dict[str, set[int]]()
         self.skip = len(str(root)) + 1
+        self.test: dict | None = None
 
     def pytest_configure(self) -> None:
         self.at = self.common
         self._listen()
+        sys.addaudithook(self._heard)
+
+    def _heard(self, event: str, said: object) -> None:
+        if event in STARTING and self.test is not None:
+            self.test["starts"] = True
 
     def _listen(self) -> None:
         sys.settrace(self._called)
@@ -334,8 +347,10 @@ class Lines:
         self.at = {}
         self._listen()  # hypothesis takes the tracer away
         began = time.monotonic()
-        self.tests[item.nodeid] = {"test": item.nodeid, "passed": True}
+        self.test = {"test": item.nodeid, "passed": True, "starts": False}
+        self.tests[item.nodeid] = self.test
         result = yield
+        self.test = None
         self.tests[item.nodeid] |= {"seconds": time.monotonic() - began, "lines": self.at}
         self.at = self.common
         return result
