@@ -71,8 +71,9 @@ def compared(
     """Print a line; a floor that is a task is measured too, and told as its ratio."""
     bare = floor if callable(floor) else lambda: None
     mine, least, *theirs = best(ours, bare, *peers.values(), repeat=rounds)
-    told = f"{least / min(theirs, default=np.nan):.2f}" if callable(floor) else floor
-    line(task, mine, dict(zip(peers, theirs, strict=True)), told)
+    if callable(floor):
+        floor = f"{least / min(theirs):.2f}" if theirs else ""
+    line(task, mine, dict(zip(peers, theirs, strict=True)), floor)
 
 
 def bare_eight_points(x: np.ndarray, y: np.ndarray) -> Callable[[], Any]:
