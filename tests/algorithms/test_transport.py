@@ -92,7 +92,15 @@ def test_potentials_are_computed_only_where_they_pay(monkeypatch):
     rng = np.random.default_rng(0)
     p = rng.normal(size=(300, 3))
     near = (p + 0.02 * rng.normal(size=p.shape))[rng.permutation(len(p))]
-    for p_a, p_b, pays in ((p, near, False), (p, p + 0.5, True), (p[:200], p[:200] + 0.5, False)):
+    few = p[:150]
+    crowd = 0.1 * few + 1.0  # most of its points have the same few partners cheapest
+    for p_a, p_b, pays in (
+        (p, near, False),
+        (p, p + 0.5, True),
+        (few, few + 0.5, False),
+        (crowd, few, True),
+        (crowd[:60], few[:60], False),
+    ):
         computed.clear()
         assert earth_movers(p_a, p_b) == pytest.approx(optimum(p_a, p_b), rel=1e-12)
         assert bool(computed) is pays

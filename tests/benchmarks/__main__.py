@@ -140,7 +140,11 @@ def page(ran: list[Ran]) -> str:
             "A ratio is ours over the best peer, below 1 where ours is the faster; a floor is the"
             " ratio that a prototype in"
         ),
-        "numpy and scipy reached.",
+        (
+            "numpy and scipy reached or, where a sentence beside it says so, the ratio of those"
+            " calls that ours cannot"
+        ),
+        "spare, measured in the same run.",
         "",
         "| | |",
         "|---|---|",

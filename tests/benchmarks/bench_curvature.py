@@ -175,8 +175,10 @@ def compare(
     surface: Surface | None,
     floor: float | None,
     repeats: int,
-) -> None:
-    """Run all contenders in turns and print their figures and our ratio to each."""
+) -> dict[str, float]:
+    """Run all contenders in turns, print their figures and our ratio to each, and return the
+    medians, milliseconds.
+    """
     times: dict[str, list[float]] = {name: [] for name in contenders}
     answers = {name: contender() for name, contender in contenders.items()}
     for _ in range(repeats):
@@ -193,6 +195,7 @@ def compare(
         print(
             f"  {name:24}{medians[name]:9.1f}{ours / medians[name]:11.2f}{describe(answer, surface)}"  # noqa: E501
         )
+    return medians
 
 
 def describe(answer: object, surface: Surface | None) -> str:

@@ -84,31 +84,34 @@ def march(
     inner = np.zeros((n + 2, m + 2), bool)
     inner[1:-1, 1:-1] = free
     flat, width = d.ravel(), m + 2
-    open_ = (inner & ~np.isfinite(d)).ravel()  # may still fall; what was given stays
-    beside = np.array([-width, width, -1, 1])[:, None]
+    rows = slice(width, -width)  # without the rim's: places are counted in these
+    own = flat[rows]
+    open_ = (inner & ~np.isfinite(d)).ravel()[rows]  # may still fall; what was given stays
+    steps = np.array([0, 2 * width, width - 1, width + 1])[:, None]  # to the neighbours, in flat
+    left, right, below, above = (flat[step:] for step in steps.ravel())
     asked = np.zeros(flat.shape, bool)
-    changed, reach = np.flatnonzero(np.isfinite(flat)), 0.0
+    passed, reach = -np.inf, 0.0
     yield March(start.copy(), np.isfinite(start), reach)
     while True:
         reach += band
-        waiting = []
+        changed = np.flatnonzero((own > passed) & (own <= reach))
         for _ in range(n * m):  # values below the reach spread until none falls
-            ready = flat.take(changed) <= reach
-            waiting.append(changed.compress(~ready))
-            asked[beside + changed.compress(ready)] = True
-            at = (asked & open_).nonzero()[0]  # each once
+            asked[steps + changed] = True
+            at = (asked[rows] & open_).nonzero()[0]  # each once
             asked.fill(False)
             if not len(at):
                 break
-            near = flat.take(beside + at)
-            left, up = np.minimum(near[::2], near[1::2])
-            found = np.asarray(update(left, up, h), float)
-            falls = found < flat.take(at) - 1e-12 * h
-            falls &= found >= np.minimum(left, up)
-            changed = at.compress(falls)
-            flat[changed] = found.compress(falls)
-        changed = np.unique(np.concatenate(waiting)) if waiting else changed[:0]
+            a = np.minimum(left.take(at), right.take(at))
+            b = np.minimum(below.take(at), above.take(at))
+            found = np.asarray(update(a, b, h), float)
+            falls = found < own.take(at) - 1e-12 * h
+            falls &= found >= np.minimum(a, b)
+            fallen = at.compress(falls)
+            lower = found.compress(falls)
+            own[fallen] = lower
+            changed = fallen.compress(lower <= reach)
+        passed = reach
         now = d[1:-1, 1:-1].copy()
         yield March(now, now <= reach, reach)
-        if not len(changed):
+        if not (np.isfinite(now) & (now > reach)).any():
             return

@@ -36,8 +36,9 @@ _FIRST = 6
 _MORE = 4
 # exponent of a sweep's scalings, 1 to below 2: at 1 the solver takes up to four times as long
 _RELAXATION = 1.6
-_FEWEST = 250  # rows from which potentials gain more than they cost,
-# where at least this share of the columns is cheapest to no row, since rows contend for the others
+# columns that are cheapest to no row, since rows contend for the others: so many, and such a share
+# of all, from which potentials gain more than they cost
+_FEWEST = 90
 _CONTESTED = 0.35
 
 
@@ -164,7 +165,8 @@ def best_assignment(
         raise ValueError(
             f"one to one needs as many columns as rows, not {cost.shape[0]} x {cost.shape[1]}"
         )
-    if len(cost) >= _FEWEST and contested(cost) >= _CONTESTED:
+    share = contested(cost)
+    if share >= _CONTESTED and share * len(cost) >= _FEWEST:
         f, g = tight_potentials(cost, blurred_potentials(cost))
         cost = cost - f[:, None]
         cost -= g

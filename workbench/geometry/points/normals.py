@@ -114,15 +114,16 @@ def _neighbourhoods(
     """Yield wanted rows of p and the covariances of their k nearest, in chunks for the cache."""
     order = tree.indices[wanted[tree.indices]]  # so that consecutive queries touch the same leaves
     workers = -1 if len(order) > ALONE else 1
+    coordinates = np.ascontiguousarray(p.T)
     for start in range(0, len(order), CHUNK):
         rows = order[start : start + CHUNK]
         neighbours = np.asarray(tree.query(p[rows], k=k, workers=workers)[1])
-        yield rows, _covariances(p, rows, neighbours)
+        yield rows, _covariances(coordinates, rows, neighbours)
 
 
-def _covariances(p: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
+def _covariances(coordinates: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
     """Return xx, yy, zz, xy, xz, yz of each neighbourhood, about the point itself first."""
-    x, y, z = (own.take(neighbours) - own[rows, None] for own in np.ascontiguousarray(p.T))
+    x, y, z = (own.take(neighbours) - own[rows, None] for own in coordinates)
     for v in (x, y, z):
         v -= v.mean(1, keepdims=True)
     pairs = ((x, x), (y, y), (z, z), (x, y), (x, z), (y, z))

@@ -153,10 +153,10 @@ def fit_fundamental(
             f"eight points need at least 8 pairs of pixels, got {uv_first.shape} and"
             f" {uv_second.shape}"
         )
-    T_first, T_second = normalising_similarity(np.stack([uv_first, uv_second]))
-    constraints = epipolar_constraints(
-        (T_first @ homogeneous(uv_first).T).T, (T_second @ homogeneous(uv_second).T).T
-    )
+    uv = np.stack([uv_first, uv_second])
+    T_first, T_second = normalising_similarity(uv)
+    x, y = homogeneous(uv)
+    constraints = epipolar_constraints((T_first @ x.T).T, (T_second @ y.T).T)
     if weights is not None:
         constraints = constraints * np.sqrt(weights)[:, None]
     F = T_second.T @ rank_two(null_vector(constraints).reshape(3, 3)) @ T_first

@@ -29,7 +29,8 @@ def normalising_similarity(uv: Float[np.ndarray, "*k n 2"]) -> Float[np.ndarray,
     Reference: Hartley, In Defense of the Eight-Point Algorithm, PAMI 1997, section 5.
     """
     centroid = np.ones(uv.shape[-2]) @ uv / uv.shape[-2]  # quicker than the mean of columns
-    spread = np.sqrt(np.square(uv - centroid[..., None, :]) @ np.ones(2)).mean(axis=-1)
+    u, v = (uv[..., k] - centroid[..., k, None] for k in range(2))
+    spread = np.sqrt(u * u + v * v).mean(axis=-1)
     scale = np.sqrt(2.0) / np.where(spread > 0.0, spread, np.sqrt(2.0))
     T = np.zeros((*uv.shape[:-2], 3, 3), uv.dtype)
     T[..., 0, 0] = T[..., 1, 1] = scale
