@@ -4,12 +4,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from lessons.icp.inputs import Input
 from lessons.icp.scans import Scans, sampled, scans_of
 from workbench.algorithms.registration import icp
 from workbench.data.thinning import every
-from workbench.geometry.motions import apply, exp_so3, motion
+from workbench.geometry.motions import apply, motion, turns
 from workbench.geometry.motions.alignment import (
     MotionError,
     align_affine,
@@ -18,7 +19,6 @@ from workbench.geometry.motions.alignment import (
     motion_error,
     point_to_plane_step,
 )
-from workbench.geometry.points.metrics import rms
 from workbench.lesson import Slot, cached
 from workbench.tracing import untraced
 
@@ -27,7 +27,7 @@ ANGLES = tuple(range(0, 181, 15))  # degrees: how far away the tries start
 SLIDING = ("corner", "vase")  # moved onto themselves they look the same: no start leads home
 SHARES = (0.3, 0.4, 0.5, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0)  # of the matches, that the chart tries
 TRIED = 5000  # source points that a try uses at most; the built-in scans have no more
-TURNED = 1500  # source points that tell the cost of such a turn; of larger scans some, evenly
+TURNED = 500  # source points that tell the cost of such a turn, evenly spread over all
 TURNS = np.arange(-180.0, 181.0, 6.0)  # degrees at which the cost of a vase's turn is looked up
 
 
@@ -154,25 +154,27 @@ def cost_of_turns(scans: Scans, degrees: np.ndarray) -> np.ndarray:
     """
     assert scans.T_truth is not None
     placed = apply(scans.T_truth, scans.p_source[every(len(scans.p_source), TURNED)])
-    match = icp.matcher(scans.p_target, placed)
-    found = []
-    for angle in degrees:
-        turn = exp_so3(np.array([0.0, 0.0, np.radians(angle)]))
-        p = apply(motion(turn, np.zeros(3)), placed)
-        gaps = np.linalg.norm(scans.p_target[match(scans.p_target, p)] - p, axis=1)
-        found.append(rms(gaps))
-    return np.array(found)
+    about_vertical = turns(np.radians(degrees)[:, None] * [0.0, 0.0, 1.0])
+    p_turned = placed @ about_vertical.swapaxes(1, 2)
+    gaps = scipy.spatial.KDTree(scans.p_target).query(p_turned)[0]
+    return np.sqrt(np.square(gaps).mean(axis=1))
 
 
 @cached
 def landscapes(params: Input) -> dict[str, np.ndarray]:
-    """Return the cost of starting turned by TURNS, metres, of this shape and of the rabbit
-    beside it.
+    """Return the cost of starting turned by TURNS, metres, of this shape and of the rabbit, scanned
+    likewise.
     """
-    rabbit = sampled(Input(points=params.points, seed=params.seed, noise=params.noise))
+    rabbit = Input(
+        points=params.points,
+        seed=params.seed,
+        noise=params.noise,
+        overlap=params.overlap,
+        outliers=params.outliers,
+    )
     return {
         params.shape: cost_of_turns(sampled(params), -TURNS),
-        "rabbit": cost_of_turns(rabbit, -TURNS),
+        "rabbit": cost_of_turns(sampled(rabbit), -TURNS),
     }
 
 

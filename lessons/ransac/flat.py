@@ -29,6 +29,7 @@ WIDTHS = np.arange(5.0, 301.0, 5.0) / MM
 APARTS = np.append(np.arange(0.05, 0.5, 0.05), np.arange(0.5, 1.81, 0.1))
 REDRAWN = 30  # times the noise of two points
 STUDIES = 60  # scenes
+SMALL = 36_000  # numbers in an array: larger ones cost more than the calls that they save
 VOTES = Chart("Votes of each draw", "draw", y_range=(0.0, 40.0))
 CHANCE = Chart(
     "Chance that all are spoilt",
@@ -158,14 +159,16 @@ def fan(params: Input, subject: Subject, apart: float) -> Fan:
 @cached
 def errors_by_width(params: Input) -> np.ndarray:
     """Return the error of the finished fit (m) for each of WIDTHS: the median over sixty scenes."""
-    errors = np.zeros((STUDIES, len(WIDTHS)))
-    for k in range(STUDIES):
-        made = _scene(params, k)
-        lines = _most_votes(made.p, k)
+    errors = []
+    groups = min(STUDIES, _pieces(STUDIES * len(WIDTHS) * params.points))
+    for seeds in np.array_split(np.arange(STUDIES), groups):
+        scenes = [_scene(params, int(seed)) for seed in seeds]
+        p, p_true = (np.stack([getattr(made, name) for made in scenes]) for name in ("p", "p_true"))
+        lines = np.stack([_most_votes(*drawn) for drawn in zip(p, seeds, strict=True)])
         for _ in range(5):
-            lines = fit_hyperplanes(made.p, LINE.distances(lines, made.p) <= WIDTHS[:, None])
-        errors[k] = np.sqrt((LINE.distances(lines, made.p_true) ** 2).mean(axis=1))
-    return np.median(errors, axis=0)
+            lines = fit_hyperplanes(p, LINE.distances(lines, p) <= WIDTHS[:, None])
+        errors.append(np.sqrt((LINE.distances(lines, p_true) ** 2).mean(axis=-1)))
+    return np.median(np.concatenate(errors), axis=0)
 
 
 def _most_votes(p: np.ndarray, seed: int) -> np.ndarray:
@@ -173,8 +176,14 @@ def _most_votes(p: np.ndarray, seed: int) -> np.ndarray:
     samples = draw_samples(len(p), 2, 200, rng=np.random.default_rng(seed))
     lines = LINE.solve(p[samples])
     p_h = np.vstack([p.T, np.ones(len(p))]) / WIDTHS[0]  # distances in steps of the width
-    votes = [_votes_by_width(some @ p_h) for some in np.array_split(lines, 4)]  # small arrays
+    pieces = np.array_split(lines, min(len(lines), _pieces(len(lines) * len(p))))
+    votes = [_votes_by_width(some @ p_h) for some in pieces]
     return lines[np.concatenate(votes).argmax(axis=0)]
+
+
+def _pieces(numbers: int) -> int:
+    """Return in how many pieces so many numbers are computed, each of SMALL at most."""
+    return -(-numbers // SMALL)
 
 
 def _votes_by_width(steps: np.ndarray) -> np.ndarray:

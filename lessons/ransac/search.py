@@ -10,7 +10,7 @@ import numpy as np
 from lessons.ransac.inputs import Input
 from lessons.ransac.rows import Subject, built_in, rows_of
 from workbench.algorithms.robust import HUBER, reweighted_fit
-from workbench.algorithms.robust.models import PLANE, from_points
+from workbench.algorithms.robust.models import PLANE, Model, from_points
 from workbench.algorithms.robust.ransac import Fit, Judge, State, ransac
 from workbench.algorithms.robust.ransac import iterations_needed as needed
 from workbench.algorithms.robust.samplers import prosac_samples, uniform_samples
@@ -53,9 +53,9 @@ def with_limit(params: Input, rows: Subject) -> Subject:
 
 
 def winner(params: Input, subject: Subject) -> Fit | None:
-    """Return what a whole run ends with."""
+    """Return what a whole run ends with; nobody's own functions do its work."""
     with untraced():
-        *_, end = search(params, subject)
+        *_, end = _tries(params, subject, subject.model, judge=_judge(params, subject))
     return end.best
 
 
@@ -82,26 +82,34 @@ def search(
     """Yield the parts of RANSAC that are shown. On planes the functions given here do their
     work.
     """
-    model = subject.model
-    judge = Judge(
-        p=subject.p, model=model, inlier_distance=subject.limit, score=_score(params, subject)
-    )
+    model, judge = subject.model, _judge(params, subject)
     if model is PLANE:
         model = replace(PLANE, solve=from_points(_checked(plane_from_points)))
         judge = _counting(judge, count_inliers, decides=params.score == "count")
-    for now in ransac(
+    tries = _tries(params, subject, model, judge=judge, needed_for=iterations_needed)
+    yield from (now for now in tries if _shown(params, now))
+
+
+def _tries(
+    params: Input,
+    subject: Subject,
+    model: Model,
+    *,
+    judge: Callable[[np.ndarray], Fit],
+    needed_for: Slot = needed,
+) -> Iterator[State]:
+    """Return all parts of RANSAC."""
+    return ransac(
         subject.p,
         model,
         chain(chosen_sample(params, subject), _samples(params, subject)),
         judge,
-        needed_for=iterations_needed,
+        needed_for=needed_for,
         share_of=(lambda fit: subject.trusted(fit)[1]) if params.sampler == "PROSAC" else None,
         confidence=params.confidence,
         max_iterations=params.most_samples,
         local_refit=params.local_refit,
-    ):
-        if _shown(params, now):
-            yield now
+    )
 
 
 def chosen_sample(params: Input, subject: Subject) -> list[np.ndarray]:
@@ -133,6 +141,15 @@ def _shown(params: Input, now: State) -> bool:
     if params.steps == "every sample":
         return now.phase in ("inliers", "degenerate")
     return params.steps == "every part"
+
+
+def _judge(params: Input, subject: Subject) -> Judge:
+    return Judge(
+        p=subject.p,
+        model=subject.model,
+        inlier_distance=subject.limit,
+        score=_score(params, subject),
+    )
 
 
 def _score(params: Input, subject: Subject) -> Score:

@@ -90,11 +90,12 @@ def test_a_circle_of_matches_and_the_last_round_stop_a_run(lines):
     assert (end.iteration, end.stop) == (3, Stop.MAX_ITERATIONS)
 
 
-def test_the_basin_is_what_trying_each_start_says(lines):
-    p_target, p_source, _ = lines
+@pytest.mark.parametrize("sliding", [False, True])
+def test_the_basin_is_what_trying_each_start_says(lines, sliding):
+    p_target, p_source, n_target = lines
 
     def end_of(start: float) -> float:
-        *_, end = icp_turn(p_target, p_source, start)
+        *_, end = icp_turn(p_target, p_source, start, n_target=n_target if sliding else None)
         return end.angle
 
     low, high = basin(end_of)

@@ -8,6 +8,7 @@ References: Besl and McKay, A method for registration of 3-D shapes, 1992, secti
 Medioni, Object modelling by registration of multiple range images, 1992 (distances to lines).
 """
 
+import bisect
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal
@@ -179,17 +180,23 @@ def basin(
 ) -> tuple[float, float]:
     """Return the lowest and the highest start, around 0, from which a run ends at 0, degrees.
 
+    The edge to either side is found by halving: where a start comes home, all nearer ones are taken
+    to come home too.
+
     Args:
         end_of: Gives the end of a run by its start, both degrees.
         within: How near to 0 an end counts as there.
-        step: Between the starts that are tried.
+        step: Between the starts that are told apart.
     """
+
+    def elsewhere(start: float) -> bool:
+        return abs(within_half(end_of(start))) > within
+
     ends = []
-    for sign in (-1.0, 1.0):
-        last = 0.0
-        while last < 180.0 and abs(within_half(end_of(sign * (last + step)))) <= within:
-            last += step
-        ends.append(sign * last)
+    for outwards in (-step, step):
+        starts = outwards * np.arange(180.0 // step + 1.0)  # the first, 0, is home
+        last = bisect.bisect_left(starts, True, lo=1, key=elsewhere) - 1
+        ends.append(float(starts[last]))
     return ends[0], ends[1]
 
 

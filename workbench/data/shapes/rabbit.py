@@ -27,6 +27,13 @@ _RABBIT = (
     ((-0.10, -0.21, -0.22), (0.19, 0.08, 0.09), (0.0, 0.0, -0.2)),  # right hind foot
     ((-0.14, 0.20, -0.19), (0.17, 0.08, 0.12), (0.0, 0.0, 0.3)),  # left hind foot
 )
+_SCALES = np.array([min(radii) for _, radii, _ in _RABBIT])[:, None]  # metres, of the unit balls
+_TO_BALLS = np.vstack(  # rows 3 i to 3 i + 2 take blob i, once about its centre, to the unit ball
+    [(exp_so3(np.array(turn)) / radii).T for _, radii, turn in _RABBIT]
+)
+_MIDDLES = np.concatenate(  # where they take the centres
+    [(exp_so3(np.array(turn)) / radii).T @ centre for centre, radii, turn in _RABBIT]
+)
 _BLEND = 60.0  # 1/m: how sharply the blobs meet
 _LOW, _HIGH = np.array([-0.55, -0.40, -0.43]), np.array([0.55, 0.40, 0.82])  # a box around them
 _ROUNDS = 5  # of moving vertices towards the middle of their neighbours
@@ -43,8 +50,8 @@ def rabbit(count: int, rng: np.random.Generator) -> Cloud:
     for i, (centre, radii, turn) in enumerate(_RABBIT):
         p = _ellipsoid(int(3 * count * areas[i] / areas.sum()) + 8, np.array(radii), rng)
         p = p @ exp_so3(np.array(turn)).T + np.array(centre)
-        others = [_blob_distance(p, *blob)[0] for j, blob in enumerate(_RABBIT) if j != i]
-        pieces.append(p[np.min(others, axis=0) > 0])
+        others = np.delete(_lengths(_in_balls(p)), i, axis=0)
+        pieces.append(p[(others > 1.0).all(axis=0)])
     p = np.concatenate(pieces)
     return _onto_surface(p[rng.choice(len(p), count, replace=len(p) < count)])
 
@@ -80,12 +87,14 @@ def rabbit_field(p: Cloud) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "
 
     It is no distance: its gradient is 0.57 to 0.97 long in the box around the rabbit.
     """
-    found = [_blob_distance(p, *blob) for blob in _RABBIT]
-    values, gradients = np.stack([v for v, _ in found]), np.stack([g for _, g in found])
+    q = _in_balls(p)
+    norms = _lengths(q)
+    values = _SCALES * (norms - 1.0)  # roughly the signed distances to the ellipsoids
     least = values.min(axis=0)
     weights = np.exp(-_BLEND * (values - least))
     total = weights.sum(axis=0)
-    return least - np.log(total) / _BLEND, np.einsum("bi,bij->ij", weights / total, gradients)
+    pulls = (weights / total * _SCALES / norms)[:, None] * q
+    return least - np.log(total) / _BLEND, pulls.reshape(len(_TO_BALLS), -1).T @ _TO_BALLS
 
 
 def _onto_surface(p: np.ndarray, steps: int = 4) -> np.ndarray:
@@ -104,15 +113,13 @@ def _ellipsoid(count: int, radii: np.ndarray, rng: np.random.Generator) -> np.nd
     return (u * radii)[rng.random(count) < stretch]
 
 
-def _blob_distance(
-    p: np.ndarray, centre: tuple, radii: tuple, turn: tuple
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return roughly the signed distance to an ellipsoid, and its gradient."""
-    R = exp_so3(np.array(turn))
-    q = (p - np.array(centre)) @ R / np.array(radii)
-    norm = np.maximum(np.linalg.norm(q, axis=1), 1e-9)
-    scale = min(radii)
-    return scale * (norm - 1.0), scale * (q / norm[:, None] / np.array(radii)) @ R.T
+def _in_balls(p: Cloud) -> Float[np.ndarray, "b 3 n"]:
+    """Return where points are once each blob is the unit ball: one product for all blobs."""
+    return (_TO_BALLS @ p.T - _MIDDLES[:, None]).reshape(len(_RABBIT), 3, -1)
+
+
+def _lengths(q: Float[np.ndarray, "b 3 n"]) -> Float[np.ndarray, "b n"]:
+    return np.maximum(np.sqrt(np.square(q).sum(axis=1)), 1e-9)
 
 
 def _mean_product(radii: tuple[float, float, float]) -> float:

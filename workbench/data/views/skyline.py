@@ -45,11 +45,13 @@ def skyline() -> Skyline:
                 towers.append((foot, size))
     valley = chequered(np.arange(-14, 15), np.arange(1, 17), 100.0, height=VALLEY, colors=GREENS)
     solids, edges, storeys = [valley, _mountains()], [], []
+    block = box((1.0, 1.0, 1.0))  # every tower is this one, stretched
     for k, ((x, y), size) in enumerate(towers):
-        tower, foot = box(size), np.array([x, y, VALLEY])
-        solids.append(lit((tower.p + foot, tower.faces), WALLS[k % len(WALLS)]))
-        edges.append(tower.lines + foot)
-        ring = np.stack([tower.p[:4], np.roll(tower.p[:4], -1, axis=0)], axis=1) + foot
+        foot = np.array([x, y, VALLEY])
+        p_tower = block.p * size + foot
+        solids.append(lit((p_tower, block.faces), WALLS[k % len(WALLS)]))
+        edges.append(block.lines * size + foot)
+        ring = np.stack([p_tower[:4], np.roll(p_tower[:4], -1, axis=0)], axis=1)
         storeys += [ring + np.array([0.0, 0.0, z]) for z in np.arange(STOREYS, size[2], STOREYS)]
     return Skyline(tuple(solids), np.concatenate(edges), np.concatenate(storeys))
 
@@ -58,9 +60,16 @@ def skyline() -> Skyline:
 def skyline_items() -> tuple[MeshItem | SegmentItem, ...]:
     """Return what `cameras.raster.render` takes to make a photograph of the city."""
     scene = skyline()
-    meshes = [MeshItem(solid.p_world, solid.faces, solid.colors) for solid in scene.solids]
+    starts = np.cumsum([0, *[len(solid.p_world) for solid in scene.solids[:-1]]])
+    whole = MeshItem(  # one mesh is drawn several times as fast as 82
+        np.concatenate([solid.p_world for solid in scene.solids]),
+        np.concatenate(
+            [solid.faces + start for solid, start in zip(scene.solids, starts, strict=True)]
+        ),
+        np.concatenate([solid.colors for solid in scene.solids]),
+    )
     return (
-        *meshes,
+        whole,
         SegmentItem(
             scene.storeys, np.tile(np.array(LINE_COLOR, np.uint8), (len(scene.storeys), 1))
         ),

@@ -58,27 +58,29 @@ def fit_hyperplane(
 
 
 def fit_hyperplanes(
-    p: Float[np.ndarray, "n d"], weights: Shaped[np.ndarray, "m n"]
-) -> Float[np.ndarray, "m d+1"]:
+    p: Float[np.ndarray, "*k n d"], weights: Shaped[np.ndarray, "*k m n"]
+) -> Float[np.ndarray, "*k m d+1"]:
     """Return `fit_hyperplane` of the same points under each row of weights; NaN where it raises.
 
     Args:
-        p: The points, metres.
+        p: The points, metres; of one cloud, or of many with as many points each.
         weights: Of each fit a weight for each point, or whether it counts.
     """
-    d = p.shape[1]
-    few = np.count_nonzero(weights > 0, axis=1) < d
-    middle = p.mean(axis=0)  # about it, sums of squares lose no digits
+    d = p.shape[-1]
+    few = np.count_nonzero(weights > 0, axis=-1) < d
+    middle = p.mean(axis=-2, keepdims=True)  # about it, sums of squares lose no digits
     q = p - middle
-    products = (q[:, :, None] * q[:, None, :]).reshape(-1, d * d)
-    sums = weights.astype(float) @ np.column_stack([np.ones(len(p)), q, products])
-    total = np.where(few, 1.0, sums[:, 0])[:, None]
-    mean = sums[:, 1 : d + 1] / total
-    scatter = (sums[:, d + 1 :] / total).reshape(-1, d, d) - mean[:, :, None] * mean[:, None]
-    normal = np.linalg.eigh(scatter)[1][..., 0]
-    most = np.take_along_axis(normal, np.abs(normal).argmax(axis=1)[:, None], axis=1)
-    normal = np.where(few[:, None], np.nan, normal * np.sign(most))
-    return np.column_stack([normal, -(normal * (mean + middle)).sum(axis=1)])
+    products = (q[..., :, None] * q[..., None, :]).reshape(*p.shape[:-1], d * d)
+    summed = np.concatenate([np.ones_like(q[..., :1]), q, products], axis=-1)
+    sums = weights.astype(float) @ summed
+    total = np.where(few, 1.0, sums[..., 0])[..., None]
+    mean = sums[..., 1 : d + 1] / total
+    scatter = (sums[..., d + 1 :] / total).reshape(*few.shape, d, d)
+    normal = np.linalg.eigh(scatter - mean[..., :, None] * mean[..., None, :])[1][..., 0]
+    largest = np.abs(normal).argmax(axis=-1)[..., None]
+    normal = normal * np.sign(np.take_along_axis(normal, largest, axis=-1))
+    normal = np.where(few[..., None], np.nan, normal)
+    return _through(normal, mean + middle)
 
 
 def regression_line(p: Float[np.ndarray, "n 2"], on: int) -> Float[np.ndarray, "3"]:
@@ -107,10 +109,13 @@ def line_angle(line: Float[np.ndarray, "3"]) -> float:
 
 
 def hyperplane_distances(
-    hyperplane: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "n d"]
+    hyperplane: Float[np.ndarray, "*k c"], p: Float[np.ndarray, "*j n d"]
 ) -> Float[np.ndarray, "*k n"]:
-    """Return each point's signed distance from each line or plane, in the input's precision."""
-    return hyperplane[..., :-1] @ p.T + hyperplane[..., -1:]
+    """Return each point's signed distance from each line or plane, in the input's precision.
+
+    Of many clouds, each has its own rows of lines or planes.
+    """
+    return hyperplane[..., :-1] @ p.swapaxes(-1, -2) + hyperplane[..., -1:]
 
 
 def angle_between_planes(
@@ -140,4 +145,4 @@ def _unit(v: np.ndarray, smallest: float | np.ndarray) -> np.ndarray:
 
 def _squared_extent(p: np.ndarray) -> np.ndarray:
     """Return the largest squared side of each triangle."""
-    return np.asarray(np.square(p - np.roll(p, 1, axis=-2)).sum(-1).max(-1))
+    return np.asarray(np.square(p - p[..., [2, 0, 1], :]).sum(-1).max(-1))
