@@ -129,7 +129,9 @@ class Samples:
     """
 
     def __init__(self, subject: Subject, p: np.ndarray) -> None:
-        self._subject, self._p, self._asked = subject, p, False
+        self._subject = subject
+        self._p = p
+        self._asked = False
 
     def __call__(self, rows: np.ndarray) -> np.ndarray:
         """Return the distances of the points in these rows, m."""

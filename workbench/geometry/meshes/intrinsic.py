@@ -63,7 +63,8 @@ class _Sides:
 
     def bends(self, h: int) -> bool:
         """Return whether the angles opposite a side's edge are more than pi together."""
-        t, after = self.twin[h], self.next
+        t = self.twin[h]
+        after = self.next
         return (
             t >= 0
             and self._angle(after[after[h]]) + self._angle(after[after[t]]) > np.pi + STRAIGHT
@@ -84,7 +85,8 @@ class _Sides:
 
         With the edge from a to b, c opposite it and d beyond: abc and bad become dca and cdb.
         """
-        t, after = self.twin[h], self.next
+        t = self.twin[h]
+        after = self.next
         bc, ca, ad, db = after[h], after[after[h]], after[t], after[after[t]]
         long, wide = self.length[ca], self.length[ad]
         turn = self._angle(h) + self._angle(ad)
