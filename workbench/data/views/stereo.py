@@ -89,25 +89,11 @@ def synthetic_views(
     )
 
 
-def synthetic_pair(
-    scene: str,
-    camera: StereoCamera,
-    size: tuple[int, int],
-    *,
-    noise: float,
-    rng: np.random.Generator,
-) -> StereoPair:
-    """Take two pictures of a scene in `SCENES`: as `synthetic_views`, with noise in grey levels of
-    255.
-    """
-    return synthetic_views(scene, camera, size, rng=rng).exposed(noise)
-
-
 def shares_hidden(
     scene: str, cameras: Sequence[StereoCamera], size: tuple[int, int]
 ) -> Float[np.ndarray, " n"]:
     """Return the share of left pixels that the right camera does not see, of cameras that differ in
-    nothing but the baseline: as of a `synthetic_pair`, from the depths alone.
+    nothing but the baseline: as of `synthetic_views`, from the depths alone.
     """
     left = cameras[0]
     things = SCENES[scene](np.random.default_rng(0), 1.0 / left.f)  # which colours is all the same
