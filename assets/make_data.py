@@ -12,7 +12,7 @@ from PIL import Image
 
 from workbench.data.shapes.clouds import pair
 from workbench.data.shapes.surfaces import torus
-from workbench.data.views.stereo import synthetic_pair
+from workbench.data.views.stereo import synthetic_views
 from workbench.geometry.cameras.stereo import StereoCamera
 from workbench.geometry.motions import exp_se3
 
@@ -34,9 +34,8 @@ def main() -> None:
     )
     surface = torus(2000)
     trimesh.Trimesh(surface.p, surface.faces, process=False).export(DATA / "torus.ply")
-    views = synthetic_pair(
-        "spheres", StereoCamera(150.0, 79.5, 59.5, 0.1), (160, 120), noise=2.0, rng=rng
-    )
+    camera = StereoCamera(150.0, 79.5, 59.5, 0.1)
+    views = synthetic_views("spheres", camera, (160, 120), rng=rng).exposed(2.0)
     for name, picture in (("left", views.left), ("right", views.right)):
         Image.fromarray(picture).save(DATA / f"{name}.png", optimize=True)
 

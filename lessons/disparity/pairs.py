@@ -10,11 +10,12 @@ from workbench.algorithms.stereo.cost_volume import census_cost_volume
 from workbench.algorithms.stereo.disparity_map import agree, seen_from_right, winner_takes_all
 from workbench.data.views.stereo import (
     StereoPair,
+    StereoViews,
     grey,
     motorcycle_pair,
     read_pair,
     shrunk,
-    synthetic_pair,
+    synthetic_views,
 )
 from workbench.errors import InputError
 from workbench.geometry.cameras.stereo import StereoCamera
@@ -177,8 +178,14 @@ def made(params: Input) -> StereoPair:
 @functools.lru_cache(maxsize=24)
 def taken(scene: str, f: float, baseline: float, *, noise: float, seed: int) -> StereoPair:
     """Return the pair that two cameras take of a scene; f in pixels, the baseline in metres."""
+    return _views(scene, f, baseline, seed=seed).exposed(noise)
+
+
+@functools.lru_cache(maxsize=8)
+def _views(scene: str, f: float, baseline: float, *, seed: int) -> StereoViews:
+    """Return what the cameras see, which the noise leaves alone."""
     camera = StereoCamera(f, (SIZE[0] - 1) / 2, (SIZE[1] - 1) / 2, baseline)
-    return synthetic_pair(scene, camera, SIZE, noise=noise, rng=np.random.default_rng(seed))
+    return synthetic_views(scene, camera, SIZE, rng=np.random.default_rng(seed))
 
 
 @cached(most=2)

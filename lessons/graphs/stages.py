@@ -72,7 +72,7 @@ def joined(
     """
     if params.join != "union" or len(subject.p) > MOST_DENSE:
         return graphs.joined(directed, params.join)
-    return scipy.sparse.csr_array(_finite("knn_adjacency", functions.knn_adjacency(subject.p, k)))
+    return graphs.sparse(_finite("knn_adjacency", functions.knn_adjacency(subject.p, k)))
 
 
 def adjacency_of(params: Params, subject: Subject, functions: Functions) -> Sparse:
@@ -110,9 +110,7 @@ def laplacian_of(
             cotangent_laplacian(subject.p, subject.faces), mixed_areas(subject.p, subject.faces)
         )
     if adjacency.shape[0] <= MOST_DENSE:
-        matrix = scipy.sparse.csr_array(
-            _finite("laplacian", functions.laplacian(adjacency.toarray()))
-        )
+        matrix = graphs.sparse(_finite("laplacian", functions.laplacian(adjacency.toarray())))
     else:
         matrix = graphs.laplacian(adjacency)
     d = graphs.degrees(adjacency)

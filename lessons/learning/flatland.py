@@ -27,9 +27,9 @@ def medium(
     """
     density, color = np.zeros(p.shape[:-1]), np.zeros((*p.shape[:-1], 3))
     for (x, y, radius), own in zip(DISCS, COLORS, strict=True):
-        away = p - [x, y]
-        inside = (away**2).sum(axis=-1) < radius**2
-        slices = 0.75 + 0.25 * np.sign(np.sin(6 * np.arctan2(away[inside, 1], away[inside, 0])))
+        right, up = p[..., 0] - x, p[..., 1] - y
+        inside = right**2 + up**2 < radius**2
+        slices = 0.75 + 0.25 * np.sign(np.sin(6 * np.arctan2(up[inside], right[inside])))
         density[inside] = DENSITY
         color[inside] = own * slices[:, None]
     return density, color

@@ -23,7 +23,7 @@ from lessons.representations.state import (
     Subject,
     Surface,
 )
-from lessons.representations.subjects import RING, TUBE, covered, measured
+from lessons.representations.subjects import RING, TUBE, Samples, covered, measured
 from workbench.algorithms.learning.neural_field import new_network, train_field
 from workbench.algorithms.spatial.kd_tree import build_tree, looked_at, search
 from workbench.algorithms.spatial.octree import grow_octree
@@ -230,8 +230,8 @@ def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
         grid.centres(),
     )
     counts = iteration_counts(params.iterations)
-    field = subject.field(p) if subject.quick else _known(subject, p.tobytes())
-    found = train_field(network, p, field, counts=counts, target=params.target, rng=rng)
+    samples = Samples(subject, p) if subject.quick else _known(subject, p.tobytes())
+    found = train_field(network, p, samples, counts=counts, target=params.target, rng=rng)
     for trained in found:
         values = trained.network(corners).reshape(grid.shape)
         surface = measured(subject, *level_surface(values, grid, functions.edge_crossings))
@@ -241,9 +241,9 @@ def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
 
 
 @functools.lru_cache(maxsize=4)
-def _known(subject: Subject, p: bytes) -> np.ndarray:
+def _known(subject: Subject, p: bytes) -> Samples:
     """Return the distances of samples to a mesh, which do not change with the network."""
-    return subject.field(np.frombuffer(p).reshape(-1, 3))
+    return Samples(subject, np.frombuffer(p).reshape(-1, 3))
 
 
 def iteration_counts(last: int) -> tuple[int, ...]:

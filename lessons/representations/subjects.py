@@ -121,6 +121,30 @@ def covered(subject: Subject, p: np.ndarray) -> tuple[float, float, np.ndarray]:
     return float(away.mean()), float(away.max()), subject.on[int(away.argmax())]
 
 
+class Samples:
+    """The distances that are stored of some points.
+
+    Those of the first rows that are asked for are found alone, as a first picture needs no more;
+    then all.
+    """
+
+    def __init__(self, subject: Subject, p: np.ndarray) -> None:
+        self._subject = subject
+        self._p = p
+        self._asked = False
+
+    def __call__(self, rows: np.ndarray) -> np.ndarray:
+        """Return the distances of the points in these rows, m."""
+        if self._asked:
+            return self._all[rows]
+        self._asked = True
+        return self._subject.field(self._p[rows])
+
+    @functools.cached_property
+    def _all(self) -> np.ndarray:
+        return self._subject.field(self._p)
+
+
 @functools.cache
 def spread_numbers() -> np.ndarray:
     """Return the numbers that spread points over any surface, the same for all."""
@@ -132,10 +156,11 @@ def _tilt(subject: Subject, p: np.ndarray, faces: np.ndarray, u: np.ndarray) -> 
     normals = face_normals(p, faces)
     k, _ = places_on_faces(p, faces, u)
     q = points_on_faces(p, faces, u)
-    steps = [
-        subject.distance(q + STEP * axis) - subject.distance(q - STEP * axis) for axis in np.eye(3)
-    ]
-    gradient = np.stack(steps, axis=1)
+    steps = STEP * np.concatenate([np.eye(3), -np.eye(3)])
+    ahead, behind = (
+        subject.distance((q[:, None] + steps).reshape(-1, 3)).reshape(-1, 2, 3).swapaxes(0, 1)
+    )
+    gradient = ahead - behind
     size = np.linalg.norm(gradient, axis=1)
     cosine = np.einsum("nx,nx->n", gradient, normals[k])[size > 0] / size[size > 0]
     return float(np.degrees(np.arccos(np.clip(cosine, -1, 1))).mean())

@@ -28,14 +28,16 @@ from workbench.algorithms.stereo.disparity_map import (
     winner_takes_all,
 )
 from workbench.data.files import read_image
-from workbench.data.views.stereo import grey, motorcycle_pair, synthetic_pair
+from workbench.data.views.stereo import grey, motorcycle_pair, synthetic_views
 from workbench.geometry.cameras.stereo import StereoCamera, depth_cloud, depth_from_disparity
 
 CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 
 
 def made(scene, noise=2.0, camera=CAMERA, seed=0) -> tuple[Any, np.ndarray, np.ndarray]:
-    pair = synthetic_pair(scene, camera, (160, 120), noise=noise, rng=np.random.default_rng(seed))
+    pair = synthetic_views(scene, camera, (160, 120), rng=np.random.default_rng(seed)).exposed(
+        noise
+    )
     assert pair.disparity is not None
     assert pair.visible is not None
     return (

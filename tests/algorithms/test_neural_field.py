@@ -71,7 +71,7 @@ def test_the_loss_falls_and_states_stay_as_they_were():
         train_field(
             new_network(16, 1, "tanh", rng=rng),
             p,
-            y,
+            y.__getitem__,
             counts=(0, 20, 100, 300),
             target="sdf",
             rng=rng,
@@ -90,7 +90,7 @@ def test_what_is_learned_is_negative_inside(target):
     p, y = samples(2000, 4)
     rng = np.random.default_rng(5)
     *_, last = train_field(
-        new_network(12, 1, "tanh", rng=rng), p, y, counts=(300,), target=target, rng=rng
+        new_network(12, 1, "tanh", rng=rng), p, y.__getitem__, counts=(300,), target=target, rng=rng
     )
     value = last.network(p)
     far = np.abs(y) > 0.05
@@ -104,5 +104,7 @@ def test_outputs_beyond_the_clamp_learn_nothing():
     dead = FieldNetwork(values=values, sizes=network.sizes, frequencies=1, activation="tanh")
     p, y = samples(2 * BATCH)
     counts = (0, 50)
-    _, last = train_field(dead, p, y, counts=counts, target="clamped", rng=np.random.default_rng(7))
+    _, last = train_field(
+        dead, p, y.__getitem__, counts=counts, target="clamped", rng=np.random.default_rng(7)
+    )
     np.testing.assert_array_equal(last.network.values, values)

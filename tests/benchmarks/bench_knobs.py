@@ -19,7 +19,7 @@ from multiprocessing import get_context
 from typing import Any
 
 from workbench.machinery.threads import one_each
-from workbench.machinery.warming import load_scipy
+from workbench.machinery.warming import load_parts
 
 one_each()  # as the server does, before numpy comes
 
@@ -78,7 +78,7 @@ class Turn:
 
 def main(names: list[str]) -> None:
     """Print a row per lesson, and below it the knobs whose first picture takes too long."""
-    load_scipy()  # as the server does when it starts
+    load_parts()  # as the server does when it starts
     print(
         f"{'processor time, ms':<18}{'opened':>8}{'its run':>9}{'knobs':>7}"
         f"{'median':>8}{'worst':>7}  of a whole run",

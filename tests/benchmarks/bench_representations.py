@@ -86,7 +86,12 @@ def networks() -> dict[str, Contender]:
     def ours() -> float:
         rng = np.random.default_rng(1)
         *_, last = train_field(
-            new_network(32, 2, "tanh", rng=rng), p, y, counts=(1500,), target="sdf", rng=rng
+            new_network(32, 2, "tanh", rng=rng),
+            p,
+            y.__getitem__,
+            counts=(1500,),
+            target="sdf",
+            rng=rng,
         )
         return float(np.abs(last.network(p) - y).mean())
 
@@ -122,7 +127,12 @@ def steps() -> dict[str, Contender]:
     def ours() -> float:
         rng = np.random.default_rng(1)
         *_, last = train_field(
-            new_network(32, 2, "tanh", rng=rng), p, y, counts=(25,), target="sdf", rng=rng
+            new_network(32, 2, "tanh", rng=rng),
+            p,
+            y.__getitem__,
+            counts=(25,),
+            target="sdf",
+            rng=rng,
         )
         return float(len(level_surface(last.network(corners).reshape(grid.shape), grid)[0]))
 

@@ -26,7 +26,7 @@ from workbench.algorithms.stereo.cost_volume import census_cost_volume, sad_cost
 from workbench.algorithms.stereo.disparity import match, usual_penalties
 from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.data.files import read_image
-from workbench.data.views.stereo import StereoPair, grey, motorcycle_pair, shrunk, synthetic_pair
+from workbench.data.views.stereo import StereoPair, grey, motorcycle_pair, shrunk, synthetic_views
 from workbench.geometry.cameras.stereo import StereoCamera
 
 CONES = Path(__file__).resolve().parents[3] / "shared" / "data" / "stereo" / "cones"
@@ -65,13 +65,9 @@ def tasks() -> dict[str, Task]:
     """Return the default run's balls, the motorcycle of its preset, and cones at half their size
     where they are there.
     """
-    balls = synthetic_pair(
-        "spheres",
-        StereoCamera(150.0, 79.5, 59.5, 0.1),
-        (160, 120),
-        noise=4.0,
-        rng=np.random.default_rng(0),
-    )
+    camera = StereoCamera(150.0, 79.5, 59.5, 0.1)
+    views = synthetic_views("spheres", camera, (160, 120), rng=np.random.default_rng(0))
+    balls = views.exposed(4.0)
     found = {
         "balls 160 x 120, 32": task_of(balls, 32),
         "motorcycle 185 x 125, 32": task_of(shrunk(motorcycle_pair(), 4), 32),

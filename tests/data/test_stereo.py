@@ -18,7 +18,7 @@ from workbench.data.views.stereo import (
     read_pair,
     shares_hidden,
     shrunk,
-    synthetic_pair,
+    synthetic_views,
 )
 from workbench.data.views.stereo_scenes import SCENES
 from workbench.errors import InputError
@@ -28,7 +28,9 @@ CAMERA = StereoCamera(150.0, 79.5, 59.5, 0.1)
 
 
 def made(scene, camera=CAMERA, noise=0.0, seed=0) -> Any:
-    return synthetic_pair(scene, camera, (160, 120), noise=noise, rng=np.random.default_rng(seed))
+    return synthetic_views(scene, camera, (160, 120), rng=np.random.default_rng(seed)).exposed(
+        noise
+    )
 
 
 @pytest.mark.parametrize("doffs", [0.0, 4.0])

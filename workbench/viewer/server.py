@@ -26,7 +26,7 @@ from workbench.errors import InputError
 from workbench.exercise.watching import WatchedFile
 from workbench.lesson import Lesson, catalog
 from workbench.machinery.hosts import listening
-from workbench.machinery.warming import load_scipy
+from workbench.machinery.warming import load_parts
 from workbench.page.code import source_html
 from workbench.page.course import FRONT_FILES, FRONT_PICTURES
 from workbench.page.document import (
@@ -199,7 +199,7 @@ class Server:
         await self.runs.asking.do(client_bytes)
         await self.runs.asking.do(math_font)
         await self.runs.asking.do(source_html, lesson_page)
-        await self.runs.asking.do(load_scipy)
+        await self.runs.asking.do(load_parts)
 
     async def _keep_room(self) -> None:
         """Hold what is kept within its bound, and see to it that what is stuck holds nobody up."""

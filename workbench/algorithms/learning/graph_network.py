@@ -96,7 +96,8 @@ def train(
 
     Reference: Kipf and Welling 2017, eq. 9 and 10; Kingma and Ba, Adam, 2015, algorithm 1.
     """
-    gathers, w = graphs.propagation(adjacency), list(weights)
+    gathers = graphs.propagation(graphs.sparse(adjacency))  # most of A is zero
+    w = list(weights)
     mean, square = [np.zeros_like(one) for one in w], [np.zeros_like(one) for one in w]
     for iteration in range(iterations + 1):
         hidden = [features]

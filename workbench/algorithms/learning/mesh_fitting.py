@@ -10,6 +10,7 @@ from typing import Literal
 
 import numpy as np
 from jaxtyping import Float, Int
+from scipy.spatial.distance import directed_hausdorff
 
 from workbench.algorithms.learning.perceptron import descend
 from workbench.algorithms.learning.set_regression import ChamferGradient
@@ -105,7 +106,7 @@ def fit_mesh(
             p=p.copy(),
             to_given=chamfer(q, given),
             to_truth=off.chamfer() if off else float("nan"),
-            farthest=float(nearest_both_ways(points_on_faces(p, faces, fine), truth).d_b.max())
+            farthest=float(directed_hausdorff(truth, points_on_faces(p, faces, fine))[0])
             if off
             else float("nan"),
             folded=float((fold_angles(p, faces, pairs) > np.pi / 2).mean()),

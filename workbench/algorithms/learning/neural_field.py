@@ -5,13 +5,13 @@ networks, CVPR 2019. Tancik et al., Fourier features, NeurIPS 2020. Kingma and B
 algorithm 1.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from workbench.algorithms.learning.perceptron import (
     Activation,
@@ -99,7 +99,7 @@ def new_network(
 def train_field(
     network: FieldNetwork,
     p: Float[np.ndarray, "n 3"],
-    distances: Float[np.ndarray, " n"],
+    distances_of: Callable[[Int[np.ndarray, " b"]], Float[np.ndarray, " b"]],
     *,
     counts: Sequence[int],
     target: Target,
@@ -108,6 +108,9 @@ def train_field(
     """Yield the network after so many iterations of Adam; the step size falls to near 0.
 
     Args:
+        p: Points to learn from, m.
+        distances_of: Returns the signed distances of the points in some rows, m: of a batch's, when
+            it comes.
         counts: After how many iterations, from 0 on; the last is the end.
         target: What is asked for: the distance (squared error), the distance clamped to 0.1 m
             (absolute error), or inside (cross-entropy, the output being the logit of outside).
@@ -115,12 +118,13 @@ def train_field(
     values = network.values.copy()
     layers, gradients = layers_of(values, network.sizes), np.zeros_like(values)
     into = layers_of(gradients, network.sizes)
-    x, y = encoded(p, network.frequencies), distances.astype(np.float32)
+    x = encoded(p, network.frequencies)
 
     def gradient() -> tuple[float, np.ndarray]:
         rows = rng.integers(0, len(x), BATCH)
         outputs = forward(layers, x[rows], network.activation)
-        loss, slope = _loss(outputs[-1][:, 0], y[rows], target)
+        y = distances_of(rows).astype(np.float32)
+        loss, slope = _loss(outputs[-1][:, 0], y, target)
         backward(layers, outputs, slope[:, None], network.activation, into)
         return loss, gradients
 

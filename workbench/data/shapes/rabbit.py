@@ -27,13 +27,11 @@ _RABBIT = (
     ((-0.10, -0.21, -0.22), (0.19, 0.08, 0.09), (0.0, 0.0, -0.2)),  # right hind foot
     ((-0.14, 0.20, -0.19), (0.17, 0.08, 0.12), (0.0, 0.0, 0.3)),  # left hind foot
 )
-_SCALES = np.array([min(radii) for _, radii, _ in _RABBIT])[:, None]  # metres, of the unit balls
-_TO_BALLS = np.vstack(  # rows 3 i to 3 i + 2 take blob i, once about its centre, to the unit ball
-    [(exp_so3(np.array(turn)) / radii).T for _, radii, turn in _RABBIT]
-)
-_MIDDLES = np.concatenate(  # where they take the centres
-    [(exp_so3(np.array(turn)) / radii).T @ centre for centre, radii, turn in _RABBIT]
-)
+_CENTRES, _RADII = (np.array([blob[k] for blob in _RABBIT]) for k in (0, 1))
+_TURNS = np.stack([exp_so3(np.array(turn)) for _, _, turn in _RABBIT])
+_AXES = (_TURNS.swapaxes(1, 2) / _RADII[:, :, None]).reshape(-1, 3)  # of each, over its radii
+_MIDDLES = np.sum(_AXES * np.repeat(_CENTRES, 3, axis=0), axis=1)[:, None]  # along those axes
+_LEAST = _RADII.min(axis=1)[:, None]
 _BLEND = 60.0  # 1/m: how sharply the blobs meet
 _LOW, _HIGH = np.array([-0.55, -0.40, -0.43]), np.array([0.55, 0.40, 0.82])  # a box around them
 _ROUNDS = 5  # of moving vertices towards the middle of their neighbours
@@ -47,11 +45,11 @@ def rabbit(count: int, rng: np.random.Generator) -> Cloud:
     """
     areas = np.array([_mean_product(radii) for _, radii, _ in _RABBIT])
     pieces = []
-    for i, (centre, radii, turn) in enumerate(_RABBIT):
-        p = _ellipsoid(int(3 * count * areas[i] / areas.sum()) + 8, np.array(radii), rng)
-        p = p @ exp_so3(np.array(turn)).T + np.array(centre)
-        others = np.delete(_lengths(_in_balls(p)), i, axis=0)
-        pieces.append(p[(others > 1.0).all(axis=0)])
+    for i, area in enumerate(areas):
+        p = _ellipsoid(int(3 * count * area / areas.sum()) + 8, _RADII[i], rng)
+        p = p @ _TURNS[i].T + _CENTRES[i]
+        to_others = np.delete(_in_balls(p)[1], i, axis=0)
+        pieces.append(p[to_others.min(axis=0) > 1])
     p = np.concatenate(pieces)
     return _onto_surface(p[rng.choice(len(p), count, replace=len(p) < count)])
 
@@ -71,7 +69,9 @@ def rabbit_mesh(spacing: float = 0.03) -> tuple[Float[np.ndarray, "v 3"], Int[np
         raise ValueError(f"a grid of {spacing:g} m; the rabbit's mesh takes 0.01 to 0.05 m")
     x, y, z = (int(n) for n in np.ceil((_HIGH - _LOW) / spacing) + 1)
     grid = Grid(_LOW - spacing / 2, np.full(3, spacing), (x, y, z))
-    p, faces = level_surface(rabbit_field(grid.centres())[0].reshape(grid.shape), grid)
+    layers = grid.centres().reshape(x, y * z, 3)  # what one needs stays near the processor
+    field = np.stack([_smooth_minimum(_in_balls(layer)[1])[0] for layer in layers])
+    p, faces = level_surface(field.reshape(grid.shape), grid)
     p = _onto_surface(p)
     beside = adjacency(faces, len(p))
     degrees = beside.sum(axis=1)[:, None]
@@ -87,14 +87,27 @@ def rabbit_field(p: Cloud) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "
 
     It is no distance: its gradient is 0.57 to 0.97 long in the box around the rabbit.
     """
-    q = _in_balls(p)
-    norms = _lengths(q)
-    values = _SCALES * (norms - 1.0)  # roughly the signed distances to the ellipsoids
-    least = values.min(axis=0)
-    weights = np.exp(-_BLEND * (values - least))
+    q, norm = _in_balls(p)
+    values, shares = _smooth_minimum(norm)
+    by_q = (_LEAST * shares / norm)[:, None] * q
+    return values, by_q.reshape(-1, len(p)).T @ _AXES
+
+
+def _smooth_minimum(norm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the field, and how much each blob counts in it, from `norm` of `_in_balls`."""
+    distances = _LEAST * (norm - 1.0)
+    least = distances.min(axis=0)
+    weights = np.exp(-_BLEND * (distances - least))
     total = weights.sum(axis=0)
-    pulls = (weights / total * _SCALES / norms)[:, None] * q
-    return least - np.log(total) / _BLEND, pulls.reshape(len(_TO_BALLS), -1).T @ _TO_BALLS
+    return least - np.log(total) / _BLEND, weights / total
+
+
+def _in_balls(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the points where each ellipsoid is made the unit ball, (b, 3, n), and how far they are
+    from its middle there, over 1 outside.
+    """
+    q = (_AXES @ p.T - _MIDDLES).reshape(len(_RABBIT), 3, -1)
+    return q, np.maximum(np.sqrt(np.einsum("bxn,bxn->bn", q, q)), 1e-9)
 
 
 def _onto_surface(p: np.ndarray, steps: int = 4) -> np.ndarray:
@@ -111,15 +124,6 @@ def _ellipsoid(count: int, radii: np.ndarray, rng: np.random.Generator) -> np.nd
     u /= np.linalg.norm(u, axis=1, keepdims=True)
     stretch = np.linalg.norm(u / radii, axis=1) * radii.min()
     return (u * radii)[rng.random(count) < stretch]
-
-
-def _in_balls(p: Cloud) -> Float[np.ndarray, "b 3 n"]:
-    """Return where points are once each blob is the unit ball: one product for all blobs."""
-    return (_TO_BALLS @ p.T - _MIDDLES[:, None]).reshape(len(_RABBIT), 3, -1)
-
-
-def _lengths(q: Float[np.ndarray, "b 3 n"]) -> Float[np.ndarray, "b n"]:
-    return np.maximum(np.sqrt(np.square(q).sum(axis=1)), 1e-9)
 
 
 def _mean_product(radii: tuple[float, float, float]) -> float:

@@ -38,37 +38,62 @@ def grey(picture: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w"]:
     return 0.299 * r + 0.587 * g + 0.114 * b  # a product of matrices rounds otherwise elsewhere
 
 
-def synthetic_pair(
-    scene: str,
-    camera: StereoCamera,
-    size: tuple[int, int],
-    *,
-    noise: float,
-    rng: np.random.Generator,
-) -> StereoPair:
-    """Take two pictures of a scene in `SCENES`, with exact disparities.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StereoViews:
+    """What two cameras see of a scene, 0 .. 255, before their noise.
 
-    Each picture has its own noise, in grey levels of 255. A left pixel is visible in the right
-    picture when its point lies inside that and nothing stands nearer on the way to it.
+    Attributes:
+        left, right: What they see.
+        noise: Of each camera's picture, with a standard deviation of 1.
+        camera: They.
+        disparity, visible: As of a `StereoPair`.
+    """
+
+    left: Float[np.ndarray, "h w 3"]
+    right: Float[np.ndarray, "h w 3"]
+    noise: Float[np.ndarray, "2 h w 3"]
+    camera: StereoCamera
+    disparity: Float[np.ndarray, "h w"]
+    visible: Bool[np.ndarray, "h w"]
+
+    def exposed(self, noise: float) -> StereoPair:
+        """Return the pair of pictures with so much noise, in grey levels of 255."""
+        left, right = (
+            _exposed(picture + noise * own)
+            for picture, own in zip((self.left, self.right), self.noise, strict=True)
+        )
+        return StereoPair(left, right, self.camera, self.disparity, self.visible)
+
+
+def synthetic_views(
+    scene: str, camera: StereoCamera, size: tuple[int, int], *, rng: np.random.Generator
+) -> StereoViews:
+    """Look at a scene in `SCENES` with two cameras, with exact disparities.
+
+    A left pixel is visible in the right picture when its point lies inside that and nothing stands
+    nearer on the way to it.
     """
     things = SCENES[scene](rng, 1.0 / camera.f)
     u, v = _pixels(size)
     p_right = np.array([camera.baseline, 0.0, 0.0])
     depth, left = look(things, np.zeros(3), rays(u, v, camera.f, camera.cx, camera.cy))
     _, right = look(things, p_right, rays(u, v, camera.f, camera.cx + camera.doffs, camera.cy))
-    visible = _seen_by_both(things, camera, depth)
     d = camera.f * camera.baseline / depth  # without doffs
-    left, right = (
-        _exposed(picture + rng.normal(0.0, noise, picture.shape)) for picture in (left, right)
+    return StereoViews(
+        left=left,
+        right=right,
+        noise=rng.standard_normal((2, *left.shape)),
+        camera=camera,
+        disparity=d - camera.doffs,
+        visible=_seen_by_both(things, camera, depth),
     )
-    return StereoPair(left, right, camera, d - camera.doffs, visible)
 
 
 def shares_hidden(
     scene: str, cameras: Sequence[StereoCamera], size: tuple[int, int]
 ) -> Float[np.ndarray, " n"]:
     """Return the share of left pixels that the right camera does not see, of cameras that differ in
-    nothing but the baseline: as of a `synthetic_pair`, from the depths alone.
+    nothing but the baseline: as of `synthetic_views`, from the depths alone.
     """
     left = cameras[0]
     things = SCENES[scene](np.random.default_rng(0), 1.0 / left.f)  # which colours is all the same

@@ -203,5 +203,5 @@ def _triangle_table() -> tuple[Int[np.ndarray, "t 3"], Int[np.ndarray, "257"]]:
     of each pattern begin.
     """
     rows = ["", *_TRIANGLES.replace("-", "").split(), ""]
-    edges = np.array([ord(letter) - ord("a") for row in rows for letter in row], np.intp)
+    edges = np.frombuffer("".join(rows).encode(), np.uint8).astype(np.intp) - ord("a")
     return edges.reshape(-1, 3), np.cumsum([0, *(len(row) // 3 for row in rows)])

@@ -29,7 +29,7 @@ def intrinsic_delaunay(p: Points, faces: Faces) -> Corners:
     negative weight. Two vertices may be joined twice, and one with itself.
     """
     sides = _Sides(p, faces)
-    waiting = list(range(len(sides.twin)))
+    waiting = sides.bent()
     while waiting:
         h = waiting.pop()
         if sides.bends(h):
@@ -38,27 +38,42 @@ def intrinsic_delaunay(p: Points, faces: Faces) -> Corners:
 
 
 class _Sides:
-    """The sides of triangles, three each: start, other half (-1 on the border), length."""
+    """The sides of triangles, three each: start, next side of the triangle, other half (-1 on the
+    border), length.
+    """
 
     def __init__(self, p: np.ndarray, faces: np.ndarray) -> None:
         self.start = faces.ravel().tolist()
+        self.next = np.arange(faces.size).reshape(-1, 3)[:, [1, 2, 0]].ravel().tolist()
         ends = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
         place = {(a, b): h for h, (a, b) in enumerate(ends.tolist())}
         self.twin = [place.get((b, a), -1) for a, b in ends.tolist()]
         self.length = np.linalg.norm(p[ends[:, 1]] - p[ends[:, 0]], axis=1).tolist()
 
+    def bent(self) -> list[int]:
+        """Return the sides whose edges bend, all looked at together."""
+        after = np.array(self.length).reshape(-1, 3)
+        opposite, before = np.roll(after, -1, axis=1), np.roll(after, -2, axis=1)
+        beside = 2 * after * before
+        cosine = (after**2 + before**2 - opposite**2) / np.where(beside > 0, beside, 1.0)
+        angle = np.where(beside > 0, np.arccos(np.clip(cosine, -1, 1)), 0.0)
+        across = np.roll(angle, -2, axis=1).ravel()  # of each side the angle opposite it
+        twin = np.array(self.twin)
+        return np.flatnonzero((twin >= 0) & (across + across[twin] > np.pi + STRAIGHT)).tolist()
+
     def bends(self, h: int) -> bool:
         """Return whether the angles opposite a side's edge are more than pi together."""
         t = self.twin[h]
+        after = self.next
         return (
             t >= 0
-            and self._angle(_next(_next(h))) + self._angle(_next(_next(t))) > np.pi + STRAIGHT
+            and self._angle(after[after[h]]) + self._angle(after[after[t]]) > np.pi + STRAIGHT
         )
 
     def _angle(self, h: int) -> float:
         """Return the angle where a side begins, radians."""
-        ahead = _next(h)
-        after, opposite, before = (self.length[side] for side in (h, ahead, _next(ahead)))
+        ahead = self.next[h]
+        after, opposite, before = self.length[h], self.length[ahead], self.length[self.next[ahead]]
         if after * before == 0:
             return 0.0
         return acos(
@@ -71,7 +86,8 @@ class _Sides:
         With the edge from a to b, c opposite it and d beyond: abc and bad become dca and cdb.
         """
         t = self.twin[h]
-        bc, ca, ad, db = _next(h), _next(_next(h)), _next(t), _next(_next(t))
+        after = self.next
+        bc, ca, ad, db = after[h], after[after[h]], after[t], after[after[t]]
         long, wide = self.length[ca], self.length[ad]
         turn = self._angle(h) + self._angle(ad)
         diagonal = sqrt(max(long**2 + wide**2 - 2 * long * wide * cos(turn), 0.0))
@@ -103,8 +119,3 @@ class _Sides:
         flat[:, 2, 1] = y
         laid_out = corners(flat.reshape(-1, 3), np.arange(3 * len(ab)).reshape(-1, 3))
         return replace(laid_out, vertices=np.array(self.start).reshape(-1, 3).T.copy(), count=count)
-
-
-def _next(h: int) -> int:
-    """Return the side of the same triangle that begins where this one ends."""
-    return h - 2 if h % 3 == 2 else h + 1

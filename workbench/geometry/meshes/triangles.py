@@ -118,7 +118,8 @@ def normals_at_vertices(measured: Corners) -> Float[np.ndarray, "v 3"]:
 
 def edges(faces: Faces) -> Int[np.ndarray, "e 2"]:
     """Return every undirected edge once, its smaller vertex first, in ascending order."""
-    return _split(np.unique(edge_keys(half_edges(faces))))
+    keys = np.sort(edge_keys(half_edges(faces)))  # several times as fast as `np.unique`
+    return _split(keys[np.diff(keys, prepend=-1) > 0])
 
 
 def boundary_edges(faces: Faces) -> Int[np.ndarray, "b 2"]:
