@@ -26,6 +26,7 @@ from workbench.scene import Chart, Classes, Label, Points, Primitive, Role, Scen
 MOST_DRAWS = 100
 DOT = 0.03  # metres: the radius of a point
 WIDTHS = np.arange(5.0, 301.0, 5.0) / MM
+STUDIED = np.append(np.arange(5.0, 131.0, 5.0), np.arange(150.0, 301.0, 25.0)) / MM
 APARTS = np.append(np.arange(0.05, 0.5, 0.05), np.arange(0.5, 1.81, 0.1))
 REDRAWN = 30  # times the noise of two points
 STUDIES = 60  # scenes
@@ -158,26 +159,27 @@ def fan(params: Input, subject: Subject, apart: float) -> Fan:
 
 @cached
 def errors_by_width(params: Input) -> np.ndarray:
-    """Return the error of the finished fit (m) for each of WIDTHS: the median over sixty scenes."""
+    """Return the error of the finished fit (m) for each of STUDIED: the median over sixty scenes."""
     errors = []
-    groups = min(STUDIES, _pieces(STUDIES * len(WIDTHS) * params.points))
+    groups = min(STUDIES, _pieces(STUDIES * len(STUDIED) * params.points))
     for seeds in np.array_split(np.arange(STUDIES), groups):
         scenes = [_scene(params, int(seed)) for seed in seeds]
         p, p_true = (np.stack([getattr(made, name) for made in scenes]) for name in ("p", "p_true"))
         lines = np.stack([_most_votes(*drawn) for drawn in zip(p, seeds, strict=True)])
         for _ in range(5):
-            lines = fit_hyperplanes(p, LINE.distances(lines, p) <= WIDTHS[:, None])
+            lines = fit_hyperplanes(p, LINE.distances(lines, p) <= STUDIED[:, None])
         errors.append(np.sqrt((LINE.distances(lines, p_true) ** 2).mean(axis=-1)))
     return np.median(np.concatenate(errors), axis=0)
 
 
 def _most_votes(p: np.ndarray, seed: int) -> np.ndarray:
-    """Return for each of WIDTHS the line with the most votes of two hundred drawn ones."""
+    """Return for each of STUDIED the line with the most votes of two hundred drawn ones."""
     samples = draw_samples(len(p), 2, 200, rng=np.random.default_rng(seed))
     lines = LINE.solve(p[samples])
     p_h = np.vstack([p.T, np.ones(len(p))]) / WIDTHS[0]  # distances in steps of the width
     pieces = np.array_split(lines, min(len(lines), _pieces(len(lines) * len(p))))
-    votes = [_votes_by_width(some @ p_h) for some in pieces]
+    studied = np.isin(WIDTHS, STUDIED)
+    votes = [_votes_by_width(some @ p_h)[:, studied] for some in pieces]
     return lines[np.concatenate(votes).argmax(axis=0)]
 
 
@@ -344,10 +346,10 @@ def _of_width(look: FlatLook, now: Width) -> dict[str, Primitive]:
     words = f"{inside['ringed']} ringed, {inside['others']} other votes"
     scene["counts"] = _head(words, 0.0, "target")
     errors = MM * errors_by_width(look.params)
-    here = float(np.interp(now.width, WIDTHS, errors))
+    here = float(np.interp(now.width, STUDIED, errors))
     words = "Within {width} of the true line: {ringed} of its {points} points, and {others} others."
     return scene | {
-        "error/whole": WIDTH.whole(MM * WIDTHS, errors, "median error of 60 scenes", "source"),
+        "error/whole": WIDTH.whole(MM * STUDIED, errors, "median error of 60 scenes", "source"),
         "error/mark": WIDTH.mark(at, here, "this band", "source", steps="width"),
         "caption": say(
             words, width=Quantity(now.width, f"{brief(at)} mm"), points=int(true.sum()), **inside
