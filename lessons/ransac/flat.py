@@ -159,7 +159,7 @@ def fan(params: Input, subject: Subject, apart: float) -> Fan:
 
 @cached
 def errors_by_width(params: Input) -> np.ndarray:
-    """Return the error of the finished fit (m) for each of STUDIED: the median over sixty scenes."""
+    """Return the median error of the finished fit over sixty scenes (m), for each of STUDIED."""
     errors = []
     groups = min(STUDIES, _pieces(STUDIES * len(STUDIED) * params.points))
     for seeds in np.array_split(np.arange(STUDIES), groups):

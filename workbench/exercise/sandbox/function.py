@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any
 
@@ -22,6 +23,30 @@ from workbench.exercise.submission import Submission, read_submission
 MEGABYTES = 2048
 LOAD_SECONDS = 10.0
 """How long a file may take to load."""
+
+
+@contextlib.contextmanager
+def removed_folder() -> Iterator[str]:
+    """Yield a folder to start a process in, which stays in it although it is no more: it takes no
+    files, and none stays behind.
+
+    On Linux it is gone before the process starts, so that whatever ends this one leaves nothing.
+    """
+    folder = tempfile.mkdtemp(prefix="exercise-")
+    if not os.path.isdir("/proc/self/fd"):
+        try:
+            yield folder
+        finally:
+            os.rmdir(folder)
+        return
+    try:
+        opened = os.open(folder, os.O_RDONLY)
+    finally:
+        os.rmdir(folder)
+    try:
+        yield f"/proc/self/fd/{opened}"
+    finally:
+        os.close(opened)
 
 
 class SandboxedFunction(StudentFunction):
@@ -99,23 +124,19 @@ class SandboxedFunction(StudentFunction):
         self._must_be_open()
         self._pipe = Pipe()
         self._printed = self._printed or anonymous()
-        folder = "/" if self.wall.holds else tempfile.mkdtemp(prefix="exercise-")
         pipe_in, pipe_out = self._pipe.theirs
         try:
-            self._process = self.wall.start(
-                pipe_in=pipe_in,
-                pipe_out=pipe_out,
-                printed=self._printed,
-                folder=folder,
-                megabytes=self._megabytes,
-                cpu_seconds=int(60 + 20 * self._seconds),
-            )
+            with contextlib.nullcontext("/") if self.wall.holds else removed_folder() as folder:
+                self._process = self.wall.start(
+                    pipe_in=pipe_in,
+                    pipe_out=pipe_out,
+                    printed=self._printed,
+                    folder=folder,
+                    megabytes=self._megabytes,
+                    cpu_seconds=int(60 + 20 * self._seconds),
+                )
         finally:
             self._pipe.inherited()
-            if folder != "/":
-                os.rmdir(
-                    folder
-                )  # the process stays in it: a folder that is no more takes no files, and none stays behind  # noqa: E501
         if self._closed:  # by another thread just now: nobody would end the process
             self.close()
         self._must_be_open()
