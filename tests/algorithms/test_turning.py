@@ -102,3 +102,13 @@ def test_the_basin_is_what_trying_each_start_says(lines, sliding):
     home = [a for a in range(-180, 181) if abs(within_half(end_of(a))) <= 5.0]
     assert (low, high) == (home[0], home[-1])
     assert home == list(range(home[0], home[-1] + 1))
+
+
+@pytest.mark.parametrize("edge", [0, 1, 5, 6, 7, 60, 179, 180])
+def test_the_basin_ends_before_a_gap_of_six_starts(edge):
+    gap = (edge + 0.5, edge + 6.5)
+
+    def end_of(start: float) -> float:
+        return 90.0 if gap[0] < abs(start) < gap[1] else 0.0
+
+    assert basin(end_of) == (-edge, edge)

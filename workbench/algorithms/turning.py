@@ -23,6 +23,9 @@ from workbench.geometry.points.metrics import rms
 Flat = Float[np.ndarray, "n 2"]
 Partners = Int[np.ndarray, "n"]
 
+STRIDE = 6
+"""Starts from one that `basin` tries to the next, until one does not come home."""
+
 
 @dataclass(frozen=True, eq=False)
 class State:
@@ -180,8 +183,8 @@ def basin(
 ) -> tuple[float, float]:
     """Return the lowest and the highest start, around 0, from which a run ends at 0, degrees.
 
-    The edge to either side is found by halving: where a start comes home, all nearer ones are taken
-    to come home too.
+    To either side every sixth start is tried until one does not come home, and the edge before it
+    is found by halving: a gap of fewer than six starts can be missed.
 
     Args:
         end_of: Gives the end of a run by its start, both degrees.
@@ -195,7 +198,10 @@ def basin(
     ends = []
     for outwards in (-step, step):
         starts = outwards * np.arange(180.0 // step + 1.0)  # the first, 0, is home
-        last = bisect.bisect_left(starts, True, lo=1, key=elsewhere) - 1
+        tried = range(STRIDE, len(starts), STRIDE)
+        away = next((k for k in tried if elsewhere(starts[k])), len(starts))
+        home = (away - 1) // STRIDE * STRIDE
+        last = bisect.bisect_left(starts, True, lo=home + 1, hi=away, key=elsewhere) - 1
         ends.append(float(starts[last]))
     return ends[0], ends[1]
 
