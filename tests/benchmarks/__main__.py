@@ -4,21 +4,26 @@ tests.benchmarks --write FILE`.
     python -m tests.benchmarks                        # print the page
     python -m tests.benchmarks --only icp stereo      # some of them
     python -m tests.benchmarks --write docs/speed.md
+    python -m tests.benchmarks --write docs/speed.md --only icp    # what else stands there stays
 
-Each benchmark runs in a process of its own, one after the other. The page says how busy the machine
-was.
+Each benchmark runs in a process of its own, one after the other. The page says of each when it ran
+and how busy the machine was; it is written anew after each.
 """
 
 import argparse
+import ast
 import datetime
 import importlib.metadata
 import os
 import platform
+import re
 import subprocess
 import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+
+from workbench.machinery.atomic import write_places
 
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parents[1]
@@ -59,6 +64,15 @@ class Ran:
     seconds: float
     busy: float
 
+    @property
+    def section(self) -> str:
+        """What the page says of it, in Markdown."""
+        said = "\n".join(line.rstrip() for line in self.said.splitlines())
+        at = datetime.datetime.now(datetime.UTC).date()
+        load = f"load before it {self.busy:.1f}{busyness(self.busy)}"
+        took = f"Took {self.seconds:.0f} s on {at}; {load}."
+        return f"{self.about}\n\n```text\n{said}\n```\n\n{took}\n"
+
 
 def main() -> int:
     """Run the benchmarks and print or write the page."""
@@ -72,16 +86,32 @@ def main() -> int:
         "--only", nargs="+", metavar="NAME", choices=names(), help="of " + ", ".join(names())
     )
     given = parser.parse_args()
-    ran = []
+    sections: dict[str, str] = {}
+    if given.write is not None and given.write.exists():
+        sections = sections_of(given.write.read_text(encoding="utf-8"))
     for name in given.only or names():
         print(f"{name} ...", file=sys.stderr, flush=True)
-        ran.append(measured(name))
-    text = page(ran)
-    if given.write:
-        given.write.write_text(text, encoding="utf-8")
-    else:
-        print(text)
+        sections[title(name)] = measured(name).section
+        if given.write:
+            write_places({given.write: page(sections).encode()})
+    if not given.write:
+        print(page(sections))
     return 0
+
+
+def title(name: str) -> str:
+    """Return the heading of a benchmark."""
+    return name.replace("_", " ").capitalize()
+
+
+def sections_of(text: str) -> dict[str, str]:
+    """Return the sections of a page by their headings, those of benchmarks that are no more left
+    out.
+    """
+    _, *rest = re.split(r"^## (.*)\n\n", text, flags=re.MULTILINE)
+    known = {title(name) for name in names()}
+    pairs = zip(rest[::2], rest[1::2], strict=True)
+    return {head: f"{body.rstrip()}\n" for head, body in pairs if head in known}
 
 
 def names() -> list[str]:
@@ -92,11 +122,9 @@ def names() -> list[str]:
 def measured(name: str) -> Ran:
     """Run one benchmark to its end."""
     module = f"tests.benchmarks.bench_{name}"
-    about = next(
-        line
-        for line in (FOLDER / f"bench_{name}.py").read_text(encoding="utf-8").splitlines()
-        if line
-    )
+    source = (FOLDER / f"bench_{name}.py").read_text(encoding="utf-8")
+    docstring = ast.get_docstring(ast.parse(source)) or ""
+    about = " ".join(docstring.partition("\n\n")[0].split())
     busy, began = load(), time.monotonic()
     try:
         done = subprocess.run(
@@ -109,22 +137,21 @@ def measured(name: str) -> Ran:
         said = (
             done.stdout
             if done.returncode == 0
-            else f"{done.stdout}failed: {done.stderr.strip().splitlines()[-1]}"
+            else f"{done.stdout}failed: {(done.stderr.strip().splitlines() or ['killed'])[-1]}"
         )
     except subprocess.TimeoutExpired:
         said = f"given up after {LONGEST:.0f} s"
     return Ran(
         name=name,
-        about=about.strip('"'),
+        about=about,
         said=said.strip("\n"),
         seconds=time.monotonic() - began,
         busy=busy,
     )
 
 
-def page(ran: list[Ran]) -> str:
+def page(sections: dict[str, str]) -> str:
     """Return the page in Markdown."""
-    at = datetime.datetime.now(datetime.UTC).date()
     lines = [
         "# Speed",
         "",
@@ -148,7 +175,6 @@ def page(ran: list[Ran]) -> str:
         "",
         "| | |",
         "|---|---|",
-        f"| measured | {at} |",
         (
             f"| machine | {processor()}, {os.cpu_count()} cores, {platform.system()}"
             f" {platform.machine()} |"
@@ -156,26 +182,16 @@ def page(ran: list[Ran]) -> str:
         f"| python | {platform.python_version()} |",
         f"| packages | {versions(OURS)} |",
         f"| peers | {versions(PEERS) or 'none installed'} |",
-        f"| load of other work | {quiet(ran)} |",
     ]
-    for one in ran:
-        lines += ["", f"## {one.name.replace('_', ' ').capitalize()}", "", one.about]
-        lines += ["", "```text", *(line.rstrip() for line in one.said.splitlines()), "```", ""]
-        lines += [f"Took {one.seconds:.0f} s; load before it {one.busy:.1f}."]
+    for head in sorted(sections):
+        lines += ["", f"## {head}", "", sections[head].rstrip()]
     return "\n".join(lines) + "\n"
 
 
-def quiet(ran: list[Ran]) -> str:
-    """Return in words how busy the machine was before each benchmark began; those before count for
-    a minute.
-    """
-    most = max(one.busy for one in ran)
-    share = most / (os.cpu_count() or 1)
-    word = "quiet" if share < 0.6 else "busy: times are upper bounds, trust ratios only"
-    return (
-        f"{ran[0].busy:.1f} before the first benchmark, {most:.1f} at most before a later one"
-        f" ({word})"
-    )
+def busyness(load: float) -> str:
+    """Return what a load before a benchmark means for its times."""
+    share = load / (os.cpu_count() or 1)
+    return "" if share < 0.6 else " (busy: times are upper bounds, trust ratios only)"
 
 
 def load() -> float:

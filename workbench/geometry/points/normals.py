@@ -4,7 +4,9 @@ Reference: Hoppe, DeRose, Duchamp, McDonald and Stuetzle, Surface reconstruction
 points, 1992, section 3.2.
 """
 
+import os
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import scipy
@@ -111,14 +113,23 @@ def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
 def _neighbourhoods(
     p: np.ndarray, tree: "scipy.spatial.KDTree", k: int, *, wanted: np.ndarray
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield wanted rows of p and the covariances of their k nearest, in chunks for the cache."""
+    """Yield wanted rows of p and the covariances of their k nearest, in chunks for the cache, which
+    a thread for each processor takes in turn.
+    """
     order = tree.indices[wanted[tree.indices]]  # so that consecutive queries touch the same leaves
-    workers = -1 if len(order) > ALONE else 1
     coordinates = np.ascontiguousarray(p.T)
-    for start in range(0, len(order), CHUNK):
-        rows = order[start : start + CHUNK]
-        neighbours = np.asarray(tree.query(p[rows], k=k, workers=workers)[1])
-        yield rows, _covariances(coordinates, rows, neighbours)
+
+    def of_chunk(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        neighbours = np.asarray(tree.query(p[rows], k=k)[1])
+        return rows, _covariances(coordinates, rows, neighbours)
+
+    chunks = [order[start : start + CHUNK] for start in range(0, len(order), CHUNK)]
+    threads = os.cpu_count() or 1
+    if threads == 1 or len(order) <= ALONE:
+        yield from map(of_chunk, chunks)
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        yield from pool.map(of_chunk, chunks)
 
 
 def _covariances(coordinates: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
