@@ -56,8 +56,8 @@ def main() -> None:
         )
         compare(f"blocks, {name}", task, block_contenders(task.disparities), rounds, bare=blocks)
     print(
-        "\na floor: the additions and minima of eq. 13, line by line, and the winners of the volume"
-        " at every step shown; of blocks, the latter"
+        "\na floor: a comparison at every shift, the additions and minima of eq. 13, line by line,"
+        " and the winners of the volume at every step shown; of blocks, without eq. 13"
     )
 
 
@@ -114,14 +114,19 @@ def ours(disparities: int, window: int, *, paths: bool) -> Matcher:
 
 
 def bare(task: Task, *, paths: bool) -> None:
-    """Take the winners that the steps show, and of paths the additions and minima too, each array
-    as narrow as ours.
+    """Compare at every shift, take the winners that the steps show, and of paths the additions and
+    minima too, each array as narrow as ours.
     """
     h, w = task.left.shape
     most = task.disparities
     single, summed = (np.zeros((most, h, w), kind) for kind in (np.uint8, np.uint16))
+    codes = np.zeros((h, w), np.uint32 if paths else float)
+    for d in range(most):
+        a = codes[:, d:]
+        b = codes[:, : w - d]
+        single[d, :, d:] = np.bitwise_count(a ^ b) if paths else np.abs(a - b)
     for done in range(1, most + 1):
-        winner_takes_all(single[:done])
+        winner_takes_all(single[:done]).astype(float)
     if not paths:
         return
     for directions, lines, along in ((2, w, h), (6, h, w)):
@@ -136,7 +141,7 @@ def bare(task: Task, *, paths: bool) -> None:
             np.minimum(carried, cost, out=carried)
     for _ in range(8):
         summed = summed + single
-        winner_takes_all(summed)
+        winner_takes_all(summed).astype(float)
 
 
 def semi_global_contenders(disparities: int) -> dict[str, Matcher]:
