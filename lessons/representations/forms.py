@@ -230,8 +230,8 @@ def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
         grid.centres(),
     )
     counts = iteration_counts(params.iterations)
-    samples = Samples(subject, p) if subject.quick else _known(subject, p.tobytes())
-    found = train_field(network, p, samples, counts=counts, target=params.target, rng=rng)
+    distances_of = subject.field(p).take if subject.quick else _known(subject, p.tobytes())
+    found = train_field(network, p, distances_of, counts=counts, target=params.target, rng=rng)
     for trained in found:
         values = trained.network(corners).reshape(grid.shape)
         surface = measured(subject, *level_surface(values, grid, functions.edge_crossings))

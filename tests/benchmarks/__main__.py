@@ -181,7 +181,7 @@ def page(sections: dict[str, str]) -> str:
         ),
         f"| python | {platform.python_version()} |",
         f"| packages | {versions(OURS)} |",
-        f"| peers | {versions(PEERS) or 'none installed'} |",
+        f"| peers, for the section written last | {versions(PEERS) or 'none installed'} |",
     ]
     for head in sorted(sections):
         lines += ["", f"## {head}", "", sections[head].rstrip()]

@@ -16,6 +16,7 @@ from workbench.errors import InputError
 from workbench.exercise.candidate import held_to_contract
 from workbench.exercise.grading import grade_file
 from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError
+from workbench.exercise.sandbox.function import removed_folder
 from workbench.exercise.sandbox.pipe import _Deadline
 from workbench.exercise.sandbox.waiting import waited
 
@@ -190,6 +191,27 @@ def test_nothing_is_left_behind(student, tmp_path):
     function.close()
     assert process is not None
     assert process.poll() is not None
+
+
+@pytest.mark.parametrize("by_descriptor", [True, False])
+def test_a_process_stays_in_a_folder_that_takes_no_files(tmp_path, monkeypatch, by_descriptor):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    if not by_descriptor:
+        monkeypatch.setattr("os.path.isdir", lambda path: False)  # where there is no /proc
+    elif not Path("/proc/self/fd").is_dir():
+        pytest.skip("no /proc here")
+    writing = "import sys; sys.stdin.read(); open('x', 'w')"
+    with removed_folder() as folder:
+        assert bool(list(tmp_path.iterdir())) is not by_descriptor
+        process = subprocess.Popen(
+            [sys.executable, "-c", writing],
+            cwd=folder,
+            stdin=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
+    assert list(tmp_path.iterdir()) == []
+    said = process.communicate()[1]
+    assert b"FileNotFoundError" in said
 
 
 def test_a_run_that_goes_on_does_not_start_what_was_closed(student):
