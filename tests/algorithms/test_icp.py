@@ -378,3 +378,15 @@ def test_the_matcher_leaves_its_arguments_alone():
     p = np.random.default_rng(0).standard_normal((30, 3))
     p.setflags(write=False)
     module.matcher(p, p)(p, p)
+
+
+@pytest.mark.parametrize("step", [1.0, 0.1, 0.01, 0.001])
+@pytest.mark.parametrize("m", [1, 2, 300])
+def test_the_matcher_keeps_a_partner_only_while_no_other_is_nearer(m, step):
+    rng = np.random.default_rng(m)
+    p_target, p_source = rng.standard_normal((m, 3)), rng.standard_normal((500, 3))
+    match = module.matcher(p_target, p_source)
+    for _ in range(20):  # a walk, so that moves since the search add up and cancel
+        expected = scipy.spatial.distance.cdist(p_source, p_target).argmin(axis=1)
+        np.testing.assert_array_equal(match(p_target, p_source), expected)
+        p_source = p_source + step * rng.standard_normal(p_source.shape)

@@ -110,7 +110,7 @@ def bench_normals() -> None:
     if small_gicp is not None:
         points = small_gicp.PointCloud(p)
         by_gicp = lambda: small_gicp.estimate_normals(points, num_neighbors=16, num_threads=2)  # noqa: E731
-    tree = matching_tree(p)
+    tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
     p_ordered = p[tree.indices]
     ours, bare, *peers = best(
         lambda: point_normals(p),
@@ -156,17 +156,8 @@ def bench_icp(n: int, floor_whole: str) -> None:
     gicp_whole = gicp and (lambda: gicp(SECOND, gicp(FIRST, start, 1e-5, 50), 1e-6, 50))
 
     names = ("open3d", "small_gicp")
-    searches = bare_searches(p_target, p_source, n_target)
-    ours, bare, *peers = (
-        t / ITERATIONS for t in best(fixed_iterations, searches, o3_fixed, gicp_fixed, repeat=3)
-    )
-    line(
-        f"point-to-plane, an iteration, {n:,}",
-        ours,
-        dict(zip(names, peers, strict=True)),
-        floor_of(bare, peers),
-    )
-    print("    floor: scipy's search of the nearest point alone, beside the peers' whole iteration")
+    ours, *peers = (t / ITERATIONS for t in best(fixed_iterations, o3_fixed, gicp_fixed, repeat=3))
+    line(f"point-to-plane, an iteration, {n:,}", ours, dict(zip(names, peers, strict=True)))
     ours, *peers = best(whole, o3_whole, gicp_whole, repeat=3)
     line(
         f"point-to-plane, to its stop, {n:,}",
@@ -186,42 +177,6 @@ def bench_icp(n: int, floor_whole: str) -> None:
         "    final error, degrees: "
         + ", ".join(f"{k} {degrees_off(T, T_true):.4f}" for k, T in errors.items())
     )
-
-
-def bare_searches(
-    p_target: np.ndarray, p_source: np.ndarray, n_target: np.ndarray
-) -> Callable[[], None]:
-    """Return what searches the nearest points of some iterations of ours, and nothing else."""
-    tree = matching_tree(p_target)
-    order = matching_tree(p_source).indices
-    find = matcher(p_target, p_source)
-    asked = []
-
-    def match(p_target: np.ndarray, p_moved: np.ndarray) -> np.ndarray:
-        asked.append(p_moved[order])
-        return find(p_target, p_moved)
-
-    for _ in icp(
-        p_target,
-        p_source,
-        n_target=n_target,
-        gate=Gate(FIRST),
-        match=match,
-        max_iterations=ITERATIONS,
-        tolerance=1e-300,
-    ):
-        pass
-
-    def search() -> None:
-        for p_moved in asked:
-            tree.query(p_moved, workers=-1)
-
-    return search
-
-
-def matching_tree(p: np.ndarray) -> "scipy.spatial.KDTree":
-    """Return a tree as ours are built: large leaves, neither balanced nor compacted."""
-    return scipy.spatial.KDTree(p, leafsize=32, balanced_tree=False, compact_nodes=False)
 
 
 def floor_of(bare: float, peers: list[float]) -> str:

@@ -133,12 +133,14 @@ def _neighbourhoods(
 
 
 def _covariances(coordinates: np.ndarray, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
-    """Return xx, yy, zz, xy, xz, yz of each neighbourhood, about the point itself first."""
-    x, y, z = (own.take(neighbours) - own[rows, None] for own in coordinates)
-    for v in (x, y, z):
-        v -= v.mean(1, keepdims=True)
-    pairs = ((x, x), (y, y), (z, z), (x, y), (x, z), (y, z))
-    return np.stack([np.einsum("ij,ij->i", a, b) for a, b in pairs])
+    """Return xx, yy, zz, xy, xz, yz of each neighbourhood, summed about the point itself first."""
+    nearest = neighbours.T.copy()  # sums over long lines take half the time of sums over short ones
+    v = [own.take(nearest) - own[rows] for own in coordinates]
+    total = [own.sum(axis=0) for own in v]
+    pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    return np.stack(
+        [np.einsum("ij,ij->j", v[a], v[b]) - total[a] * total[b] / len(nearest) for a, b in pairs]
+    )
 
 
 def _least_directions(c: np.ndarray) -> np.ndarray:
