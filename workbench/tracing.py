@@ -1,8 +1,8 @@
 """Watches where an algorithm stands each time it yields: its line, and its local variables.
 
-A suspended generator knows its line and its locals. `traced` reads them off at every yield, but
-only while somebody listens (`listening`), so an algorithm that nobody watches pays one attribute
-test per step.
+A suspended generator knows its line and its locals. `traced` keeps them at every yield, but only
+while somebody listens (`listening`), so an algorithm that nobody watches pays one attribute test
+per step; they are put into words when the listener asks.
 """
 
 import functools
@@ -11,7 +11,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -63,11 +63,23 @@ def source_of(function: Callable[..., Any]) -> tuple[tuple[str, ...], int]:
 
 
 class _Listener(threading.local):
-    """The moment last recorded in this thread, and whether anybody wants to know."""
+    """Who yielded last in this thread, and whether anybody wants to know."""
 
     on = False
     yielded: object = None
-    moment: Moment | None = None
+    standing: "_Standing | None" = None
+
+
+class _Standing(NamedTuple):
+    """Where a generator stands: the function, the line, the values of its locals."""
+
+    function: Callable[..., Any]
+    line: int
+    values: dict[str, Any]
+
+    def in_words(self) -> Moment:
+        variables = tuple(describe(name, value) for name, value in self.values.items())
+        return Moment(self.function, self.line, variables)
 
 
 _listener = _Listener()
@@ -76,12 +88,12 @@ _listener = _Listener()
 @contextmanager
 def listening() -> Iterator[Callable[[], Moment | None]]:
     """Record moments in this thread for the length of the block; the value returns the last one."""
-    before = (_listener.on, _listener.yielded, _listener.moment)
-    _listener.on, _listener.yielded, _listener.moment = True, None, None
+    before = (_listener.on, _listener.yielded, _listener.standing)
+    _listener.on, _listener.yielded, _listener.standing = True, None, None
     try:
-        yield lambda: _listener.moment
+        yield lambda: _listener.standing and _listener.standing.in_words()
     finally:
-        _listener.on, _listener.yielded, _listener.moment = before
+        _listener.on, _listener.yielded, _listener.standing = before
 
 
 @contextmanager
@@ -109,7 +121,8 @@ def traced(algorithm: Callable[Options, Iterator[State]]) -> Callable[Options, I
         generator = algorithm(*args, **kwargs)
         for state in generator:
             if _listener.on and _listener.yielded is not state:
-                _listener.yielded, _listener.moment = state, moment_of(generator, algorithm)
+                _listener.yielded = state
+                _listener.standing = _standing(generator, algorithm)
             yield state
 
     return wrapper
@@ -117,14 +130,13 @@ def traced(algorithm: Callable[Options, Iterator[State]]) -> Callable[Options, I
 
 def moment_of(generator: Any, function: Callable[..., Any]) -> Moment | None:
     """Return where a suspended generator stands, or None when it has finished."""
+    standing = _standing(generator, function)
+    return standing and standing.in_words()
+
+
+def _standing(generator: Any, function: Callable[..., Any]) -> _Standing | None:
     frame = getattr(generator, "gi_frame", None)
-    if frame is None:
-        return None
-    return Moment(
-        function,
-        frame.f_lineno,
-        tuple(describe(name, value) for name, value in frame.f_locals.items()),
-    )
+    return None if frame is None else _Standing(function, frame.f_lineno, dict(frame.f_locals))
 
 
 def describe(name: str, value: object) -> Variable:
