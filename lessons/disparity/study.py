@@ -15,7 +15,7 @@ from lessons.disparity.matching import OTHER_COSTS
 from lessons.disparity.pairs import SIZE, Pictures, taken
 from lessons.disparity.row import DOT, FACING, LAYER
 from lessons.disparity.truth import judged
-from workbench.algorithms.stereo.cost_volume import CostVolume, sad_cost_volume
+from workbench.algorithms.stereo.cost_volume import CostVolume, box_sums, sad_cost_volume
 from workbench.algorithms.stereo.disparity import usual_penalties
 from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.algorithms.stereo.semiglobal import semi_global
@@ -170,11 +170,25 @@ def smoothed(cost: np.ndarray, price: float) -> np.ndarray:
 def wrong_over_windows(scene: str, noise: float, seed: int) -> np.ndarray:
     """Return the share of wrong pixels (%) at each of WINDOWS, without paths."""
     pair = taken(scene, 150.0, 0.1, noise=noise, seed=seed)
-    left = grey(pair.left)
-    right = grey(pair.right)
-    return np.array(
-        [_off(pair, winner_takes_all(sad_cost_volume(left, right, 31, w))) for w in WINDOWS]
-    )
+    maps = winners_by_window(grey(pair.left), grey(pair.right), 31)
+    return np.array([_off(pair, winner) for winner in maps])
+
+
+def winners_by_window(left: np.ndarray, right: np.ndarray, max_disparity: int) -> np.ndarray:
+    """Return the map of the lowest sums of absolute differences for each of WINDOWS.
+
+    Shift by shift, so that the running sums of one serve all windows. Brightness is whole
+    thousandths, and a sum and its shift are one number: the least of these tells both.
+    """
+    h, w = left.shape
+    shifts = max_disparity + 1
+    a, b = (np.rint(1000 * picture).astype(np.int32) for picture in (left, right))
+    least = np.full((len(WINDOWS), h, w), np.iinfo(np.uint32).max, np.uint32)
+    for d in range(shifts):
+        off = shifts * np.abs(a[:, d:] - b[:, : w - d]).astype(np.uint32)
+        for cost, best in zip(box_sums(off, WINDOWS), least[..., d:], strict=True):
+            np.minimum(best, cost + np.uint32(d), out=best)
+    return (least % shifts).astype(int)
 
 
 @functools.lru_cache(maxsize=16 * len(PRICED) * len(PRICES))

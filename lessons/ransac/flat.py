@@ -27,9 +27,11 @@ MOST_DRAWS = 100
 DOT = 0.03  # metres: the radius of a point
 WIDTHS = np.arange(5.0, 301.0, 5.0) / MM
 STUDIED = np.append(np.arange(5.0, 131.0, 5.0), np.arange(150.0, 301.0, 25.0)) / MM
+AMONG_WIDTHS = np.flatnonzero(np.isin(WIDTHS, STUDIED))
 APARTS = np.append(np.arange(0.05, 0.5, 0.05), np.arange(0.5, 1.81, 0.1))
 REDRAWN = 30  # times the noise of two points
 STUDIES = 60  # scenes
+TOGETHER = 4  # of these
 SMALL = 36_000  # numbers in an array: larger ones cost more than the calls that they save
 VOTES = Chart("Votes of each draw", "draw", y_range=(0.0, 40.0))
 CHANCE = Chart(
@@ -161,26 +163,33 @@ def fan(params: Input, subject: Subject, apart: float) -> Fan:
 def errors_by_width(params: Input) -> np.ndarray:
     """Return the median error of the finished fit over sixty scenes (m), for each of STUDIED."""
     errors = []
-    groups = min(STUDIES, _pieces(STUDIES * len(STUDIED) * params.points))
-    for seeds in np.array_split(np.arange(STUDIES), groups):
-        scenes = [_scene(params, int(seed)) for seed in seeds]
+    off = np.empty((TOGETHER, len(STUDIED), params.points))
+    for first in range(0, STUDIES, TOGETHER):
+        seeds = range(first, first + TOGETHER)
+        scenes = [_scene(params, seed) for seed in seeds]
         p, p_true = (np.stack([getattr(made, name) for made in scenes]) for name in ("p", "p_true"))
-        lines = np.stack([_most_votes(*drawn) for drawn in zip(p, seeds, strict=True)])
+        p_h = np.concatenate([p, np.ones((*p.shape[:2], 1))], axis=-1).swapaxes(-1, -2)
+        lines = np.stack([_most_votes(*one) for one in zip(_drawn(p, seeds), p_h, strict=True)])
         for _ in range(5):
-            lines = fit_hyperplanes(p, LINE.distances(lines, p) <= STUDIED[:, None])
+            np.abs(np.matmul(lines, p_h, out=off), out=off)
+            lines = fit_hyperplanes(p, np.less_equal(off, STUDIED[:, None], out=off))
         errors.append(np.sqrt((LINE.distances(lines, p_true) ** 2).mean(axis=-1)))
     return np.median(np.concatenate(errors), axis=0)
 
 
-def _most_votes(p: np.ndarray, seed: int) -> np.ndarray:
-    """Return for each of STUDIED the line with the most votes of two hundred drawn ones."""
-    samples = draw_samples(len(p), 2, 200, rng=np.random.default_rng(seed))
-    lines = LINE.solve(p[samples])
-    p_h = np.vstack([p.T, np.ones(len(p))]) / WIDTHS[0]  # distances in steps of the width
-    pieces = np.array_split(lines, min(len(lines), _pieces(len(lines) * len(p))))
-    studied = np.isin(WIDTHS, STUDIED)
-    votes = [_votes_by_width(some @ p_h)[:, studied] for some in pieces]
-    return lines[np.concatenate(votes).argmax(axis=0)]
+def _drawn(p: np.ndarray, seeds: range) -> np.ndarray:
+    """Return two hundred lines of each scene, through two of its points."""
+    rngs = [np.random.default_rng(seed) for seed in seeds]
+    rows = [draw_samples(p.shape[1], 2, 200, rng=rng) for rng in rngs]
+    pairs = [one[pair] for one, pair in zip(p, rows, strict=True)]
+    return LINE.solve(np.concatenate(pairs)).reshape(len(p), -1, 3)
+
+
+def _most_votes(lines: np.ndarray, p_h: np.ndarray) -> np.ndarray:
+    """Return for each of STUDIED the line with the most votes."""
+    pieces = np.array_split(lines / WIDTHS[0], _pieces(len(lines) * p_h.shape[1]))
+    votes = np.concatenate([_votes_by_width(some @ p_h) for some in pieces])
+    return lines[votes[:, AMONG_WIDTHS].argmax(axis=0)]
 
 
 def _pieces(numbers: int) -> int:
@@ -192,8 +201,9 @@ def _votes_by_width(steps: np.ndarray) -> np.ndarray:
     """Return how many points lie within each of WIDTHS, of signed distances in steps of them."""
     n, bands = len(steps), len(WIDTHS)
     np.abs(steps, out=steps)
-    cells = np.minimum(steps, bands, out=steps).astype(np.intp)  # the narrowest that holds it
-    cells += (bands + 1) * np.arange(n)[:, None]
+    np.minimum(steps, bands, out=steps)
+    steps += (bands + 1) * np.arange(n)[:, None]
+    cells = steps.astype(np.intp)  # of each row the narrowest width that holds it
     new = np.bincount(cells.ravel(), minlength=n * (bands + 1))
     return new.reshape(n, bands + 1)[:, :-1].cumsum(axis=1)
 

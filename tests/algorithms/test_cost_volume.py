@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from workbench.algorithms.stereo import cost_volume
 from workbench.algorithms.stereo.cost_volume import (
     box_sum,
+    box_sums,
     census,
     census_cost_volume,
     ncc_cost_volume,
@@ -83,6 +84,13 @@ def test_box_sums_equal_scipys(seed, window, h, w):
     expected = scipy.ndimage.convolve(image, np.ones((window, window)), mode="nearest")
     assert np.allclose(box_sum(image, window, float), expected, rtol=1e-12)
     assert np.array_equal(box_sum(image.astype(np.uint8), window, np.uint32), expected)
+
+
+def test_running_sums_serve_several_windows():
+    image = np.random.default_rng(0).random((9, 14))
+    windows = (5, 1, 21, 7)
+    for window, sums in zip(windows, box_sums(image, windows), strict=True):
+        assert np.array_equal(sums, box_sum(image, window, float))
 
 
 @pytest.mark.parametrize("volume", VOLUMES)

@@ -15,10 +15,12 @@ from lessons.disparity.lesson import lesson
 from lessons.disparity.presets import BASELINES, JUMP, NET, PATH, PRICES, ROW, SINGLE, WINDOWS
 from lessons.disparity.row import BLOCK
 from lessons.disparity.study import WINDOWS as SIDES
+from lessons.disparity.study import winners_by_window
 from tests.lessons.disparity_runs import states as states_of
 from tests.lessons.disparity_runs import timeline
 from workbench.algorithms.stereo.cost_volume import sad_cost_volume
 from workbench.algorithms.stereo.disparity import Stage
+from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.run.timeline import Timeline
 from workbench.scene import Curve, Label, Mesh, Picture, Points, Scalar, Scene, Segments
 
@@ -130,6 +132,13 @@ class TestKnobAtAllValues:
         whole = states(Input(scene="repeated pattern", pixel=(80, 60)))
         same = [state for state in whole if state.stage is Stage.PATHS][-1]
         assert np.array_equal(priced[6].disparity, same.disparity)  # a price of 1
+
+    def test_winners_of_all_windows_are_those_of_each(self):
+        left, right = np.random.default_rng(0).integers(0, 256, (2, 30, 50)).astype(float)
+        maps = winners_by_window(left, right, 31)
+        for side, winner in zip(SIDES, maps, strict=True):
+            cost = sad_cost_volume(left, right, 31, side)
+            assert np.array_equal(winner, winner_takes_all(cost))
 
     def test_there_is_a_best_window(self):
         for noise, best in ((4.0, 7), (8.0, 9)):

@@ -52,8 +52,9 @@ def forward(
     """Return what goes into each layer, and what comes out of the last."""
     outputs = [x]
     for weights, bias in layers[:-1]:
-        z = outputs[-1] @ weights + bias
-        outputs.append(np.tanh(z) if activation == "tanh" else np.maximum(z, 0))
+        z = outputs[-1] @ weights
+        z += bias
+        outputs.append(np.tanh(z, out=z) if activation == "tanh" else np.maximum(z, 0, out=z))
     weights, bias = layers[-1]
     return [*outputs, outputs[-1] @ weights + bias]
 

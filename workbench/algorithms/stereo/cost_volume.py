@@ -14,7 +14,8 @@ correspondence algorithms, IJCV 2002, sections 3.1 (matching cost) and 3.2 (aggr
 compared in Hirschmueller and Scharstein, PAMI 2009.
 """
 
-from collections.abc import Callable
+import functools
+from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -122,30 +123,50 @@ def census(picture: Grey) -> UInt32[np.ndarray, "h w"]:
 def box_sum(image: Grey, window: int, dtype: type | np.dtype) -> Grey:
     """Return the sum over the window around every pixel; border pixels stand in beyond it.
 
-    Running sums over 1, 2, 4, 8, ... pixels are joined, rows first and then columns: the work grows
-    with the logarithm of the window, and floats lose nothing to cancellation. `dtype` has to hold
-    window² values.
+    `dtype` has to hold window² values.
     """
-    image = image.astype(dtype, copy=False)
-    if window == 1:
-        return image
-    padded = np.pad(image, window // 2, mode="edge")
-    return _running_sum(_running_sum(padded, window).T, window).T
+    return next(box_sums(image.astype(dtype, copy=False), (window,)))
 
 
-def _running_sum(image: np.ndarray, window: int) -> np.ndarray:
-    """Return the sums of `window` successive rows; there are window - 1 fewer of them."""
-    n = len(image) - window + 1
-    total, length, done = None, 1, 0
-    while length <= window:
-        if window & length:
-            part = image[done : done + n]
-            total, done = (part if total is None else total + part), done + length
-        if 2 * length <= window:
-            image = image[:-length] + image[length:]
+def box_sums(image: Grey, windows: Sequence[int]) -> Iterator[Grey]:
+    """Yield the sum over the window around every pixel, for each of these windows.
+
+    Running sums over 1, 2, 4, 8, ... pixels are joined, rows first and then columns: the work grows
+    with the logarithm of the window, and floats lose nothing to cancellation. The image's type has
+    to hold the sums.
+    """
+    most = max(windows)
+    if most == 1:
+        yield from (image for _ in windows)
+        return
+    padded = np.pad(image, most // 2, mode="edge")
+    doubled = _doubled(padded, most)
+    for window in windows:
+        spare = (most - window) // 2
+        rows = _joined(doubled, window, range(spare, spare + len(image)))
+        columns = rows[:, spare : padded.shape[1] - spare].T
+        yield _joined(_doubled(columns, window), window, range(image.shape[1])).T
+
+
+def _doubled(image: np.ndarray, most: int) -> list[np.ndarray]:
+    """Return the sums of 1, 2, 4, ... successive rows, up to so many."""
+    sums = [image]
+    length = 1
+    while 2 * length <= most:
+        sums.append(sums[-1][:-length] + sums[-1][length:])
         length *= 2
-    assert total is not None
-    return total
+    return sums
+
+
+def _joined(doubled: list[np.ndarray], window: int, starts: range) -> np.ndarray:
+    """Return the sums of `window` successive rows from each start on, of sums by doubling."""
+    done = starts.start
+    parts = []
+    for k in range(window.bit_length()):
+        if window & (1 << k):
+            parts.append(doubled[k][done : done + len(starts)])
+            done += 1 << k
+    return functools.reduce(np.add, parts)
 
 
 def _windowed(

@@ -32,8 +32,8 @@ _FINER_BLURS = ((0.05, 20), (0.02, 30), (0.01, 50), (0.005, 80), (0.002, 100))
 # of a linear programme: pairs up to which all are taken at once; else of each row and column at
 # first, and in each of the rounds after
 _FEW_PAIRS = 2_000
-_FIRST = 6
-_MORE = 4
+_FIRST = 12
+_MORE = 12
 # exponent of a sweep's scalings, 1 to below 2: at 1 the solver takes up to four times as long
 _RELAXATION = 1.6
 # columns that are cheapest to no row, since rows contend for the others: so many, and such a share
@@ -220,29 +220,35 @@ def best_plan_by_programme(cost: Float[np.ndarray, "n m"]) -> Float[np.ndarray, 
     slackness); Dantzig and Wolfe, Decomposition principle for linear programs, 1960 (columns by
     their prices).
     """
-    taken = _likely(cost)
+    taken, left = _likely(cost)
     tolerance = 1e-11 * cost.max()
     while True:
-        plan, f, g = _solved(cost, taken)
-        gain = np.where(taken, 0.0, cost - f[:, None] - g)
+        plan, f, g = _solved(left, taken)
+        left = left - f[:, None] - g  # the solver needs half as many steps where most are near zero
+        gain = np.where(taken, 0.0, left)
         cheap = gain < -tolerance
         if not cheap.any():
             return plan
         taken |= cheap & _lowest(gain, _MORE)
 
 
-def _likely(cost: Float[np.ndarray, "n m"]) -> Bool[np.ndarray, "n m"]:
-    """Return the pairs that a programme begins with: all of few, else those that are near the best
-    by blurred potentials, and enough of others that some plan exists.
+def _likely(
+    cost: Float[np.ndarray, "n m"],
+) -> tuple[Bool[np.ndarray, "n m"], Float[np.ndarray, "n m"]]:
+    """Return the pairs that a programme begins with, and the costs less potentials near the best.
+
+    All pairs of few; else those that are near the best by blurred potentials, and enough of others
+    that some plan exists.
     """
     n, m = cost.shape
     if cost.size <= _FEW_PAIRS:
-        return np.ones(cost.shape, bool)
+        return np.ones(cost.shape, bool), cost
     f, g = tight_potentials(cost, blurred_potentials(cost, _FINER_BLURS))
-    likely = _lowest(cost - f[:, None] - g, _FIRST)
+    left = cost - f[:, None] - g
+    likely = _lowest(left, _FIRST)
     ends = np.union1d(np.arange(n) * m, np.arange(m) * n)  # both masses laid along one line, n m
     likely[ends // m, ends // n] = True
-    return likely
+    return likely, left
 
 
 def _lowest(values: Float[np.ndarray, "n m"], count: int) -> Bool[np.ndarray, "n m"]:

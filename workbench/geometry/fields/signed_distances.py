@@ -16,7 +16,9 @@ Points = Float[np.ndarray, "v 3"]
 Faces = Int[np.ndarray, "f 3"]
 Queries = Float[np.ndarray, "n 3"]
 
-_BLOCK = 1_000  # points that are looked at together: what they need stays near the processor
+# looked at together, so that what they need stays near the processor
+_BLOCK = 1_000  # points
+_PAIRS = 4_000  # of a point and a triangle
 # In which coordinates are summed; rounding, and so every recording, depends on it
 _ORDER = (0, 2, 1)
 
@@ -90,13 +92,18 @@ def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
         box = np.zeros(len(rows), dtype=np.intp)
         for level, (low, high) in enumerate(mesh.boxes):
             if level:
-                rows, box = np.repeat(rows, 2), (2 * box[:, None] + [0, 1]).ravel()
+                rows, box = np.repeat(rows, 2), np.repeat(2 * box, 2)
+                box[1::2] += 1
             kept = np.flatnonzero(
                 _squared_beyond(columns_of_q, rows, low, high=high, box=box) < best.take(rows)
             )
             rows, box = rows.take(kept), box.take(kept)
-        nearer = _squared_distances(columns_of_q.take(rows, axis=1), mesh.corners.take(box, axis=2))
-        np.minimum.at(best, rows, nearer)
+        for first in range(0, len(rows), _PAIRS):
+            some = slice(first, first + _PAIRS)
+            nearer = _squared_distances(
+                columns_of_q.take(rows[some], axis=1), mesh.corners.take(box[some], axis=2)
+            )
+            np.minimum.at(best, rows[some], nearer)
     found = np.sqrt(best)
     if mesh.columns is None:
         return found

@@ -64,15 +64,16 @@ def fit_hyperplanes(
 
     Args:
         p: The points, metres; of one cloud, or of many with as many points each.
-        weights: Of each fit a weight for each point, or whether it counts.
+        weights: Of each fit a weight for each point, not negative, or whether it counts.
     """
     d = p.shape[-1]
-    few = np.count_nonzero(weights > 0, axis=-1) < d
-    middle = p.mean(axis=-2, keepdims=True)  # about it, sums of squares lose no digits
-    q = p - middle
-    products = (q[..., :, None] * q[..., None, :]).reshape(*p.shape[:-1], d * d)
-    summed = np.concatenate([np.ones_like(q[..., :1]), q, products], axis=-1)
-    sums = weights.astype(float) @ summed
+    few = np.count_nonzero(weights, axis=-1) < d
+    q = np.moveaxis(p, -1, 0).copy()  # x of all points, y of all, ...
+    middle = q.mean(axis=-1, keepdims=True)  # about it, sums of squares lose no digits
+    q -= middle
+    products = [a * b for a in q for b in q]
+    summed = np.stack([np.ones_like(q[0]), *q, *products], axis=-2)
+    sums = weights.astype(float, copy=False) @ summed.swapaxes(-1, -2)
     total = np.where(few, 1.0, sums[..., 0])[..., None]
     mean = sums[..., 1 : d + 1] / total
     scatter = (sums[..., d + 1 :] / total).reshape(*few.shape, d, d)
@@ -80,7 +81,7 @@ def fit_hyperplanes(
     largest = np.abs(normal).argmax(axis=-1)[..., None]
     normal = normal * np.sign(np.take_along_axis(normal, largest, axis=-1))
     normal = np.where(few[..., None], np.nan, normal)
-    return _through(normal, mean + middle)
+    return _through(normal, mean + np.moveaxis(middle, 0, -1))
 
 
 def regression_line(p: Float[np.ndarray, "n 2"], on: int) -> Float[np.ndarray, "3"]:
