@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 from unittest.mock import patch
 
@@ -22,6 +23,7 @@ from workbench.story import ASKED, has_story
 from workbench.viewer.server import Server
 
 WIDTH, HEIGHT = 1280, 720
+NO_PICTURE = b"<svg xmlns='http://www.w3.org/2000/svg'/>"
 PHONE = {"width": 390, "height": 844, "deviceScaleFactor": 3, "mobile": True}
 BARRIERS = """async (options) => {
   const { violations } = await axe.run({ exclude: [["math"]] }, options);
@@ -157,14 +159,15 @@ def _live(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str]:
 
 def _site(lesson: Lesson, server: Server, folder: Path) -> tuple[Lesson, str]:
     kept = few(lesson, folder)
+
+    def known(_: Lesson, params: Any) -> Timeline:
+        return server.runs.timelines.get(lesson, params)
+
     with (
-        patch(
-            "workbench.publish.runs.record_bytes", lambda *_, **__: b"no page of the site reads it"
-        ),
-        patch(
-            "workbench.publish.runs.Timeline",
-            lambda _, params: server.runs.timelines.get(lesson, params),
-        ),
+        patch("workbench.publish.runs.record_bytes", lambda *_, **__: b"no page here reads it"),
+        patch("workbench.publish.runs.still_svg", lambda *_, **__: NO_PICTURE),
+        patch("workbench.publish.runs.Timeline", known),
+        patch("workbench.publish.site.Timelines", lambda: SimpleNamespace(get=known)),
     ):
         publish(folder / "site", [kept])
     return kept, (folder / "site" / kept.name / "index.html").as_uri()
