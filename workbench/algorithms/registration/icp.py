@@ -245,7 +245,6 @@ def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3
     """
     check_clouds(p_target, p_source)
     tree, order = _tree(p_target), _tree(p_source).indices
-    workers = -1 if len(p_source) > 2000 else 1  # threads cost more than they save on small clouds
     searched_at = np.full(p_source.shape, np.inf)
     partner = np.empty(len(p_source), dtype=np.intp)
     free = np.zeros(len(p_source))  # how far a point may move from there and keep its partner
@@ -253,6 +252,7 @@ def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3
     def match(_p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
         rows = order[(lengths(p_source - searched_at) >= free).take(order)]
         searched_at[rows] = p = p_source.take(rows, axis=0)
+        workers = -1 if len(p) > 2000 else 1  # threads cost more than they save on few points
         distances, nearest_two = tree.query(p, k=2, workers=workers)
         partner[rows] = nearest_two[:, 0]
         free[rows] = (distances[:, 1] - distances[:, 0]) / 2.0
