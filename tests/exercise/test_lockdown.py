@@ -2,6 +2,7 @@
 line, Landlock alone.
 """
 
+import ctypes
 import importlib
 import json
 import os
@@ -28,6 +29,12 @@ def syscalls() -> Iterator[ModuleType]:
         patched.syspath_prepend(str(python.CHILD_FILES))
         yield importlib.import_module("syscalls")
         sys.modules.pop("syscalls")
+
+
+@pytest.fixture(scope="module")
+def lockdown(syscalls) -> Iterator[ModuleType]:
+    yield importlib.import_module("lockdown")
+    sys.modules.pop("lockdown")
 
 
 # the filter, run as the kernel runs it ------------------------------------------------------------
@@ -82,8 +89,7 @@ def test_what_is_on_the_list_is_allowed_and_nothing_else(syscalls, machine, writ
 
 
 CASES = [  # a call, its arguments, whether it is allowed
-    ("fcntl", (3, 0), True),
-    ("fcntl", (3, 1030), True),
+    *(("fcntl", (3, command), True) for command in (0, 1, 2, 3, 1030)),
     ("fcntl", (3, 4, 0x800), True),
     ("fcntl", (3, 4, 0x2800), False),
     *(("fcntl", (3, command), False) for command in (5, 6, 7, 8, 9, 10, 11, 15, 16, 36, 37, 38)),
@@ -91,7 +97,11 @@ CASES = [  # a call, its arguments, whether it is allowed
     # the kernel looks at 32 bits too
     ("fcntl", (3, 1024 + 2**40), False),
     ("fcntl", (3, 3 + 2**40), True),
-    ("ioctl", (0, 0x5401), True),
+    # TCGETS, TCGETS2, TIOCGWINSZ, FIONCLEX, FIOCLEX, FIONBIO
+    *(
+        ("ioctl", (0, command), True)
+        for command in (0x5401, 0x802C542A, 0x5413, 0x5450, 0x5451, 0x5421)
+    ),
     ("ioctl", (0, 0x8901), False),
     ("ioctl", (0, 0x8902), False),
     ("ioctl", (0, 0x5452), False),
@@ -104,18 +114,18 @@ CASES = [  # a call, its arguments, whether it is allowed
     ("clone", (0x3D0F00 | 0x10000000,), False),
     ("clone", (0x3D0F11,), False),
     ("clone", (0x3D0F00 & ~0x10000,), False),
-    ("futex", (8, 128), True),
+    *(("futex", (8, command | 128), True) for command in (0, 1, 3, 4, 5, 9, 10)),
     ("futex", (8, 129 | 256), True),
     ("futex", (8, 6), False),
     ("futex", (8, 6 | 128), False),
     ("futex", (8, 13), False),
     ("futex", (8, 11), False),
-    ("madvise", (0, 9, 4), True),
+    *(("madvise", (0, 9, advice), True) for advice in (4, 8, 14, 15, 102, 103)),
     ("madvise", (0, 9, 21), False),
     ("madvise", (0, 9, 12), False),
     ("mbind", (0, 9, 1, 0, 0, 0), True),
     ("mbind", (0, 9, 1, 0, 0, 4), False),
-    ("membarrier", (8,), True),
+    *(("membarrier", (command,), True) for command in (0, 8, 16)),
     ("membarrier", (1,), False),
     ("prlimit64", (0, 7, 0, 4096), True),
     ("prlimit64", (0, 7, 4096, 0), False),
@@ -161,7 +171,7 @@ HEADERS = {
 
 
 @pytest.mark.parametrize("machine", MACHINES)
-def test_the_numbers_are_the_kernel_s(syscalls, machine):
+def test_the_numbers_are_the_kernel_s(syscalls, lockdown, machine):
     there = [Path(name) for name in HEADERS[machine] if Path(name).exists()]
     if not there:
         pytest.skip("the kernel's headers are not installed")
@@ -176,6 +186,37 @@ def test_the_numbers_are_the_kernel_s(syscalls, machine):
     )
     for name, numbers in ours.items():
         assert known.get(name) == (None if numbers[column] is None else str(numbers[column])), name
+    for name, number in {
+        "seccomp": lockdown.SECCOMP[machine],
+        "landlock_create_ruleset": lockdown.CREATE_RULESET,
+        "landlock_add_rule": lockdown.ADD_RULE,
+        "landlock_restrict_self": lockdown.RESTRICT_SELF,
+    }.items():
+        assert known[name] == str(number), name
+
+
+def test_a_machine_is_the_one_that_the_kernel_names(syscalls):
+    """Source: Linux, include/uapi/linux/audit.h and elf-em.h: 64 bits, little end first, and EM_."""
+    known = {"x86_64": 62, "aarch64": 183}
+    found = {machine: number for machine, (_, number) in syscalls.MACHINES.items()}
+    assert found == {machine: 0xC0000000 | number for machine, number in known.items()}
+
+
+def test_all_that_a_version_of_landlock_knows_is_denied(lockdown):
+    """Source: Linux, include/uapi/linux/landlock.h: rights of files, of ports, and scopes."""
+    files = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16, 6: 16}
+    assert lockdown.HANDLED == {
+        version: (2**n - 1, *([3] if version >= 4 else []), *([3] if version >= 6 else []))
+        for version, n in files.items()
+    }
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux has it")
+def test_where_the_kernel_has_landlock_it_is_a_wall():
+    asked = [ctypes.c_long(444), None, ctypes.c_long(0), ctypes.c_long(1)]  # for its version
+    if ctypes.CDLL(None).syscall(*asked) < 1:
+        pytest.skip("this kernel has no Landlock")
+    assert named("landlock").holds
 
 
 # in a process of its own --------------------------------------------------------------------------
@@ -251,6 +292,21 @@ def test_landlock_alone_holds_signals_and_ports_where_it_knows_them(shut):
     version, signal, port = shut(TRIED + textwrap.dedent(lines), str(os.getpid()))
     assert signal == ("1" if int(version) >= 6 else "done")
     assert port == ("13" if int(version) >= 4 else "done")
+
+
+def test_what_a_process_may_use_is_bounded(shut):
+    lines = """
+    import resource
+    kinds = ["AS", "CPU", "FSIZE", "NOFILE", "NPROC", "CORE"]
+    before = [resource.getrlimit(getattr(resource, f"RLIMIT_{kind}"))[1] for kind in kinds]
+    lockdown.shut(settings)
+    after = [resource.getrlimit(getattr(resource, f"RLIMIT_{kind}")) for kind in kinds]
+    print(json.dumps([before, after]).replace(" ", ""))
+    """
+    before, after = json.loads(shut(lines)[0])
+    wanted = [2048 << 20, 60, 1 << 20, 64, 4096, 0]
+    least = [most if hard < 0 else min(most, hard) for most, hard in zip(wanted, before, strict=True)]
+    assert after == [[most, most] for most in least]
 
 
 @pytest.mark.parametrize("version", [1, 2, 3])
