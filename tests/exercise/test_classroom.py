@@ -1,6 +1,8 @@
 import csv
 import io
 import json
+import sys
+import types
 from dataclasses import replace
 
 import pytest
@@ -9,6 +11,7 @@ from tests.exercise.batch import write_class
 from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise import classroom, finding
+from workbench.exercise.marking import Asked
 
 POINTS = {"right": 4.0, "sum": 1.0, "hang": 0.0, "crash": 0.0}
 
@@ -116,3 +119,36 @@ def test_a_result_that_was_half_written_is_graded_again(tmp_path):
     (result,) = classroom.grade_class(tmp_path / "in", tmp_path / "out")
     assert result["reports"][0]["points"] == 4.0
     assert json.loads(kept.read_text())["student"] == "student000"
+
+
+def test_who_interrupts_is_told_how_far_it_came(tmp_path, monkeypatch):
+    def interrupted(*places, progress, **how):
+        progress("ada", 1, 3)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(classroom, "grade_class", interrupted)
+    tell, result = io.StringIO(), io.StringIO()
+    how = {"asked": Asked(sandbox="none"), "jobs": 1, "dask": None, "tell": tell, "result": result}
+    assert classroom.grade_folder(tmp_path, tmp_path / "out", **how) == 130
+    assert "Interrupted: 1 of 3 graded; the same command goes on" in tell.getvalue()
+    assert result.getvalue() == ""
+
+
+@pytest.mark.parametrize(
+    ("client", "said"),
+    [
+        ({}, "^--dask needs the package `distributed`"),
+        ({"Client": None}, r"^--dask tcp://nowhere:1: no scheduler answers there"),
+    ],
+)
+def test_a_scheduler_that_is_not_there_is_told_in_one_line(tmp_path, monkeypatch, client, said):
+    def nobody(address, timeout):
+        raise TimeoutError(address)
+
+    fake = types.SimpleNamespace(**dict.fromkeys(client, nobody)) if client else None
+    monkeypatch.setitem(sys.modules, "distributed", fake)
+    how = {"asked": Asked(sandbox="none"), "jobs": 1, "dask": "tcp://nowhere:1"}
+    with pytest.raises(InputError, match=said):
+        classroom.grade_folder(
+            tmp_path, tmp_path / "out", **how, tell=io.StringIO(), result=io.StringIO()
+        )

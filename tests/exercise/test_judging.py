@@ -169,7 +169,9 @@ def test_a_hint_stands_behind_the_two_numbers_that_differ_most(got, right, said)
 
 def test_a_hint_names_what_it_tells_of():
     rows = np.arange(6.0).reshape(3, 2)
-    assert beside(rows + [[0], [1], [0]], rows, "", "A").startswith("A[1] is (3, 4), right is")
+    assert beside(rows + np.array([[0], [1], [0]]), rows, "", "A").startswith(
+        "A[1] is (3, 4), right is"
+    )
     assert beside(rows[0] + 1, rows[0], "", "t").startswith("t is (1, 2), right is (0, 1)")
 
 

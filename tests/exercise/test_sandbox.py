@@ -2,6 +2,7 @@
 works.
 """
 
+import os
 import subprocess
 import sys
 import textwrap
@@ -14,11 +15,22 @@ import pytest
 from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise.candidate import held_to_contract
+from workbench.exercise.child.main import load, told
 from workbench.exercise.grading import grade_file
-from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError
+from workbench.exercise.sandbox import (
+    CallBudget,
+    SandboxedFunction,
+    StudentError,
+    Wall,
+    best,
+    bubblewrap,
+    named,
+)
 from workbench.exercise.sandbox.function import removed_folder
+from workbench.exercise.sandbox.isolation import anonymous
 from workbench.exercise.sandbox.pipe import _Deadline
 from workbench.exercise.sandbox.waiting import waited
+from workbench.exercise.submission import Submission
 
 POINTS = np.arange(12.0).reshape(4, 3)
 
@@ -115,6 +127,43 @@ def test_what_is_printed_can_be_read(student):
     assert function.printed() == "hello (4, 3)\n"
 
 
+def test_the_first_64_kilobytes_of_what_is_printed_are_kept(student):
+    function = student("print('é' * (1 << 20))\nreturn p[0]")
+    np.testing.assert_allclose(function(POINTS), POINTS[0])
+    assert len(function.printed(1 << 20).encode()) == 64 << 10
+
+
+@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="Linux has it")
+def test_what_is_printed_stays_in_memory():
+    with anonymous() as printed:
+        assert os.readlink(f"/proc/self/fd/{printed.fileno()}").startswith("/memfd:")
+
+
+def test_the_wall_that_is_given_is_the_one_that_stands():
+    given = Submission("a.py", "")
+    for wall in (Wall("none", "asked for"), Wall("landlock")):
+        with SandboxedFunction(given, "f", wall=wall) as student:
+            assert student.wall is wall
+    with SandboxedFunction(given, "f") as student:
+        assert student.wall is best()
+
+
+def test_where_bubblewrap_is_not_installed_the_other_walls_stand(monkeypatch):
+    monkeypatch.setattr(bubblewrap, "program", lambda: None)
+    with pytest.raises(InputError, match=r"^--sandbox bubblewrap: bubblewrap is not installed"):
+        named("bubblewrap")
+    monkeypatch.setattr("workbench.exercise.sandbox.isolation._tried", lambda wall: "")
+    if sys.platform == "linux":
+        assert named("landlock") == Wall("landlock")
+
+
+def test_a_wall_of_no_name_is_refused():
+    with pytest.raises(InputError, match=r"^--sandbox glass: there are auto, bubblewrap, landlock"):
+        named("glass")
+    assert named("none") == Wall("none", "it was asked for")
+    assert not named("none").holds
+
+
 def test_patching_numpy_in_the_child_changes_nothing_here(student):
     function = student(
         "np.allclose = lambda *a, **k: True\nnp.linalg.norm = lambda *a, **k: 0.0\nreturn p[0] + 99"
@@ -182,6 +231,29 @@ def test_an_error_names_the_students_own_line(student):
     with pytest.raises(StudentError, match=r"my_centroid.py, line 5: .* IndexError") as caught:
         student("x = 1\nreturn p[99]")(POINTS)
     assert caught.value.line == 5
+
+
+def test_of_an_error_inside_a_helper_the_innermost_line_of_the_file_is_told():
+    source = "def helper(p):\n    return p[99]\n\ndef f(p):\n    return helper(p)\n"
+    function = load(source, "my.py", "f", {})
+    with pytest.raises(IndexError) as caught:
+        function([])
+    assert told(caught.value, "my.py") == {
+        "error": "IndexError",
+        "errors": ["IndexError", "LookupError", "Exception", "BaseException", "object"],
+        "message": "list index out of range",
+        "line": 2,
+    }
+    assert told(caught.value, "other.py")["line"] == 0
+
+
+def test_an_exception_that_cannot_say_anything_says_nothing():
+    class MuteError(Exception):
+        def __str__(self):
+            raise KeyError
+
+    assert told(MuteError(), "my.py")["message"] == ""
+    assert len(told(ValueError("x " * 999), "my.py")["message"]) == 500
 
 
 def test_nothing_is_left_behind(student, tmp_path):
