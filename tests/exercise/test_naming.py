@@ -1,4 +1,4 @@
-"""A mistake is named where the answers are the mistake's and not the right ones, and not by chance."""
+"""A mistake is named where the answers are the mistake's and not right, and not by chance."""
 
 from dataclasses import replace
 
