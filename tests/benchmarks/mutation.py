@@ -53,7 +53,7 @@ IMPORTED = (
     "beartype",
     "jaxtyping",
 )
-TESTED_FOR = 60.0
+TESTED_FOR = 40.0
 """Seconds, at most, that the tests of one mutant took without it: its own, then the others."""
 BASELINE_FOR = 900.0
 """Seconds until a file of tests is given up."""
