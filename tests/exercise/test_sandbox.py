@@ -15,7 +15,6 @@ import pytest
 from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise.candidate import held_to_contract
-from workbench.exercise.child.main import load, told
 from workbench.exercise.grading import grade_file
 from workbench.exercise.sandbox import (
     CallBudget,
@@ -231,29 +230,6 @@ def test_an_error_names_the_students_own_line(student):
     with pytest.raises(StudentError, match=r"my_centroid.py, line 5: .* IndexError") as caught:
         student("x = 1\nreturn p[99]")(POINTS)
     assert caught.value.line == 5
-
-
-def test_of_an_error_inside_a_helper_the_innermost_line_of_the_file_is_told():
-    source = "def helper(p):\n    return p[99]\n\ndef f(p):\n    return helper(p)\n"
-    function = load(source, "my.py", "f", {})
-    with pytest.raises(IndexError) as caught:
-        function([])
-    assert told(caught.value, "my.py") == {
-        "error": "IndexError",
-        "errors": ["IndexError", "LookupError", "Exception", "BaseException", "object"],
-        "message": "list index out of range",
-        "line": 2,
-    }
-    assert told(caught.value, "other.py")["line"] == 0
-
-
-def test_an_exception_that_cannot_say_anything_says_nothing():
-    class MuteError(Exception):
-        def __str__(self):
-            raise KeyError
-
-    assert told(MuteError(), "my.py")["message"] == ""
-    assert len(told(ValueError("x " * 999), "my.py")["message"]) == 500
 
 
 def test_nothing_is_left_behind(student, tmp_path):
