@@ -119,7 +119,7 @@ def test_imports_are_listed_once_and_no_more_than_some():
 
 def notebook(*cells: str, **tags: list[str]) -> bytes:
     """Return a notebook of code cells; `tags` has those of a cell, `of2` of that with index 2."""
-    made = [{"cell_type": "code", "source": cell} for cell in cells]
+    made: list[dict] = [{"cell_type": "code", "source": cell} for cell in cells]
     for name, given in tags.items():
         made[int(name[2:])]["metadata"] = {"tags": given}
     return json.dumps({"cells": [{"cell_type": "markdown", "source": "def no("}, *made]}).encode()
