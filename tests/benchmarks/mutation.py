@@ -208,17 +208,20 @@ class House:
 
     def tested(self, mutant: Mutant) -> dict:
         """Return a mutant's fate: killed, survived, or too long."""
-        began, changed = time.monotonic(), set(range(mutant.line, mutant.last + 1))
-        known, ran, covered, end = list[dict](), list[str](), False, 0
+        began = time.monotonic()
+        changed = set(range(mutant.line, mutant.last + 1))
+        known: list[dict] = []
+        ran: list[str] = []
+        end: int | None = 0
         for files in own_tests(ROOT / mutant.module):
             known += [one for file in files for one in self.baseline(file)]
             there = [one for one in known if changed & set(one["lines"].get(mutant.module, []))]
             chosen, seconds = _chosen([one for one in there if one["test"] not in ran])
             end = self.end_with(mutant, chosen, seconds)
             ran += chosen
-            covered = bool(ran)
             if end != 0:
                 break
+        covered = bool(ran)
         if not covered:
             ran, seconds = _chosen(known)
             end = self.end_with(mutant, ran, seconds)
@@ -235,7 +238,8 @@ class House:
         if not tests:
             return 0
         path = self.root / mutant.module
-        before, was = path.read_bytes(), path.stat()
+        before = path.read_bytes()
+        was = path.stat()
         path.write_text(mutant.source(), encoding="utf-8")
         self.runs += 1
         os.utime(path, (was.st_atime, was.st_mtime + 10 * self.runs))  # no older bytecode fits
@@ -310,12 +314,14 @@ class House:
 
 def _chosen(tests: list[dict]) -> tuple[list[str], float]:
     """Return tests and their seconds together: one of each function first, the shortest."""
-    turn, ranked = Counter[str](), list[tuple]()
+    ranked: list[tuple[int, float, str]] = []
+    turn = Counter[str]()
     for one in sorted(tests, key=lambda one: one["seconds"]):
         function = one["test"].partition("[")[0]
         turn[function] += 1
         ranked.append((turn[function], one["seconds"], one["test"]))
-    chosen, together = list[str](), 0.0
+    chosen: list[str] = []
+    together = 0.0
     for _, seconds, test in sorted(ranked):
         if together + seconds <= TESTED_FOR or not chosen:
             chosen.append(test)
@@ -327,8 +333,9 @@ class Lines:
     """A plugin that notes to which lines of ours each test comes."""
 
     def __init__(self, tracing: Tracing, file: Path) -> None:
-        self.tracing, self.file, self.tests = tracing, file, dict[str, dict]()
-        self.common = dict[str, set[int]]()
+        self.tracing, self.file = tracing, file
+        self.tests: dict[str, dict] = {}
+        self.common: dict[str, set[int]] = {}
 
     def pytest_configure(self) -> None:
         self.tracing.begin()

@@ -42,7 +42,10 @@ class Tracing:
     """Prepares a copy of the project and, in a process that is asked, tells its lines."""
 
     def __init__(self, root: Path) -> None:
-        self.lines, size, places = dict[str, slice](), 0, dict[str, int]()
+        self.lines: dict[str, slice] = {}
+        self.names: dict[str, object] = {}
+        places: dict[str, int] = {}
+        size = 0
         for file in sorted(root.glob("workbench/**/*.py")):
             end = size + len(file.read_bytes().splitlines()) + 1
             self.lines[file.relative_to(root).as_posix()] = slice(size, end)
@@ -50,8 +53,8 @@ class Tracing:
                 {f"{CHILD}/{file.name}": size} if file.parent.name == "child" else {}
             )
             size = end
-        self.size, head = size, f"PLACES = {places}\nDESCRIPTOR, SIZE = {DESCRIPTOR}, {size}"
-        self.look, self.names = head + LOOK, dict[str, object]()
+        self.size = size
+        self.look = f"PLACES = {places}\nDESCRIPTOR, SIZE = {DESCRIPTOR}, {size}\n{LOOK}"
         (root / "sitecustomize.py").write_text(self.look)
         for file in root.glob("workbench/exercise/child/*.py"):  # without a change of its lines
             file.write_bytes(f"exec({self.look!r}, {{}}); ".encode() + file.read_bytes())
@@ -66,7 +69,8 @@ class Tracing:
         """Return the lines that were come to since this was asked last, by module."""
         exec("sys.settrace(called)", self.names)  # hypothesis takes the tracer away
         seen: bytearray = self.names["seen"]  # type: ignore[assignment]
-        data, seen[:] = seen[:], bytes(self.size)
+        data = seen[:]
+        seen[:] = bytes(self.size)
         return {
             name: {k for k, one in enumerate(data[lines]) if one}
             for name, lines in self.lines.items()

@@ -120,7 +120,8 @@ def test_arguments_are_copies_and_who_changes_them_is_noticed():
         p *= 2
         return p.sum()
 
-    candidate, p = Candidate(doubling, lambda p, k: 2.0 * p.sum()), np.ones(3)
+    candidate = Candidate(doubling, lambda p, k: 2.0 * p.sum())
+    p = np.ones(3)
     assert candidate(p, 1) == 6.0
     assert p.tolist() == [1, 1, 1]
     assert candidate.changed_inputs

@@ -6,7 +6,7 @@ from workbench.exercise.classfiles import class_csv, is_full, matrix_csv, summar
 from workbench.exercise.reports import UNSAFE
 
 
-def check(name: str, points: float, kind: str = "", message: str = "") -> dict[str, Any]:
+def check(name: str, points: float, kind: str = "", *, message: str = "") -> dict[str, Any]:
     return {"name": name, "points": points, "possible": 2.0, "kind": kind, "message": message}
 
 
@@ -40,7 +40,7 @@ CLASS = [
     handed("kim", ungraded=[lost("a", 4.0, "no Python"), lost(None, 0, "no *text*")], note="late"),
     handed("=lea", report("a", check("one", 0.0, "raised"), check("two", 2.0), mistake="summed")),
 ]
-FORBIDDEN = [check(name, 0.0, "forbidden", "uses scipy") for name in ("one", "two")]
+FORBIDDEN = [check(name, 0.0, "forbidden", message="uses scipy") for name in ("one", "two")]
 
 
 def test_a_row_is_a_student_s_points():

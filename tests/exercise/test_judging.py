@@ -23,11 +23,9 @@ RIGHT = np.eye(4)
 
 def turned(axis: int, degrees: float) -> np.ndarray:
     """Return a turn about a coordinate axis by the right hand."""
-    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
-    j, k = (axis + 1) % 3, (axis + 2) % 3
-    R = np.eye(3)
-    R[j, j], R[k, k], R[j, k], R[k, j] = c, c, -s, s
-    return R
+    c, s = (part(np.radians(degrees)) for part in (np.cos, np.sin))
+    R = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    return np.roll(R, (axis, axis), (0, 1))
 
 
 def motion(R: np.ndarray, t: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> np.ndarray:

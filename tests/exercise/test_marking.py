@@ -134,7 +134,8 @@ def test_a_file_that_could_not_be_read_is_a_trouble():
 
 
 def test_a_kept_result_agrees_with_all_that_made_it():
-    handed, asked = HandIn("ada", {"a.py": b"x"}), Asked(only=("centroid",))
+    handed = HandIn("ada", {"a.py": b"x"})
+    asked = Asked(only=("centroid",))
     others = [
         (replace(handed, student="bob"), asked),
         (replace(handed, note="late"), asked),

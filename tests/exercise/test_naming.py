@@ -60,7 +60,8 @@ def report(student, *mistakes, checks=(), either=None) -> Report:
     return grade_function(student, exercise)
 
 
-PLAIN, SPARING = mistake("You summed.")(of_sum), mistake("All is right but the divisor.")(of_sum)
+PLAIN = mistake("You summed.")(of_sum)
+SPARING = mistake("All is right but the divisor.")(of_sum)
 
 
 def test_a_sentence_that_says_that_all_else_is_right_is_told_only_where_it_is():
@@ -76,7 +77,7 @@ def test_a_mistake_in_most_of_the_failing_checks_is_named_and_they_are_told():
     def two_mistakes(p):
         return of_sum(p) if p[0, 0] < 5 else p[0] * 0.3
 
-    one, other, third = asking(ROWS), asking(ROWS + 1), asking(ROWS + 9)
+    one, other, third = map(asking, (ROWS, ROWS + 1, ROWS + 9))
     found = report(two_mistakes, PLAIN, checks=(one, other, third))
     assert found.mistake is PLAIN
     assert found.concerned == {one.name, other.name}
@@ -132,7 +133,7 @@ def test_a_gap_is_the_largest_difference(a, b, gap):
 
 
 def test_errors_differ_by_their_names_alone():
-    no, other = Returned(None, "ValueError"), Returned(None, "IndexError")
+    no, other = (Returned(None, name) for name in ("ValueError", "IndexError"))
     assert _gap(no, no) == 0.0
     assert _gap(no, other) == _gap(no, Returned(1.0, "")) == np.inf
 

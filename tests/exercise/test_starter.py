@@ -11,7 +11,8 @@ from workbench.errors import InputError
 from workbench.exercise.model import contract
 from workbench.exercise.starter import allowed, sample, starter, write_starter
 
-ROWS, NUMBERS = Float[np.ndarray, "n 3"], Float[np.ndarray, "n"]
+ROWS = Float[np.ndarray, "n 3"]
+NUMBERS = Float[np.ndarray, "n"]
 
 
 def weighed(p: ROWS, weights: NUMBERS, k: int = 3, *, n=None) -> tuple[float, int]:  # type: ignore

@@ -90,7 +90,8 @@ def test_a_roster_s_first_row_may_say_where_the_names_are(tmp_path, text, names)
 
 def test_a_roster_finds_its_students_whatever_their_capitals(tmp_path):
     (tmp_path / "roster.csv").write_text("Ada\nBob\n")
-    ada, eve = HandIn("ada", {"a.py": b""}), HandIn("eve", {"b.py": b""}, note="late")
+    ada = HandIn("ada", {"a.py": b""})
+    eve = HandIn("eve", {"b.py": b""}, note="late")
     found = with_roster({"eve": eve, "ada": ada}, tmp_path / "roster.csv")
     assert [(one.student, one.note) for one in found.values()] == [
         ("ada", ""),

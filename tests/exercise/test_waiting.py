@@ -16,8 +16,8 @@ def process(proc, pid: int, *, ran: float, lost: float, all_ran: float, children
     task = proc / str(pid) / "task" / str(pid)
     task.mkdir(parents=True)
     (proc / str(pid) / "schedstat").write_text(f"{ran * 1e9:.0f} {lost * 1e9:.0f} 3\n")
-    before, ticks = "S 1 2 3 4 5 6 7 8 9 10", int(all_ran * SECOND)
-    (proc / str(pid) / "stat").write_text(f"{pid} (a) b) {before} {ticks - SECOND} {SECOND} 9 9\n")
+    times = f"{int(all_ran * SECOND) - SECOND} {SECOND}"
+    (proc / str(pid) / "stat").write_text(f"{pid} (a) b) S 1 2 3 4 5 6 7 8 9 10 {times} 9 9\n")
     (task / "children").write_text(children)
 
 
