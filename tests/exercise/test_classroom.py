@@ -2,6 +2,7 @@ import contextlib
 import csv
 import io
 import json
+import re
 import sys
 import types
 from dataclasses import replace
@@ -148,3 +149,13 @@ def test_a_scheduler_that_is_not_there_is_told_in_one_line(monkeypatch):
         with pytest.raises(InputError) as told, contextlib.ExitStack() as stack:
             classroom._dask_executor("tcp://it", stack)
         assert str(told.value) == said
+
+
+def test_a_result_s_file_is_named_by_signs_that_every_system_takes():
+    names = ["ada", "a b", "a_b", "A_B", "é.-", "x" * 99, "../y", "z?", "z?" * 60]
+    found = classroom.stems(dict.fromkeys(names))
+    assert [name for name in names if found[name] == name] == ["ada", "é.-"]
+    assert all(re.fullmatch(r"[\w.-]{1,89}", stem) for stem in found.values())
+    assert len({stem.casefold() for stem in found.values()}) == len(names)
+    assert found["z?"].startswith("z_-")
+    assert classroom.stems({"a_b": None}) == {"a_b": "a_b"}
