@@ -6,13 +6,13 @@
     python -m tests.benchmarks.mutation --named "framing.module: number: 0.01"
 
 A mutant is a module with one change (`mutants`). It is killed when its own tests fail, or take far
-longer than before. Of these, the tests run that come to the changed line, one of each function
-first, the shortest, up to a bound of time; those of its layer's folder only where its own let it
-live. The project is copied, so that child processes meet the mutant too and nobody's files change;
-which lines a child process comes to is seen in the copy (`tracing`). Each mutant runs in a fork of
-a process that has imported numpy, scipy and pytest. `equivalent.txt` names, with reasons, the
-mutants that nobody could tell from the original; these do not count. Mutants are drawn by their
-names, so that an edit of one line changes the draw of no other.
+longer than before. Of these, the tests run that come to the changed line, short ones first, up to a
+bound of time; those of its layer's folder only where its own let it live. The project is copied, so
+that child processes meet the mutant too and nobody's files change; which lines a child process
+comes to is seen in the copy (`tracing`). Each mutant runs in a fork of a process that has imported
+numpy, scipy and pytest. `equivalent.txt` names, with reasons, the mutants that nobody could tell
+from the original; these do not count. Mutants are drawn by their names, so that an edit of one line
+changes the draw of no other.
 """
 
 import argparse
@@ -313,13 +313,13 @@ class House:
 
 
 def _chosen(tests: list[dict]) -> tuple[list[str], float]:
-    """Return tests and their seconds together: one of each function first, the shortest."""
-    ranked: list[tuple[int, float, str]] = []
+    """Return tests and their seconds together: short ones first, the more the fewer of a kind."""
+    ranked: list[tuple[float, float, str]] = []
     turn = Counter[str]()
     for one in sorted(tests, key=lambda one: one["seconds"]):
         function = one["test"].partition("[")[0]
         turn[function] += 1
-        ranked.append((turn[function], one["seconds"], one["test"]))
+        ranked.append((turn[function] * one["seconds"], one["seconds"], one["test"]))
     chosen: list[str] = []
     together = 0.0
     for _, seconds, test in sorted(ranked):

@@ -231,6 +231,11 @@ def test_a_wrong_function_differs_from_a_step_on_with_the_reference_as_ghost():
     assert first_difference(timeline.known()) == 1  # at step 0 both turn by nothing
     assert "ghost/source" in timeline[1].scene
     assert timeline[1].caption.tone == "wrong"
+    begins = [
+        step.caption.text.startswith("Here your run first differs") for step in timeline.known()
+    ]
+    assert begins == [False, True, False, False, False, False]
+    assert timeline[1].caption.text.endswith(fake.draw(timeline[1].state.theirs)["caption"].text)
     assert "ghost/source" not in timeline[0].scene
 
 
