@@ -244,7 +244,7 @@ class House:
         self.runs += 1
         os.utime(path, (was.st_atime, was.st_mtime + 10 * self.runs))  # no older bytecode fits
         try:
-            return self.run(tests, 20 + 5 * seconds)
+            return self.run(tests, 60 + 5 * seconds)
         finally:
             path.write_bytes(before)
             os.utime(path, (was.st_atime, was.st_mtime))
