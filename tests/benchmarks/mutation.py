@@ -359,10 +359,11 @@ class Lines:
         sys.settrace(None)
         for one in self.tests.values():
             lines = one.get("lines", {})
-            one["lines"] = {
-                name: sorted(lines.get(name, set()) | self.common.get(name, set()))
-                for name in lines | self.common
-            }
+            for part in (self.common, self.tracing.once):
+                lines = {
+                    name: lines.get(name, set()) | part.get(name, set()) for name in lines | part
+                }
+            one["lines"] = {name: sorted(numbers) for name, numbers in lines.items()}
         self.file.write_text(json.dumps(list(self.tests.values())))
 
 

@@ -18,7 +18,7 @@ def called(frame, event, arg):
     at = PLACES.get(frame.f_code.co_filename)
 
     def line(frame, event, arg):
-        seen[at + frame.f_lineno] = 1
+        seen[at + frame.f_lineno] = ONCE if frame.f_code.co_name == "<module>" else 1
         return line
 
     return None if at is None else line(frame, event, arg)
@@ -31,19 +31,25 @@ try:
 except OSError:  # nobody asks
     pass
 else:
-    subprocess.Popen.__init__ = handing_on
-    sys.settrace(called)
-    threading.settrace(called)
-    sys._getframe(1).f_trace = called(sys._getframe(1), "line", None)
+    if sys.gettrace() is None:
+        subprocess.Popen.__init__ = handing_on
+        sys.settrace(called)
+        threading.settrace(called)
+        sys._getframe(1).f_trace = called(sys._getframe(1), "line", None)
 """
 
 
 class Tracing:
-    """Prepares a copy of the project and, in a process that is asked, tells its lines."""
+    """Prepares a copy of the project and, in a process that is asked, tells its lines.
+
+    Attributes:
+        once: By module, the lines that this process came to as it imported the module.
+    """
 
     def __init__(self, root: Path) -> None:
         self.lines: dict[str, slice] = {}
         self.names: dict[str, object] = {}
+        self.once: dict[str, set[int]] = {}
         places: dict[str, int] = {}
         size = 0
         for file in sorted(root.glob("workbench/**/*.py")):
@@ -54,7 +60,7 @@ class Tracing:
             )
             size = end
         self.size = size
-        self.look = f"PLACES = {places}\nDESCRIPTOR, SIZE = {DESCRIPTOR}, {size}\n{LOOK}"
+        self.look = f"PLACES = {places}\nDESCRIPTOR, SIZE, ONCE = {DESCRIPTOR}, {size}, 1\n{LOOK}"
         (root / "sitecustomize.py").write_text(self.look)
         for file in root.glob("workbench/exercise/child/*.py"):  # without a change of its lines
             file.write_bytes(f"exec({self.look!r}, {{}}); ".encode() + file.read_bytes())
@@ -64,6 +70,7 @@ class Tracing:
         os.dup2(os.memfd_create("lines"), DESCRIPTOR)
         os.ftruncate(DESCRIPTOR, self.size)
         exec(self.look, self.names)
+        self.names["ONCE"] = 2
 
     def taken(self) -> dict[str, set[int]]:
         """Return the lines that were come to since this was asked last, by module."""
@@ -71,8 +78,8 @@ class Tracing:
         seen: bytearray = self.names["seen"]  # type: ignore[assignment]
         data = seen[:]
         seen[:] = bytes(self.size)
-        return {
-            name: {k for k, one in enumerate(data[lines]) if one}
-            for name, lines in self.lines.items()
-            if any(data[lines])
-        }
+        found = {name: data[lines] for name, lines in self.lines.items() if any(data[lines])}
+        for name, lines in found.items():
+            once = {k for k, one in enumerate(lines) if one == self.names["ONCE"]}
+            self.once[name] = self.once.get(name, set()) | once
+        return {name: {k for k, one in enumerate(lines) if one} for name, lines in found.items()}
