@@ -120,3 +120,16 @@ def test_a_message_has_bounds():
     for value in (np.zeros(most[1] + 1, "u1"), "x" * most[0]):
         with pytest.raises(WireError, match="more than the 64 MB a result may have"):
             pack({"value": value})
+
+
+def test_lists_cross_eight_deep():
+    value = []
+    for _ in range(8):
+        value = [value]
+    assert through({"value": value}) == {"value": value}
+    with pytest.raises(WireError, match="the value has too many parts"):
+        pack({"value": [value]})
+    data = pack({"value": value})
+    deeper = data[16:].replace(b'{"l": []}', b'{"l": [{"l": []}]}')
+    with pytest.raises(WireError, match="not a message"):
+        unpack(deeper, b"")
