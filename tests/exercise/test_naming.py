@@ -161,3 +161,28 @@ def test_errors_differ_by_their_names_alone():
 )
 def test_answers_are_alike_within_rounding(a, b, alike):
     assert values_alike(a, b) is alike
+
+
+def test_a_forgotten_error_is_named_only_where_it_is_forgotten_everywhere():
+    def forgets(p):
+        return p.mean(axis=0) if len(p) else np.zeros(p.shape[1])
+
+    def forgets_once(p):
+        return mean(p) if p.shape[1] == 3 else forgets(p)
+
+    @check(1)
+    def refuses_both(candidate):
+        """No point is refused."""
+        answers = 0
+        for width in (2, 3):
+            try:
+                candidate(np.zeros((0, width)))
+                answers += 1
+            except Exception:
+                continue
+        return fail("An answer.") if answers else full("Refused.")
+
+    forgotten = mistake("You forgot the error.")(forgets)
+    checks = (asking(ROWS), refuses_both)
+    assert report(forgets, forgotten, checks=checks).mistake is forgotten
+    assert report(forgets_once, forgotten, checks=checks).mistake is None
