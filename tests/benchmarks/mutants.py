@@ -185,11 +185,10 @@ def _short(text: str) -> str:
 
 
 def own_tests(path: Path, root: Path = ROOT) -> list[list[str]]:
-    """Return the files of tests that are a module's own, and those for lines they do not come to.
+    """Return the files of tests that are a module's own, and the others of its layer's folder.
 
     Of those that import it: the one with its name, else those of the folder with the name of its
     layer, else all. Where none imports it: those with its name, else all of its layer's folder.
-    For lines that the one with its name does not come to: those of the folder.
     """
     layer = path.relative_to(root).parts[1].removesuffix(".py")
     importing = [test for test in _test_files(root) if _imports(test, path, root)]
@@ -202,7 +201,7 @@ def own_tests(path: Path, root: Path = ROOT) -> list[list[str]]:
     ]
     folder = [test for test in _test_files(root) if layer in test.relative_to(root).parts]
     own = named or beside or importing or by_name or folder
-    more = beside if named else []
+    more = [test for test in folder if test not in own]
     return [[test.relative_to(root).as_posix() for test in tests] for tests in (own, more)]
 
 

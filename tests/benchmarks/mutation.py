@@ -6,23 +6,24 @@
     python -m tests.benchmarks.mutation --named "framing.module: number: 0.01"
 
 A mutant is a module with one change (`mutants`). It is killed when its own tests fail, or take far
-longer than before. Of these, the tests run that come to the changed line, shortest first, up to a
-bound of time; where none does (code of child processes), the shortest that start another process.
-The project is copied, so that child processes meet the mutant too and nobody's files change. Each
-mutant runs in a fork of a process that has imported numpy, scipy and pytest. `equivalent.txt`
-names, with reasons, the mutants that nobody could tell from the original; these do not count.
+longer than before. Of these, the tests run that come to the changed line, short ones first, up to a
+bound of time; those of its layer's folder only where its own let it live. The project is copied, so
+that child processes meet the mutant too and nobody's files change; which lines a child process
+comes to is seen in the copy (`tracing`). Each mutant runs in a fork of a process that has imported
+numpy, scipy and pytest. `equivalent.txt` names, with reasons, the mutants that nobody could tell
+from the original; these do not count. Mutants are drawn by their names, so that an edit of one line
+changes the draw of no other.
 """
 
 import argparse
+import hashlib
 import json
 import os
-import random
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import traceback
 from collections import Counter
@@ -37,6 +38,7 @@ os.environ |= ONE_EACH  # before numpy is imported; forks inherit it
 import pytest
 
 from tests.benchmarks.mutants import ROOT, Mutant, mutants, own_tests, parses
+from tests.benchmarks.tracing import Tracing
 
 EQUIVALENT = Path(__file__).with_name("equivalent.txt")
 IMPORTED = (
@@ -51,8 +53,8 @@ IMPORTED = (
     "beartype",
     "jaxtyping",
 )
-TESTED_FOR = 60.0
-"""Seconds that the tests of one mutant took without the change, at most: the shortest are taken."""
+TESTED_FOR = 40.0
+"""Seconds, at most, that the tests of one mutant took without it: its own, then the others."""
 BASELINE_FOR = 900.0
 """Seconds until a file of tests is given up."""
 
@@ -114,7 +116,9 @@ def _drawn(given: argparse.Namespace) -> list[Mutant]:
             name for name, result in _read(given.again).items() if result["fate"] == "survived"
         }
         return [one for one in everything if one.name in survivors and parses(one)]
-    random.Random(given.seed).shuffle(everything)
+    everything.sort(
+        key=lambda one: hashlib.sha256(f"{given.seed} {one.name}".encode()).digest(),
+    )
     taken = dict[str, Mutant]()
     for mutant in everything:
         if len(taken) == given.mutants:
@@ -200,50 +204,58 @@ class House:
         for name in IMPORTED:
             __import__(name)
         self.folder, self.runs, self.known = folder, 0, dict[str, list[dict]]()
+        self.tracing = Tracing(self.root)
 
     def tested(self, mutant: Mutant) -> dict:
         """Return a mutant's fate: killed, survived, or too long."""
+        began = time.monotonic()
         changed = set(range(mutant.line, mutant.last + 1))
-        tests, wanted = list[dict](), list[dict]()
+        known: list[dict] = []
+        ran: list[str] = []
+        end: int | None = 0
         for files in own_tests(ROOT / mutant.module):
-            if not wanted:
-                tests += [one for file in files for one in self.baseline(file)]
-                wanted = [
-                    one for one in tests if changed & set(one["lines"].get(mutant.module, []))
-                ]
-        covered = bool(wanted)
-        chosen, seconds = [], 0.0
-        elsewhere = [one for one in tests if one["starts"]] or tests
-        for one in sorted(wanted or elsewhere, key=lambda one: one["seconds"]):
-            if seconds + one["seconds"] <= TESTED_FOR or not chosen:
-                chosen.append(one["test"])
-                seconds += one["seconds"]
-        began, path = time.monotonic(), self.root / mutant.module
-        was = path.stat()
+            known += [one for file in files for one in self.baseline(file)]
+            there = [one for one in known if changed & set(one["lines"].get(mutant.module, []))]
+            chosen, seconds = _chosen([one for one in there if one["test"] not in ran])
+            end = self.end_with(mutant, chosen, seconds)
+            ran += chosen
+            if end != 0:
+                break
+        covered = bool(ran)
+        if not covered:
+            ran, seconds = _chosen(known)
+            end = self.end_with(mutant, ran, seconds)
+        return asdict(mutant) | {
+            "name": mutant.name,
+            "fate": "survived" if end == 0 else "too long" if end is None else "killed",
+            "covered": covered,
+            "tests": len(ran),
+            "took": round(time.monotonic() - began, 1),
+        }
+
+    def end_with(self, mutant: Mutant, tests: list[str], seconds: float) -> int | None:
+        """Return how tests end, that took so long without it, with a mutant in its place."""
+        if not tests:
+            return 0
+        path = self.root / mutant.module
         before = path.read_bytes()
+        was = path.stat()
         path.write_text(mutant.source(), encoding="utf-8")
         self.runs += 1
         os.utime(path, (was.st_atime, was.st_mtime + 10 * self.runs))  # no older bytecode fits
         try:
-            end = self.run(chosen, 20 + 5 * seconds) if chosen else 0
+            return self.run(tests, 60 + 5 * seconds)
         finally:
             path.write_bytes(before)
             os.utime(path, (was.st_atime, was.st_mtime))
             for file in path.parent.glob(f"__pycache__/{path.stem}.*"):
                 file.unlink(missing_ok=True)
-        return asdict(mutant) | {
-            "name": mutant.name,
-            "fate": "survived" if end == 0 else "too long" if end is None else "killed",
-            "covered": covered,
-            "tests": len(chosen),
-            "took": round(time.monotonic() - began, 1),
-        }
 
     def baseline(self, file: str) -> list[dict]:
         """Return the tests of a file that pass, with their seconds and our lines they come to."""
         if file not in self.known:
             lines = self.folder / f"{len(self.known)}.json"
-            self.run([file], BASELINE_FOR, Lines(self.root, lines))
+            self.run([file], BASELINE_FOR, Lines(self.tracing, lines))
             found = json.loads(lines.read_text()) if lines.exists() else []
             self.known[file] = [one for one in found if one["passed"]]
             if not found:
@@ -300,59 +312,43 @@ class House:
             os._exit(code)
 
 
-STARTING = {"subprocess.Popen", "os.fork", "os.posix_spawn"}
-"""Events by which Python says that a process is started."""
+def _chosen(tests: list[dict]) -> tuple[list[str], float]:
+    """Return tests and their seconds together: short ones first, the more the fewer of a kind."""
+    ranked: list[tuple[float, float, str]] = []
+    turn = Counter[str]()
+    for one in sorted(tests, key=lambda one: one["seconds"]):
+        function = one["test"].partition("[")[0]
+        turn[function] += 1
+        ranked.append((turn[function] * one["seconds"], one["seconds"], one["test"]))
+    chosen: list[str] = []
+    together = 0.0
+    for _, seconds, test in sorted(ranked):
+        if together + seconds <= TESTED_FOR or not chosen:
+            chosen.append(test)
+            together += seconds
+    return chosen, together
 
 
 class Lines:
-    """A plugin that notes to which lines of ours each test comes, and whether it starts other
-    processes.
-    """
+    """A plugin that notes to which lines of ours each test comes."""
 
-    def __init__(self, root: Path, file: Path) -> None:
-        self.root, self.file, self.tests = f"{root}/workbench/", file, dict[str, dict]()
-        self.common, self.at = dict[str, set[int]](), dict[str, set[int]]()
-        self.skip = len(str(root)) + 1
-        self.test: dict | None = None
+    def __init__(self, tracing: Tracing, file: Path) -> None:
+        self.tracing, self.file = tracing, file
+        self.tests: dict[str, dict] = {}
+        self.common: dict[str, set[int]] = {}
 
     def pytest_configure(self) -> None:
-        self.at = self.common
-        self._listen()
-        sys.addaudithook(self._heard)
-
-    def _heard(self, event: str, said: object) -> None:
-        if event in STARTING and self.test is not None:
-            self.test["starts"] = True
-
-    def _listen(self) -> None:
-        sys.settrace(self._called)
-        threading.settrace(self._called)
-
-    def _called(self, frame, event, arg):
-        name = frame.f_code.co_filename
-        if not name.startswith(self.root):
-            return None
-        seen = self.at.setdefault(name[self.skip :], set())
-        seen.add(frame.f_lineno)
-
-        def of_line(frame, event, arg):
-            if event == "line":
-                seen.add(frame.f_lineno)
-            return of_line
-
-        return of_line
+        self.tracing.begin()
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_protocol(self, item, nextitem):
-        self.at = {}
-        self._listen()  # hypothesis takes the tracer away
+        for name, lines in self.tracing.taken().items():  # between tests: what imports come to
+            self.common.setdefault(name, set()).update(lines)
         began = time.monotonic()
-        self.test = {"test": item.nodeid, "passed": True, "starts": False}
-        self.tests[item.nodeid] = self.test
+        self.tests[item.nodeid] = {"test": item.nodeid, "passed": True}
         result = yield
-        self.test = None
-        self.tests[item.nodeid] |= {"seconds": time.monotonic() - began, "lines": self.at}
-        self.at = self.common
+        seconds = time.monotonic() - began
+        self.tests[item.nodeid] |= {"seconds": seconds, "lines": self.tracing.taken()}
         return result
 
     def pytest_runtest_logreport(self, report) -> None:
@@ -363,10 +359,11 @@ class Lines:
         sys.settrace(None)
         for one in self.tests.values():
             lines = one.get("lines", {})
-            one["lines"] = {
-                name: sorted(lines.get(name, set()) | self.common.get(name, set()))
-                for name in lines | self.common
-            }
+            for part in (self.common, self.tracing.once):
+                lines = {
+                    name: lines.get(name, set()) | part.get(name, set()) for name in lines | part
+                }
+            one["lines"] = {name: sorted(numbers) for name, numbers in lines.items()}
         self.file.write_text(json.dumps(list(self.tests.values())))
 
 

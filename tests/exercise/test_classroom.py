@@ -1,6 +1,10 @@
+import contextlib
 import csv
 import io
 import json
+import re
+import sys
+import types
 from dataclasses import replace
 
 import pytest
@@ -9,6 +13,7 @@ from tests.exercise.batch import write_class
 from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise import classroom, finding
+from workbench.exercise.marking import Asked
 
 POINTS = {"right": 4.0, "sum": 1.0, "hang": 0.0, "crash": 0.0}
 
@@ -116,3 +121,41 @@ def test_a_result_that_was_half_written_is_graded_again(tmp_path):
     (result,) = classroom.grade_class(tmp_path / "in", tmp_path / "out")
     assert result["reports"][0]["points"] == 4.0
     assert json.loads(kept.read_text())["student"] == "student000"
+
+
+def test_who_interrupts_is_told_how_far_it_came(tmp_path, monkeypatch):
+    def interrupted(*places, progress, **how):
+        progress("ada", 1, 3)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(classroom, "grade_class", interrupted)
+    tell = io.StringIO()
+    result = io.StringIO()
+    how = {"asked": Asked(sandbox="none"), "jobs": 1, "dask": None, "tell": tell, "result": result}
+    assert classroom.grade_folder(tmp_path, tmp_path / "out", **how) == 130
+    assert "Interrupted: 1 of 3 graded; the same command goes on" in tell.getvalue()
+    assert result.getvalue() == ""
+
+
+def test_a_scheduler_that_is_not_there_is_told_in_one_line(monkeypatch):
+    def nobody(address, timeout):
+        raise TimeoutError(address)
+
+    for package, said in (
+        (None, "--dask needs the package `distributed`: pip install distributed"),
+        (types.SimpleNamespace(Client=nobody), "--dask tcp://it: no scheduler answers there"),
+    ):
+        monkeypatch.setitem(sys.modules, "distributed", package)
+        with pytest.raises(InputError) as told, contextlib.ExitStack() as stack:
+            classroom._dask_executor("tcp://it", stack)
+        assert str(told.value) == said
+
+
+def test_a_result_s_file_is_named_by_signs_that_every_system_takes():
+    names = ["ada", "a b", "a_b", "A_B", "é.-", "x" * 99, "../y", "z?", "z?" * 60]
+    found = classroom.stems(dict.fromkeys(names))
+    assert [name for name in names if found[name] == name] == ["ada", "é.-"]
+    assert all(re.fullmatch(r"[\w.-]{1,89}", stem) for stem in found.values())
+    assert len({stem.casefold() for stem in found.values()}) == len(names)
+    assert found["z?"].startswith("z_-")
+    assert classroom.stems({"a_b": None}) == {"a_b": "a_b"}

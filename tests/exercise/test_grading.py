@@ -12,7 +12,7 @@ from workbench.cli import main
 from workbench.errors import InputError
 from workbench.exercise import reports
 from workbench.exercise.candidate import Candidate, held_to_contract
-from workbench.exercise.driven import driven, first_difference, gap
+from workbench.exercise.driven import _Beside, driven, first_difference, gap
 from workbench.exercise.grading import grade_function
 from workbench.exercise.judging import beside
 from workbench.exercise.model import Exercise, Verdict, against, band, check, contract, full
@@ -20,6 +20,7 @@ from workbench.exercise.naming import values_alike
 from workbench.exercise.sandbox import StudentError, Wall
 from workbench.exercise.starter import starter
 from workbench.run.timeline import Timeline
+from workbench.scene import Caption, Points, Scalar
 
 
 def test_the_reference_has_full_marks_and_each_mistake_is_named():
@@ -230,6 +231,11 @@ def test_a_wrong_function_differs_from_a_step_on_with_the_reference_as_ghost():
     assert first_difference(timeline.known()) == 1  # at step 0 both turn by nothing
     assert "ghost/source" in timeline[1].scene
     assert timeline[1].caption.tone == "wrong"
+    begins = [
+        step.caption.text.startswith("Here your run first differs") for step in timeline.known()
+    ]
+    assert begins == [False, True, False, False, False, False]
+    assert timeline[1].caption.text.endswith(fake.draw(timeline[1].state.theirs)["caption"].text)
     assert "ghost/source" not in timeline[0].scene
 
 
@@ -265,6 +271,63 @@ def test_a_lesson_that_cannot_use_what_came_back_says_so_and_ends(where):
     assert "cannot go on with what turn returned" in timeline[-1].caption.text
     assert ("ZeroDivisionError" if where == "draw" else "index 9") in timeline[-1].caption.text
     assert len(timeline) == 1
+
+
+def test_a_run_that_is_watched_keeps_no_call_and_takes_any_right_answer():
+    """A turn by the other right angle is no difference; its calls would fill the memory."""
+    either = replace(TURN, contract=replace(TURN.contract, either=lambda T: T.T))
+    for function in (turning, lambda angle: turning(-angle)):
+        beside = _Beside(function, either)
+        np.testing.assert_array_equal(beside(0.5), function(0.5))
+        assert beside.called
+        assert not beside.differed
+        assert beside._candidate.calls == []
+    beside = _Beside(lambda angle: turning(angle + 1.0), either)
+    beside(0.5)
+    assert beside.differed
+    beside._candidate.function = turning
+    beside(0.5)
+    assert beside.differed  # once is enough
+
+
+def test_a_driven_run_is_drawn_with_the_steps_before():
+    seen = []
+
+    def draw(look):
+        seen.append([state.k for state in look.past])
+        return fake.draw(look.now)
+
+    def run(params, subject, *, turn=turning):
+        yield from fake.run(params, turn=turn)
+
+    lesson = replace(fake.lesson, setup=lambda params: None, run=run, draw=draw)
+    Timeline(driven(lesson, TURN, turning), fake.Params(steps=3)).complete()
+    assert seen == [past for past in ([], [0], [0, 1]) for _ in ("ours", "theirs")]
+
+
+def dots(*p: tuple[float, float, float], T: np.ndarray | None = None) -> Points:
+    return Points(np.array(p, dtype=float), T_world_object=T)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "apart"),
+    [
+        ({"p": dots((0, 0, 0), (1, 0, 0))}, {"p": dots((0, 0, 0), (1, 0, 0.5))}, 0.5),
+        ({"p": dots((10, 0, 0))}, {"p": dots((5, 0, 0))}, 0.5),
+        ({"p": dots((0.1, 0, 0))}, {"p": dots((0.2, 0, 0))}, 0.1),
+        ({"p": dots((1, 0, 0))}, {"p": dots((0, 1, 0), T=turning(-np.pi / 2))}, 0.0),
+        ({"p": dots((1, 0, 0))}, {"p": dots((1, 0, 0), (1, 0, 0))}, np.inf),
+        ({"p": dots((1, 0, 0))}, {}, np.inf),
+        ({"s": Scalar(4.0, "a", "A")}, {"s": Scalar(5.0, "a", "A")}, 0.25),
+        ({"s": Scalar(0.5, "a", "A")}, {"s": Scalar(0.7, "a", "A")}, 0.2),
+        ({"s": Scalar(np.nan, "a", "A")}, {"s": Scalar(np.nan, "a", "A")}, 0.0),
+        ({"s": Scalar(np.nan, "a", "A")}, {"s": Scalar(1.0, "a", "A")}, np.inf),
+        ({"caption": Caption("a")}, {"caption": Caption("b")}, 0.0),
+        ({"caption": Caption("a")}, {}, 0.0),
+    ],
+)
+def test_two_scenes_are_apart_by_what_is_farthest(a, b, apart):
+    assert gap(a, b) == pytest.approx(apart, abs=1e-12)
 
 
 def test_the_gap_is_what_can_be_seen():

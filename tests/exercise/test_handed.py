@@ -16,6 +16,7 @@ from workbench.errors import InputError
 from workbench.exercise import classroom, finding, reports
 from workbench.exercise.marking import Asked
 from workbench.exercise.sandbox import best
+from workbench.exercise.submission import content
 from workbench.exercise.submissions import handed_in
 
 RIGHT = "def centroid(p):\n    return p.mean(axis=0)\n"
@@ -293,6 +294,13 @@ def test_what_is_no_file_of_theirs_is_one_line(tmp_path):
         assert "\n" not in result["error"]
     assert "leads out of the folder" in results["link"]["error"]
     assert "pipe" in results["pipe"]["error"]
+
+
+def test_a_file_is_read_where_the_system_knows_no_such_flags(tmp_path, monkeypatch):
+    for flag in ("O_NONBLOCK", "O_NOCTTY"):
+        monkeypatch.delattr(os, flag, raising=False)
+    (tmp_path / "ada.py").write_text(RIGHT)
+    assert content(tmp_path / "ada.py") == RIGHT.encode()
 
 
 def test_names_never_share_a_file(tmp_path):

@@ -1,181 +1,57 @@
-"""What a student's process takes from itself, layer by layer: the filter of system calls line for
-line, Landlock alone.
-"""
+"""What a student's process takes from itself, layer by layer: limits, Landlock alone."""
 
+import ctypes
 import importlib
 import json
 import os
-import re
-import struct
 import subprocess
 import sys
 import textwrap
 from collections.abc import Iterator
-from pathlib import Path
 from types import ModuleType
 
 import pytest
 
+from tests.exercise import kernel
 from workbench.errors import InputError
 from workbench.exercise.sandbox import named, python
 
-MACHINES = ("x86_64", "aarch64")
-
 
 @pytest.fixture(scope="module")
-def syscalls() -> Iterator[ModuleType]:
+def lockdown() -> Iterator[ModuleType]:
     with pytest.MonkeyPatch.context() as patched:
         patched.syspath_prepend(str(python.CHILD_FILES))
-        yield importlib.import_module("syscalls")
-        sys.modules.pop("syscalls")
+        yield importlib.import_module("lockdown")
+        for name in ("lockdown", "syscalls"):
+            sys.modules.pop(name)
 
 
-# the filter, run as the kernel runs it ------------------------------------------------------------
+@pytest.mark.parametrize("machine", ["x86_64", "aarch64"])
+def test_the_numbers_are_the_kernel_s(lockdown, machine):
+    known = kernel.numbers(machine)
+    for name, number in {
+        "seccomp": lockdown.SECCOMP[machine],
+        "landlock_create_ruleset": lockdown.CREATE_RULESET,
+        "landlock_add_rule": lockdown.ADD_RULE,
+        "landlock_restrict_self": lockdown.RESTRICT_SELF,
+    }.items():
+        assert known[name] == str(number), name
 
 
-def answered(program: bytes, architecture: int, number: int, words: tuple[int, ...] = ()) -> int:
-    """Return what a filter says of a call.
-
-    Source: Linux, Documentation/userspace-api/seccomp_filter.rst; struct seccomp_data,
-    include/uapi/linux/seccomp.h.
-    """
-    asked = struct.pack(
-        "<IIQ12I", number & 0xFFFFFFFF, architecture, 0, *words, *[0] * (12 - len(words))
-    )
-    lines = list(struct.iter_unpack("=HBBI", program))
-    at = held = 0
-    while True:
-        what, yes, no, k = lines[at]
-        at += 1
-        if what == 0x06:
-            return k
-        if what == 0x20:
-            (held,) = struct.unpack_from("<I", asked, k)
-        elif what == 0x54:
-            held &= k
-        else:
-            at += yes if {0x15: held == k, 0x35: held >= k}[what] else no
+def test_all_that_a_version_of_landlock_knows_is_denied(lockdown):
+    """Source: Linux, include/uapi/linux/landlock.h: rights of files, of ports, and scopes."""
+    files = {1: 0x1FFF, 2: 0x3FFF, 3: 0x7FFF, 4: 0x7FFF, 5: 0xFFFF, 6: 0xFFFF}
+    others = {4: (3,), 5: (3,), 6: (3, 3)}
+    known = {version: (rights, *others.get(version, ())) for version, rights in files.items()}
+    assert known == lockdown.HANDLED
 
 
-ALLOWED = 0x7FFF0000
-
-
-@pytest.mark.parametrize("writes", [True, False])
-@pytest.mark.parametrize("machine", MACHINES)
-def test_what_is_on_the_list_is_allowed_and_nothing_else(syscalls, machine, writes):
-    column, architecture = syscalls.MACHINES[machine]
-    program = syscalls.program(machine, writes=writes)
-    free = syscalls.MAY | (syscalls.OPEN | syscalls.CHANGE if writes else {})
-    numbers = {n[column] for n in free.values()}
-    assert len(numbers - {None}) == len([n for n in free.values() if n[column] is not None])
-    bound = {n[column] for n, _ in syscalls.MAY_IF.values()} | {
-        n[column] for n in syscalls.OPEN.values()
-    }
-    hostile = (0xDEADBEEF,) * 12
-    for number in [*range(1000), 0x40000000, 0x40000001, 0xFFFFFFFF]:
-        assert (answered(program, architecture, number, hostile) == ALLOWED) == (number in numbers)
-        assert answered(program, 0x40000003, number) != ALLOWED  # the machine's older half, 32 bits
-        if number not in numbers | bound:
-            assert answered(program, architecture, number) == (
-                0x50000 | (38 if number >= 424 else 1)
-            )
-
-
-CASES = [  # a call, its arguments, whether it is allowed
-    ("fcntl", (3, 0), True),
-    ("fcntl", (3, 1030), True),
-    ("fcntl", (3, 4, 0x800), True),
-    ("fcntl", (3, 4, 0x2800), False),
-    *(("fcntl", (3, command), False) for command in (5, 6, 7, 8, 9, 10, 11, 15, 16, 36, 37, 38)),
-    *(("fcntl", (3, command), False) for command in (1024, 1025, 1026, 1031, 1033, 1036, 1039)),
-    # the kernel looks at 32 bits too
-    ("fcntl", (3, 1024 + 2**40), False),
-    ("fcntl", (3, 3 + 2**40), True),
-    ("ioctl", (0, 0x5401), True),
-    ("ioctl", (0, 0x8901), False),
-    ("ioctl", (0, 0x8902), False),
-    ("ioctl", (0, 0x5452), False),
-    ("ioctl", (0, 0x5412), False),
-    ("ioctl", (0, 0x40086602), False),
-    ("clone", (0x3D0F00,), True),
-    ("clone", (0x7D0F00,), True),
-    ("clone", (17,), False),
-    ("clone", (0x1200011,), False),
-    ("clone", (0x3D0F00 | 0x10000000,), False),
-    ("clone", (0x3D0F11,), False),
-    ("clone", (0x3D0F00 & ~0x10000,), False),
-    ("futex", (8, 128), True),
-    ("futex", (8, 129 | 256), True),
-    ("futex", (8, 6), False),
-    ("futex", (8, 6 | 128), False),
-    ("futex", (8, 13), False),
-    ("futex", (8, 11), False),
-    ("madvise", (0, 9, 4), True),
-    ("madvise", (0, 9, 21), False),
-    ("madvise", (0, 9, 12), False),
-    ("mbind", (0, 9, 1, 0, 0, 0), True),
-    ("mbind", (0, 9, 1, 0, 0, 4), False),
-    ("membarrier", (8,), True),
-    ("membarrier", (1,), False),
-    ("prlimit64", (0, 7, 0, 4096), True),
-    ("prlimit64", (0, 7, 4096, 0), False),
-    ("prlimit64", (0, 7, 2**32, 0), False),
-    ("prlimit64", (9, 7, 0, 4096), False),
-]
-
-
-@pytest.mark.parametrize("machine", MACHINES)
-@pytest.mark.parametrize(("name", "arguments", "may"), CASES)
-def test_arguments_are_looked_at(syscalls, machine, name, arguments, may):
-    column, architecture = syscalls.MACHINES[machine]
-    program = syscalls.program(machine, writes=True)
-    words = tuple(half for value in arguments for half in (value & 0xFFFFFFFF, value >> 32))
-    number = syscalls.MAY_IF[name][0][column]
-    assert answered(program, architecture, number, words) == (ALLOWED if may else 0x50001)
-
-
-@pytest.mark.parametrize("machine", MACHINES)
-def test_where_it_has_no_folder_it_opens_to_read_alone(syscalls, machine):
-    column, architecture = syscalls.MACHINES[machine]
-    number = syscalls.OPEN["openat"][column]
-    for writes in (True, False):
-        program = syscalls.program(machine, writes=writes)
-        for flags, changing in (
-            (0, 0),
-            (0x80000, 0),
-            (1, 1),
-            (2, 1),
-            (3, 1),
-            (0x40, 1),
-            (0x200, 1),
-            (0x410002, 1),
-        ):
-            got = answered(program, architecture, number, (0, 0, 0, 0, flags, 0))
-            assert (got == ALLOWED) == (writes or not changing)
-
-
-HEADERS = {
-    "x86_64": ("/usr/include/x86_64-linux-gnu/asm/unistd_64.h", "/usr/include/asm/unistd_64.h"),
-    "aarch64": ("/usr/include/asm-generic/unistd.h",),
-}
-
-
-@pytest.mark.parametrize("machine", MACHINES)
-def test_the_numbers_are_the_kernel_s(syscalls, machine):
-    there = [Path(name) for name in HEADERS[machine] if Path(name).exists()]
-    if not there:
-        pytest.skip("the kernel's headers are not installed")
-    known = dict(re.findall(r"#define __NR(?:3264)?_(\w+)\s+(\d+)", there[0].read_text()))
-    known.setdefault("newfstatat", known.get("fstatat"))
-    column = syscalls.MACHINES[machine][0]
-    ours = (
-        syscalls.MAY
-        | syscalls.OPEN
-        | syscalls.CHANGE
-        | {name: n for name, (n, _) in syscalls.MAY_IF.items()}
-    )
-    for name, numbers in ours.items():
-        assert known.get(name) == (None if numbers[column] is None else str(numbers[column])), name
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux has it")
+def test_where_the_kernel_has_landlock_it_is_a_wall():
+    asked = [ctypes.c_long(444), None, ctypes.c_long(0), ctypes.c_long(1)]  # for its version
+    if ctypes.CDLL(None).syscall(*asked) < 1:
+        pytest.skip("this kernel has no Landlock")
+    assert named("landlock").holds
 
 
 # in a process of its own --------------------------------------------------------------------------
@@ -251,6 +127,21 @@ def test_landlock_alone_holds_signals_and_ports_where_it_knows_them(shut):
     version, signal, port = shut(TRIED + textwrap.dedent(lines), str(os.getpid()))
     assert signal == ("1" if int(version) >= 6 else "done")
     assert port == ("13" if int(version) >= 4 else "done")
+
+
+def test_what_a_process_may_use_is_bounded(shut):
+    lines = """
+    import resource
+    kinds = ["AS", "CPU", "FSIZE", "NOFILE", "NPROC", "CORE"]
+    before = [resource.getrlimit(getattr(resource, f"RLIMIT_{kind}"))[1] for kind in kinds]
+    lockdown.shut(settings)
+    after = [resource.getrlimit(getattr(resource, f"RLIMIT_{kind}")) for kind in kinds]
+    print(json.dumps([before, after]).replace(" ", ""))
+    """
+    before, after = json.loads(shut(lines)[0])
+    wanted = [2048 << 20, 60, 1 << 20, 64, 4096, 0]
+    allowed = [2**64 if hard < 0 else hard for hard in before]
+    assert after == [[min(pair)] * 2 for pair in zip(wanted, allowed, strict=True)]
 
 
 @pytest.mark.parametrize("version", [1, 2, 3])

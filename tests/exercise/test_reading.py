@@ -8,6 +8,7 @@ import resource
 import pytest
 
 from workbench.errors import InputError
+from workbench.exercise.child import reading
 from workbench.exercise.finding import exercises, exercises_in, said_for
 from workbench.exercise.marking import Asked, chosen
 from workbench.exercise.reading import MOST_LOST, Reader
@@ -88,3 +89,69 @@ def test_no_process_stays_behind():
         process = reader._process
         assert process is not None
     assert process.poll() is not None
+
+
+# what is found in a file --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("def f(p): ...\nclass A:\n    inner = 1", ["A", "f"]),
+        ("a, (b, *c) = 1, (2, 3)\nd = e = 1", ["a", "b", "c", "d", "e"]),
+        ("f: object = lambda p: p", ["f"]),
+        ("import numpy as np\nimport os\nfrom math import sin as s, cos", ["cos", "np", "os", "s"]),
+        ("if a:\n    b = 1\nelse:\n    c = 1", ["b", "c"]),
+        ("try: a = 1\nexcept E: b = 1\nelse: c = 1\nfinally: d = 1", ["a", "b", "c", "d"]),
+        ("f(1)", []),
+    ],
+)
+def test_names_are_known_without_running_anything(text, names):
+    assert reading.read("a.py", text.encode())["defines"] == names
+
+
+def test_imports_are_listed_once_and_no_more_than_some():
+    text = "import a, b.c as d, a\nfrom e import f\nfrom . import g\n"
+    assert reading.read("a.py", text.encode())["imports"] == ["a", "e"]
+    many = "".join(f"import a{k}\n" for k in range(300))
+    assert len(reading.read("a.py", many.encode())["imports"]) == 200
+
+
+def notebook(*cells: str, **tags: list[str]) -> bytes:
+    """Return a notebook of code cells; `tags` has those of a cell, `of2` of that with index 2."""
+    made: list[dict] = [{"cell_type": "code", "source": cell} for cell in cells]
+    for name, given in tags.items():
+        made[int(name[2:])]["metadata"] = {"tags": given}
+    return json.dumps({"cells": [{"cell_type": "markdown", "source": "def no("}, *made]}).encode()
+
+
+def test_of_a_notebook_definitions_stay_in_their_lines():
+    handed = notebook(
+        "%matplotlib inline\nimport numpy as np",
+        "for example:\nthis is\nno Python",
+        "EPS = np.sqrt(2)\nP = np.load('x')\nQ = len([])\nf = lambda p: max(p)\nscale: float",
+        "print(1)\n@cached\ndef g(p):\n    return p\ng(2)",
+    )
+    lines = reading.of_notebook("a.ipynb", handed).splitlines()
+    kept = {k: line for k, line in enumerate(lines, 1) if line}
+    assert kept == {
+        2: "import numpy as np",
+        6: "EPS = np.sqrt(2)",
+        9: "f = lambda p: max(p)",
+        12: "@cached",
+        13: "def g(p):",
+        14: "    return p",
+    }
+
+
+def test_a_last_cell_that_is_no_python_is_told_with_its_line():
+    found = reading.read("A.IPYNB", notebook("def f(p):\n    return p", "x = 1\ndef f(:"))
+    assert found["broken"] == "A.IPYNB, line 4: invalid syntax"
+
+
+def test_a_tagged_cell_counts_wherever_else_it_is_defined():
+    cells = ("def f(p):\n    return 1", "def f(p):\n    return 2", "def f(p):\n    return 3")
+    for tagged, kept in (({}, 3), ({"of0": ["exercise"]}, 1), ({"of1": ["mine", "solution"]}, 2)):
+        scope: dict = {}
+        exec(reading.of_notebook("a.ipynb", notebook(*cells, **tagged)), scope)
+        assert scope["f"](0) == kept

@@ -2,6 +2,7 @@
 works.
 """
 
+import os
 import subprocess
 import sys
 import textwrap
@@ -15,10 +16,20 @@ from tests.exercise.centroid import EXERCISE
 from workbench.errors import InputError
 from workbench.exercise.candidate import held_to_contract
 from workbench.exercise.grading import grade_file
-from workbench.exercise.sandbox import CallBudget, SandboxedFunction, StudentError
+from workbench.exercise.sandbox import (
+    CallBudget,
+    SandboxedFunction,
+    StudentError,
+    Wall,
+    best,
+    bubblewrap,
+    named,
+)
 from workbench.exercise.sandbox.function import removed_folder
+from workbench.exercise.sandbox.isolation import anonymous
 from workbench.exercise.sandbox.pipe import _Deadline
 from workbench.exercise.sandbox.waiting import waited
+from workbench.exercise.submission import Submission
 
 POINTS = np.arange(12.0).reshape(4, 3)
 
@@ -113,6 +124,43 @@ def test_what_is_printed_can_be_read(student):
     function = student("print('hello', p.shape)\nreturn p[0]")
     function(POINTS)
     assert function.printed() == "hello (4, 3)\n"
+
+
+def test_the_first_64_kilobytes_of_what_is_printed_are_kept(student):
+    function = student("print('é' * (1 << 20))\nreturn p[0]")
+    np.testing.assert_allclose(function(POINTS), POINTS[0])
+    assert len(function.printed(1 << 20).encode()) == 64 << 10
+
+
+@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="Linux has it")
+def test_what_is_printed_stays_in_memory():
+    with anonymous() as printed:
+        assert os.readlink(f"/proc/self/fd/{printed.fileno()}").startswith("/memfd:")
+
+
+def test_the_wall_that_is_given_is_the_one_that_stands():
+    given = Submission("a.py", "")
+    for wall in (Wall("none", "asked for"), Wall("landlock")):
+        with SandboxedFunction(given, "f", wall=wall) as student:
+            assert student.wall is wall
+    with SandboxedFunction(given, "f") as student:
+        assert student.wall is best()
+
+
+def test_where_bubblewrap_is_not_installed_the_other_walls_stand(monkeypatch):
+    monkeypatch.setattr(bubblewrap, "program", lambda: None)
+    with pytest.raises(InputError, match=r"^--sandbox bubblewrap: bubblewrap is not installed"):
+        named("bubblewrap")
+    monkeypatch.setattr("workbench.exercise.sandbox.isolation._tried", lambda wall: "")
+    if sys.platform == "linux":
+        assert named("landlock") == Wall("landlock")
+
+
+def test_a_wall_of_no_name_is_refused():
+    with pytest.raises(InputError, match=r"^--sandbox glass: there are auto, bubblewrap, landlock"):
+        named("glass")
+    assert named("none") == Wall("none", "it was asked for")
+    assert not named("none").holds
 
 
 def test_patching_numpy_in_the_child_changes_nothing_here(student):

@@ -94,6 +94,18 @@ def test_a_file_that_is_gone_is_said_and_what_ran_stays(watched):
     assert watched.said == found
 
 
+def test_a_file_is_gone_after_four_looks_and_not_before(tmp_path, watched):
+    text = watched.path.read_text()
+    for _ in range(2):
+        watched.path.unlink()
+        for missing in range(GONE_AFTER):
+            assert "is gone" not in str(watched.said), missing
+            assert not watched.changed()
+        assert "is gone" in str(watched.said)
+        watched.path.write_text(text)
+        assert watched.changed()
+
+
 def test_a_file_that_is_no_text_is_said_and_what_ran_stays(watched):
     lesson = watched.lesson
     watched.path.write_bytes(b"\xff\xfe\x00" * 9)

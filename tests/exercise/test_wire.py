@@ -1,3 +1,5 @@
+import struct
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -53,6 +55,12 @@ class Sly(np.ndarray):
         return 0.0
 
 
+@pytest.mark.parametrize("kind", ["?", *"bhlBHL", *"efd"])
+def test_arrays_of_every_size_of_number_cross(kind):
+    array = np.arange(6).reshape(2, 3).astype(kind)
+    assert same(array, through({"value": array})["value"])
+
+
 def test_a_subclass_arrives_as_a_plain_array():
     arrived = through({"value": np.ones(3).view(Sly)})["value"]
     assert type(arrived) is np.ndarray
@@ -93,8 +101,35 @@ def test_any_bytes_are_a_message_or_refused(header, payload):
         b'{"v":{"n":-1}}',
         b'{"v":{"n":2}}',
         b'{"v":{"n":"x"}}',
+        b'{"v":{"a":"<f8","s":[1,1,1,1,1,1,1,1,1]}}',
+        b'{"v":{"v":1.5}}',
+        b'{"v":{"l":[' + b'{"v":0},' * 100_000 + b'{"v":0}]}}',
     ],
 )
 def test_a_forged_header_is_refused(header):
     with pytest.raises(WireError):
         unpack(header, b"12345678")
+
+
+def test_a_message_has_bounds():
+    most = (4 << 20, 64 << 20)
+    assert lengths(struct.pack("<QQ", *most)) == most
+    for more in ((most[0] + 1, 0), (0, most[1] + 1)):
+        with pytest.raises(WireError, match="out of bounds"):
+            lengths(struct.pack("<QQ", *more))
+    for value in (np.zeros(most[1] + 1, "u1"), "x" * most[0]):
+        with pytest.raises(WireError, match="more than the 64 MB a result may have"):
+            pack({"value": value})
+
+
+def test_lists_cross_eight_deep():
+    value = []
+    for _ in range(8):
+        value = [value]
+    assert through({"value": value}) == {"value": value}
+    with pytest.raises(WireError, match="the value has too many parts"):
+        pack({"value": [value]})
+    data = pack({"value": value})
+    deeper = data[16:].replace(b'{"l": []}', b'{"l": [{"l": []}]}')
+    with pytest.raises(WireError, match="not a message"):
+        unpack(deeper, b"")

@@ -246,10 +246,9 @@ def _kind(value: Any) -> str:
         return f"an array {value.shape} of {what}"
     if isinstance(value, (list, tuple)):
         return f"{len(value)} values"
-    return (
-        "a text"
-        if isinstance(value, str)
-        else "a whole number"
-        if isinstance(value, int)
-        else "a number"
+    known = (
+        (str, "a text"),
+        ((bool, np.bool_), "true or false"),
+        ((int, np.integer), "a whole number"),
     )
+    return next((what for kinds, what in known if isinstance(value, kinds)), "a number")

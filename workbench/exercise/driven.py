@@ -203,9 +203,7 @@ def _apart(a: Primitive, b: Primitive) -> float:
         p_a, p_b = _in_world(a), _in_world(b)
         if p_a.shape != p_b.shape:
             return float("inf")
-        return float(np.abs(p_a - p_b).max(initial=0.0)) / max(
-            1.0, float(np.abs(p_a).max(initial=0.0))
-        )
+        return float(np.abs(p_a - p_b).max(initial=0.0) / np.abs(p_a).max(initial=1.0))
     return 0.0
 
 

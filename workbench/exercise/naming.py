@@ -191,7 +191,7 @@ def values_alike(a: Any, b: Any) -> bool:
     try:
         first, second = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
     except (TypeError, ValueError):
-        return a is None and b is None
+        return False
     rounding = (
         SINGLE_ROUNDING
         if np.float32 in (getattr(a, "dtype", None), getattr(b, "dtype", None))

@@ -139,11 +139,7 @@ def _plain(annotation: Any) -> str:
         return "np.ndarray"
     if annotation is np.ndarray or hasattr(annotation, "dim_str"):
         return "np.ndarray"
-    text = (
-        annotation.__name__
-        if isinstance(annotation, type) and not hasattr(annotation, "__args__")
-        else str(annotation)
-    )
+    text = annotation.__name__ if isinstance(annotation, type) else str(annotation)
     return "tuple" if text.startswith("tuple") else text.replace("numpy.", "np.")
 
 

@@ -167,8 +167,11 @@ def _below(folder: Path) -> Iterator[Path]:
 
 
 def _clashing(one: HandIn, other: HandIn) -> HandIn:
-    files = sorted(
-        {*one.files, *other.files, *(file for each in (one, other) for file, _ in each.troubles)}
-    )
-    said = f"two things here are named {one.student} ({', '.join(files)[:200]}): leave one of them"
-    return HandIn(one.student, {}, (("", said),))
+    files = {
+        *one.files,
+        *other.files,
+        *(file for each in (one, other) for file, _ in each.troubles),
+    }
+    named = ", ".join(sorted(files))[:200]
+    said = f"two things here are named {one.student} ({named}): leave one of them"
+    return HandIn(one.student, {}, ((named, said),))

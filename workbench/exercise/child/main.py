@@ -158,8 +158,7 @@ def load(
     if names is not None:
         module.__dict__["__builtins__"] = names
     sys.modules["student"] = module
-    if modules:
-        sys.meta_path.insert(0, Beside(modules))  # type: ignore[arg-type]
+    sys.meta_path.insert(0, Beside(modules))  # type: ignore[arg-type]
     exec(compile(source, file, "exec"), module.__dict__)
     function = module.__dict__.get(name)
     if not callable(function):

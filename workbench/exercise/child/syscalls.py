@@ -174,7 +174,7 @@ LOAD, AND, EQUAL, AT_LEAST, RETURN = (
 )
 ALLOW, EPERM, ENOSYS = 0x7FFF0000, 0x00050001, 0x00050000 | 38
 Line = tuple[int, int, int, int]  # what, lines to skip if so, lines to skip if not, with
-ENDS: list[Line] = [(RETURN, 0, 0, EPERM), (RETURN, 0, 0, ENOSYS), (RETURN, 0, 0, ALLOW)]
+ENDS: list[Line] = [(RETURN, 0, 0, answer) for answer in (EPERM, ENOSYS, ALLOW)]
 
 
 def program(machine: str, *, writes: bool) -> bytes:

@@ -108,7 +108,7 @@ class _Reader:
 
     def value(self, described: Any, depth: int) -> Any:
         self._parts += 1
-        if depth > 8 or self._parts > MOST_PARTS or not isinstance(described, dict):
+        if depth > 8 or self._parts > MOST_PARTS:
             raise WireError("not a message")
         if "v" in described:
             value = described["v"]
