@@ -32,6 +32,7 @@ from workbench.run.timeline import Timeline
 
 MOST = 0.1
 """Seconds of processor time that a first picture may need."""
+ADDITIONS = 10_000_000
 
 
 def turned(field: ParamField, value: Any) -> Iterator[Any]:
@@ -76,9 +77,21 @@ class Turn:
     whole: float | None = None
 
 
+def additions() -> float:
+    """Return how long ADDITIONS take here, seconds of processor time: what to hold figures of
+    another machine against.
+    """
+    began = time.process_time()
+    total = 0
+    for i in range(ADDITIONS):
+        total += i
+    return time.process_time() - began
+
+
 def main(names: list[str]) -> None:
     """Print a row per lesson, and below it the knobs whose first picture takes too long."""
     load_parts()  # as the server does when it starts
+    print(f"this machine: {ADDITIONS:,} additions in Python take {additions():.2f} s")
     print(
         f"{'processor time, ms':<18}{'opened':>8}{'its run':>9}{'knobs':>7}"
         f"{'median':>8}{'worst':>7}  of a whole run",
