@@ -320,7 +320,7 @@ def test_ones_own_functions_are_called_with_target_first():
 
     def match(p_target, p_source):
         calls.append((len(p_target), len(p_source)))
-        return nearest(p_target, p_source)
+        return np.repeat(nearest(p_target, p_source), 2)[::2]  # however it lies in memory
 
     def align(p_target, p_source):
         calls.append("align")

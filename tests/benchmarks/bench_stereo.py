@@ -9,7 +9,8 @@ contender's rejected pixels counted as `none` and left out of both.
 
 Where ours are behind: a path goes from line to line, with a dozen of numpy's calls for each; and
 every step that is shown takes its own winners from the volume, 43 maps in a run. A floor is what
-these alone take, over OpenCV's eight paths, or its blocks.
+these alone take, over OpenCV's eight paths, or its blocks; `unseen` is one map by our functions,
+without the steps on its way.
 """
 
 import argparse
@@ -25,6 +26,7 @@ import numpy as np
 from workbench.algorithms.stereo.cost_volume import census_cost_volume, sad_cost_volume
 from workbench.algorithms.stereo.disparity import match, usual_penalties
 from workbench.algorithms.stereo.disparity_map import winner_takes_all
+from workbench.algorithms.stereo.semiglobal import semi_global
 from workbench.data.files import read_image
 from workbench.data.views.stereo import StereoPair, grey, motorcycle_pair, shrunk, synthetic_views
 from workbench.geometry.cameras.stereo import StereoCamera
@@ -50,11 +52,12 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     rounds = parser.parse_args().rounds
     for name, task in tasks().items():
-        paths, blocks = (functools.partial(bare, task, paths=paths) for paths in (True, False))
-        compare(
-            f"paths, {name}", task, semi_global_contenders(task.disparities), rounds, bare=paths
-        )
-        compare(f"blocks, {name}", task, block_contenders(task.disparities), rounds, bare=blocks)
+        for what, contenders in (("paths", semi_global_contenders), ("blocks", block_contenders)):
+            alone = {
+                row: functools.partial(run, task, paths=what == "paths")
+                for row, run in (("unseen", unseen), ("floor", bare))
+            }
+            compare(f"{what}, {name}", task, contenders(task.disparities), rounds, alone=alone)
     print(
         "\na floor: a comparison at every shift, the additions and minima of eq. 13, line by line,"
         " and the winners of the volume at every step shown; of blocks, without eq. 13"
@@ -144,6 +147,18 @@ def bare(task: Task, *, paths: bool) -> None:
         winner_takes_all(summed).astype(float)
 
 
+def unseen(task: Task, *, paths: bool) -> None:
+    """Find the map by our functions, without a step on the way."""
+    most = task.disparities - 1
+    left, right = (picture.astype(float) for picture in (task.left, task.right))
+    if not paths:
+        winner_takes_all(sad_cost_volume(left, right, most, 5))
+        return
+    cost = census_cost_volume(left, right, most, BLOCK)
+    *_, last = semi_global(cost, *usual_penalties(cost, smoothness=1.0))
+    winner_takes_all(last.total)
+
+
 def semi_global_contenders(disparities: int) -> dict[str, Matcher]:
     """Return ours and OpenCV's two, at the penalties of its documentation for 5 x 5 blocks."""
     found: dict[str, Matcher] = {"ours": ours(disparities, BLOCK, paths=True)}
@@ -195,21 +210,22 @@ def compare(
     contenders: dict[str, Matcher],
     rounds: int,
     *,
-    bare: Callable[[], None],
+    alone: dict[str, Callable[[], None]],
 ) -> None:
     """Run all contenders, taking turns, and print times, errors, ratios to the fastest peer, and
-    what ratio the bare calls reach.
+    what ratio the parts that stand alone reach.
     """
-    times: dict[str, list[float]] = {who: [] for who in (*contenders, "bare")}
+    times: dict[str, list[float]] = {who: [] for who in (*contenders, *alone)}
     maps = {}
     for _ in range(rounds):
         for who, matcher in contenders.items():
             started = time.process_time()
             maps[who] = matcher(task.left, task.right)
             times[who].append(1e3 * (time.process_time() - started))
-        started = time.process_time()
-        bare()
-        times["bare"].append(1e3 * (time.process_time() - started))
+        for who, part in alone.items():
+            started = time.process_time()
+            part()
+            times[who].append(1e3 * (time.process_time() - started))
     least = {who: min(taken) for who, taken in times.items()}
     *_, last = contenders  # OpenCV's eight paths, or blocks
     print(f"\n{name}")
@@ -223,7 +239,8 @@ def compare(
             f"  {who:18}{least[who]:8.1f}{ratio:14.2f}{bad[0]:9.2f}%{bad[1]:9.2f}%{100 * (~known).mean():7.2f}%"  # noqa: E501
         )
     if len(contenders) > 1:
-        print(f"  {'floor':18}{least['bare']:8.1f}{least['bare'] / least[last]:14.2f}")
+        for who in alone:
+            print(f"  {who:18}{least[who]:8.1f}{least[who] / least[last]:14.2f}")
 
 
 if __name__ == "__main__":

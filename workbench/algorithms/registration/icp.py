@@ -217,7 +217,7 @@ def icp(
         largest_move = lengths(apply(T_new, corners) - apply(T_target_source, corners)).max()
         T_target_source, p_moved = T_new, apply(T_new, p_source)  # step c: apply the registration
         distances = lengths(p_match - p_moved)
-        matches = zlib.crc32(kept, zlib.crc32(indices))  # the same in every process
+        matches = zlib.crc32(kept.tobytes(), zlib.crc32(indices.tobytes()))
         if largest_move <= shortest_move:  # step d: terminate
             stop = Stop.CONVERGED
         elif (
