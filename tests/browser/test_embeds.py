@@ -162,8 +162,9 @@ def test_a_reload_finds_the_same_part_again(opened):
     frame = opened("#from=1&to=3&show=picture")
     frame.evaluate("page.seek(2)")
     assert frame.evaluate("location.hash") == "#run=half&from=1&to=3&show=picture&step=2"
-    frame.evaluate("location.reload()")
-    frame.wait_for_function(f"typeof page !== 'undefined' && page.k === 2 && {THERE}")
+    frame.evaluate("before = true, location.reload()")
+    anew = "typeof before === 'undefined' && typeof page !== 'undefined'"
+    frame.wait_for_function(f"{anew} && page.k === 2 && {THERE}")
     assert frame.evaluate("[page.from, page.to, document.body.className]") == [
         1,
         3,

@@ -235,7 +235,9 @@ def test_a_wrong_function_differs_from_a_step_on_with_the_reference_as_ghost():
         step.caption.text.startswith("Here your run first differs") for step in timeline.known()
     ]
     assert begins == [False, True, False, False, False, False]
-    assert timeline[1].caption.text.endswith(fake.draw(timeline[1].state.theirs)["caption"].text)
+    told: object = fake.draw(timeline[1].state.theirs)["caption"]
+    assert isinstance(told, Caption)
+    assert timeline[1].caption.text.endswith(told.text)
     assert "ghost/source" not in timeline[0].scene
 
 

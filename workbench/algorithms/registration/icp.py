@@ -254,9 +254,9 @@ def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3
         rows = order[(lengths(p_source - searched_at) >= free).take(order)]
         searched_at[rows] = p = p_source.take(rows, axis=0)
         workers = -1 if len(p) > 2000 else 1  # threads cost more than they save on few points
-        distances, nearest_two = tree.query(p, k=2, workers=workers)
-        partner[rows] = nearest_two[:, 0]
-        free[rows] = (distances[:, 1] - distances[:, 0]) / 2.0
+        distances, nearest_two = map(np.transpose, tree.query(p, k=2, workers=workers))
+        partner[rows] = nearest_two[0]
+        free[rows] = (distances[1] - distances[0]) / 2.0
         return partner.copy()
 
     return match
