@@ -178,7 +178,8 @@ def winners_by_window(left: np.ndarray, right: np.ndarray, max_disparity: int) -
     """Return the map of the lowest sums of absolute differences for each of WINDOWS.
 
     Shift by shift, so that the running sums of one serve all windows. Brightness is whole
-    thousandths, and a sum and its shift are one number: the least of these tells both.
+    thousandths, and a sum and its shift are one number: the least of these tells both. 32 bits hold
+    it for differences up to 255 at the largest window and 32 shifts.
     """
     h, w = left.shape
     shifts = max_disparity + 1

@@ -390,3 +390,13 @@ def test_the_matcher_keeps_a_partner_only_while_no_other_is_nearer(m, step):
         expected = scipy.spatial.distance.cdist(p_source, p_target).argmin(axis=1)
         np.testing.assert_array_equal(match(p_target, p_source), expected)
         p_source = p_source + step * rng.standard_normal(p_source.shape)
+
+
+@pytest.mark.parametrize("searched_before", [False, True])
+def test_the_matcher_refuses_a_point_that_is_not_finite(searched_before):
+    p = np.random.default_rng(0).standard_normal((30, 3))
+    match = module.matcher(p, p)
+    if searched_before:
+        match(p, p)
+    with pytest.raises(ValueError, match="finite"):
+        match(p, np.where(np.arange(30)[:, None] == 3, np.nan, p))

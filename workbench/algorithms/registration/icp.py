@@ -251,7 +251,8 @@ def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3
     free = np.zeros(len(p_source))  # how far a point may move from there and keep its partner
 
     def match(_p_target: np.ndarray, p_source: np.ndarray) -> np.ndarray:
-        rows = order[(lengths(p_source - searched_at) >= free).take(order)]
+        stays = lengths(p_source - searched_at) < free  # false of NaN, which the tree refuses
+        rows = order[~stays.take(order)]
         searched_at[rows] = p = p_source.take(rows, axis=0)
         workers = -1 if len(p) > 2000 else 1  # threads cost more than they save on few points
         distances, nearest_two = map(np.transpose, tree.query(p, k=2, workers=workers))

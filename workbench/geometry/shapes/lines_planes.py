@@ -64,10 +64,10 @@ def fit_hyperplanes(
 
     Args:
         p: The points, metres; of one cloud, or of many with as many points each.
-        weights: Of each fit a weight for each point, not negative, or whether it counts.
+        weights: Of each fit a weight for each point, or whether it counts.
     """
     d = p.shape[-1]
-    few = np.count_nonzero(weights, axis=-1) < d
+    few = np.count_nonzero(weights > 0, axis=-1) < d
     q = np.moveaxis(p, -1, 0).copy()  # x of all points, y of all, ...
     middle = q.mean(axis=-1, keepdims=True)  # about it, sums of squares lose no digits
     q -= middle
