@@ -5,7 +5,6 @@ By keyboard alone, but for handles and points of the scene; without motion on th
 step; in a light window of a laptop at first, then in a dark one of a phone.
 """
 
-import contextlib
 import functools
 import math
 from collections.abc import Callable, Iterator
@@ -209,32 +208,54 @@ def a_handle_and_a_point_are_moved_by_hand(home: Home) -> None:
         home.press("h")
         home.find("#move[aria-pressed=true]").wait_for()
         home.until("() => [...feed.shown.keys()].some((name) => name.startsWith('/handle/'))")
-        home.until("before => pictures > before + 1", home.ask("pictures"))  # it is drawn
+        is_drawn(home)
         moved(home, field.name, functools.partial(drag, home, field))
         home.press("h")
     for field in by[Pick][:1]:
         assert isinstance(field.knob.by, Pick)
+        is_drawn(home)
         moved(home, field.name, functools.partial(click, home, field.knob.by.path))
     home.ask("void (secondsBetweenPictures = 3600)")
     home.press("r")
     home.until("page.run.name === 'default'")
 
 
+def is_drawn(home: Home) -> None:
+    """Wait until viser's client has drawn what there is now: only then it has the scene's camera."""
+    home.until("before => pictures > before + 1", home.ask("pictures"))
+
+
 def moved(home: Home, name: str, act: Callable[[int], None]) -> None:
-    """Do something in the scene until a param has changed by it: what is drawn comes a little later
-    than what is said.
+    """Do something in the scene until a param has changed by it to what can be run: what is drawn
+    comes a little later than what is said.
     """
     before = home.ask("name => String(page.run.params[name])", name)
     for turn in range(60):
         act(turn)
-        with contextlib.suppress(TookTooLong):
+        try:
             home.frame.wait_for_function(
                 "([name, was]) => String(page.run.params[name]) !== was",
                 arg=[name, before],
                 timeout=3000,
             )
+        except TookTooLong:
+            continue
+        if not is_refused(home):
             return agrees_with_its_params(home)
+        before = home.ask("name => String(page.run.params[name])", name)
     raise AssertionError(f"{name} stays {before}")
+
+
+def is_refused(home: Home) -> bool:
+    """Tell whether what the page asked for cannot be run, such as a source in a wall; the page says
+    why.
+    """
+    session = student(home).session
+    assert session is not None
+    run = complete(home, session.params)
+    if len(run) == 0:
+        home.says(run.stopped or "")
+    return len(run) == 0
 
 
 def drag(home: Home, field: ParamField, turn: int) -> None:
