@@ -75,7 +75,7 @@ def test_the_command_of_any_params_opens_them(chosen):
 
 
 def test_a_command_can_be_read_by_a_shell_and_by_a_person(monkeypatch):
-    monkeypatch.setitem(catalog(), "fake", fake.lesson)
+    monkeypatch.setitem(catalog().asked, "fake", fake.lesson)
     params = fake.Params(angle=30.0, wobble=True, place=(-1.0, 0.25, 0.0), pixel=(1, 2))
     assert (
         show_command(fake.lesson, params)
@@ -85,7 +85,7 @@ def test_a_command_can_be_read_by_a_shell_and_by_a_person(monkeypatch):
 
 
 def test_a_command_names_no_file_of_the_machine_it_was_printed_on(monkeypatch):
-    monkeypatch.setitem(catalog(), "fake", fake.lesson)
+    monkeypatch.setitem(catalog().asked, "fake", fake.lesson)
     assert (
         show_command(fake.lesson, fake.Params(scan=Path("/home/ann/secret/scan.npy")))
         == "workbench show fake --scan=FILE"
@@ -116,7 +116,7 @@ def test_a_student_s_file_behind_a_flag_is_not_taken_for_the_lesson(tmp_path):
 
 
 def test_flags_stand_where_people_put_them(monkeypatch):
-    monkeypatch.setitem(catalog(), "fake", fake.lesson)
+    monkeypatch.setitem(catalog().asked, "fake", fake.lesson)
     for words in (
         "fake --place -1,0.25,0 --no-wobble --step -1",
         "--place=-1,0.25,0 fake --step=-1 --no-wobble",

@@ -250,6 +250,19 @@ class Lesson(Generic[P, S]):
         return validated(params)
 
 
+def _folders() -> list[str]:
+    """Return the folders of the `lessons` package; none is imported."""
+    lessons = importlib.import_module("lessons")
+    return [name for _, name, is_folder in pkgutil.iter_modules(lessons.__path__) if is_folder]
+
+
+def _lesson_of(folder: str) -> Lesson | None:
+    """Return the lesson in a folder of the `lessons` package; None where there is none."""
+    place = f"lessons.{folder}.lesson"
+    has_one = importlib.util.find_spec(place) is not None
+    return lesson_in(importlib.import_module(place)) if has_one else None
+
+
 @functools.cache
 def course() -> Mapping[str, Lesson]:
     """Return the lessons of the `lessons` package by name, in course order.
@@ -258,42 +271,72 @@ def course() -> Mapping[str, Lesson]:
         InputError: If two of them have one name; tells both places.
     """
     found, places = list[Lesson](), dict[str, str]()
-    lessons = importlib.import_module("lessons")
-    for info in pkgutil.iter_modules(lessons.__path__, "lessons."):
-        if info.ispkg and importlib.util.find_spec(f"{info.name}.lesson") is not None:
-            lesson = lesson_in(importlib.import_module(f"{info.name}.lesson"))
-            if lesson.name in places:
-                both = f"{places[lesson.name]} and {info.name}"
-                raise InputError(f"{both} are both named {lesson.name!r}: rename one")
-            found.append(lesson)
-            places[lesson.name] = info.name
+    for folder in _folders():
+        lesson = _lesson_of(folder)
+        if lesson is None:
+            continue
+        if lesson.name in places:
+            both = f"{places[lesson.name]} and lessons.{folder}"
+            raise InputError(f"{both} are both named {lesson.name!r}: rename one")
+        found.append(lesson)
+        places[lesson.name] = f"lessons.{folder}"
     return _in_order(found)
 
 
-@functools.cache
-def catalog() -> Mapping[str, Lesson]:
-    """Return all lessons by name, in course order: those of the course and those of installed third
+class Catalog(Mapping[str, Lesson]):
+    """All lessons by name, in course order: those of the course and those of installed third
     parties.
+
+    A lesson of the course that is asked for by name is imported alone: all of them take seconds.
+
+    Attributes:
+        asked: Lessons that were asked for by name.
+    """
+
+    def __init__(self) -> None:
+        self.asked: dict[str, Lesson] = {}
+
+    def __getitem__(self, name: str) -> Lesson:
+        if name not in self.asked:
+            lesson = _lesson_of(name) if name in _folders() else None
+            is_it = lesson is not None and lesson.name == name
+            self.asked[name] = lesson if is_it else self._whole[name]
+        return self.asked[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._whole)
+
+    def __len__(self) -> int:
+        return len(self._whole)
+
+    @functools.cached_property
+    def _whole(self) -> Mapping[str, Lesson]:
+        found, places = dict(course()), {name: f"lessons.{name}" for name in course()}
+        for entry in importlib.metadata.entry_points(group="workbench.lessons"):
+            place = f"{entry.name} ({entry.value})"
+            try:
+                lesson = lesson_in(importlib.import_module(entry.module), entry.attr or "lesson")
+                if lesson.name in found:
+                    raise InputError(f"its name {lesson.name!r} is taken by {places[lesson.name]}")
+            except (
+                Exception,
+                SystemExit,
+            ) as error:  # somebody else's lesson must not take the course down
+                warnings.warn(LeftOutWarning(f"lesson {place} is left out: {error}"), stacklevel=1)
+            else:
+                found[lesson.name], places[lesson.name] = lesson, place
+        return _in_order(found.values())
+
+
+@functools.cache
+def catalog() -> Catalog:
+    """Return all lessons by name, in course order.
 
     A third party registers a lesson under the entry-point group `workbench.lessons`, as `name =
     "module:lesson"`. One that cannot be loaded, or whose name is taken, is left out with a warning;
     the course itself is always whole.
     """
-    found, places = dict(course()), {name: f"lessons.{name}" for name in course()}
-    for entry in importlib.metadata.entry_points(group="workbench.lessons"):
-        place = f"{entry.name} ({entry.value})"
-        try:
-            lesson = lesson_in(importlib.import_module(entry.module), entry.attr or "lesson")
-            if lesson.name in found:
-                raise InputError(f"its name {lesson.name!r} is taken by {places[lesson.name]}")
-        except (
-            Exception,
-            SystemExit,
-        ) as error:  # somebody else's lesson must not take the course down
-            warnings.warn(LeftOutWarning(f"lesson {place} is left out: {error}"), stacklevel=1)
-        else:
-            found[lesson.name], places[lesson.name] = lesson, place
-    return _in_order(found.values())
+    return Catalog()
 
 
 def place_of(lesson: Lesson) -> tuple[int, float, str]:
