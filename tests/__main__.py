@@ -27,6 +27,9 @@ SOME_FAILED = 1  # pytest's exit code
 FEW = 10  # more that fail are no accident
 KEEPS_BYTECODE = {"PYTHONDONTWRITEBYTECODE": ""}
 """A run starts some thousand processes: without it each compiles the workbench anew."""
+COMPILED = ROOT / "tests" / "__pycache__"
+COMPILING = ["pytest", "-qqq", "-n0", "--collect-only", "--no-summary", "--no-header"]
+"""In a new clone, once for all workers: each would compile what pytest makes of the tests."""
 BESIDE = ("types",)  # runs in what time the others leave; its output comes at the end
 
 
@@ -53,6 +56,10 @@ def main() -> int:
     try:
         for name, command in CHECKS.items():
             if name not in beside:
+                if name == "tests" and not any(COMPILED.glob("*-pytest-*")):
+                    subprocess.run(
+                        [sys.executable, "-m", *COMPILING], cwd=ROOT, stdout=subprocess.DEVNULL
+                    )
                 code = ran(name, command)
                 if (
                     name == "tests"

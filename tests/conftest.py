@@ -46,18 +46,21 @@ def checked_at_first(
 
     def decorator(**options: Any) -> Callable[[Any], Any]:
         def decorated(bare: Any) -> Any:
-            strict = decorate(**options)(bare)
-            if not inspect.isfunction(bare) or not inspect.isfunction(strict):
-                return strict
-            of_test, left = -1, 0
+            if not inspect.isfunction(bare):
+                return decorate(**options)(bare)
+            of_test, left, strict = -1, 0, None
 
             @functools.wraps(bare)
             def sometimes(*args: Any, **kwargs: Any) -> Any:
-                nonlocal of_test, left
+                nonlocal of_test, left, strict
                 if of_test != tests_begun:
                     of_test, left = tests_begun, ENOUGH
                 left -= 1
-                return strict(*args, **kwargs) if left >= 0 else bare(*args, **kwargs)
+                if left < 0:
+                    return bare(*args, **kwargs)
+                if strict is None:  # most functions are never called by most workers
+                    strict = decorate(**options)(bare)
+                return strict(*args, **kwargs)
 
             return sometimes
 
