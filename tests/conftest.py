@@ -2,6 +2,7 @@
 all.
 """
 
+import dataclasses
 import functools
 import inspect
 import os
@@ -30,9 +31,9 @@ def checked(function_or_class):
     return beartype(conf=BeartypeConf(is_pep484_tower=True))(function_or_class)
 
 
-ENOUGH = 20
-"""Calls of a function in one test whose shapes are checked; a run calls some thousands of times,
-all alike.
+ENOUGH = 5
+"""Calls of a function, or of a class, in one test whose shapes are checked; a run makes some
+thousands, all alike.
 """
 tests_begun = 0
 
@@ -41,13 +42,16 @@ def checked_at_first(
     decorate: Callable[..., Callable[[Any], Any]],
 ) -> Callable[..., Callable[[Any], Any]]:
     """Return jaxtyping's decorator, but so that only the first calls of a function in each test are
-    checked.
+    checked, and the first values that are made of a class.
     """
 
     def decorator(**options: Any) -> Callable[[Any], Any]:
         def decorated(bare: Any) -> Any:
-            if not inspect.isfunction(bare):
-                return decorate(**options)(bare)
+            if dataclasses.is_dataclass(bare) and inspect.isfunction(bare.__init__):
+                bare.__init__ = decorated(bare.__init__)
+                return bare
+            if not inspect.isfunction(bare) or hasattr(bare, "checks_at_first"):
+                return bare
             of_test, left, strict = -1, 0, None
 
             @functools.wraps(bare)
@@ -62,6 +66,7 @@ def checked_at_first(
                     strict = decorate(**options)(bare)
                 return strict(*args, **kwargs)
 
+            vars(sometimes)["checks_at_first"] = True  # a class may have that of another
             return sometimes
 
         return decorated
