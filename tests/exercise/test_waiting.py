@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from workbench.exercise.sandbox import CallBudget, waiting
+from workbench.exercise.sandbox import CallBudget, SandboxedFunction, function, waiting
 from workbench.exercise.sandbox.pipe import Pipe
 from workbench.exercise.sandbox.python import _without
 
@@ -61,6 +61,31 @@ def test_all_calls_take_twenty_times_the_limit_together():
     assert budget.over == ""
     budget.took(0.1, "")
     assert budget.over == "its calls together took more than 10 s"
+
+
+def test_what_a_process_waited_since_it_was_asked_is_taken_off_a_call_that_was_not_short(
+    tmp_path, monkeypatch
+):
+    (tmp_path / "my_f.py").write_text("import time\ndef f(s):\n    time.sleep(s)\n    return s\n")
+    took: list[float] = []
+    budget = CallBudget(5.0)
+    monkeypatch.setattr(budget, "took", lambda seconds, how: took.append(seconds))
+    with SandboxedFunction(tmp_path / "my_f.py", "f", budget=budget) as f:
+        f.start()
+        looks = [
+            7.0,
+            7.2,
+            9.0,
+        ]  # since the process began, when it is asked and at a long call's end
+        monkeypatch.setattr(function, "waited", lambda pid: looks.pop(0))
+        assert f(0.5) == 0.5
+        assert looks == [9.0]
+        monkeypatch.setattr(function, "SHORT", 60.0)
+        assert f(0.5) == 0.5
+        assert looks == []
+    long, short = took
+    assert 0.3 <= long < short
+    assert short >= 0.5
 
 
 def test_a_pipe_waits_no_longer_than_it_was_told_and_knows_who_is_gone():

@@ -23,6 +23,8 @@ from workbench.exercise.submission import Submission, read_submission
 MEGABYTES = 2048
 LOAD_SECONDS = 10.0
 """How long a file may take to load."""
+SHORT = 0.02
+"""Seconds of a call up to which it is not asked how much of them the process waited."""
 
 
 @contextlib.contextmanager
@@ -82,6 +84,7 @@ class SandboxedFunction(StudentFunction):
         self._pipe: Pipe | None = None
         self._printed: IO[bytes] | None = None
         self._closed = False
+        self._waited = 0.0  # seconds for a processor, when the process was last asked
 
     def __call__(self, *args: Any, **options: Any) -> Any:
         """Return what the student's function returns for these arguments, as plain values.
@@ -104,7 +107,7 @@ class SandboxedFunction(StudentFunction):
 
     def _called(self, request: dict[str, Any]) -> dict[str, Any]:
         seconds, how = self._budget.seconds if self._budget else self._seconds, ""
-        began, before = time.monotonic(), self._lost()
+        began = time.monotonic()
         try:
             return self._ask(request, seconds)
         except StudentError as error:
@@ -112,7 +115,8 @@ class SandboxedFunction(StudentFunction):
             raise
         finally:
             if self._budget is not None:
-                self._budget.took(time.monotonic() - began - max(0.0, self._lost() - before), how)
+                took = time.monotonic() - began
+                self._budget.took(took if took < SHORT else took - self._lost(), how)
 
     def start(self) -> None:
         """Start the process and load the student's file.
@@ -195,6 +199,7 @@ class SandboxedFunction(StudentFunction):
     def _ask(self, request: dict[str, Any], seconds: float) -> dict[str, Any]:
         assert self._pipe is not None
         nonce = secrets.token_hex(8)
+        self._waited = self._waiting()
         try:
             reply = self._pipe.ask(
                 request | {"nonce": nonce, "file": self.submission.file}, seconds, self._lost
@@ -222,7 +227,12 @@ class SandboxedFunction(StudentFunction):
         return reply
 
     def _lost(self) -> float:
-        """Return how long the process has waited for a processor: not its fault."""
+        """Return how long the process has waited for a processor since it was asked: not its
+        fault.
+        """
+        return max(0.0, self._waiting() - self._waited)
+
+    def _waiting(self) -> float:
         return 0.0 if self._process is None else waited(self._process.pid)
 
     def _too_long(self, doing: str, seconds: float) -> StudentError:

@@ -16,21 +16,13 @@ class _Deadline:
     """Moves on by what a process waits for a processor."""
 
     def __init__(self, seconds: float, lost: Callable[[], float]):
-        self._seconds, self._lost, self._began, self._before = (
-            seconds,
-            lost,
-            time.monotonic(),
-            lost(),
-        )
+        self._seconds, self._lost = seconds, lost
+        self._began = time.monotonic()
 
     def left(self) -> float:
         """Return the seconds that are left."""
         left = self._seconds - (time.monotonic() - self._began)
-        return (
-            left
-            if left > 0
-            else left + min(self._lost() - self._before, (MOST_TIMES - 1) * self._seconds)
-        )
+        return left if left > 0 else left + min(self._lost(), (MOST_TIMES - 1) * self._seconds)
 
 
 class Pipe:
@@ -62,8 +54,8 @@ class Pipe:
     ) -> dict[str, Any]:
         """Send a message and return the answer, waited for `seconds`.
 
-        What `lost` says, the seconds that the process has waited for a processor, is not its own
-        time.
+        What `lost` says, the seconds that the process has waited for a processor since it was
+        asked, is not its own time.
 
         Raises:
             WireError: If what came is no message.
