@@ -197,10 +197,16 @@ def values_alike(a: Any, b: Any) -> bool:
         if np.float32 in (getattr(a, "dtype", None), getattr(b, "dtype", None))
         else ROUNDING
     )
-    scale = max(1e-12, float(np.abs(second[np.isfinite(second)]).max(initial=0.0)))
-    return first.shape == second.shape and bool(
-        np.allclose(first, second, rtol=rounding, atol=0.1 * rounding * scale, equal_nan=True)
-    )
+    if first.shape != second.shape:
+        return False
+    size, same = np.abs(second), first == second
+    if same.all():
+        return True
+    known = np.isfinite(second)
+    scale = max(1e-12, float(size[known].max(initial=0.0)))
+    with np.errstate(invalid="ignore", over="ignore"):
+        near = np.abs(first - second) <= 0.1 * rounding * scale + rounding * size
+    return bool((same | near & known | np.isnan(first) & np.isnan(second)).all())
 
 
 # what one of our functions says to a call, kept for the next student ------------------------------
