@@ -10,13 +10,10 @@ from typing import Any
 import pytest
 import viser
 
-from tests import fake
 from workbench.errors import InputError
-from workbench.lesson import View
 from workbench.viewer.transfers import scene_response
-from workbench.wire import client, listener
+from workbench.wire import client
 from workbench.wire.client import client_bytes, client_html
-from workbench.wire.nodes import Maker
 
 
 def test_the_client_is_one_file_whose_worker_is_the_page():
@@ -58,7 +55,7 @@ def test_who_has_the_client_is_sent_nothing_and_who_reads_gzip_the_compressed_on
 
 @pytest.mark.parametrize("content", [None, "", "<body></body>"])
 def test_a_viser_without_a_client_is_refused_in_one_line(monkeypatch, tmp_path, content):
-    monkeypatch.setattr(client.viser, "__file__", str(tmp_path / "__init__.py"))
+    monkeypatch.setattr(client, "viser_folder", lambda: tmp_path)
     client_html.cache_clear()
     if content is not None:
         build = tmp_path / "client" / "build"
@@ -72,16 +69,3 @@ def test_a_viser_without_a_client_is_refused_in_one_line(monkeypatch, tmp_path, 
         assert "\n" not in str(raised.value)
     finally:
         client_html.cache_clear()
-
-
-def test_a_viser_that_makes_scenes_in_another_way_is_refused_in_one_line(monkeypatch):
-    class Other:
-        def __init__(self, *, server: Any):
-            """Take what this version asks for."""
-
-    monkeypatch.setattr(listener.viser, "SceneApi", Other)
-    with pytest.raises(
-        InputError, match=f"viser {viser.__version__} makes scenes in another way"
-    ) as raised:
-        Maker().nodes(fake.draw(fake._state(0)), View())
-    assert "\n" not in str(raised.value)

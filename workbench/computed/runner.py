@@ -26,7 +26,7 @@ from workbench.run.timeline import Timeline
 from workbench.wire.nodes import Maker
 from workbench.wire.packing import PageWire
 from workbench.wire.stage import Aim
-from workbench.wire.writer import Writer
+from workbench.wire.writer import Writer, as_png
 
 EXERCISES = Path(__file__).with_name("exercises.json")
 """In an archive: what there is to say of each lesson's exercises before one is begun."""
@@ -62,7 +62,7 @@ class Runner:
     def __init__(self, lesson: Lesson, exercises: Sequence[Mapping[str, Any]] = ()):
         self.lesson = self._driven = lesson
         self._exercises = list(exercises)
-        self._wire = PageWire(Maker(Writer))
+        self._wire = PageWire(Maker(lambda: Writer(as_png)))
         self._aim = Aim()
         self._number = 0
         self._aim.open(lesson, lesson.params())

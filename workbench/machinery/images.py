@@ -17,6 +17,15 @@ def png(image: np.ndarray, compress_level: int = 6) -> bytes:
     return file.getvalue()
 
 
+def jpeg(image: np.ndarray) -> bytes:
+    """Return an image, (h, w, 3) uint8, as the bytes of a JPEG file, as good as viser makes it."""
+    from PIL import Image
+
+    file = io.BytesIO()
+    Image.fromarray(np.ascontiguousarray(image)).save(file, "JPEG", quality=75)
+    return file.getvalue()
+
+
 def plain_png(image: np.ndarray) -> bytes:
     """Return an image, (h, w) or (h, w, 3) uint8, as the bytes of a PNG file, without Pillow.
 

@@ -6,8 +6,6 @@ from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import viser
-
 from workbench.chapters import place
 from workbench.errors import InputError
 from workbench.lesson import Lesson
@@ -71,6 +69,7 @@ from workbench.publish.runs import (
 from workbench.publish.sizes import COURSE_PAGE, checked
 from workbench.recording import equal_content
 from workbench.run.timeline import Timelines
+from workbench.wire.client import viser_version
 from workbench.words.typeset import math_font, math_font_css
 
 PICTURE = "picture.webp"
@@ -163,7 +162,7 @@ def _publish(
         if remove_others
         else {name: one for name, one in manifest.lessons.items() if name not in names}
     )
-    made_by = f"workbench {__version__}, viser {viser.__version__}"
+    made_by = f"workbench {__version__}, viser {viser_version()}"
     if others and manifest.made_by != made_by:
         raise InputError(
             f"{out}: its other lessons were published by another version; publish all of them again"

@@ -5,9 +5,9 @@ would reach a server.
 import functools
 import gzip
 import hashlib
+import importlib.util
+from importlib.metadata import version
 from pathlib import Path
-
-import viser
 
 from workbench.errors import InputError
 
@@ -17,6 +17,17 @@ _WORKER = (  # what the client starts to open a websocket; the page (`feed.js`) 
 )
 
 
+def viser_version() -> str:
+    """Return which viser is installed; it is not imported, which takes half a second."""
+    return version("viser")
+
+
+def viser_folder() -> Path:
+    """Return the folder of the viser that is installed."""
+    found = importlib.util.find_spec("viser")
+    return Path(found.origin if found and found.origin else "viser").parent
+
+
 @functools.cache
 def client_html() -> str:
     """Return viser's client as a page puts it into a frame.
@@ -24,14 +35,14 @@ def client_html() -> str:
     Raises:
         InputError: If this version of viser has no such file.
     """
-    file = Path(viser.__file__).parent / "client" / "build" / "index.html"
+    file = viser_folder() / "client" / "build" / "index.html"
     try:
         html = file.read_text(encoding="utf-8")
     except OSError:
         html = ""
     if "<head>" not in html:
         raise InputError(
-            f"viser {viser.__version__} has no client that a page can feed: install viser 1.1.1"
+            f"viser {viser_version()} has no client that a page can feed: install viser 1.1.1"
         )
     return html.replace("<head>", f"<head>{_WORKER}", 1)
 

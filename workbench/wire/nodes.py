@@ -19,7 +19,7 @@ from workbench.lesson import View
 from workbench.scene import Label, Scene, Spatial, in_space
 from workbench.wire.primitives import AT_ORIGIN, NAME, Pose, add, place_of, pose_of
 from workbench.wire.stage import add_stage, axis_names
-from workbench.wire.writer import Heard, Said
+from workbench.wire.writer import Heard, Said, Writer
 
 SCENE = "/scene/"
 """What the names of all that belongs to a step begin with; the rest is the stage."""
@@ -64,8 +64,7 @@ class StageNodes:
 
 
 class Hearing(Protocol):
-    """Hears what viser would say of a scene: viser's own API does, or what is written in its
-    place.
+    """Hears what viser would say of a scene.
 
     Attributes:
         at_first: What is said of every scene.
@@ -78,13 +77,6 @@ class Hearing(Protocol):
         ...
 
 
-def by_viser() -> Hearing:
-    """Return what hears viser's own scene API."""
-    from workbench.wire.listener import Listener  # a browser has no viser
-
-    return Listener()
-
-
 class Maker:
     """Makes nodes. One serves a process; any thread may ask.
 
@@ -92,11 +84,9 @@ class Maker:
         hearing: Makes what hears the scene; one for each thread.
     """
 
-    def __init__(self, hearing: Callable[[], Hearing] = by_viser) -> None:
+    def __init__(self, hearing: Callable[[], Hearing] = Writer) -> None:
         self._hearing = hearing
-        self._own = (
-            threading.local()
-        )  # viser's scene API is one for each thread: nobody waits for a heavy scene of others
+        self._own = threading.local()  # nobody waits for a heavy scene of others
         self._lock = threading.Lock()
         self._made: weakref.WeakKeyDictionary[Spatial, dict[str, Node]] = (
             weakref.WeakKeyDictionary()

@@ -1,6 +1,7 @@
 """How each primitive is drawn by viser: what it is made of, and where it stands.
 
-A scene is viser's SceneApi, or `writer.PlainScene` where there is no viser.
+A scene is typed as viser's SceneApi, by whose methods and keywords all is said; it is
+`writer.PlainScene`, and in tests viser's own.
 
 Everything is drawn in its full colours, in the frame of the primitive: how opaque it is, and before
 which backdrop, is the page's affair.

@@ -1,7 +1,8 @@
-"""What viser would say of a scene, without viser: NumPy and the standard library alone.
+"""Says of a scene what viser's own scene API would say, to viser's client.
 
-A browser that computes a lesson makes its nodes by this. `tests/wire/test_writer.py` holds it equal
-to viser's own scene API, which makes them everywhere else.
+NumPy and the standard library alone, since a browser that computes a lesson makes its scenes by
+this too. `tests/wire/test_writer.py` holds it equal to viser's scene API, which takes two to four
+times as long: it makes a handle of each node, for which nobody here asks.
 """
 
 from collections.abc import Callable, Mapping
@@ -9,12 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from workbench.machinery.images import plain_png
+from workbench.machinery.images import jpeg, plain_png
 
 Said = dict[str, Any]
 """A message of viser as plain data; an array in it is `{"__binary_index": i, "dtype": ...}`."""
 Heard = list[tuple[Said, list[memoryview]]]
 """Messages, each with its arrays."""
+
+Picture = tuple[str, bytes]
+"""A kind of file, `jpeg` or `png`, and a file's bytes."""
 
 _GRID = {
     "width": 10.0,
@@ -36,13 +40,25 @@ _SKY = {
 }
 
 
+def as_jpeg(image: np.ndarray) -> Picture:
+    """Return an image as viser sends it."""
+    return "jpeg", jpeg(image)
+
+
+def as_png(image: np.ndarray) -> Picture:
+    """Return an image as it is sent where there is no Pillow."""
+    return "png", plain_png(image)
+
+
 class Writer:
-    """Hears what viser would send for what is added to a scene, as `listener.Listener` does. For
-    one thread.
+    """Hears what viser would send for what is added to a scene. For one thread.
+
+    Args:
+        picture: Returns an image, (h, w, 3) uint8, as the bytes of a file, and which kind of file.
     """
 
-    def __init__(self) -> None:
-        self._scene = PlainScene()
+    def __init__(self, picture: Callable[[np.ndarray], Picture] = as_jpeg) -> None:
+        self._scene = PlainScene(picture)
         self._scene.add_frame(
             "/WorldAxes", axes_length=0.5, axes_radius=0.0125, origin_radius=0.025
         )
@@ -63,7 +79,8 @@ _HIDING = "SetSceneNodeVisibilityMessage"
 class PlainScene:
     """The methods of viser's SceneApi that `primitives` and `stage` call, by the same keywords."""
 
-    def __init__(self) -> None:
+    def __init__(self, picture: Callable[[np.ndarray], Picture]) -> None:
+        self._picture = picture
         self._heard: Heard = []
 
     def taken(self) -> Heard:
@@ -125,11 +142,12 @@ class PlainScene:
         self._node("GlbMessage", name, {"glb_data": glb_data, "scale": 1.0} | props)
 
     def add_image(self, name: str, image: np.ndarray, *size: float, **props: Any) -> None:
-        """Add an image of a width and a height; it is PNG, where viser makes it JPEG."""
+        """Add an image of a width and a height."""
         position = props.pop("position", None)
         width, height = size
         shown = {"render_width": width, "render_height": height, "scale": 1.0}
-        picture = {"_format": "png", "_data": plain_png(image)}
+        kind, data = self._picture(image)
+        picture = {"_format": kind, "_data": data}
         self._node("ImageMessage", name, picture | shown | props, position=position)
 
     def _node(

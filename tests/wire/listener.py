@@ -1,4 +1,6 @@
-"""viser's scene API without a server: what would be sent to a client is kept."""
+"""viser's scene API without a server: what it would send to a client is kept, to hold the writer to
+it.
+"""
 
 import contextlib
 import threading
@@ -8,7 +10,6 @@ from typing import Any
 import viser
 from viser.infra._infra import WebsockMessageHandler
 
-from workbench.errors import InputError
 from workbench.wire.writer import Heard
 
 
@@ -37,21 +38,12 @@ class _Wire(WebsockMessageHandler):
 
 
 class Listener:
-    """Hears what viser would send for what is added to a scene. For one thread.
-
-    Raises:
-        InputError: If this version of viser has another kind of scene API.
-    """
+    """Hears what viser would send for what is added to a scene. For one thread."""
 
     def __init__(self) -> None:
         self._wire = _Wire()
-        try:
-            self._scene = viser.SceneApi(self._wire, None, None)  # type: ignore[arg-type]
-            self.at_first = self._taken()
-        except (AttributeError, TypeError) as error:
-            raise InputError(
-                f"viser {viser.__version__} makes scenes in another way: install viser 1.1.1"
-            ) from error
+        self._scene: Any = viser.SceneApi(self._wire, None, None)  # type: ignore[arg-type]
+        self.at_first = self._taken()
 
     def heard(self, add: Callable[[viser.SceneApi], Any]) -> Heard:
         """Return what viser says when something is added to its scene: each message, and its
