@@ -80,12 +80,12 @@ def lidar_scan(
     azimuth = np.linspace(-np.pi, np.pi, columns, endpoint=False) + rng.uniform(
         0, 2 * np.pi / columns
     )
-    up, around = (
-        a.ravel() for a in np.meshgrid(np.linspace(LOWEST, HIGHEST, rings), azimuth, indexing="ij")
-    )
-    v_sensor = np.column_stack(
-        [np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)]
-    )
+    up = np.linspace(LOWEST, HIGHEST, rings)
+    v_sensor = np.empty((rings, columns, 3))
+    v_sensor[..., 0] = np.cos(up)[:, None] * np.cos(azimuth)
+    v_sensor[..., 1] = np.cos(up)[:, None] * np.sin(azimuth)
+    v_sensor[..., 2] = np.sin(up)[:, None]
+    v_sensor = v_sensor.reshape(-1, 3)
     distance = _distances(scene, T_world_sensor[:3, 3], v_sensor @ T_world_sensor[:3, :3].T)
     seen = distance < RANGE
     p_sensor = v_sensor[seen] * distance[seen, None]
