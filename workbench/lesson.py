@@ -250,10 +250,15 @@ class Lesson(Generic[P, S]):
         return validated(params)
 
 
-def _folders() -> list[str]:
+def folders() -> list[str]:
     """Return the folders of the `lessons` package; none is imported."""
     lessons = importlib.import_module("lessons")
     return [name for _, name, is_folder in pkgutil.iter_modules(lessons.__path__) if is_folder]
+
+
+def is_of_course(lesson: Lesson) -> bool:
+    """Tell whether a lesson is one of the `lessons` package, and as it is there."""
+    return lesson.params.__module__.startswith("lessons.") and catalog().get(lesson.name) is lesson
 
 
 def _lesson_of(folder: str) -> Lesson | None:
@@ -271,7 +276,7 @@ def course() -> Mapping[str, Lesson]:
         InputError: If two of them have one name; tells both places.
     """
     found, places = list[Lesson](), dict[str, str]()
-    for folder in _folders():
+    for folder in folders():
         lesson = _lesson_of(folder)
         if lesson is None:
             continue
@@ -298,7 +303,7 @@ class Catalog(Mapping[str, Lesson]):
 
     def __getitem__(self, name: str) -> Lesson:
         if name not in self.asked:
-            lesson = _lesson_of(name) if name in _folders() else None
+            lesson = _lesson_of(name) if name in folders() else None
             is_it = lesson is not None and lesson.name == name
             self.asked[name] = lesson if is_it else self._whole[name]
         return self.asked[name]

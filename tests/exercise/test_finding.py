@@ -1,6 +1,8 @@
 """Which exercises a lesson has, and for which a file is handed in: by what it says and defines."""
 
 import dataclasses
+import subprocess
+import sys
 import types
 
 import pytest
@@ -120,6 +122,9 @@ def test_two_lessons_of_the_course_have_no_exercise_of_one_name(monkeypatch):
     icp = catalog()["icp"]
     twice = {"icp": icp, "other": dataclasses.replace(icp, name="other")}
     monkeypatch.setattr(finding, "course", lambda: twice)
+    monkeypatch.setattr(
+        finding, "_of_course", lambda name: finding.exercises_in_folder(twice[name])
+    )
     said = r"^exercise \w+ is in lesson icp \(lessons.icp.inputs\) and in lesson other .*: rename"
     with pytest.raises(InputError, match=said):
         finding.usable.__wrapped__()
@@ -129,3 +134,13 @@ def test_an_exercise_of_no_keyword_is_refused(monkeypatch):
     lesson = dataclasses.replace(catalog()["icp"], run=lambda params, subject, *, f=abs: iter(()))
     with pytest.raises(InputError, match=r"run of lesson icp has no keyword '\w+'; it has: f$"):
         finding.exercises_in_folder(lesson)
+
+
+def test_to_find_an_exercise_its_own_lesson_alone_is_imported():
+    code = (
+        "import sys; from workbench.exercise.finding import find_exercise;"
+        " print(find_exercise('match').lesson, *sorted(m for m in sys.modules"
+        " if m.startswith('lessons.') and m.endswith('.lesson')))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["icp", "lessons.icp.lesson"]

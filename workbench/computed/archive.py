@@ -24,7 +24,7 @@ from workbench.errors import InputError
 from workbench.exercise.finding import HIDDEN, exercises_of
 from workbench.exercise.model import Exercise
 from workbench.exercise.starter import starter
-from workbench.lesson import Lesson, course
+from workbench.lesson import Lesson, is_of_course
 
 ROOT = Path(__file__).resolve().parents[2]
 """Where the packages of ours are."""
@@ -52,7 +52,7 @@ def files_of(lessons: Iterable[Lesson]) -> dict[str, bytes]:
     files = {ROOT / "lessons" / "__init__.py"}
     for lesson in lessons:
         folder = ROOT / "lessons" / lesson.name
-        if course().get(lesson.name) is not lesson:
+        if not is_of_course(lesson):
             raise InputError(f"lesson {lesson.name} is none of the course: it is not computed here")
         folders.append(folder)
         if (folder / "stored.py").is_file():  # what it cannot compute in a browser

@@ -6,13 +6,13 @@ import importlib.util
 import pkgutil
 import re
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path, PurePath
 
 from workbench.errors import InputError, LeftOutWarning, not_among
 from workbench.exercise.model import Exercise, exercise_in
 from workbench.exercise.submission import Submission, read_submission
-from workbench.lesson import Lesson, catalog, course
+from workbench.lesson import Lesson, catalog, course, folders, is_of_course
 
 HIDDEN = "hidden"
 """The folder, in that of a lesson's exercises, of the files with checks that are not public."""
@@ -27,7 +27,7 @@ def exercises() -> dict[str, Exercise]:
     return {
         exercise.name: exercise
         for lesson in catalog().values()
-        for exercise in exercises_of(lesson)
+        for exercise in usable()[lesson.name]
     }
 
 
@@ -41,11 +41,14 @@ def exercises_of(lesson: Lesson) -> tuple[Exercise, ...]:
         InputError: If one of the course, or of a lesson outside the catalogue, says too little.
     """
     listed = catalog().get(lesson.name)
-    return (
-        exercises_in_folder(lesson)
-        if listed is None or listed.params is not lesson.params
-        else usable()[lesson.name]
-    )
+    if listed is None or listed.params is not lesson.params:
+        return exercises_in_folder(lesson)
+    return _of_course(lesson.name) if is_of_course(listed) else usable()[lesson.name]
+
+
+@functools.cache
+def _of_course(name: str) -> tuple[Exercise, ...]:
+    return exercises_in_folder(catalog()[name])
 
 
 @functools.cache
@@ -57,7 +60,7 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
     """
     found, places = dict[str, tuple[Exercise, ...]](), dict[str, str]()
     for name, lesson in course().items():
-        found[name] = exercises_in_folder(lesson)
+        found[name] = _of_course(name)
         for exercise in found[name]:
             if exercise.name in places:
                 raise InputError(
@@ -150,13 +153,35 @@ def find_exercise(name: str, lesson: Lesson | None = None) -> Exercise:
     return found[name]
 
 
-def known(lesson: Lesson | None) -> dict[str, Exercise]:
+def known(lesson: Lesson | None) -> Mapping[str, Exercise]:
     """Return the exercises of a lesson by name; of the catalogue where none is given."""
     return (
-        exercises()
-        if lesson is None
-        else {exercise.name: exercise for exercise in exercises_of(lesson)}
+        _All() if lesson is None else {exercise.name: exercise for exercise in exercises_of(lesson)}
     )
+
+
+class _All(Mapping[str, Exercise]):
+    """The catalogue's exercises; of one of the course by name, its lesson alone is imported."""
+
+    def __getitem__(self, name: str) -> Exercise:
+        """Return an exercise; KeyError where there is none."""
+        home = next((folder for folder in folders() if name in _files(folder)), None)
+        of_home = () if home is None else exercises_of(catalog()[home])
+        found = next((exercise for exercise in of_home if exercise.name == name), None)
+        return exercises()[name] if found is None else found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(exercises())
+
+    def __len__(self) -> int:
+        return len(exercises())
+
+
+def _files(folder: str) -> list[str]:
+    """Return the names of the files with exercises of a lesson of the course."""
+    found = importlib.util.find_spec(f"lessons.{folder}.exercises")
+    places = [] if found is None else found.submodule_search_locations
+    return [info.name for info in pkgutil.iter_modules(places) if not info.ispkg]
 
 
 def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
@@ -196,11 +221,11 @@ def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exer
     like `my_match.py`; other words count only where the file defines no exercise's function at all.
     """
     asked = known(lesson)
-    lines, words = (
-        [name for name in submission.said if name in asked],
-        _in_words(submission.file, asked),
-    )
-    said = next((names for names in (lines, words) if not submission.defines.isdisjoint(names)), [])
+    lines = [name for name in submission.said if name in asked]
+    if not submission.defines.isdisjoint(lines):
+        return tuple(asked[name] for name in lines)
+    words = _in_words(submission.file, asked)
+    said = [] if submission.defines.isdisjoint(words) else words
     if not said and (
         lines or submission.defines.isdisjoint(asked) or _begins_with_my(submission.file, words)
     ):

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.exercise.finding import exercises_of
-from workbench.lesson import Lesson, Question, course
+from workbench.lesson import Lesson, Question, is_of_course
 from workbench.page.about import footer_html
 from workbench.page.article import article_html
 from workbench.page.course import Card, course_document
@@ -101,7 +101,7 @@ def lesson_page(
         more=more,
         still="picture.webp",
         story=None if story is None else with_stills(story, stills),
-        footer=footer_html("../", ours=course().get(lesson.name) is lesson),
+        footer=footer_html("../", ours=is_of_course(lesson)),
     )
 
 

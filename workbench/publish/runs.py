@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson, Question, Sweep, catalog, course
+from workbench.lesson import Lesson, Question, Sweep, catalog, is_of_course
 from workbench.machinery.workers import WorkerLostError, parallel_map
 from workbench.moved import runs_led_on
 from workbench.page.about import short_notice
@@ -356,7 +356,7 @@ def run_page(lesson: Lesson, run: Run) -> str:
         more={"RECORDED": known},
         alone=(run.title, f"../index.html#run={run.name}"),
         still="../picture.webp",
-        footer=short_notice("../../") if course().get(lesson.name) is lesson else "",
+        footer=short_notice("../../") if is_of_course(lesson) else "",
     )
 
 

@@ -11,7 +11,7 @@ import rerun as rr
 
 from workbench import knobs
 from workbench.errors import InputError
-from workbench.lesson import Lesson, course, find
+from workbench.lesson import Lesson, find, is_of_course
 from workbench.machinery.atomic import check_place, write_places
 from workbench.machinery.licence import NOTICE
 from workbench.machinery.progress import Progress, bar
@@ -190,7 +190,7 @@ def record_bytes(
 def _told(lesson: Lesson) -> str:
     """Return a lesson's page as a recording has it; one of the course says whose it is."""
     text = wording(plain_text(lesson), "site")
-    ours = course().get(lesson.name) is lesson
+    ours = is_of_course(lesson)
     return f"{text.rstrip()}\n\n{NOTICE}\n" if ours else text
 
 
