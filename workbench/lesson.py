@@ -304,8 +304,8 @@ class Catalog(Mapping[str, Lesson]):
     def __getitem__(self, name: str) -> Lesson:
         if name not in self.asked:
             lesson = _lesson_of(name) if name in folders() else None
-            is_it = lesson is not None and lesson.name == name
-            self.asked[name] = lesson if is_it else self._whole[name]
+            alone = None if lesson is None or lesson.name != name else lesson
+            self.asked[name] = alone or self._whole[name]
         return self.asked[name]
 
     def __iter__(self) -> Iterator[str]:
