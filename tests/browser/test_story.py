@@ -59,6 +59,16 @@ def test_an_address_with_a_param_opens_the_workbench_and_w_the_story(visit):
         "mirror",
     ]
     assert me.page.locator("#back").is_visible()
+    me.page.evaluate(
+        "document.body.style.overflowAnchor = 'none';"
+        " story.here.el.style.marginTop = '2000px';"  # words are still being laid out
+        " dispatchEvent(new Event('scroll')); story.measure()"
+    )
+    me.page.wait_for_timeout(600)
+    assert me.page.evaluate("[page.run.name, page.k, story.hand]") == ["mirrored", 2, True]
+    me.page.mouse.move(200, 400)
+    me.page.mouse.wheel(0, 2500)
+    me.page.wait_for_function("!story.hand")
 
 
 def test_the_workbench_opens_on_the_same_run_and_step_without_a_reload(told):

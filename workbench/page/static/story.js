@@ -88,13 +88,16 @@ const story = {
   },
 
   scrolled() {
-    if (page.face !== "story") return;
+    if (page.face !== "story" || this.stays()) return;
     clearTimeout(this.resting);
     const fast = Math.abs(scrollY - (this.y ?? scrollY)) > 0.35 * innerHeight;
     this.y = scrollY;
     this.resting = setTimeout(() => { this.flying = false; this.follow(); }, SETTLES);
     if (!fast && !this.flying) this.follow();  // while it flies past, nothing opens
   },
+
+  // whether the page is where it was when the stage came here in the reader's hand: words that still move are not read on
+  stays() { return this.hand && scrollY === this.came; },
 
   // the beat that is read: the last whose top is above the reading line
   read() {
@@ -128,7 +131,7 @@ const story = {
 
   // another scene, or an open question, changes what the lines above take: read anew
   measure() {
-    if (page.face !== "story") return;
+    if (page.face !== "story" || this.stays()) return;
     if (this.flying && this.goal) this.to(this.scenes.indexOf(this.goal), { now: true, push: false });
     else this.follow();
   },
@@ -284,6 +287,7 @@ const story = {
     const known = place && storyStage.is(run, place) && storyStage.found(run, place.step) === page.k;
     if (!this.here) this.scroll = this.scrollOf(run?.name);
     scrollTo({ top: this.scroll, behavior: "instant" });
+    this.came = scrollY;
     this.flying = false;
     storyStage.view = storyStage.view === null ? null : "";  // the camera may have been turned
     if (known) {
