@@ -88,7 +88,7 @@ const story = {
   },
 
   scrolled() {
-    if (page.face !== "story" || this.stays()) return;
+    if (page.face !== "story") return;
     clearTimeout(this.resting);
     const fast = Math.abs(scrollY - (this.y ?? scrollY)) > 0.35 * innerHeight;
     this.y = scrollY;
@@ -96,7 +96,8 @@ const story = {
     if (!fast && !this.flying) this.follow();  // while it flies past, nothing opens
   },
 
-  // whether the page is where it was when the stage came here in the reader's hand: words that still move are not read on
+  // whether the reader, whose hand brought the stage here, has not scrolled since: words that come or go by themselves
+  // do not take it
   stays() { return this.hand && scrollY === this.came; },
 
   // the beat that is read: the last whose top is above the reading line
@@ -110,6 +111,7 @@ const story = {
   follow() {
     const now = page.face === "story" && this.read();
     if (!now) return;
+    const stays = this.stays();
     if (now.scene !== this.scene) this.enter(now.scene);
     if (now === this.here) return;
     const before = this.here, order = this.beats;
@@ -117,6 +119,10 @@ const story = {
     before?.el.classList.remove("here");
     this.here = now;
     now.el.classList.add("here");
+    if (stays) {
+      this.hand = true;
+      return void this.back();
+    }
     if (before?.key === now.key) return;  // the same picture: what the hand did to it stays
     this.give({ down });
   },
@@ -131,7 +137,7 @@ const story = {
 
   // another scene, or an open question, changes what the lines above take: read anew
   measure() {
-    if (page.face !== "story" || this.stays()) return;
+    if (page.face !== "story") return;
     if (this.flying && this.goal) this.to(this.scenes.indexOf(this.goal), { now: true, push: false });
     else this.follow();
   },
