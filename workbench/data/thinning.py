@@ -19,14 +19,11 @@ def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "
         raise ValueError(f"a voxel has a positive size, not {size}")
     # stay floats: a far stray point would overflow whole numbers
     voxels = np.floor((p - p.min(axis=0)) / size)
-    counts = voxels.max(axis=0) + 1
-    if counts.prod() < 2**53:  # each has a number of its own, in the same order
-        number = (voxels[:, 0] * counts[1] + voxels[:, 1]) * counts[2] + voxels[:, 2]
-        order = np.argsort(number.astype(np.int64), kind="stable")
-        starts = np.flatnonzero(np.r_[True, np.diff(number[order]) != 0])
-    else:
-        order = np.lexsort(voxels.T[::-1])
-        starts = np.flatnonzero(np.r_[True, (np.diff(voxels[order], axis=0) != 0).any(axis=1)])
+    nx, ny, nz = voxels.max(axis=0) + 1
+    if nx * ny * nz < 2**53:  # each has a number of its own, in the same order
+        voxels = voxels @ np.array([[ny * nz], [nz], [1.0]])
+    order = np.lexsort(voxels.T[::-1])
+    starts = np.flatnonzero(np.r_[True, (np.diff(voxels[order], axis=0) != 0).any(axis=1)])
     # means about a point of the voxel keep their digits far from the origin
     origin = p[order[starts]]
     counts = np.diff(np.r_[starts, len(p)])
