@@ -165,7 +165,7 @@ class _All(Mapping[str, Exercise]):
 
     def __getitem__(self, name: str) -> Exercise:
         """Return an exercise; KeyError where there is none."""
-        home = next((folder for folder in folders() if name in _files(folder)), None)
+        home = _homes().get(name)
         of_home = () if home is None else exercises_of(catalog()[home])
         found = next((exercise for exercise in of_home if exercise.name == name), None)
         return exercises()[name] if found is None else found
@@ -177,11 +177,17 @@ class _All(Mapping[str, Exercise]):
         return len(exercises())
 
 
-def _files(folder: str) -> list[str]:
-    """Return the names of the files with exercises of a lesson of the course."""
-    found = importlib.util.find_spec(f"lessons.{folder}.exercises")
-    places = [] if found is None else found.submodule_search_locations
-    return [info.name for info in pkgutil.iter_modules(places) if not info.ispkg]
+@functools.cache
+def _homes() -> dict[str, str]:
+    """Return the folder of the lesson of the course that has a file of this name among its
+    exercises; no lesson is imported.
+    """
+    homes = {}
+    for folder in folders():
+        found = importlib.util.find_spec(f"lessons.{folder}.exercises")
+        places = [] if found is None else found.submodule_search_locations
+        homes |= {info.name: folder for info in pkgutil.iter_modules(places) if not info.ispkg}
+    return homes
 
 
 def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
