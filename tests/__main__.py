@@ -56,7 +56,7 @@ def main() -> int:
     try:
         for name, command in CHECKS.items():
             if name not in beside:
-                if name == "tests" and not any(COMPILED.glob("*-pytest-*")):
+                if name == "tests" and not sys.argv[1:] and not any(COMPILED.glob("*-pytest-*")):
                     subprocess.run(
                         [sys.executable, "-m", *COMPILING], cwd=ROOT, stdout=subprocess.DEVNULL
                     )

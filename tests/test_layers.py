@@ -159,7 +159,7 @@ ALLOWED = {
     ),
 }
 
-OUTSIDE = {"viser": ("workbench.wire", "workbench.publish.site"), "rerun": ("workbench.recording",)}
+OUTSIDE = {"viser": ("workbench.wire",), "rerun": ("workbench.recording",)}
 
 FILES = [*(ROOT / "workbench").rglob("*.py"), *(ROOT / "lessons").rglob("*.py")]
 MODULES = sorted(
