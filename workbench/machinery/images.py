@@ -10,19 +10,19 @@ import numpy as np
 
 def png(image: np.ndarray, compress_level: int = 6) -> bytes:
     """Return an image, (h, w) or (h, w, 3) uint8, as the bytes of a PNG file."""
-    from PIL import Image
-
-    file = io.BytesIO()
-    Image.fromarray(np.ascontiguousarray(image)).save(file, "PNG", compress_level=compress_level)
-    return file.getvalue()
+    return _file(image, "PNG", compress_level=compress_level)
 
 
 def jpeg(image: np.ndarray) -> bytes:
     """Return an image, (h, w, 3) uint8, as the bytes of a JPEG file, as good as viser makes it."""
+    return _file(image, "JPEG", quality=75)
+
+
+def _file(image: np.ndarray, kind: str, **how: int) -> bytes:
     from PIL import Image
 
     file = io.BytesIO()
-    Image.fromarray(np.ascontiguousarray(image)).save(file, "JPEG", quality=75)
+    Image.fromarray(np.ascontiguousarray(image)).save(file, kind, **how)
     return file.getvalue()
 
 
@@ -71,11 +71,7 @@ def resized(image: np.ndarray, width: int, height: int) -> np.ndarray:
 
 def webp(image: np.ndarray) -> bytes:
     """Return a uint8 image as the bytes of a WebP file without loss: half of a PNG's."""
-    from PIL import Image
-
-    file = io.BytesIO()
-    Image.fromarray(np.ascontiguousarray(image)).save(file, "WEBP", lossless=True, method=3)
-    return file.getvalue()
+    return _file(image, "WEBP", lossless=True, method=3)
 
 
 def webp_address(image: np.ndarray) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 from workbench.computed import archive
 from workbench.knobs import changed
-from workbench.lesson import Lesson, course
+from workbench.lesson import Lesson, course, is_of_course
 from workbench.page.document import COMPUTING, STATIC, bare
 from workbench.page.lessons import lesson_data
 from workbench.publish.python import FOLDER, Python, python_from
@@ -61,7 +61,7 @@ def computing(place: str, lessons: Iterable[Lesson], others: Iterable[str]) -> C
     """
     python = python_from(place)
     known = course()
-    names = {lesson.name for lesson in lessons if known.get(lesson.name) is lesson}
+    names = {lesson.name for lesson in lessons if is_of_course(lesson)}
     names |= set(others) & known.keys()
     files = {f"{python.address}{name}": content for name, content in python.files.items()}
     files[CORE] = archive.packed([known[name] for name in sorted(names)])

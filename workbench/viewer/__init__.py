@@ -1,1 +1,1 @@
-"""The live page: the only part of the workbench, beside publishing, that knows viser."""
+"""The live page: a server hears browsers, computes what they want, and sends it."""

@@ -16,8 +16,7 @@ Said = dict[str, Any]
 """A message of viser as plain data; an array in it is `{"__binary_index": i, "dtype": ...}`."""
 Heard = list[tuple[Said, list[memoryview]]]
 """Messages, each with its arrays."""
-
-Picture = tuple[str, bytes]
+ImageFile = tuple[str, bytes]
 """A kind of file, `jpeg` or `png`, and a file's bytes."""
 
 _GRID = {
@@ -40,12 +39,12 @@ _SKY = {
 }
 
 
-def as_jpeg(image: np.ndarray) -> Picture:
+def as_jpeg(image: np.ndarray) -> ImageFile:
     """Return an image as viser sends it."""
     return "jpeg", jpeg(image)
 
 
-def as_png(image: np.ndarray) -> Picture:
+def as_png(image: np.ndarray) -> ImageFile:
     """Return an image as it is sent where there is no Pillow."""
     return "png", plain_png(image)
 
@@ -57,7 +56,7 @@ class Writer:
         picture: Returns an image, (h, w, 3) uint8, as the bytes of a file, and which kind of file.
     """
 
-    def __init__(self, picture: Callable[[np.ndarray], Picture] = as_jpeg) -> None:
+    def __init__(self, picture: Callable[[np.ndarray], ImageFile] = as_jpeg) -> None:
         self._scene = PlainScene(picture)
         self._scene.add_frame(
             "/WorldAxes", axes_length=0.5, axes_radius=0.0125, origin_radius=0.025
@@ -79,7 +78,7 @@ _HIDING = "SetSceneNodeVisibilityMessage"
 class PlainScene:
     """The methods of viser's SceneApi that `primitives` and `stage` call, by the same keywords."""
 
-    def __init__(self, picture: Callable[[np.ndarray], Picture]) -> None:
+    def __init__(self, picture: Callable[[np.ndarray], ImageFile]) -> None:
         self._picture = picture
         self._heard: Heard = []
 
