@@ -14,13 +14,13 @@ from lessons.ransac.search import chosen_sample
 from lessons.ransac.shapes import MM, band, frames, marked, outline
 from workbench.algorithms.robust.models import LINE
 from workbench.algorithms.robust.samplers import draw_samples, uniform_samples
-from workbench.captions import Quantity
+from workbench.captions import Quantity, counted
 from workbench.certain import sure
 from workbench.geometry.clipping import clip_lines
 from workbench.geometry.polylines import circle, segments
 from workbench.geometry.shapes.lines_planes import fit_hyperplanes
 from workbench.lesson import Look, cached, say
-from workbench.numerals import brief, counted
+from workbench.numerals import brief
 from workbench.scene import Chart, Classes, Label, Points, Primitive, Role, Scene, Segments
 
 MOST_DRAWS = 100
@@ -353,16 +353,20 @@ def _of_width(look: FlatLook, now: Width) -> dict[str, Primitive]:
         noun = "ringed points" if name == "ringed" else name
         scene[f"{name}/whole"] = COUNTS.whole(MM * WIDTHS, near[:, rows].sum(axis=1), noun, role)
         scene[f"{name}/mark"] = COUNTS.mark(at, inside[name], noun, role, steps="width")
-    words = f"{inside['ringed']} ringed, {inside['others']} other votes"
-    scene["counts"] = _head(words, 0.0, "target")
+    ringed, others = inside["ringed"], inside["others"]
+    scene["counts"] = _head(f"{ringed} ringed, {others} other votes", 0.0, "target")
     errors = MM * errors_by_width(look.params)
     here = float(np.interp(now.width, STUDIED, errors))
-    words = "Within {width} of the true line: {ringed} of its {points} points, and {others} others."
+    words = "Within {width} of the true line: {ringed} of its {points} points, and {others}."
     return scene | {
         "error/whole": WIDTH.whole(MM * STUDIED, errors, "median error of 60 scenes", "source"),
         "error/mark": WIDTH.mark(at, here, "this band", "source", steps="width"),
         "caption": say(
-            words, width=Quantity(now.width, f"{brief(at)} mm"), points=int(true.sum()), **inside
+            words,
+            width=Quantity(now.width, f"{brief(at)} mm"),
+            points=int(true.sum()),
+            ringed=ringed,
+            others=counted(others, "other"),
         ),
     }
 

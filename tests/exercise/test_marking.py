@@ -124,8 +124,9 @@ def test_each_file_is_graded_for_what_it_is_for(files, only, wanted):
     assert found(files, *only) == nothing(**wanted)
 
 
-def test_a_file_that_could_not_be_read_is_a_trouble():
-    handed = HandIn("ada", {"a.py": b"x\n\n\xff"}, (("b.py", "b.py: a pipe"),))
+@pytest.mark.parametrize("content", [b"x\n\n\xff", b"\xff"])  # Python says it in other words
+def test_a_file_that_could_not_be_read_is_a_trouble(content):
+    handed = HandIn("ada", {"a.py": content}, (("b.py", "b.py: a pipe"),))
     got = chosen(handed, Asked())
     assert [item["error"] for item in got.troubles] == [
         "b.py: a pipe",

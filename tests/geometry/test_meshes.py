@@ -234,6 +234,8 @@ def test_distinct_rows_are_those_that_numpy_finds():
     for rows in (
         rng.integers(0, 3, (200, 3)),
         rng.normal(size=(50, 2)).round(),
+        rng.normal(size=(50, 3)),  # no number twice: sorted by the first alone
+        rng.permutation(np.c_[np.r_[0:40, 0:10], rng.normal(size=50)]),  # the first some twice
         np.zeros((0, 3)),
         np.ones((1, 2)),
     ):

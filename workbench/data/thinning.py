@@ -55,7 +55,8 @@ def spacing(p: Float[np.ndarray, "n 3"]) -> float:
     """
     places = p[distinct_rows(p)[0]]
     some = places[:: max(1, len(places) // 400)]
-    tree = scipy.spatial.KDTree(places, balanced_tree=False, compact_nodes=False)  # soonest built
+    # large leaves, neither balanced nor compacted, are soonest built
+    tree = scipy.spatial.KDTree(places, leafsize=32, balanced_tree=False, compact_nodes=False)
     distances = np.asarray(tree.query(some, k=min(2, len(places)))[0])
     return float(np.median(distances.reshape(len(some), -1)[:, -1])) or 1e-9
 

@@ -83,11 +83,9 @@ def decoded(file: str, content: bytes) -> str:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(content).readline)
         return io.TextIOWrapper(io.BytesIO(content), encoding).read()
     except (SyntaxError, LookupError, ValueError) as error:
-        said = (
-            "not UTF-8"
-            if isinstance(error, UnicodeDecodeError) or "utf-8" in str(error)
-            else str(error)
-        )
+        said = str(error)
+        if isinstance(error, UnicodeDecodeError) or re.search("utf-8|missing encoding", said):
+            said = "not UTF-8"  # as Python says it depends on the line and on the version
         raise UnreadableError(
             f"{file}: cannot be read as text ({said}): save it as UTF-8"
         ) from None

@@ -200,10 +200,14 @@ def distinct_rows(
         >>> distinct_rows(np.array([[2, 0], [1, 5], [2, 0]]))
         (array([1, 0]), array([1, 0, 1]))
     """
-    order = np.lexsort(rows.T[::-1])
+    order = np.argsort(rows[:, 0])
     new = np.ones(len(rows), dtype=bool)
-    in_order = rows[order]
-    new[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
+    leading = rows[order, 0]
+    # where no first number is there twice, all rows are distinct, and the others need no sorting
+    if not (leading[1:] > leading[:-1]).all():
+        order = np.lexsort(rows.T[::-1])
+        in_order = rows[order]
+        new[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
     name = np.empty(len(rows), dtype=np.intp)
     name[order] = np.cumsum(new) - 1
     return order[new], name
