@@ -148,6 +148,19 @@ def test_points_on_rings_lie_on_lines_and_points_on_a_surface_do_not():
     np.testing.assert_array_equal(point_normals(rings, spread=True), point_normals(rings))
 
 
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("spread", [(1, 1, 1), (1, 0.45, 0.1), (1, 0.45, 0), (1, 1e-8, 0)])
+def test_a_line_is_told_by_the_variances_that_lapack_finds(spread, size):
+    v = np.random.default_rng(0).normal(size=(2000, 16, 3)) * spread * size
+    v = (v - v.mean(axis=1, keepdims=True)) @ exp_so3(np.array([0.3, -0.8, 1.1]))
+    scatter = np.einsum("nij,nik->njk", v, v)
+    _, second, largest = np.linalg.eigvalsh(scatter).T
+    of_lapack = second <= 0.2 * largest
+    six = scatter[:, [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]].T
+    np.testing.assert_array_equal(on_a_line(six), of_lapack)
+    assert of_lapack.any()
+
+
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10_000), st.floats(0.01, 100.0))
 def test_surface_variation_does_not_depend_on_place_turn_or_size(seed, size):

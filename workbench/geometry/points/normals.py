@@ -95,9 +95,9 @@ def on_a_line(covariances: Float[np.ndarray, "6 n"]) -> Bool[np.ndarray, "n"]:
     The second variance is at most a fifth of the largest then, as on one ring of a lidar scan. Rows
     are xx, yy, zz, xy, xz, yz, up to a factor.
     """
-    xx, yy, zz, xy, xz, yz = covariances
-    variances = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).T)
-    return variances[:, 1] <= LINE * variances[:, 2]
+    c = _of_trace_one(covariances)
+    least, largest = _extreme_roots(c)
+    return c[:3].sum(axis=0) - least - largest <= LINE * largest
 
 
 def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
@@ -149,15 +149,9 @@ def _least_directions(c: np.ndarray) -> np.ndarray:
     By the smallest root of the characteristic polynomial and the longest cross product of two rows
     of C - root I. Where that is short (two small eigenvalues nearly equal), `eigh` decides.
     """
-    size = np.maximum(c[:3].sum(axis=0), np.finfo(float).tiny)
-    a, b, d, e, f, g = c / size
-    third = (a + b + d) / 3.0
-    a, b, d = a - third, b - third, d - third
-    radius = np.sqrt(
-        np.maximum((a * a + b * b + d * d + 2.0 * (e * e + f * f + g * g)) / 6.0, 1e-60)
-    )
-    half_det = (a * (b * d - g * g) - e * (e * d - f * g) + f * (e * g - b * f)) / (2.0 * radius**3)
-    root = 2.0 * radius * np.cos(np.arccos(np.clip(half_det, -1.0, 1.0)) / 3.0 + 2.0 * np.pi / 3.0)
+    scaled = _of_trace_one(c)
+    root = _extreme_roots(scaled)[0]
+    a, b, d, e, f, g = scaled
     a, b, d = a - root, b - root, d - root
     products = np.stack(  # rows (a e f), (e b g), (f g d) crossed in pairs
         [
@@ -176,3 +170,24 @@ def _least_directions(c: np.ndarray) -> np.ndarray:
         matrices = c[:, unsure][[0, 3, 4, 3, 1, 5, 4, 5, 2]].T.reshape(-1, 3, 3)
         vectors[unsure] = np.linalg.eigh(matrices)[1][:, :, 0]
     return vectors
+
+
+def _of_trace_one(c: np.ndarray) -> np.ndarray:
+    return c / np.maximum(c[:3].sum(axis=0), np.finfo(float).tiny)
+
+
+def _extreme_roots(c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the least and the largest eigenvalue, by the roots of the characteristic polynomial.
+
+    Reference: Smith, Eigenvalues of a symmetric 3 x 3 matrix, 1961.
+    """
+    a, b, d, e, f, g = c
+    third = (a + b + d) / 3.0
+    a, b, d = a - third, b - third, d - third
+    radius = np.sqrt(
+        np.maximum((a * a + b * b + d * d + 2.0 * (e * e + f * f + g * g)) / 6.0, 1e-60)
+    )
+    half_det = (a * (b * d - g * g) - e * (e * d - f * g) + f * (e * g - b * f)) / (2.0 * radius**3)
+    turn = np.arccos(np.clip(half_det, -1.0, 1.0)) / 3.0
+    least = third + 2.0 * radius * np.cos(turn + 2.0 * np.pi / 3.0)
+    return least, third + 2.0 * radius * np.cos(turn)
