@@ -77,9 +77,21 @@ def test_a_word_stands_over_its_place_from_wherever_it_is_seen(fed):
             hidden += 1
             continue
         left, top, width, height = box
+        if 0 <= u <= SIZE[0]:  # what is in the picture is not cut off at its edge
+            u = np.clip(u, width / 2, SIZE[0] - width / 2)
         assert left + width / 2 == pytest.approx(u, abs=0.51)
         assert top + height + 2 == pytest.approx(v, abs=0.51)
     assert 3 < hidden < 35
+
+
+@pytest.mark.parametrize("words", [8, 60])
+def test_words_are_not_cut_off_at_the_edge_of_a_narrow_picture(fed, words):
+    fed("() => { $('#scene').style.width = '390px'; }")
+    show(fed, {"w": Label(" ".join(["words"] * words), np.array([0.3, 0.3, 0.0]))})
+    left, _, width, height = fed(WORDS)["w"]
+    assert left >= 0
+    assert left + width <= 390
+    assert (height > 30) == (words == 60), "what is longer than the picture is wide has more lines"
 
 
 @pytest.mark.parametrize("up", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0)])

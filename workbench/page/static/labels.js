@@ -48,7 +48,8 @@ const labels = {
       word.hidden = !(z > 1e-6) || u < -50 || v < -50 || u > width + 50 || v > height + 50;
       if (word.hidden) continue;
       const box = { width: word.offsetWidth, height: word.offsetHeight };
-      const top = small ? v - box.height / 2 : v - box.height - 2, left = u - box.width / 2;
+      const top = small ? v - box.height / 2 : v - box.height - 2;
+      const left = u < 0 || u > width ? u - box.width / 2 : within(u - box.width / 2, width - box.width);
       const free = SHIFTS.find((shift) => !taken.some((other) => crosses({ ...box, left, top: top + shift * box.height }, other))) ?? 0;
       taken.push({ ...box, left, top: top + free * box.height });
       word.style.transform = `translate(${left}px, ${top + free * box.height}px)`;
@@ -57,6 +58,9 @@ const labels = {
 };
 
 const SHIFTS = [0, -1.05, 1.3, -2.1, 2.35, -3.15];  // heights of a word that it may go up or down to be read
+
+// what is in the picture is not cut off at its edge
+function within(value, most) { return Math.max(0, Math.min(value, most)); }
 
 function crosses(a, b) {
   return a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height && b.top < a.top + a.height;
