@@ -30,8 +30,8 @@ STUDIED = np.append(np.arange(5.0, 131.0, 5.0), np.arange(150.0, 301.0, 25.0)) /
 AMONG_WIDTHS = np.flatnonzero(np.isin(WIDTHS, STUDIED))
 APARTS = np.append(np.arange(0.05, 0.5, 0.05), np.arange(0.5, 1.81, 0.1))
 REDRAWN = 30  # times the noise of two points
-STUDIES = 60  # scenes
-TOGETHER = 4  # of these
+MOST_STUDIES, STUDIED_POINTS = 60, 12_000  # scenes, and their points in all
+TOGETHER = 4  # of these scenes
 SMALL = 36_000  # numbers in an array: larger ones cost more than the calls that they save
 VOTES = Chart("Votes of each draw", "draw", y_range=(0.0, 40.0))
 CHANCE = Chart(
@@ -159,12 +159,19 @@ def fan(params: Input, subject: Subject, apart: float) -> Fan:
     return Fan(apart, p_pair, lines, votes)
 
 
+def studies(params: Input) -> int:
+    """Return over how many scenes a median is taken: of fewer where each has many points."""
+    return TOGETHER * min(
+        MOST_STUDIES // TOGETHER, STUDIED_POINTS // (TOGETHER * params.points) + 1
+    )
+
+
 @cached
 def errors_by_width(params: Input) -> np.ndarray:
-    """Return the median error of the finished fit over sixty scenes (m), for each of STUDIED."""
+    """Return the median error of the finished fit over such scenes (m), for each of STUDIED."""
     errors = []
     off = np.empty((TOGETHER, len(STUDIED), params.points))
-    for first in range(0, STUDIES, TOGETHER):
+    for first in range(0, studies(params), TOGETHER):
         seeds = range(first, first + TOGETHER)
         scenes = [_scene(params, seed) for seed in seeds]
         p, p_true = (np.stack([getattr(made, name) for made in scenes]) for name in ("p", "p_true"))
@@ -357,9 +364,10 @@ def _of_width(look: FlatLook, now: Width) -> dict[str, Primitive]:
     scene["counts"] = _head(f"{ringed} ringed, {others} other votes", 0.0, "target")
     errors = MM * errors_by_width(look.params)
     here = float(np.interp(now.width, STUDIED, errors))
+    drawn = f"median error of {studies(look.params)} scenes"
     words = "Within {width} of the true line: {ringed} of its {points} points, and {others}."
     return scene | {
-        "error/whole": WIDTH.whole(MM * STUDIED, errors, "median error of 60 scenes", "source"),
+        "error/whole": WIDTH.whole(MM * STUDIED, errors, drawn, "source"),
         "error/mark": WIDTH.mark(at, here, "this band", "source", steps="width"),
         "caption": say(
             words,
