@@ -175,17 +175,19 @@ def shrunk(pair: StereoPair, k: int) -> StereoPair:
             f"pictures of {pair.left.shape[1]} x {pair.left.shape[0]} pixels cannot shrink {k}"
             " times"
         )
-    left, right = (
-        np.rint(
-            picture[: h * k, : w * k].reshape(h, k, w, k, 3).mean(axis=(1, 3), dtype=np.float32)
-        ).astype(np.uint8)
-        for picture in (pair.left, pair.right)
-    )
+    if k == 1:
+        return pair
+
+    def averaged(picture: np.ndarray) -> np.ndarray:
+        rows = picture[: h * k, : w * k].reshape(h, k, w * k, 3).sum(axis=1, dtype=np.uint32)
+        blocks = rows.reshape(h, w, k, 3).sum(axis=2, dtype=np.float32)
+        return np.rint(blocks / k**2).astype(np.uint8)
+
     middle = (slice(k // 2, h * k, k), slice(k // 2, w * k, k))
     return replace(
         pair,
-        left=left,
-        right=right,
+        left=averaged(pair.left),
+        right=averaged(pair.right),
         camera=pair.camera.shrunk(k),
         disparity=None if pair.disparity is None else pair.disparity[middle] / k,
         visible=None if pair.visible is None else pair.visible[middle],
