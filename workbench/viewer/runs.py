@@ -24,6 +24,8 @@ Result = TypeVar("Result")
 
 MOST_BYTES = 3 * 2**29
 """What runs, their steps' data and lessons' caches may hold together."""
+OFTEN, RARELY = 10, 100
+"""Collections of young garbage until one of all: Python's own, and a server's that has no rest."""
 
 
 class Crew:
@@ -200,14 +202,20 @@ def _cached_arrays(cached: Any) -> Iterable[Any]:
 
 
 def settle() -> None:
-    """Keep what is there now out of every collection of garbage: of a whole server, one takes a
-    tenth of a second.
+    """Keep what is there now out of every collection of garbage, and make those of all the rest
+    rare: with many runs, one takes a tenth of a second, in which all threads stand still.
 
-    All threads stand still meanwhile; whoever sends deeply nested rubbish can bring one about at
-    every message. For a process that is a server and nothing else.
+    For a process that is a server and nothing else, and that calls `tidy` while nobody waits.
     """
     gc.collect()
     gc.freeze()
+    gc.set_threshold(*gc.get_threshold()[:2], RARELY)
+
+
+def tidy() -> None:
+    """Collect all garbage, where Python by itself would have done so."""
+    if gc.get_count()[2] > OFTEN:
+        gc.collect()
 
 
 def give_back() -> None:

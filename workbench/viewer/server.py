@@ -50,7 +50,7 @@ from workbench.viewer.following import Following
 from workbench.viewer.pace import FIRST_WORD, Pace
 from workbench.viewer.patience import Patience, more_files
 from workbench.viewer.rules import RequestGate, Rules, page_response
-from workbench.viewer.runs import MOST_BYTES, SharedRuns
+from workbench.viewer.runs import MOST_BYTES, SharedRuns, tidy
 from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
 from workbench.words.typeset import math_font, math_font_css
@@ -211,12 +211,20 @@ class Server:
             if before < EMPTY <= empty_for:
                 self._pictures.clear()
                 await self.runs.asking.do(self.runs.let_go, list(self.lessons.values()))
+            if self._is_at_rest():
+                await self.runs.asking.do(tidy)
             longest_ago = sorted(self.students.values(), key=lambda student: student.acted)
             await self.runs.asking.do(
                 self.runs.make_room,
                 list(self.lessons.values()),
                 [student.sleep for student in longest_ago],
             )
+
+    def _is_at_rest(self) -> bool:
+        """Tell whether nothing is computed, and nobody wished for anything lately."""
+        since = self._loop.time() - ROOM
+        acted = (student.acted for student in self.students.values())
+        return len(self.runs.scheduler) == 0 and all(when < since for when in acted)
 
     async def _page(self, request: Request) -> Response:
         if len(self.students) >= self._most_pages:
