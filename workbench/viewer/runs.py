@@ -86,8 +86,9 @@ class SharedRuns:
     """What the pages of a server share.
 
     `stepping` shows a step of the run that a page shows already, `showing` the first of another,
-    which costs several times as much: who only steps does not wait for who moves knobs. `asking`
-    answers, `keeping` makes recordings and pictures.
+    which costs several times as much: who only steps does not wait for who moves knobs, nor for
+    who comes, whose page `opening` makes. `asking` answers, `keeping` makes recordings and
+    pictures.
 
     Args:
         most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that
@@ -99,7 +100,8 @@ class SharedRuns:
     def __init__(self, most_bytes: int = MOST_BYTES, threads: int = 2):
         self.timelines, self.maker = Timelines(most_bytes=most_bytes), Maker()
         self.stepping, self.showing = Crew("stepping", 2), Crew("showing", 2)
-        self.asking, self.keeping = Crew("asking", 1), Crew("keeping", 1)
+        self.opening, self.asking = Crew("opening", 1), Crew("asking", 1)
+        self.keeping = Crew("keeping", 1)
         self.scheduler = Scheduler(
             threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind()
         )
@@ -120,6 +122,7 @@ class SharedRuns:
         self.scheduler.close()
         self.stepping.close()
         self.showing.close()
+        self.opening.close()
         self.asking.close()
         self.keeping.close()
 

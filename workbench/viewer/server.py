@@ -244,10 +244,10 @@ class Server:
             trouble = str(error)  # of a lesson that is here, the page's websocket tells it
         if lesson is None:
             return page_response(
-                request, await self.runs.stepping.do(course_page, self.lessons, trouble)
+                request, await self.runs.opening.do(course_page, self.lessons, trouble)
             )
         watched = self.following.watched if self.following else None
-        page = await self.runs.stepping.do(self._lesson_pages.page, lesson, self.lessons, watched)
+        page = await self.runs.opening.do(self._lesson_pages.page, lesson, self.lessons, watched)
         return page_response(
             request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1)
         )
@@ -340,7 +340,7 @@ class Server:
             await pace.step()
 
     async def _scene(self, request: Request) -> Response:
-        return scene_response(request, *await self.runs.stepping.do(client_bytes))
+        return scene_response(request, *await self.runs.opening.do(client_bytes))
 
 
 async def _send(socket: WebSocket, part: str | bytes) -> None:
