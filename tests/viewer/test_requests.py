@@ -1,8 +1,15 @@
 """What waits for one page: of each kind the latest, and nothing that a later request needs is
-lost.
+lost. What is no request is told at a glance.
 """
 
-from workbench.viewer.requests import Requests
+import json
+
+import pytest
+
+from workbench.knobs import fields_of, to_json
+from workbench.lesson import catalog
+from workbench.viewer import requests as requests_module
+from workbench.viewer.requests import MOST_BRACKETS, Requests, read_request
 
 
 def waiting(*requests):
@@ -23,3 +30,29 @@ def test_what_is_opened_anew_makes_all_before_it_void():
     run, seek = {"verb": "run", "run": "far"}, {"verb": "seek", "k": 3}
     assert waiting(opened, run, seek, opened) == ["open"]
     assert waiting(run, seek, {"verb": "run", "run": "plane"}) == ["run"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[" * 9000,
+        '"open"',
+        '{"verb": "seek", "k": ' + "[" * MOST_BRACKETS,
+        '{"verb": "seek", "k": ' + '{"k": ' * MOST_BRACKETS,
+        '{"verb": "seek", "k": 1}' + " " * 20_000,
+    ],
+    ids=["nothing", "brackets", "text", "lists", "objects", "long"],
+)
+def test_rubbish_is_not_parsed(text, monkeypatch):
+    parsed: list[str] = []
+    monkeypatch.setattr(requests_module.json, "loads", parsed.append)
+    assert read_request(text) is None
+    assert parsed == []
+
+
+def test_a_change_of_all_params_of_a_lesson_is_read_and_there_is_room_for_as_many_again():
+    for lesson in catalog().values():
+        assert 2 * (2 + len(fields_of(lesson.params))) < MOST_BRACKETS, lesson.name
+        change = {"verb": "change", "values": json.loads(to_json(lesson.params()))}
+        assert read_request(json.dumps(change)) == change

@@ -22,7 +22,7 @@ from workbench.run.timeline import Timeline
 from workbench.scene import Caption, Scene
 from workbench.viewer import runs as runs_module
 from workbench.viewer import scheduling
-from workbench.viewer.runs import SharedRuns, caches
+from workbench.viewer.runs import OFTEN, SharedRuns, caches, tidy
 from workbench.viewer.scheduling import Scheduler
 
 
@@ -229,6 +229,24 @@ def test_memory_counts_runs_their_data_and_lessons_caches_each_array_once():
     finally:
         cached.cache_clear()
         runs.close()
+
+
+def test_all_garbage_is_collected_where_enough_has_come_together():
+    class Held:
+        pass
+
+    held = Held()
+    held.itself = held  # type: ignore[attr-defined]
+    gc.collect()  # which makes it old
+    gone = weakref.ref(held)
+    del held
+    tidy()
+    assert gone() is not None
+    for _ in range(OFTEN + 1):
+        gc.collect(1)
+    assert gone() is not None, "of old garbage that looks at none"
+    tidy()
+    assert gone() is None
 
 
 def test_room_is_made_by_what_is_needed_least(monkeypatch):

@@ -361,6 +361,49 @@ def test_when_nobody_is_there_for_a_while_nothing_is_held(monkeypatch):
         server.stop()
 
 
+def test_pages_that_are_being_made_delay_no_step(server, monkeypatch):
+    held, made = threading.Event(), threading.Semaphore(0)
+
+    def making(*_) -> str:
+        made.release()
+        held.wait(60)
+        return "<body >"
+
+    async def attack(page: FakePage) -> None:
+        monkeypatch.setattr(server._lesson_pages, "page", making)
+        others = [
+            asyncio.create_task(FakePage(f"{server.address}/", HERE)._page()) for _ in range(4)
+        ]
+        await until(lambda: made.acquire(blocking=False))
+        try:
+            async with asyncio.timeout(10):
+                await goes_on(page)
+        finally:
+            held.set()
+        await asyncio.gather(*others)
+
+    meanwhile(server, attack)
+
+
+def test_garbage_is_collected_while_nobody_waits(monkeypatch):
+    monkeypatch.setattr(server_module, "ROOM", 0.1)
+    tidied = []
+    server = Server(links.Place(fake.lesson, fake.Params()))
+
+    async def attack(page: FakePage) -> None:
+        student = server.students[page.token]
+        student.acted += 3600.0
+        assert not server._is_at_rest(), "somebody did something just now"
+        monkeypatch.setattr(server_module, "tidy", lambda: tidied.append(student.acted))
+        student.acted -= 3600.0
+        await until(lambda: bool(tidied))
+
+    try:
+        meanwhile(server, attack)
+    finally:
+        server.stop()
+
+
 def test_no_wish_link_or_knob_opens_a_file(server):
     """Thirteen fields by nine paths, through every verb and link, while an audit hook notes what is
     opened.

@@ -105,6 +105,7 @@ def test_a_browser_is_opened_at_the_address_unless_told_otherwise(monkeypatch, c
 
 def test_no_collection_of_garbage_looks_at_what_a_server_is_made_of(monkeypatch):
     left: list[int] = []
+    before = gc.get_threshold()
 
     def interrupt() -> None:
         left.append(len(gc.get_objects()))
@@ -114,8 +115,10 @@ def test_no_collection_of_garbage_looks_at_what_a_server_is_made_of(monkeypatch)
     try:
         serve(port=0, browser=False)
         assert gc.get_freeze_count() > 50_000 > 5 * left[0]
+        assert gc.get_threshold() == (*before[:2], 10 * before[2]), "of the rest, one is rare"
     finally:
         gc.unfreeze()
+        gc.set_threshold(*before)
 
 
 @pytest.mark.parametrize("workers", [0, 2, 16])

@@ -269,6 +269,17 @@ def test_what_nobody_shows_any_more_is_let_go():
     assert maker.held() == 0
 
 
+def test_making_nodes_leaves_nothing_to_a_collection_of_garbage():
+    maker, scene = Maker(), Timeline(fake.lesson, fake.Params()).complete()[0].scene
+    gc.collect()
+    gc.disable()
+    try:
+        assert len(shown(scene, maker)) > 1
+        assert gc.collect() == 0, "arrays would be held until then"
+    finally:
+        gc.enable()
+
+
 def test_who_asks_at_the_same_time_gets_the_same():
     timeline = Timeline(fake.lesson, fake.Params(steps=4, colors="classes")).complete()
     scenes = [step.scene for step in timeline.known()]

@@ -8,6 +8,10 @@ from typing import Any
 
 LONGEST = 20_000
 """Characters of a message from a browser."""
+MOST_BRACKETS = 100
+"""Of an honest message, which opens one for itself, one for its values and one for each param that
+is a place; thousands, one in the other, would hold up all other pages while they are read.
+"""
 MOST_ANSWERS = 8
 """Predictions that wait, of different questions; of everything else the latest waits."""
 ANEW = frozenset({"open", "run", "reset"})
@@ -16,8 +20,12 @@ MOVES = frozenset({"seek", "change", "click"})
 
 
 def read_request(text: str) -> dict[str, Any] | None:
-    """Return the request that a message from a browser holds, None when it holds none."""
-    if len(text) > LONGEST:
+    """Return the request that a message from a browser holds, None when it holds none.
+
+    What can be none is not parsed: rubbish costs less than a request.
+    """
+    is_long = len(text) > LONGEST
+    if is_long or not text.startswith("{") or text.count("[") + text.count("{") > MOST_BRACKETS:
         return None
     try:
         message = json.loads(text)

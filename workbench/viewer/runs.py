@@ -24,6 +24,8 @@ Result = TypeVar("Result")
 
 MOST_BYTES = 3 * 2**29
 """What runs, their steps' data and lessons' caches may hold together."""
+OFTEN, RARELY = 10, 100
+"""Collections of young garbage until one of all: Python's own, and a server's that has no rest."""
 
 
 class Crew:
@@ -84,8 +86,9 @@ class SharedRuns:
     """What the pages of a server share.
 
     `stepping` shows a step of the run that a page shows already, `showing` the first of another,
-    which costs several times as much: who only steps does not wait for who moves knobs. `asking`
-    answers, `keeping` makes recordings and pictures.
+    which costs several times as much: who only steps does not wait for who moves knobs, nor for
+    who comes, whose page `opening` makes. `asking` answers, `keeping` makes recordings and
+    pictures.
 
     Args:
         most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that
@@ -97,7 +100,8 @@ class SharedRuns:
     def __init__(self, most_bytes: int = MOST_BYTES, threads: int = 2):
         self.timelines, self.maker = Timelines(most_bytes=most_bytes), Maker()
         self.stepping, self.showing = Crew("stepping", 2), Crew("showing", 2)
-        self.asking, self.keeping = Crew("asking", 1), Crew("keeping", 1)
+        self.opening, self.asking = Crew("opening", 1), Crew("asking", 1)
+        self.keeping = Crew("keeping", 1)
         self.scheduler = Scheduler(
             threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind()
         )
@@ -118,6 +122,7 @@ class SharedRuns:
         self.scheduler.close()
         self.stepping.close()
         self.showing.close()
+        self.opening.close()
         self.asking.close()
         self.keeping.close()
 
@@ -200,14 +205,20 @@ def _cached_arrays(cached: Any) -> Iterable[Any]:
 
 
 def settle() -> None:
-    """Keep what is there now out of every collection of garbage: of a whole server, one takes a
-    tenth of a second.
+    """Keep what is there now out of every collection of garbage, and make those of all the rest
+    rare: with many runs, one takes a tenth of a second, in which all threads stand still.
 
-    All threads stand still meanwhile; whoever sends deeply nested rubbish can bring one about at
-    every message. For a process that is a server and nothing else.
+    For a process that is a server and nothing else, and that calls `tidy` while nobody waits.
     """
     gc.collect()
     gc.freeze()
+    gc.set_threshold(*gc.get_threshold()[:2], RARELY)
+
+
+def tidy() -> None:
+    """Collect all garbage, where Python by itself would have done so."""
+    if gc.get_count()[2] > OFTEN:
+        gc.collect()
 
 
 def give_back() -> None:

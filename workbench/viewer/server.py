@@ -50,7 +50,7 @@ from workbench.viewer.following import Following
 from workbench.viewer.pace import FIRST_WORD, Pace
 from workbench.viewer.patience import Patience, more_files
 from workbench.viewer.rules import RequestGate, Rules, page_response
-from workbench.viewer.runs import MOST_BYTES, SharedRuns
+from workbench.viewer.runs import MOST_BYTES, SharedRuns, tidy
 from workbench.viewer.transfers import receive, recording, scene_response
 from workbench.wire.client import client_bytes
 from workbench.words.typeset import math_font, math_font_css
@@ -211,12 +211,20 @@ class Server:
             if before < EMPTY <= empty_for:
                 self._pictures.clear()
                 await self.runs.asking.do(self.runs.let_go, list(self.lessons.values()))
+            if self._is_at_rest():
+                await self.runs.asking.do(tidy)
             longest_ago = sorted(self.students.values(), key=lambda student: student.acted)
             await self.runs.asking.do(
                 self.runs.make_room,
                 list(self.lessons.values()),
                 [student.sleep for student in longest_ago],
             )
+
+    def _is_at_rest(self) -> bool:
+        """Tell whether nothing is computed, and nobody wished for anything lately."""
+        since = self._loop.time() - ROOM
+        acted = (student.acted for student in self.students.values())
+        return len(self.runs.scheduler) == 0 and all(when < since for when in acted)
 
     async def _page(self, request: Request) -> Response:
         if len(self.students) >= self._most_pages:
@@ -236,10 +244,10 @@ class Server:
             trouble = str(error)  # of a lesson that is here, the page's websocket tells it
         if lesson is None:
             return page_response(
-                request, await self.runs.stepping.do(course_page, self.lessons, trouble)
+                request, await self.runs.opening.do(course_page, self.lessons, trouble)
             )
         watched = self.following.watched if self.following else None
-        page = await self.runs.stepping.do(self._lesson_pages.page, lesson, self.lessons, watched)
+        page = await self.runs.opening.do(self._lesson_pages.page, lesson, self.lessons, watched)
         return page_response(
             request, page.replace("<body ", f'<body data-token="{self._new_token()}" ', 1)
         )
@@ -332,7 +340,7 @@ class Server:
             await pace.step()
 
     async def _scene(self, request: Request) -> Response:
-        return scene_response(request, *await self.runs.stepping.do(client_bytes))
+        return scene_response(request, *await self.runs.opening.do(client_bytes))
 
 
 async def _send(socket: WebSocket, part: str | bytes) -> None:

@@ -191,28 +191,28 @@ class Maker:
         visible: bool = True,
     ) -> NodeKind:
         contents: list[Content] = []
-
-        def plain(value: Any) -> Any:
-            if isinstance(value, dict) and "__binary_index" in value:
-                return array(bytes(arrays[value["__binary_index"]]), value["dtype"])
-            if isinstance(value, bytes | memoryview):
-                return array(bytes(value), "|u1")
-            if isinstance(value, float | np.floating):
-                return float(value) if np.isfinite(value) else None
-            return [plain(one) for one in value] if isinstance(value, tuple | list) else value
-
-        def array(content: bytes, dtype: str) -> dict[str, str]:
-            contents.append(self._content(content))
-            return {"$": contents[-1].key, "as": dtype}
-
-        said: dict[str, Any] = {
-            "type": type_,
-            "props": {name: plain(value) for name, value in props.items()},
-        }
+        plain = {name: self._plain(value, arrays, contents) for name, value in props.items()}
+        said: dict[str, Any] = {"type": type_, "props": plain}
         said |= {"fade": round(fade, 4)} if fade < 1 else {}
         said |= {} if visible else {"visible": False}
         text = json.dumps(said, separators=(",", ":"), allow_nan=False)
         return NodeKind(digest(text.encode()), text, tuple(contents))
+
+    def _plain(self, value: Any, arrays: list[memoryview], contents: list[Content]) -> Any:
+        """Return a value as JSON can say it, its bytes among the contents. No function in `_kind`:
+        one that calls itself would hold them until garbage is collected.
+        """
+        if isinstance(value, dict) and "__binary_index" in value:
+            contents.append(self._content(bytes(arrays[value["__binary_index"]])))
+            return {"$": contents[-1].key, "as": value["dtype"]}
+        if isinstance(value, bytes | memoryview):
+            contents.append(self._content(bytes(value)))
+            return {"$": contents[-1].key, "as": "|u1"}
+        if isinstance(value, float | np.floating):
+            return float(value) if np.isfinite(value) else None
+        if isinstance(value, tuple | list):
+            return [self._plain(one, arrays, contents) for one in value]
+        return value
 
     def _content(self, content: bytes) -> Content:
         key = digest(content)
