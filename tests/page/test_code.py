@@ -2,14 +2,16 @@
 Python stays plain.
 """
 
+import gc
 import html
 import re
+import threading
 from pathlib import Path
 
 import pytest
 
 import workbench
-from workbench.page.code import text_html
+from workbench.page.code import _long_docstring, text_html
 
 SOURCES = sorted(Path(workbench.__file__).parent.rglob("*.py"))[::9]
 
@@ -52,3 +54,44 @@ def test_a_text_over_several_lines_is_coloured_in_each():
 )
 def test_what_is_no_python_is_shown_all_the_same(text):
     assert plain(text_html(text)) == text.rstrip().split("\n")
+
+
+def test_sources_that_two_threads_show_at_once_do_not_disturb_each_other():
+    """A collection of garbage while a tree is made lets another thread run, which makes another."""
+    inside, done = threading.Event(), threading.Event()
+    main = threading.current_thread()
+    failed: list[SystemError] = []
+
+    def meanwhile() -> None:
+        inside.wait(10)
+        for deep in range(3):
+            show(deep)
+        done.set()
+
+    def show(deep: int) -> None:
+        try:
+            _long_docstring(text_of(deep))
+        except SystemError as error:
+            failed.append(error)
+
+    def text_of(deep: int) -> str:
+        return "def f():\n    return " + "(0, " * (20 * deep) + "0" + ")" * (20 * deep)
+
+    def while_collected(phase: str, _info: object) -> None:
+        if phase == "start" and threading.current_thread() is main and not inside.is_set():
+            inside.set()
+            done.wait(1)  # the other one waits for this one, or disturbs it
+
+    other = threading.Thread(target=meanwhile)
+    other.start()
+    threshold = gc.get_threshold()
+    gc.callbacks.append(while_collected)
+    gc.set_threshold(50)
+    try:
+        show(4)
+    finally:
+        gc.set_threshold(*threshold)
+        gc.callbacks.remove(while_collected)
+        inside.set()
+        other.join()
+    assert not failed

@@ -6,6 +6,7 @@ import ast
 import functools
 import io
 import keyword
+import threading
 import tokenize
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -18,6 +19,10 @@ _CSS = {tokenize.COMMENT: "c", tokenize.NUMBER: "m"} | {
     getattr(tokenize, name): "s" for name in _TEXTS if hasattr(tokenize, name)
 }
 """The class that a token has on a page."""
+_PARSING = threading.Lock()
+"""Python before 3.11.8 and 3.12.2 counts the depth of all trees that threads make in one place, and
+refuses a tree when another was made meanwhile (CPython's issue 106905).
+"""
 
 
 def moment_data(moment: Moment) -> dict[str, Any]:
@@ -63,7 +68,8 @@ def _long_docstring(source: str) -> tuple[int, int]:
     """Return where a function's docstring starts and ends if it is longer than a line, else (0, 0):
     it is folded away.
     """
-    body = ast.parse(source).body[0].body  # type: ignore[attr-defined]
+    with _PARSING:
+        body = ast.parse(source).body[0].body  # type: ignore[attr-defined]
     first = body[0]
     is_text = (
         isinstance(first, ast.Expr)
