@@ -16,7 +16,6 @@ from lessons.disparity.pairs import Pictures, pictures_of
 from lessons.disparity.presets import PRESETS, SWEEPS
 from lessons.disparity.questions import QUESTIONS
 from workbench.algorithms.stereo import cost_volume as costs
-from workbench.algorithms.stereo import disparity_map
 from workbench.geometry.cameras import stereo
 from workbench.lesson import Lesson, Look, Slot
 from workbench.scene import Scene
@@ -41,7 +40,7 @@ def run(
     *,
     depth: Slot = stereo.depth_from_disparity,
     cost_volume: Slot = costs.sad_cost_volume,
-    choose: Slot = disparity_map.winner_takes_all,
+    choose: Slot | None = None,
 ) -> Iterator[State]:
     """Yield the steps of a stage."""
     if isinstance(subject, above.Rig):

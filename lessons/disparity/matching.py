@@ -25,7 +25,6 @@ from workbench.algorithms.stereo.disparity import (
     reconstruct,
     usual_penalties,
 )
-from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.algorithms.stereo.semiglobal import energy
 from workbench.geometry.cameras.stereo import depth_from_disparity
 from workbench.lesson import Look
@@ -94,7 +93,7 @@ def run(
     *,
     depth: DepthOf = depth_from_disparity,
     cost_volume: CostVolume = sad_cost_volume,
-    choose: Choose = winner_takes_all,
+    choose: Choose | None = None,
 ) -> Iterator[State]:
     """Yield the steps from two pictures to a depth cloud; `cost_volume` is used where the knob says
     SAD.
@@ -108,7 +107,7 @@ def steps(
     pictures: Pictures,
     cost_volume: CostVolume = sad_cost_volume,
     *,
-    choose: Choose = winner_takes_all,
+    choose: Choose | None = None,
 ) -> Iterator[Matching]:
     """Return the steps of the matching alone."""
     compare = OTHER_COSTS.get(params.cost, cost_volume)

@@ -26,6 +26,7 @@ from workbench.algorithms.stereo.disparity_map import (
     seen_from_right,
     sub_pixel,
     winner_takes_all,
+    winners,
 )
 from workbench.data.files import read_image
 from workbench.data.views.stereo import grey, motorcycle_pair, synthetic_views
@@ -76,6 +77,12 @@ def bad(disparity, truth, where, limit=1.0):
 def test_the_winner_is_the_first_of_the_lowest(seed, n, dtype):
     cost = np.random.default_rng(seed).integers(0, 4, (n, 5, 6)).astype(dtype)
     assert np.array_equal(winner_takes_all(cost), cost.argmin(0))
+
+
+def test_the_winners_go_on_from_slice_to_slice():
+    cost = np.random.default_rng(0).integers(0, 9, (7, 5, 6))
+    found = [winner.copy() for winner in winners(cost)]
+    assert np.array_equal(found, [cost[: n + 1].argmin(0) for n in range(7)])
 
 
 @pytest.mark.parametrize("n", [256, 257, 300])

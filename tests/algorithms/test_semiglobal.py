@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from workbench.algorithms.stereo import semiglobal
 from workbench.algorithms.stereo.disparity_map import winner_takes_all
 from workbench.algorithms.stereo.semiglobal import (
     DIRECTIONS,
@@ -80,6 +81,14 @@ def test_a_state_is_not_changed_by_the_next():
     )
 
 
+def test_a_large_volume_has_the_same_paths_in_the_same_order(monkeypatch):
+    together = [(state.direction, state.path) for state in semi_global(volume(0), 2, 5)]
+    monkeypatch.setattr(semiglobal, "CELLS_TOGETHER", 0)
+    for (direction, path), state in zip(together, semi_global(volume(0), 2, 5), strict=True):
+        assert direction == state.direction
+        assert np.array_equal(path, state.path)
+
+
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 10**6))
 def test_without_penalties_nothing_is_smoothed(seed):
@@ -103,11 +112,18 @@ def test_turning_the_picture_turns_the_answer(seed):
 
 @pytest.mark.parametrize(
     ("top", "P2", "dtype"),
-    [(25, 60, np.uint8), (25, 230, np.uint8), (250, 250, np.uint8), (60000, 60000, np.uint16)],
+    [
+        (25, 60, np.uint8),
+        (25, 230, np.uint8),
+        (130, 125, np.uint8),
+        (250, 250, np.uint8),
+        (60000, 60000, np.uint16),
+    ],
 )
 def test_narrow_numbers_do_not_overflow(top, P2, dtype):
     cost = volume(1, (6, 9, 9), dtype, top)
-    assert np.array_equal(total_of(cost, P2 // 3, P2), total_of(cost.astype(float), P2 // 3, P2))
+    for P1 in (P2 // 3, P2):
+        assert np.array_equal(total_of(cost, P1, P2), total_of(cost.astype(float), P1, P2))
     path, jumps = prepare(cost, P2 // 3, P2)
     for direction in DIRECTIONS:
         assert (path_costs(path, direction, jumps) <= cost.astype(float) + P2).all()

@@ -139,13 +139,24 @@ def box_sums(image: Grey, windows: Sequence[int]) -> Iterator[Grey]:
     if most == 1:
         yield from (image for _ in windows)
         return
-    padded = np.pad(image, most // 2, mode="edge")
+    padded = _edged(image, most // 2)
     doubled = _doubled(padded, most)
     for window in windows:
         spare = (most - window) // 2
         rows = _joined(doubled, window, range(spare, spare + len(image)))
         columns = rows[:, spare : padded.shape[1] - spare].T
         yield _joined(_doubled(columns, window), window, range(image.shape[1])).T
+
+
+def _edged(image: np.ndarray, margin: int) -> np.ndarray:
+    """Return np.pad(image, margin, mode="edge"), which takes five times as long."""
+    h, w = image.shape
+    padded = np.empty((h + 2 * margin, w + 2 * margin), image.dtype)
+    rows = padded[margin : margin + h]
+    rows[:, :margin], rows[:, margin + w :] = image[:, :1], image[:, -1:]
+    rows[:, margin : margin + w] = image
+    padded[:margin], padded[margin + h :] = rows[0], rows[-1]
+    return padded
 
 
 def _doubled(image: np.ndarray, most: int) -> list[np.ndarray]:
@@ -190,6 +201,8 @@ def _windowed(
 
 
 def _absolute_difference(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    if a.dtype.kind == "f":
+        return np.abs(a - b)
     return np.maximum(a, b) - np.minimum(a, b)  # |a - b| that does not wrap around in uint8
 
 

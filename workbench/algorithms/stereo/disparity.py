@@ -23,6 +23,7 @@ from workbench.algorithms.stereo.disparity_map import (
     seen_from_right,
     sub_pixel,
     winner_takes_all,
+    winners,
 )
 from workbench.algorithms.stereo.semiglobal import semi_global
 from workbench.geometry.cameras.stereo import depth_from_disparity, depth_uncertainty
@@ -87,28 +88,36 @@ def match(
     window: int,
     penalties: Penalties | None,
     compare: CostVolume = sad_cost_volume,
-    choose: Choose = winner_takes_all,
+    choose: Choose | None = None,
 ) -> Iterator[Matching]:
     """Yield the disparity of every left pixel as it is found, stage by stage.
 
     `penalties` gives P1 and P2 of the semi-global paths by the summed costs; None leaves them out.
+    `choose` is called with all slices so far after each. None is `winner_takes_all`, which is not:
+    it goes on from where it was.
     """
     everywhere = np.ones(left.shape, bool)
     single = compare(left, right, max_disparity, 1)
-    for done in range(1, max_disparity + 2):
+    slices = range(1, max_disparity + 2)
+    maps = winners(single) if choose is None else (choose(single[:done]) for done in slices)
+    for done, chosen in zip(slices, maps, strict=True):
         cost = single[:done]
-        yield Matching(Stage.COMPARE, cost, choose(cost).astype(float), everywhere, done=done)
+        yield Matching(Stage.COMPARE, cost, chosen.astype(float), everywhere, done=done)
 
+    choose = choose or winner_takes_all
     cost = summed = single if window == 1 else compare(left, right, max_disparity, window)
     jumps = (0.0, 0.0) if penalties is None else penalties(summed)
-    yield Matching(Stage.AGGREGATE, cost, choose(cost).astype(float), everywhere, summed, jumps)
+    chosen = choose(cost)
+    yield Matching(Stage.AGGREGATE, cost, chosen.astype(float), everywhere, summed, jumps)
 
     for done, paths in enumerate(semi_global(summed, *jumps) if penalties else (), 1):
         cost = paths.total
-        chosen = choose(cost).astype(float)
-        yield Matching(Stage.PATHS, cost, chosen, everywhere, summed, jumps, done, paths.direction)
+        chosen = choose(cost)
+        disparity = chosen.astype(float)
+        way = paths.direction
+        yield Matching(Stage.PATHS, cost, disparity, everywhere, summed, jumps, done, way)
 
-    winner = choose(cost).astype(int)
+    winner = chosen.astype(int)
     matched = agree(winner, choose(seen_from_right(cost)).astype(int))
     yield Matching(Stage.CHECK, cost, np.where(matched, winner, np.nan), matched, summed, jumps)
 

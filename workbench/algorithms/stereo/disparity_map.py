@@ -3,8 +3,10 @@
 A map is for the left picture, pixels: d = x_left - x_right. Costs are as in `cost_volume`.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
-from jaxtyping import Bool, Float, Int, Real
+from jaxtyping import Bool, Float, Int, Real, UInt
 
 WholeMap = Int[np.ndarray, "h w"]
 
@@ -19,15 +21,25 @@ def winner_takes_all(cost: Real[np.ndarray, "d h w"]) -> WholeMap:
         >>> winner_takes_all(cost).tolist()
         [[1, 0]]
     """
+    *_, winner = winners(cost)
+    return winner.astype(np.int16 if winner.dtype == np.uint8 else np.intp)
+
+
+def winners(cost: Real[np.ndarray, "d h w"]) -> Iterator[UInt[np.ndarray, "h w"]]:
+    """Yield `winner_takes_all` of the first slice, of the first two, and so on.
+
+    It is one array, which the next slice changes.
+    """
     lowest = cost[0].copy()
     number = np.uint8 if len(cost) <= 2**8 else np.uint16
     winner = np.zeros(lowest.shape, number)
+    yield winner
     for d in range(1, len(cost)):
         better = (cost[d] < lowest).view(np.uint8)
         # d grows, so the latest winner is the largest
         np.maximum(winner, better * number(d), out=winner)
         np.minimum(lowest, cost[d], out=lowest)
-    return winner.astype(np.int16 if number is np.uint8 else np.intp)
+        yield winner
 
 
 def seen_from_right(cost: Real[np.ndarray, "d h w"]) -> Real[np.ndarray, "d h w"]:

@@ -22,7 +22,7 @@ Costs = Real[np.ndarray, "d h w"]
 DIRECTIONS = ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1))
 """The eight steps (rows down, columns right) from one pixel of a path to the next."""
 
-CELLS_TOGETHER = 2**21  # of a volume: up to here all slopes are walked together
+CELLS_TOGETHER = 2**21  # of a volume: up to here directions are walked together
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,8 +66,8 @@ class Jumps:
     whole: bool
 
     def type_of_sum(self, paths: int) -> np.dtype:
-        """Return the narrowest number type that holds the sum of so many path costs."""
-        most = paths * (self.top + self.P2)
+        """Return the narrowest number type that holds the sum of so many path costs, and P1."""
+        most = paths * (self.top + self.P2) + self.P1
         whole = np.uint8 if most < 2**8 else np.uint16 if most < 2**16 else np.float32
         return np.dtype(whole if self.whole else np.float32)
 
@@ -88,67 +88,75 @@ def prepare(cost: Costs, P1: float, P2: float) -> tuple[Costs, Jumps]:
 
 def _all_paths(cost: Costs, jumps: Jumps) -> Iterator[Costs]:
     """Yield the path costs of all directions, in their order."""
-    for both in sweep(by_column(cost), (0,), jumps):
-        yield from (path.transpose(1, 2, 0) for path in both)
-    slopes = (0, 1, -1)
-    for some in (slopes,) if cost.size < CELLS_TOGETHER else tuple((slope,) for slope in slopes):
-        for both in sweep(by_row(cost), some, jumps):
-            yield from (path.transpose(1, 0, 2) for path in both)
+    across = sweep(by_column(cost), (0,), jumps)
+    yield from (across[right, down].transpose(1, 2, 0) for down, right in DIRECTIONS[:2])
+    del across
+    along = {}
+    to_come = list(DIRECTIONS[2:])
+    for shifts in ((0, 1, -1),) if cost.size < CELLS_TOGETHER else ((0,), (1,), (-1,)):
+        along |= sweep(by_row(cost), shifts, jumps)
+        while to_come and to_come[0] in along:
+            yield along.pop(to_come.pop(0)).transpose(1, 0, 2)
 
 
 def path_costs(cost: Costs, direction: tuple[int, int], jumps: Jumps) -> Costs:
     """Return the path costs L_r(p, d) of one direction (rows down, columns right), by eq. 13."""
     down, right = direction
     if down:
-        ends = next(sweep(by_row(cost), (right * down,), jumps))
-        return ends[0 if down > 0 else 1].transpose(1, 0, 2)
-    ends = next(sweep(by_column(cost), (0,), jumps))
-    return ends[0 if right > 0 else 1].transpose(1, 2, 0)
+        return sweep(by_row(cost), (right,), jumps)[direction].transpose(1, 0, 2)
+    return sweep(by_column(cost), (0,), jumps)[right, down].transpose(1, 2, 0)
 
 
 def sweep(
-    cost: Real[np.ndarray, "n d w"], slopes: tuple[int, ...], jumps: Jumps
-) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield of each slope the path costs (n, d, w) from the first line on, and back from the last.
+    cost: Real[np.ndarray, "n d w"], shifts: tuple[int, ...], jumps: Jumps
+) -> dict[tuple[int, int], Real[np.ndarray, "n d w"]]:
+    """Return the path costs by way (1: from the first line on, -1: back from the last) and shift:
+    how many pixels to the right a path goes from one line to the next, 0, 1 or -1.
 
-    A slope is how many columns right the path goes per line: 0, 1 or -1; back it is the other way.
-    All are walked side by side. With carried(d) = min(L(d) - min L, P2) of the pixel before, eq. 13
-    reads L(d) = C(d) + min(carried(d), carried(d +- 1) + P1); it never exceeds top + P2, so bytes
-    often do. A line is laid out flat, d by d, with one spare column and a spare d at both ends:
-    then every neighbour is the same array at another offset.
+    All are walked side by side. With rise(d) = L(d) - min L of the pixel before, eq. 13 reads
+    L(d) = C(d) + min(rise(d), rise(d +- 1) + P1, P2); it never exceeds top + P2, so bytes often do.
+    A line is laid out flat, by d, then way, then pixel, with room for one d more at both ends: then
+    every neighbour is the same array at another offset.
     """
     n, disparities, w = cost.shape
-    row = w + 1
-    start, stop = row + 1, row + 1 + disparities * row
-    padded = np.zeros((n, disparities, row), jumps.type_of_sum(1))
-    padded[..., :w] = cost
-    P1 = padded.dtype.type(jumps.P1)
-    limit = np.full((disparities, row), jumps.P2, padded.dtype)
-    limit[:, w] = 0  # nothing is carried from beyond the border: a path begins there
-    carried = np.zeros((len(slopes), 2, stop + row + 1), padded.dtype)
-    carried[..., :row], carried[..., stop:] = jumps.P2, jumps.P2
+    kind = jumps.type_of_sum(1)
+    P1 = kind.type(jumps.P1)
+    lines = np.empty((n, disparities, 2, w), kind)
+    lines[:, :, 0] = cost
+    lines[:, :, 1] = lines[::-1, :, 0]
+    limit = np.full((len(shifts), disparities, 2, w), jumps.P2, kind)
+    for i, shift in enumerate(shifts):
+        if shift:  # a path begins at the border, whatever lies before its first pixel in the layout
+            limit[i, ..., 0 if shift > 0 else -1] = 0
+
+    step = 2 * w  # to the next d
+    cells = disparities * step
+    first = step + 1
+    rise = np.full((len(shifts), first + cells + first), jumps.P2, kind)
+    rise[:, first : first + cells] = 0
     same, lower, higher = (
-        carried[..., start + shift : stop + shift].reshape(*carried.shape[:2], disparities, row)
-        for shift in (0, -row, row)
+        rise[:, first + offset : first + offset + cells].reshape(limit.shape)
+        for offset in (0, -step, step)
     )
-    after = [  # where the pixels of the next line look for what this one carries
-        (here, carried[*here, start + shift : stop + shift].reshape(disparities, row))
-        for i, slope in enumerate(slopes)
-        for here, shift in (((i, 0), slope), ((i, 1), -slope))
+    after = [  # where the pixels of the next line look for the rise of this one
+        rise[i, first + shift : first + shift + cells].reshape(disparities, 2, w)
+        for i, shift in enumerate(shifts)
     ]
-    paths = np.empty((n, len(slopes), 2, disparities, row), padded.dtype)
-    above = np.empty_like(paths[0])
-    for line, L in enumerate(paths):
+    paths = np.empty((n, *limit.shape), kind)
+    for C, L in zip(lines, paths, strict=True):
         np.minimum(lower, higher, out=L)
         L += P1
         np.minimum(L, same, out=L)
-        L[:, 0] += padded[line]  # L_r(p, d), eq. 13
-        L[:, 1] += padded[-1 - line]
-        np.subtract(L, np.minimum.reduce(L, axis=2, keepdims=True), out=above)
-        for here, carries in after:
-            np.minimum(above[here], limit, out=carries)
-    for i in range(len(slopes)):
-        yield paths[:, i, 0, :, :w], paths[::-1, i, 1, :, :w]
+        np.minimum(L, limit, out=L)
+        L += C  # L_r(p, d), eq. 13
+        least = np.minimum.reduce(L, axis=1, keepdims=True)
+        for i, rises in enumerate(after):
+            np.subtract(L[i], least[i], out=rises)
+    return {
+        (way, shift): paths[::way, i, :, k]
+        for i, shift in enumerate(shifts)
+        for k, way in enumerate((1, -1))
+    }
 
 
 def energy(cost: Costs, disparity: Real[np.ndarray, "h w"], P1: float, P2: float) -> float:
