@@ -8,7 +8,7 @@ import pytest
 
 from lessons.ransac.robust_scenes import match_scene
 from tests.algorithms.test_camera_model import alike
-from workbench.algorithms.robust.models import FUNDAMENTAL, HOMOGRAPHY
+from workbench.algorithms.robust.models import FUNDAMENTAL, HOMOGRAPHY, RIGID
 from workbench.algorithms.robust.ransac import TOGETHER, Judge, ransac
 from workbench.algorithms.robust.samplers import draw_samples, uniform_samples
 from workbench.algorithms.robust.scores import count_score, msac_score
@@ -37,6 +37,23 @@ def test_samples_solved_and_judged_together_give_the_states_of_one_by_one(model,
     assert len(together) == len(apart)
     assert together[-1].iteration > TOGETHER / 2
     assert together[1].phase == "degenerate"
+    assert all(alike(a, b) for a, b in zip(together, apart, strict=True))
+
+
+def test_triangles_solved_and_judged_together_give_the_states_of_one_by_one():
+    rng = np.random.default_rng(4)
+    p = rng.normal(size=(400, 3))
+    q = p @ np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]) + 0.3 + 0.01 * rng.normal(size=p.shape)
+    q[:260] = rng.normal(size=(260, 3))
+    pairs, found = np.hstack([p, q]), []
+    for one in (RIGID, replace(RIGID, solve_each=None)):
+        drawn = uniform_samples(400, 3, np.random.default_rng(0))
+        samples = chain([np.zeros(3, dtype=int)], drawn)
+        found.append(list(ransac(pairs, one, samples, Judge(pairs, one, 0.05))))
+    together, apart = found
+    assert len(together) == len(apart)
+    assert together[-1].iteration > TOGETHER
+    assert {state.phase for state in together} >= {"degenerate", "inliers", "refit"}
     assert all(alike(a, b) for a, b in zip(together, apart, strict=True))
 
 

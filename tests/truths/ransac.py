@@ -81,11 +81,13 @@ def most_trusted(run: Run, k: int) -> tuple[int, float]:
     votes = [bool(best.inliers[row]) for row in by_trust]
     for n in range(20, len(votes) + 1):
         votes_here = sum(votes[:n])
+        if votes_here <= m or votes_here / n < found[1]:
+            continue
         tail = sum(
             math.comb(n - m, i - m) * 0.05 ** (i - m) * 0.95 ** (n - i)
-            for i in range(max(votes_here, m), n + 1)
+            for i in range(votes_here, n + 1)
         )
-        if votes_here > m and tail < 0.05 and votes_here / n >= found[1]:
+        if tail < 0.05:
             found = (n, votes_here / n)
     return found
 

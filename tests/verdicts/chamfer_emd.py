@@ -411,8 +411,8 @@ def plan_cost(p: np.ndarray, target: np.ndarray, blur: float) -> float:
     D = scipy.spatial.distance.cdist(p, target)
     f, g = np.zeros(len(p)), np.zeros(len(target))
     for _ in range(300):
-        f = -blur * (scipy.special.logsumexp((g - D) / blur, axis=1) + np.log(len(p)))
-        g = -blur * (scipy.special.logsumexp((f[:, None] - D) / blur, axis=0) + np.log(len(target)))
+        f = -blur * (np.logaddexp.reduce((g - D) / blur, axis=1) + np.log(len(p)))
+        g = -blur * (np.logaddexp.reduce((f[:, None] - D) / blur, axis=0) + np.log(len(target)))
     return float(np.vdot(np.exp((f[:, None] + g - D) / blur), D))
 
 

@@ -39,6 +39,7 @@ from workbench.geometry.two_views.homography import (
     transfer_distances,
 )
 
+BEFORE = (2, 0, 1)  # of each corner of a triangle
 SIDES_ALIKE = 0.9  # of a triangle and its match, the shorter as a share of the longer
 
 
@@ -149,13 +150,14 @@ def _refit_fundamental(
     return refine_fundamental(start, uv_first, uv_second, weights=weights)
 
 
-def _solve_rigid(samples: np.ndarray) -> np.ndarray:
+def _solve_rigid(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     p_source, p_target = samples[..., :3], samples[..., 3:]
-    sides = [np.linalg.norm(p - np.roll(p, 1, axis=1), axis=2) for p in (p_source, p_target)]
-    alike = ((np.minimum(*sides) > SIDES_ALIKE * np.maximum(*sides)) & (sides[0] > 0)).all(axis=1)
-    T_target_source = np.tile(np.eye(4), (int(alike.sum()), 1, 1))
-    if len(T_target_source):
-        p, q = p_source[alike], p_target[alike]
+    sides = [np.linalg.norm(p - p[:, BEFORE], axis=2) for p in (p_source, p_target)]
+    alike = (np.minimum(*sides) > SIDES_ALIKE * np.maximum(*sides)) & (sides[0] > 0)
+    of_sample = np.flatnonzero(alike.all(axis=1))
+    T_target_source = np.zeros((len(of_sample), 4, 4)) + np.eye(4)
+    if len(of_sample):
+        p, q = p_source[of_sample], p_target[of_sample]
         mean_p, mean_q = p.mean(axis=1, keepdims=True), q.mean(axis=1, keepdims=True)
         # as align_rigid, for many triangles
         R = nearest_rotation(np.swapaxes(q - mean_q, 1, 2) @ (p - mean_p))
@@ -163,7 +165,7 @@ def _solve_rigid(samples: np.ndarray) -> np.ndarray:
             R,
             (mean_q - mean_p @ np.swapaxes(R, 1, 2))[:, 0],
         )
-    return T_target_source
+    return T_target_source, of_sample
 
 
 def _pair_distances(T_target_source: np.ndarray, pairs: np.ndarray) -> np.ndarray:
@@ -256,7 +258,8 @@ RIGID = Model(
     degenerate_when=(
         "the two triangles have different sides, so that no motion brings them together"
     ),
-    solve=_solve_rigid,
+    solve=lambda samples: _solve_rigid(samples)[0],
+    solve_each=_solve_rigid,
     distances=_pair_distances,
     refit=_refit_rigid,
 )
