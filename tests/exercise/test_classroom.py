@@ -135,6 +135,9 @@ def test_who_interrupts_is_told_how_far_it_came(tmp_path, monkeypatch):
     assert classroom.grade_folder(tmp_path, tmp_path / "out", **how) == 130
     assert "Interrupted: 1 of 3 graded; the same command goes on" in tell.getvalue()
     assert result.getvalue() == ""
+    tell.isatty = lambda: True
+    assert classroom.grade_folder(tmp_path, tmp_path / "out", **how) == 130
+    assert "1/3 ada" in tell.getvalue(), "a terminal shows how far it is"
 
 
 def test_a_scheduler_that_is_not_there_is_told_in_one_line(monkeypatch):
@@ -149,6 +152,26 @@ def test_a_scheduler_that_is_not_there_is_told_in_one_line(monkeypatch):
         with pytest.raises(InputError) as told, contextlib.ExitStack() as stack:
             classroom._dask_executor("tcp://it", stack)
         assert str(told.value) == said
+
+
+def test_a_class_is_graded_where_the_scheduler_says(monkeypatch):
+    left = []
+
+    class Client(contextlib.nullcontext):
+        def __init__(self, address, timeout):
+            super().__init__(self)
+
+        def get_executor(self):
+            return "its workers"
+
+        def __exit__(self, *error):
+            left.append(self)
+
+    monkeypatch.setitem(sys.modules, "distributed", types.SimpleNamespace(Client=Client))
+    with contextlib.ExitStack() as stack:
+        assert classroom._dask_executor("tcp://it", stack) == "its workers"
+        assert left == []
+    assert len(left) == 1
 
 
 def test_a_result_s_file_is_named_by_signs_that_every_system_takes():

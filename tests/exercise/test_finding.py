@@ -79,6 +79,12 @@ def test_a_file_is_graded_for_what_it_says_or_else_for_what_it_defines(given, fo
         assert str(told.value).endswith("another name") or "another name" not in found
 
 
+def test_where_there_are_no_exercises_that_is_said(monkeypatch):
+    monkeypatch.setattr(finding, "exercises", dict)
+    with pytest.raises(InputError, match=r"the exercises' functions \(there are none\)$"):
+        exercises_in(of("a.py", "pose"))
+
+
 def test_an_exercise_is_found_by_its_name():
     assert find_exercise("match").name == "match"
     with pytest.raises(InputError, match=r"^no exercise is named 'mach'; did you mean match"):

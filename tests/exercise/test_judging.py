@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from workbench.exercise.judging import (
+    SKEWED,
     beside,
     changed,
     degrees_between,
@@ -73,6 +74,13 @@ def test_a_motion_earns_what_the_worse_of_turn_and_place_earns(T, share, said):
     verdict = motion_verdict(T, RIGHT, "Look.")
     assert verdict.share == share
     assert said in verdict.message
+
+
+def test_a_last_row_is_right_within_rounding():
+    for off, share in ((SKEWED, 1.0), (1.01 * SKEWED, 0.0)):
+        T = np.eye(4)
+        T[3, 0] = off
+        assert motion_verdict(T, RIGHT, "Look.").share == share
 
 
 def test_a_motion_is_judged_where_it_is_farthest_off():

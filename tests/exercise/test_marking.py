@@ -1,11 +1,13 @@
 """Which of a student's files are graded for which exercise, and what is said of the others."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
+import workbench
 from tests.exercise.centroid import EXERCISE
-from workbench.exercise import finding
+from workbench.exercise import finding, marking
 from workbench.exercise.marking import Asked, chosen, digest, grade_student, marked, not_handed_in
 from workbench.exercise.sandbox import Wall
 from workbench.exercise.submissions import HandIn
@@ -60,6 +62,15 @@ SEVERAL = "centroid is in several files (a.py, b.py): leave one of them"
             {"my_centroid.py": "import a\n" + RIGHT, "a.py": RIGHT + NONE},
             (),
             {"graded": [("my_centroid.py", "centroid")]},
+        ),
+        (
+            {"a.py": "import my_middle\n" + RIGHT, "my_middle.py": MIDDLE, "b.py": "import a\n"},
+            (),
+            {
+                "graded": [("my_middle.py", "middle")],
+                "notes": ["b.py: defines none of the exercises' functions (centroid, middle)"],
+                "missing": [],
+            },
         ),
         (
             {"a.py": RIGHT, "b.py": NONE, "c.py": "def f(:\n"},
@@ -151,6 +162,13 @@ def test_a_kept_result_agrees_with_all_that_made_it():
     made = [digest(*pair) for pair in ((handed, asked), *others)]
     assert len(set(made)) == len(made)
     assert digest(replace(handed), replace(asked)) == made[0]
+
+
+def test_a_grader_is_told_by_the_workbench_s_own_text(monkeypatch):
+    read = []
+    monkeypatch.setattr(marking, "_text", lambda folder: read.append(folder) or "its text")
+    assert marking._grader.__wrapped__().startswith("its text ")
+    assert read == [Path(workbench.__file__).parent]
 
 
 def test_what_goes_wrong_with_one_student_is_a_line_of_the_result(monkeypatch):

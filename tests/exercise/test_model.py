@@ -46,6 +46,8 @@ def test_a_number_and_the_right_one_have_digits_enough_to_differ():
     assert against(1.5, 1.5, unit="m") == "1.5 m, right is 1.5 m"
     assert against(1e-19, 0.0, unit="m") == "0 m, right is 0 m (off by 1e-19 m)"
     assert against(0.123456, 0.2, 2) == "0.12, right is 0.2"
+    for pair in ((2e7 + 0.1, 2e7 + 0.4), (2e7 + 0.4, 2e7 + 0.1)):
+        assert against(*pair).endswith("(off by 0.3)")
 
 
 @pytest.mark.parametrize(

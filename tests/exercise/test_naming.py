@@ -103,6 +103,35 @@ def test_one_answer_is_enough_where_nothing_else_was_answered():
     assert grade_function(len, exercise).mistake is None
 
 
+def test_numbers_that_chance_would_hardly_give_speak_louder_than_whole_ones():
+    """Where other checks fail otherwise, two are enough, and they are the mistake's, not
+    the right ones.
+    """
+    half = mistake("You halved it.")(lambda p: len(p) / 2)
+    one_more = mistake("You counted one too many.")(lambda p: len(p) + 1)
+
+    def counts(n):
+        def judge(candidate):
+            """The rows are counted."""
+            right = candidate(np.zeros((n, 3))) == n
+            return full("Right.") if right else fail("Wrong.")
+
+        judge.__name__ = f"counts_{n}"
+        return check(1)(judge)
+
+    def named(one):
+        exercise = replace(
+            EXERCISE,
+            contract=contract(slot="turn")(len),
+            checks=(counts(3), counts(5), counts(4)),
+            mistakes=(one,),
+        )
+        return grade_function(lambda p: one.function(p) if len(p) % 2 else -1, exercise).mistake
+
+    assert named(half) is half
+    assert named(one_more) is None
+
+
 def test_of_two_mistakes_with_the_same_answers_none_is_named():
     assert report(of_sum, PLAIN, mistake("You did not divide.")(of_sum)).mistake is None
 

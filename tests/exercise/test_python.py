@@ -1,0 +1,29 @@
+"""What of this machine a student's process sees: the folders that its Python needs, once each."""
+
+import os
+import sys
+from pathlib import Path
+
+from workbench.exercise.sandbox import python
+
+
+def inside(path: str, tree: str) -> bool:
+    return Path(tree) in (Path(path), *Path(path).parents)
+
+
+def test_each_folder_is_bound_once_and_python_s_own_library_is_among_them():
+    trees = python.here().trees
+    system = (python._libraries(path) for path in python.SYSTEM if not os.path.islink(path))
+    for path in (os.path.realpath(os.__file__), *filter(os.path.isdir, system)):
+        assert any(inside(path, tree) for tree in trees)
+    for tree in trees:
+        assert not any(inside(tree, other) for other in trees if other != tree)
+
+
+def test_of_a_system_s_libraries_only_those_of_its_machine_are_seen(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys.implementation, "_multiarch", "some-linux-gnu", raising=False)
+    assert python._libraries(str(tmp_path)) == str(tmp_path)
+    (tmp_path / "some-linux-gnu").mkdir()
+    assert python._libraries(str(tmp_path)) == str(tmp_path / "some-linux-gnu")
+    monkeypatch.delattr(sys.implementation, "_multiarch")
+    assert python._libraries(str(tmp_path)).rstrip("/") == str(tmp_path)
