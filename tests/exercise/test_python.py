@@ -1,10 +1,10 @@
-"""What of this machine a student's process sees: the folders that its Python needs, once each."""
+"""What a student's process sees of this machine: the folders that its Python needs, once each."""
 
 import os
 import sys
 from pathlib import Path
 
-from workbench.exercise.sandbox import python
+from workbench.exercise.sandbox import SandboxedFunction, python
 
 
 def inside(path: str, tree: str) -> bool:
@@ -27,3 +27,10 @@ def test_of_a_system_s_libraries_only_those_of_its_machine_are_seen(tmp_path, mo
     assert python._libraries(str(tmp_path)) == str(tmp_path / "some-linux-gnu")
     monkeypatch.delattr(sys.implementation, "_multiarch")
     assert python._libraries(str(tmp_path)).rstrip("/") == str(tmp_path)
+
+
+def test_a_function_does_not_see_how_its_process_was_started(tmp_path):
+    given = tmp_path / "given.py"
+    given.write_text("import sys\n\ndef f():\n    return len(sys.argv)\n")
+    with SandboxedFunction(given, "f") as student:
+        assert student() == 1

@@ -2,6 +2,7 @@
 time and memory.
 """
 
+import ast
 import json
 import resource
 
@@ -108,6 +109,24 @@ def test_no_process_stays_behind():
 )
 def test_names_are_known_without_running_anything(text, names):
     assert reading.read("a.py", text.encode())["defines"] == names
+
+
+@pytest.mark.parametrize(
+    ("written", "text"),
+    [
+        ("'os'", "os"),
+        ("'o' + 's'", "os"),
+        ("'a' + 'b' + 'c'", "abc"),
+        ("'a' + x + 'b'", None),
+        ("'a' + 1", None),
+        ("x + 'a'", None),
+        ("1", None),
+        ("x", None),
+        ("'a' * 2", None),
+    ],
+)
+def test_a_text_is_put_together_only_where_all_its_pieces_are_there(written, text):
+    assert reading.text_of(ast.parse(written, mode="eval").body) == text
 
 
 def test_imports_are_listed_once_and_no_more_than_some():

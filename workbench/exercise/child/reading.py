@@ -225,7 +225,7 @@ def text_of(node: ast.expr) -> str | None:
     while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
         pieces.append(text_of(node.right) if isinstance(node.right, ast.Constant) else None)
         node = node.left
-    if not pieces or not isinstance(node, ast.Constant):
+    if not isinstance(node, ast.Constant):
         return None
     pieces.append(text_of(node))
     return None if None in pieces else "".join(reversed([piece or "" for piece in pieces]))
