@@ -123,6 +123,14 @@ def test_a_result_that_was_half_written_is_graded_again(tmp_path):
     assert json.loads(kept.read_text())["student"] == "student000"
 
 
+def test_where_results_cannot_be_written_that_is_told_before_anybody_is_graded(tmp_path):
+    write_class(tmp_path / "in", 1)
+    (tmp_path / "out").write_text("mine")
+    with pytest.raises(InputError, match=r"out: Not a directory$"):
+        classroom.grade_class(tmp_path / "in", tmp_path / "out", progress=pytest.fail)
+    assert (tmp_path / "out").read_text() == "mine"
+
+
 def test_who_interrupts_is_told_how_far_it_came(tmp_path, monkeypatch):
     def interrupted(*places, progress, **how):
         progress("ada", 1, 3)
