@@ -96,6 +96,31 @@ def test_a_wish_of_another_thread_wakes_a_page_at_rest():
     talk(script)
 
 
+def test_news_that_nobody_waits_for_delay_no_step(monkeypatch):
+    news = {"tell": "notice", "text": "saved"}
+
+    async def script(me: Talk) -> None:
+        me.say(verb="open", query="?lesson=fake", lesson="fake")
+        await me.at_rest()
+        shown = asyncio.Queue[str]()
+        for name in ("stepping", "showing"):
+            crew = getattr(me.runs, name)
+
+            async def noted(*args, name=name, do=crew.do):
+                shown.put_nowait(name)
+                return await do(*args)
+
+            monkeypatch.setattr(crew, "do", noted)
+        async with asyncio.timeout(60):
+            me.say(verb="seek", k=2)
+            assert await shown.get() == "stepping"
+            await me.until(lambda message: message["tell"] == "step" and message["k"] == 2)
+            me.student.tell_where(fake.lesson, news)
+            assert await shown.get() == "showing"
+
+    talk(script)
+
+
 def test_another_caption_draws_no_scene_anew():
     async def script(me: Talk) -> None:
         me.say(verb="open", query="?lesson=fake", lesson="fake")

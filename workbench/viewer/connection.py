@@ -144,9 +144,8 @@ class PageConnection:
         if session is None or self.asleep:
             return
         self.runs.scheduler.want(self, session.timeline, session.wanted, self._came)
-        crew = (
-            self.runs.stepping if session.timeline is self._updates.timeline else self.runs.showing
-        )
+        only_steps = self._waits and session.timeline is self._updates.timeline
+        crew = self.runs.stepping if only_steps else self.runs.showing
         for part in await crew.do(self._show, session, bool(requests)):
             await self._send(part)
         timeline = session.timeline

@@ -85,10 +85,10 @@ def _settle(answer: asyncio.Future, found: Any, error: Exception | None) -> None
 class SharedRuns:
     """What the pages of a server share.
 
-    `stepping` shows a step of the run that a page shows already, `showing` the first of another,
-    which costs several times as much: who only steps does not wait for who moves knobs, nor for
-    who comes, whose page `opening` makes. `asking` answers, `keeping` makes recordings and
-    pictures.
+    `stepping` shows a step that somebody waits for, of the run that their page shows already;
+    `showing` the first step of another, which costs several times as much, and how a run has grown:
+    who only steps does not wait for who moves knobs, nor for who looks on, nor for who comes, whose
+    page `opening` makes. `asking` answers, `keeping` makes recordings and pictures.
 
     Args:
         most_bytes: What runs, their steps' data and lessons' caches may hold together. Runs that
