@@ -45,7 +45,8 @@ def test_triangles_solved_and_judged_together_give_the_states_of_one_by_one():
     p = rng.normal(size=(400, 3))
     q = p @ np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]) + 0.3 + 0.01 * rng.normal(size=p.shape)
     q[:260] = rng.normal(size=(260, 3))
-    pairs, found = np.hstack([p, q]), []
+    pairs = np.hstack([p, q])
+    found = []
     for one in (RIGID, replace(RIGID, solve_each=None)):
         drawn = uniform_samples(400, 3, np.random.default_rng(0))
         samples = chain([np.zeros(3, dtype=int)], drawn)

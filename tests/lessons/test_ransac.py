@@ -294,18 +294,6 @@ def test_the_width_of_the_band_belongs_to_the_noise():
     assert errors[0.25] > 3 * min(low)
 
 
-@pytest.mark.parametrize(
-    ("points", "scenes"), [(50, 60), (60, 60), (200, 60), (600, 24), (5000, 4)]
-)
-def test_many_points_are_studied_in_fewer_scenes_and_the_chart_says_so(points, scenes):
-    params = replace(presets.WIDER, points=points)
-    assert flat.studies(params) == scenes
-    timeline = Timeline(lesson, params)
-    timeline.extend()
-    curve = timeline[0].scene["error/whole"]
-    assert f"{scenes} scenes" in str(curve)
-
-
 def test_points_far_apart_tilt_less():
     votes = flat.votes_by_distance(presets.FAN)
     assert (np.diff(votes) >= 0).all()

@@ -2,12 +2,13 @@
 drawn.
 """
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from lessons.ransac import presets
+from lessons.ransac import flat, presets
 from lessons.ransac.captions import caption
 from lessons.ransac.inputs import Input
 from lessons.ransac.lesson import lesson, setup
@@ -231,3 +232,15 @@ def test_picks_need_enough_different_points():
     np.testing.assert_array_equal(chosen_sample(Input(sample=(1, 2, 4, 9)), subject), [[9, 4, 2]])
     four = rows_of(Input(model="sphere"))
     assert len(chosen_sample(Input(sample=(1, 2, 4, 9)), four)[0]) == 4
+
+
+@pytest.mark.parametrize(
+    ("points", "scenes"), [(50, 60), (60, 60), (200, 60), (600, 24), (5000, 4)]
+)
+def test_many_points_are_studied_in_fewer_scenes_and_the_chart_says_so(points, scenes):
+    params = replace(presets.WIDER, points=points)
+    assert flat.studies(params) == scenes
+    timeline = Timeline(lesson, params)
+    timeline.extend()
+    curve = timeline[0].scene["error/whole"]
+    assert f"{scenes} scenes" in str(curve)
