@@ -30,7 +30,7 @@ STUDIED = np.append(np.arange(5.0, 131.0, 5.0), np.arange(150.0, 301.0, 25.0)) /
 AMONG_WIDTHS = np.flatnonzero(np.isin(WIDTHS, STUDIED))
 APARTS = np.append(np.arange(0.05, 0.5, 0.05), np.arange(0.5, 1.81, 0.1))
 REDRAWN = 30  # times the noise of two points
-MOST_STUDIES, STUDIED_POINTS = 60, 12_000  # scenes, and their points in all
+MOST_STUDIES, STUDIED_POINTS = 60, 12_000  # scenes; fewer where these have so many points in all
 TOGETHER = 4  # of these scenes
 SMALL = 36_000  # numbers in an array: larger ones cost more than the calls that they save
 VOTES = Chart("Votes of each draw", "draw", y_range=(0.0, 40.0))

@@ -155,12 +155,14 @@ def test_while_people_wait_for_something_else_only_what_is_waited_for_is_compute
         scheduler.close()
 
 
-def test_while_pictures_of_other_runs_wait_a_step_is_shown_and_nothing_is_computed_at_rest():
+@pytest.mark.parametrize("what", ["showing", "opening"])
+def test_while_pictures_of_other_runs_wait_a_step_is_shown_and_nothing_is_computed_at_rest(what):
     runs, held = SharedRuns(threads=1), threading.Event()
+    crew = getattr(runs, what)
 
     async def asked() -> None:
-        expensive = [asyncio.create_task(runs.showing.do(held.wait, 60)) for _ in range(9)]
-        while not runs.showing.is_behind():
+        expensive = [asyncio.create_task(crew.do(held.wait, 60)) for _ in range(9)]
+        while not crew.is_behind():
             await asyncio.sleep(0.001)
         assert await runs.stepping.do(lambda: "a step") == "a step"
         assert runs.scheduler._busy()

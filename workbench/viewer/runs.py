@@ -102,9 +102,8 @@ class SharedRuns:
         self.stepping, self.showing = Crew("stepping", 2), Crew("showing", 2)
         self.opening, self.asking = Crew("opening", 1), Crew("asking", 1)
         self.keeping = Crew("keeping", 1)
-        self.scheduler = Scheduler(
-            threads, busy=lambda: self.stepping.is_behind() or self.showing.is_behind()
-        )
+        awaited = (self.stepping, self.showing, self.opening)
+        self.scheduler = Scheduler(threads, busy=lambda: any(crew.is_behind() for crew in awaited))
         self._most_bytes = most_bytes
         self._steps: weakref.WeakKeyDictionary[Timeline, Steps] = weakref.WeakKeyDictionary()
         self._lock = threading.Lock()

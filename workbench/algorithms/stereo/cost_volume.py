@@ -107,7 +107,7 @@ def ncc_cost_volume(left: Grey, right: Grey, max_disparity: int, window: int = 3
 def census(picture: Grey) -> UInt32[np.ndarray, "h w"]:
     """Return a 24-bit code: whether each neighbour in a 5 x 5 window is darker than the pixel."""
     h, w = picture.shape
-    padded = np.pad(picture, 2, mode="edge")
+    padded = _edged(picture, 2)
     neighbours = [(dy, dx) for dy in range(5) for dx in range(5) if (dy, dx) != (2, 2)]
     code = np.zeros((h, w), np.uint32)
     # eight bits at a time in bytes, which numpy handles four times as fast
