@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import scipy
 
 from lessons.icp.inputs import Input
 from workbench.data.files import read_cloud, read_pose
@@ -18,6 +19,7 @@ from workbench.data.thinning import some_points, spacing, voxel_means
 from workbench.errors import InputError
 from workbench.geometry.motions import apply, exp_so3, inverse, motion, turn_about
 from workbench.geometry.motions.alignment import MotionError, motion_error
+from workbench.geometry.points.nearest import tree_of
 from workbench.geometry.points.normals import Normals
 from workbench.knobs import called
 from workbench.lesson import cached
@@ -45,6 +47,7 @@ class Scans:
         p_source_shown: The source likewise, before any motion.
         n_target: Gives the normals of the target, each computed when first asked for: unit vectors,
             or zero for a point that shall not pull because its neighbours lie along a line.
+        tree: Gives the target's k-d tree.
     """
 
     p_target: np.ndarray
@@ -59,6 +62,7 @@ class Scans:
     p_target_shown: np.ndarray
     p_source_shown: np.ndarray
     n_target: Callable[[], Normals]
+    tree: Callable[[], "scipy.spatial.KDTree"]
 
     @property
     def known(self) -> bool:
@@ -132,6 +136,7 @@ def sampled(params: Input) -> Scans:
     wrong = {"overlap": params.overlap, "noise": params.noise, "outliers": params.outliers}
     scans = pair(params.shape, params.points, np.eye(4), rng, **wrong)
     p, q = scans.p_target, scans.p_source
+    tree = _tree_when_asked(p)
     return Scans(
         p_target=p,
         p_source=q,
@@ -144,7 +149,8 @@ def sampled(params: Input) -> Scans:
         cell=0.5,
         p_target_shown=p,
         p_source_shown=q,
-        n_target=_normals_when_asked(p, spread=False),
+        tree=tree,
+        n_target=_normals_when_asked(p, tree, spread=False),
     )
 
 
@@ -214,6 +220,7 @@ def _framed(p_target: np.ndarray, p_source: np.ndarray, how: Frame, spread: bool
     middle.
     """
     target_shown, cell = how.shown(p_target), round_below(0.5 / how.scale)
+    tree = _tree_when_asked(p_target)
     return Scans(
         p_target=p_target,
         p_source=p_source,
@@ -226,9 +233,16 @@ def _framed(p_target: np.ndarray, p_source: np.ndarray, how: Frame, spread: bool
         cell=cell,
         p_target_shown=target_shown,
         p_source_shown=how.shown(p_source),
-        n_target=_normals_when_asked(p_target, spread=spread),
+        tree=tree,
+        n_target=_normals_when_asked(p_target, tree, spread=spread),
     )
 
 
-def _normals_when_asked(p: np.ndarray, *, spread: bool) -> Callable[[], Normals]:
-    return functools.cache(functools.partial(Normals, p, spread=spread))
+def _tree_when_asked(p: np.ndarray) -> Callable[[], "scipy.spatial.KDTree"]:
+    return functools.cache(functools.partial(tree_of, p))
+
+
+def _normals_when_asked(
+    p: np.ndarray, tree: Callable[[], "scipy.spatial.KDTree"], *, spread: bool
+) -> Callable[[], Normals]:
+    return functools.cache(lambda: Normals(p, spread=spread, tree=tree()))

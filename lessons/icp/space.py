@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from lessons.icp.inputs import Input
 from lessons.icp.scans import Scans, sampled, scans_of
@@ -82,7 +81,7 @@ def _steps(
         T_start,
         n_target=scans.n_target().at if params.fit == "point-to-plane" else None,
         gate=gate_of(params, scans),
-        match=match,
+        match=match or icp.matcher(scans.p_target, p_source, scans.tree()),
         align=fits.get(params.fit, align or align_rigid),
         step=step or point_to_plane_step,
         max_iterations=MAX_ITERATIONS,
@@ -140,6 +139,7 @@ def errors_by_share(params: Input) -> np.ndarray:
                 scans.p_target,
                 scans.p_source,
                 scans.T_start,
+                match=icp.matcher(scans.p_target, scans.p_source, scans.tree()),
                 gate=icp.Gate(keep=share),
                 max_iterations=MAX_ITERATIONS,
                 tolerance=TOLERANCE,
@@ -156,7 +156,7 @@ def cost_of_turns(scans: Scans, degrees: np.ndarray) -> np.ndarray:
     placed = apply(scans.T_truth, scans.p_source[every(len(scans.p_source), TURNED)])
     about_vertical = turns(np.radians(degrees)[:, None] * [0.0, 0.0, 1.0])
     p_turned = placed @ about_vertical.swapaxes(1, 2)
-    gaps = scipy.spatial.KDTree(scans.p_target).query(p_turned)[0]
+    gaps = scans.tree().query(p_turned)[0]
     return np.sqrt(np.square(gaps).mean(axis=1))
 
 

@@ -112,6 +112,7 @@ def test_a_cell_plays_in_jupyterlab(chromium, notebook):
         "-m",
         "jupyterlab",
         "--no-browser",
+        "--core-mode",  # whatever else is installed may ask for a build
         "--port=0",
         "--IdentityProvider.token=",
         "--allow-root",
@@ -134,13 +135,14 @@ def test_a_cell_plays_in_jupyterlab(chromium, notebook):
             page.goto(f"{address}/lab/tree/run.ipynb?reset")
             page.locator(".jp-Notebook .jp-CodeCell").first.wait_for()
             shown = page.locator(".jp-OutputArea-output iframe")
+            # JupyterLab asks at any time, such as which kernel is meant
+            page.add_locator_handler(
+                page.locator("dialog.jp-Dialog"),
+                lambda dialog: dialog.locator(".jp-mod-accept").first.click(),
+            )
             for _ in range(10):  # a kernel that is still coming up may let go of what it is asked
-                asked = page.locator(
-                    "dialog.jp-Dialog .jp-mod-accept"
-                )  # JupyterLab's own, such as which kernel is meant
-                if asked.count():
-                    asked.first.click()
                 page.locator(".jp-Notebook .jp-CodeCell .cm-content").first.click()
+                page.locator(".jp-Notebook-ExecutionIndicator[data-status=idle]").wait_for()
                 page.keyboard.press("Control+Enter")
                 with contextlib.suppress(TookTooLong):
                     shown.wait_for(timeout=30_000)

@@ -1,10 +1,10 @@
 """Fewer rows: one per voxel, some by chance, or evenly spaced; and how far apart points are."""
 
 import numpy as np
-import scipy
 from jaxtyping import Float
 
 from workbench.geometry.meshes import distinct_rows
+from workbench.geometry.points.nearest import tree_of
 
 
 def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "m 3"]:
@@ -17,18 +17,20 @@ def voxel_means(p: Float[np.ndarray, "n 3"], size: float) -> Float[np.ndarray, "
     """
     if not size > 0:
         raise ValueError(f"a voxel has a positive size, not {size}")
+    columns = np.ascontiguousarray(p.T)  # long rows: sums over short ones are slow
     # stay floats: a far stray point would overflow whole numbers
-    voxels = np.floor((p - p.min(axis=0)) / size)
-    nx, ny, nz = voxels.max(axis=0) + 1
+    voxels = np.floor((columns - columns.min(axis=1, keepdims=True)) / size)
+    nx, ny, nz = voxels.max(axis=1) + 1
     if nx * ny * nz < 2**53:  # each has a number of its own, in the same order
-        voxels = voxels @ np.array([[ny * nz], [nz], [1.0]])
-    order = np.lexsort(voxels.T[::-1])
-    starts = np.flatnonzero(np.r_[True, (np.diff(voxels[order], axis=0) != 0).any(axis=1)])
+        voxels = ((voxels[0] * ny + voxels[1]) * nz + voxels[2])[None]
+    order = np.lexsort(voxels[::-1])
+    starts = np.flatnonzero(np.r_[True, (np.diff(voxels[:, order], axis=1) != 0).any(axis=0)])
+    columns = columns.take(order, axis=1)
     # means about a point of the voxel keep their digits far from the origin
-    origin = p[order[starts]]
+    origin = columns.take(starts, axis=1)
     counts = np.diff(np.r_[starts, len(p)])
-    offsets = p[order] - np.repeat(origin, counts, axis=0)
-    return origin + np.add.reduceat(offsets, starts, axis=0) / counts[:, None]
+    offsets = columns - np.repeat(origin, counts, axis=1)
+    return np.ascontiguousarray((origin + np.add.reduceat(offsets, starts, axis=1) / counts).T)
 
 
 def some_points(
@@ -55,9 +57,7 @@ def spacing(p: Float[np.ndarray, "n 3"]) -> float:
     """
     places = p[distinct_rows(p)[0]]
     some = places[:: max(1, len(places) // 400)]
-    # large leaves, neither balanced nor compacted, are soonest built
-    tree = scipy.spatial.KDTree(places, leafsize=32, balanced_tree=False, compact_nodes=False)
-    distances = np.asarray(tree.query(some, k=min(2, len(places)))[0])
+    distances = np.asarray(tree_of(places).query(some, k=min(2, len(places)))[0])
     return float(np.median(distances.reshape(len(some), -1)[:, -1])) or 1e-9
 
 

@@ -22,6 +22,7 @@ from jaxtyping import Bool, Float, Int
 from workbench.geometry.motions import apply
 from workbench.geometry.motions.alignment import align_rigid, point_to_plane_step
 from workbench.geometry.points.metrics import rms
+from workbench.geometry.points.nearest import check_clouds, tree_of
 from workbench.tracing import traced
 
 Match = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -186,21 +187,21 @@ def icp(
         distances = lengths(p_match - p_moved)
         limit = gate.limit(distances)
         kept = distances <= limit
-        n_match = None if normals_at is None else normals_at(indices)
+        n_kept = None if normals_at is None else normals_at(indices[kept])
         stop = Stop.TOO_FEW_MATCHES if np.count_nonzero(kept) < fewest else None
-        residual = misfit(p_match, p_moved, n_match, distances=distances, kept=kept)
+        residual = misfit(p_match, p_moved, n_kept, distances=distances, kept=kept)
         yield summary(
             "match", iteration, T_target_source, indices, distances, limit, kept, residual, stop
         )
         if stop:
             return
 
-        if n_match is None:
+        if n_kept is None:
             used = (p.compress(kept, axis=0) for p in (p_match, p_source))
             T_new = align(*used)  # step b: Umeyama 1991, eq. 40-42
         else:
-            used = (p.compress(kept, axis=0) for p in (p_match, p_moved, n_match))
-            T_new = step(*used) @ T_target_source  # Low 2004, eq. 10
+            used = (p.compress(kept, axis=0) for p in (p_match, p_moved))
+            T_new = step(*used, n_kept) @ T_target_source  # Low 2004, eq. 10
         if not np.isfinite(T_new).all():
             yield summary(
                 "fit",
@@ -227,7 +228,7 @@ def icp(
         elif iteration == max_iterations:
             stop = Stop.MAX_ITERATIONS
         last_seen[matches] = iteration
-        residual = misfit(p_match, p_moved, n_match, distances=distances, kept=kept)
+        residual = misfit(p_match, p_moved, n_kept, distances=distances, kept=kept)
         yield summary(
             "fit", iteration, T_target_source, indices, distances, limit, kept, residual, stop
         )
@@ -235,17 +236,20 @@ def icp(
             return
 
 
-def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3"]) -> Match:
-    """Return a nearest-neighbour `match` with its tree built; it visits the source in tree order.
+def matcher(
+    p_target: Float[np.ndarray, "m 3"],
+    p_source: Float[np.ndarray, "n 3"],
+    tree: "scipy.spatial.KDTree | None" = None,
+) -> Match:
+    """Return a nearest-neighbour `match`; it visits the source in tree order.
 
     Consecutive queries then touch the same leaves: for 100,000 points in random order that takes a
-    third of the time. So does a tree with large leaves that is neither balanced nor compacted. A
-    point is searched again only once it has moved by half of what its second nearest was farther
-    than its partner: until then no other can be nearer, by the triangle inequality (as Elkan does
-    for k-means, 2003).
+    third of the time. `tree` is the target's, where it has one already. A point is searched again
+    only once it has moved by half of what its second nearest was farther than its partner: until
+    then no other can be nearer, by the triangle inequality (as Elkan does for k-means, 2003).
     """
     check_clouds(p_target, p_source)
-    tree, order = _tree(p_target), _tree(p_source).indices
+    tree, order = tree or tree_of(p_target), tree_of(p_source).indices
     searched_at = np.full(p_source.shape, np.inf)
     partner = np.empty(len(p_source), dtype=np.intp)
     free = np.zeros(len(p_source))  # how far a point may move from there and keep its partner
@@ -263,23 +267,6 @@ def matcher(p_target: Float[np.ndarray, "m 3"], p_source: Float[np.ndarray, "n 3
     return match
 
 
-def _tree(p: np.ndarray) -> "scipy.spatial.KDTree":
-    return scipy.spatial.KDTree(p, leafsize=32, balanced_tree=False, compact_nodes=False)
-
-
-def check_clouds(*clouds: np.ndarray) -> None:
-    """Raise an error unless every cloud has points and all of them are finite.
-
-    Raises:
-        ValueError: If a cloud is empty or holds numbers that are not finite.
-    """
-    for p in clouds:
-        if len(p) == 0:
-            raise ValueError("a cloud has no points")
-        if not np.isfinite(p).all():
-            raise ValueError("a cloud has coordinates that are not finite; drop those points first")
-
-
 def bounding_corners(p: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "8 3"]:
     """Return the corners of the bounding box; no affine map moves a point by more than these."""
     coordinates = np.ascontiguousarray(p.T)
@@ -295,7 +282,7 @@ def lengths(v: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n"]:
 def misfit(
     p_match: Float[np.ndarray, "n 3"],
     p_moved: Float[np.ndarray, "n 3"],
-    n_match: Float[np.ndarray, "n 3"] | None,
+    n_kept: Float[np.ndarray, "k 3"] | None,
     *,
     distances: Float[np.ndarray, "n"],
     kept: Bool[np.ndarray, "n"],
@@ -304,9 +291,9 @@ def misfit(
 
     With normals these are distances to tangent planes, without them `distances`.
     """
-    if n_match is not None:
-        distances = np.einsum("ij,ij->i", p_match - p_moved, n_match)
-    return rms(distances[kept])
+    if n_kept is None:
+        return rms(distances[kept])
+    return rms(np.einsum("ij,ij->i", (p_match - p_moved).compress(kept, axis=0), n_kept))
 
 
 def summary(

@@ -18,7 +18,7 @@ import scipy
 from jaxtyping import Bool, Float, Int
 
 from workbench.algorithms.transport.sinkhorn import check_cost, kernel, sinkhorn, tight_potentials
-from workbench.geometry.points.shape_distances import check_clouds
+from workbench.geometry.points.nearest import check_clouds
 
 Cloud = Float[np.ndarray, "n 3"]
 

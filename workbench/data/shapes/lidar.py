@@ -81,14 +81,14 @@ def lidar_scan(
         0, 2 * np.pi / columns
     )
     up = np.linspace(LOWEST, HIGHEST, rings)
-    v_sensor = np.empty((rings, columns, 3))
-    v_sensor[..., 0] = np.cos(up)[:, None] * np.cos(azimuth)
-    v_sensor[..., 1] = np.cos(up)[:, None] * np.sin(azimuth)
-    v_sensor[..., 2] = np.sin(up)[:, None]
-    v_sensor = v_sensor.reshape(-1, 3)
-    distance = _distances(scene, T_world_sensor[:3, 3], v_sensor @ T_world_sensor[:3, :3].T)
+    v_sensor = np.empty((3, rings, columns))
+    v_sensor[0] = np.cos(up)[:, None] * np.cos(azimuth)
+    v_sensor[1] = np.cos(up)[:, None] * np.sin(azimuth)
+    v_sensor[2] = np.sin(up)[:, None]
+    v_sensor = v_sensor.reshape(3, -1)
+    distance = _distances(scene, T_world_sensor[:3, 3], T_world_sensor[:3, :3] @ v_sensor)
     seen = distance < RANGE
-    p_sensor = v_sensor[seen] * distance[seen, None]
+    p_sensor = np.ascontiguousarray((v_sensor.compress(seen, axis=1) * distance[seen]).T)
     return p_sensor + noise * rng.standard_normal(p_sensor.shape)
 
 
@@ -111,44 +111,42 @@ def lidar_pair(
 
 
 def _distances(scene: Street, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
-    """Return how far rays from one place go until they hit something, or infinity."""
+    """Return how far rays (3, n) from one place go until they hit something, or infinity."""
     with np.errstate(divide="ignore", invalid="ignore"):  # rays along an axis
-        hits = np.where(v_world[:, 2] < 0, -p_world[2] / v_world[:, 2], np.inf)
-        flat = np.square(v_world[:, :2]).sum(axis=1)
+        hits = np.where(v_world[2] < 0, -p_world[2] / v_world[2], np.inf)
+        flat = v_world[0] ** 2 + v_world[1] ** 2
         for to_it, things, reaches in (
             (_to_box, scene.boxes, np.hypot(*scene.boxes[:, 3:5].T)),
             (_to_pole, scene.poles, scene.poles[:, 2]),
         ):
             for thing, reach in zip(things, reaches, strict=True):
                 rays = _towards(thing[:2] - p_world[:2], float(reach), v_world, flat=flat)
-                hits[rays] = np.minimum(hits[rays], to_it(thing, p_world, v_world[rays]))
+                hits[rays] = np.minimum(
+                    hits[rays], to_it(thing, p_world, v_world.take(rays, axis=1))
+                )
     return hits
 
 
 def _towards(off: np.ndarray, reach: float, v_world: np.ndarray, *, flat: np.ndarray) -> np.ndarray:
     """Return which rays pass a middle by `reach`; `flat` is their squared length from above."""
-    along = v_world[:, :2] @ off
     beside = off @ off - (1.01 * reach) ** 2  # square of how far it is to the circle's edge
-    return (
-        np.flatnonzero((along > 0) & (along * along >= beside * flat))
-        if beside > 0
-        else np.arange(len(flat))
-    )
+    if beside <= 0:
+        return np.arange(len(flat))
+    along = off[0] * v_world[0] + off[1] * v_world[1]
+    return np.flatnonzero((along > 0) & (along * along >= beside * flat))
 
 
 def _to_box(box: np.ndarray, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
-    R_world_box = exp_so3(np.array([0.0, 0.0, box[6]]))
-    p, v = (p_world - box[:3]) @ R_world_box, np.ascontiguousarray((v_world @ R_world_box).T)
+    R_box_world = exp_so3(np.array([0.0, 0.0, -box[6]]))
+    p, v = R_box_world @ (p_world - box[:3]), R_box_world @ v_world
     first, second = (-box[3:6] - p)[:, None] / v, (box[3:6] - p)[:, None] / v
     enter, leave = np.minimum(first, second).max(axis=0), np.maximum(first, second).min(axis=0)
     return np.where((enter < leave) & (enter > 0), enter, np.inf)
 
 
 def _to_pole(pole: np.ndarray, p_world: np.ndarray, v_world: np.ndarray) -> np.ndarray:
-    off, flat = p_world[:2] - pole[:2], v_world[:, :2]
-    a, b, c = (flat**2).sum(axis=1), flat @ off, off @ off - pole[2] ** 2
+    off, (x, y, z) = p_world[:2] - pole[:2], v_world
+    a, b, c = x * x + y * y, off[0] * x + off[1] * y, off @ off - pole[2] ** 2
     root = b * b - a * c
     s = (-b - np.sqrt(np.maximum(root, 0.0))) / a
-    return np.where(
-        (root > 0) & (s > 0) & (p_world[2] + s * v_world[:, 2] < POLE_HEIGHT), s, np.inf
-    )
+    return np.where((root > 0) & (s > 0) & (p_world[2] + s * z < POLE_HEIGHT), s, np.inf)

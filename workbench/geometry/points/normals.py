@@ -10,7 +10,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import scipy
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
+
+from workbench.geometry.points.nearest import tree_of
 
 CHUNK = 4096
 ALONE = 1000  # points up to which threads cost more than they save
@@ -27,7 +29,8 @@ def point_normals(
     """Return one unit normal per point, by principal components of its k nearest, itself included.
 
     Normals face the viewpoint, or away from the mean. With `spread` those of points whose
-    neighbours lie along a line (`on_a_line`) are 0, unless all are. Hoppe et al. 1992, 3.2.
+    neighbours lie along a line (the second variance at most a fifth
+    of the largest) are 0, unless all are. Hoppe et al. 1992, 3.2.
 
     Raises:
         ValueError: If there are fewer than 3 points, k is below 3, or a coordinate is not finite.
@@ -37,6 +40,8 @@ def point_normals(
 
 class Normals:
     """The normals of a cloud, each computed when it is first asked for: those of `point_normals`.
+
+    `tree` is the cloud's, where it has one already.
 
     Raises:
         ValueError: As `point_normals`.
@@ -49,6 +54,7 @@ class Normals:
         viewpoint: Float[np.ndarray, "3"] | None = None,
         *,
         spread: bool = False,
+        tree: "scipy.spatial.KDTree | None" = None,
     ) -> None:
         if len(p) < 3 or k < 3:
             raise ValueError(
@@ -60,7 +66,7 @@ class Normals:
         self._k = min(k, len(p))
         self._outwards = p - p.mean(axis=0) if viewpoint is None else viewpoint - p
         self._spread = spread
-        self._tree = scipy.spatial.KDTree(p, leafsize=16, balanced_tree=False, compact_nodes=False)
+        self._tree = tree or tree_of(p)
         self._normals = np.empty_like(p, dtype=float)
         self._line = np.ones(len(p), bool)  # unless known better
         self._known = np.zeros(len(p), bool)
@@ -81,23 +87,10 @@ class Normals:
         wanted[rows] = True
         wanted &= ~self._known
         for chunk, covariances in _neighbourhoods(self._p, self._tree, self._k, wanted=wanted):
-            normals = _least_directions(covariances)
+            normals, self._line[chunk] = _directions(covariances)
             inwards = np.einsum("ij,ij->i", normals, self._outwards[chunk]) < 0
             self._normals[chunk] = np.where(inwards[:, None], -normals, normals)
-            if self._spread:
-                self._line[chunk] = on_a_line(covariances)
         self._known |= wanted  # last, for whoever asks meanwhile
-
-
-def on_a_line(covariances: Float[np.ndarray, "6 n"]) -> Bool[np.ndarray, "n"]:
-    """Return of neighbourhoods whether their points lie along a line: a normal means nothing then.
-
-    The second variance is at most a fifth of the largest then, as on one ring of a lidar scan. Rows
-    are xx, yy, zz, xy, xz, yz, up to a factor.
-    """
-    c = _of_trace_one(covariances)
-    least, largest = _extreme_roots(c)
-    return c[:3].sum(axis=0) - least - largest <= LINE * largest
 
 
 def surface_variation(p: Float[np.ndarray, "n 3"]) -> float:
@@ -143,15 +136,18 @@ def _covariances(coordinates: np.ndarray, rows: np.ndarray, neighbours: np.ndarr
     )
 
 
-def _least_directions(c: np.ndarray) -> np.ndarray:
-    """Return the eigenvectors of least eigenvalue of symmetric 3x3 matrices, six entries each.
+def _directions(covariances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return of neighbourhoods the unit vectors of least spread, and which lie along a line.
 
-    By the smallest root of the characteristic polynomial and the longest cross product of two rows
-    of C - root I. Where that is short (two small eigenvalues nearly equal), `eigh` decides.
+    On a line, as on one ring of a lidar scan, the second variance is at most a fifth of the
+    largest, and a normal means nothing. The vector is the longest cross product of two rows of
+    C - root I, where root is the least of the characteristic polynomial; where that is short (two
+    small eigenvalues nearly equal), `eigh` decides.
     """
-    scaled = _of_trace_one(c)
-    root = _extreme_roots(scaled)[0]
-    a, b, d, e, f, g = scaled
+    c = covariances / np.maximum(covariances[:3].sum(axis=0), np.finfo(float).tiny)
+    root, largest = _extreme_roots(c)
+    on_a_line = c[:3].sum(axis=0) - root - largest <= LINE * largest
+    a, b, d, e, f, g = c
     a, b, d = a - root, b - root, d - root
     products = np.stack(  # rows (a e f), (e b g), (f g d) crossed in pairs
         [
@@ -167,13 +163,9 @@ def _least_directions(c: np.ndarray) -> np.ndarray:
     vectors = (products[best, :, columns].T / np.maximum(longest, 1e-300)).T
     unsure = longest < 1e-5
     if unsure.any():
-        matrices = c[:, unsure][[0, 3, 4, 3, 1, 5, 4, 5, 2]].T.reshape(-1, 3, 3)
+        matrices = covariances[:, unsure][[0, 3, 4, 3, 1, 5, 4, 5, 2]].T.reshape(-1, 3, 3)
         vectors[unsure] = np.linalg.eigh(matrices)[1][:, :, 0]
-    return vectors
-
-
-def _of_trace_one(c: np.ndarray) -> np.ndarray:
-    return c / np.maximum(c[:3].sum(axis=0), np.finfo(float).tiny)
+    return vectors, on_a_line
 
 
 def _extreme_roots(c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

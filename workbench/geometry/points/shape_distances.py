@@ -14,6 +14,8 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
+from workbench.geometry.points.nearest import check_clouds, tree_of
+
 Cloud = Float[np.ndarray, "n 3"]
 Definition = Literal["mean of squares", "mean of distances", "sum of squares", "sum of distances"]
 
@@ -60,7 +62,7 @@ def nearest_both_ways(
 ) -> NearestPoints:
     """Return the nearest neighbour of every point of each cloud in the other."""
     check_clouds(p_a, p_b)
-    tree_a, tree_b = _tree(p_a), _tree(p_b)
+    tree_a, tree_b = tree_of(p_a), tree_of(p_b)
     a_to_b, d_a = _query(tree_b, p_a, tree_a)
     b_to_a, d_b = _query(tree_a, p_b, tree_b)
     return NearestPoints(a_to_b, b_to_a, d_a, d_b)
@@ -69,7 +71,7 @@ def nearest_both_ways(
 def one_sided(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) -> float:
     """Return the mean, over the points of a, of the squared distance to the nearest point of b."""
     check_clouds(p_a, p_b)
-    _, d = _query(_tree(p_b), p_a)
+    _, d = _query(tree_of(p_b), p_a)
     return DEFINITIONS["mean of squares"](d)
 
 
@@ -99,7 +101,7 @@ def chamfer_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
 def one_sided_gradient(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> Cloud:
     """Return the gradient of `one_sided` from a to b by p_a, metres."""
     check_clouds(p_a, p_b)
-    a_to_b, _ = _query(_tree(p_b), p_a)
+    a_to_b, _ = _query(tree_of(p_b), p_a)
     return 2 / len(p_a) * (p_a - p_b[a_to_b])
 
 
@@ -127,24 +129,6 @@ def index_mse(p_a: Cloud, p_b: Float[np.ndarray, "m 3"]) -> float:
     return float(np.mean(np.sum((p_a - p_b) ** 2, axis=1)))
 
 
-def check_clouds(*clouds: np.ndarray) -> None:
-    """Raise ValueError unless every cloud has points and all of them are finite.
-
-    Raises:
-        ValueError: If a cloud is empty or holds coordinates that are not finite.
-    """
-    for p in clouds:
-        if len(p) == 0:
-            raise ValueError("a cloud has no points")
-        if not np.isfinite(p).all():
-            raise ValueError("a cloud has coordinates that are not finite; drop those points first")
-
-
-def _tree(p: np.ndarray) -> "scipy.spatial.KDTree":
-    # The fastest of all mixtures tried
-    return scipy.spatial.KDTree(p, leafsize=32, balanced_tree=False, compact_nodes=False)
-
-
 def _query(
     tree: "scipy.spatial.KDTree", p: np.ndarray, tree_of_p: "scipy.spatial.KDTree | None" = None
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -152,7 +136,7 @@ def _query(
     if len(p) < _LARGE:
         d, indices = tree.query(p)
         return np.asarray(indices), np.asarray(d)
-    order = (tree_of_p or _tree(p)).indices
+    order = (tree_of_p or tree_of(p)).indices
     indices, d = np.empty(len(p), np.intp), np.empty(len(p))
     d[order], indices[order] = tree.query(p[order], workers=-1)
     return indices, d
