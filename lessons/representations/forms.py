@@ -106,7 +106,7 @@ def neighbours(params: Params, subject: Subject, functions: Functions) -> Steps:
     for k in range(1, most + 1):
         graph = joined(directed_graph(rows[:, :k]), "union")
         edges = edges_of(graph)
-        away = np.abs(subject.distance(p[edges].mean(axis=1)))
+        away = subject.away(p[edges].mean(axis=1))
         now = Joined(
             p=p,
             k=k,
@@ -279,7 +279,7 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
     for n in (1, 4, 8, 12, 16):
         at = np.concatenate(p[:n])
         faces = np.concatenate([quads + len(uv) * k for k in range(n)])
-        away = np.abs(subject.distance(at))
+        away = subject.away(at)
         surface = Surface(
             p=at,
             faces=faces,

@@ -120,6 +120,7 @@ class Subject:
         volume: The true volume; NaN where it encloses nothing.
         on: Points spread over it.
         quick: Whether its distances are a formula, so that thousands of them cost nothing.
+        unsigned: The distance without its sign, where that is found sooner.
     """
 
     name: str
@@ -132,6 +133,11 @@ class Subject:
     volume: float
     on: np.ndarray
     quick: bool = True
+    unsigned: Callable[[np.ndarray], np.ndarray] | None = None
+
+    def away(self, q: np.ndarray) -> np.ndarray:
+        """Return how far points are from it, inside or outside, m."""
+        return np.abs(self.distance(q)) if self.unsigned is None else self.unsigned(q)
 
     @property
     def closed(self) -> bool:

@@ -18,7 +18,7 @@ from workbench.data.shapes.rabbit import rabbit_mesh
 from workbench.data.thinning import some_points
 from workbench.errors import InputError
 from workbench.geometry.fields import signed_distances
-from workbench.geometry.fields.signed_distances import face_tree, mesh_sdf, torus_sdf
+from workbench.geometry.fields.signed_distances import face_tree, mesh_distance, mesh_sdf, torus_sdf
 from workbench.geometry.meshes import face_normals
 from workbench.geometry.meshes.containment import windings
 from workbench.geometry.meshes.measures import encloses, signed_volume, surface_area
@@ -101,7 +101,7 @@ def measured(subject: Subject, p: np.ndarray, faces: np.ndarray) -> Surface:
         )
     u = spread_numbers()
     q = points_on_faces(p, faces, u)
-    away = np.abs(subject.distance(q))
+    away = subject.away(q)
     return Surface(
         p=p,
         faces=faces,
@@ -229,6 +229,7 @@ def _of_mesh(name: str, p: np.ndarray, faces: np.ndarray) -> Subject:
         volume=signed_volume(p, faces) if closed else float("nan"),
         on=points_on_faces(p, faces, spread_numbers()),
         quick=False,
+        unsigned=lambda q: mesh_distance(mesh, q),
     )
 
 

@@ -84,6 +84,14 @@ def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
 
 def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
     """Return the distance to the nearest triangle, m, negative where a closed mesh winds around."""
+    found = mesh_distance(mesh, q)
+    if mesh.columns is None:
+        return found
+    return np.where(windings(mesh.columns, q) != 0, -found, found)
+
+
+def mesh_distance(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
+    """Return the distance to the nearest triangle, m."""
     near = np.asarray(mesh.middles.query(q)[1], dtype=np.intp).reshape(-1)
     columns_of_q = np.ascontiguousarray(q.T)
     best = _squared_distances(columns_of_q, mesh.corners.take(near, axis=2))
@@ -104,10 +112,7 @@ def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
                 columns_of_q.take(rows[some], axis=1), mesh.corners.take(box[some], axis=2)
             )
             np.minimum.at(best, rows[some], nearer)
-    found = np.sqrt(best)
-    if mesh.columns is None:
-        return found
-    return np.where(windings(mesh.columns, q) != 0, -found, found)
+    return np.sqrt(best)
 
 
 def _squared_beyond(
