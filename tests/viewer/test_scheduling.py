@@ -99,6 +99,37 @@ def test_the_step_that_somebody_waits_for_comes_before_everybody_s_rest(one, ste
     steered.may.release(10_000)
 
 
+@pytest.mark.parametrize("what", ["another run", "something else"])
+def test_a_slice_of_everybody_s_rest_ends_with_the_step_in_which_somebody_comes(
+    steered, what, monkeypatch
+):
+    monkeypatch.setattr(scheduling, "SLICE", 60.0)
+    busy = threading.Event()
+    scheduler = Scheduler(1, busy=busy.is_set)
+    try:
+        resting = steered.run_of(1)
+        scheduler.want("reader", resting, 0, nobody)
+        steered.may.release(3)
+        until(lambda: len(resting) == 3)  # the fourth is being made, in a slice at rest
+        if what == "another run":
+            scheduler.want("me", steered.run_of(2), 0, nobody)
+        else:
+            busy.set()
+        steered.may.release(1)
+        until(lambda: len(resting) == 4)
+        steered.may.release(1)
+        if what == "another run":
+            until(lambda: len(steered.made) == 5)
+            assert steered.made == [1, 1, 1, 1, 2]
+        else:
+            time.sleep(0.1)
+            assert steered.made == [1, 1, 1, 1]
+    finally:
+        scheduler.leave("reader")
+        steered.may.release(10_000)
+        scheduler.close()
+
+
 def test_who_asks_a_lot_delays_only_themselves(one, steered):
     one.want("greedy", steered.run_of(1), -1, nobody)
     until(lambda: len(one) == 1)

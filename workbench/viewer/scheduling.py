@@ -151,7 +151,7 @@ class Scheduler:
             job, calm = found
             job.running, self._began[here] = True, time.monotonic()
             self._resting += calm
-        self._slice(job)
+        self._slice(job, calm)
         with self._changed:
             self._resting -= calm
             late = time.monotonic() - self._began.pop(here) > STUCK
@@ -187,7 +187,7 @@ class Scheduler:
             return None
         return BUSY if self._busy() else max(0.001, min(due))
 
-    def _slice(self, job: _Job) -> None:
+    def _slice(self, job: _Job, calm: bool) -> None:
         timeline, end = job.timeline, time.perf_counter() + SLICE
         awaited = [k for k in tuple(job.wanted.values()) if k >= len(timeline)]
         nearest = min(awaited, default=None)
@@ -195,8 +195,17 @@ class Scheduler:
             while job.wanted and timeline.extend() and time.perf_counter() < end:
                 if nearest is not None and len(timeline) > nearest:
                     break  # somebody's step has come
+                if calm and self._pressing():
+                    break  # somebody has come who waits
         except BaseException as error:  # whatever a lesson raises ends its own run only
             timeline.give_up(f"lesson {timeline.lesson.name}: {error!r}", traceback.format_exc())
+
+    def _pressing(self) -> bool:
+        """Tell whether somebody waits, for a run or for something else."""
+        with self._changed:
+            return self._busy() or any(
+                job.waiting() for job in self._jobs.values() if not job.running
+            )
 
     def _served(self, job: _Job) -> list[Callable[[], None]]:
         """Note that a run had its turn; return whom to tell of it."""
