@@ -132,6 +132,9 @@ def reading_files():
     assert not pathlib.Path("none").exists()
     assert inspect.getsource(json)
     assert sys.stdin.read() == ""
+    for device, count in (("null", 0), ("zero", 4), ("urandom", 4), ("random", 4)):
+        with open(f"/dev/{device}", "rb", buffering=0) as file:
+            assert len(file.read(4)) == count
 
 
 def asking_about_itself():

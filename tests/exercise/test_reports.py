@@ -173,7 +173,9 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path):
     with pytest.raises(InputError, match=r"file/result\.json: File exists"):
         reports.write_files([HALF], tmp_path / "file")
     reports.write_files([HALF], tmp_path / "new" / "folder", [LOST])
-    result = json.loads((tmp_path / "new" / "folder" / "result.json").read_text())
+    text = (tmp_path / "new" / "folder" / "result.json").read_text()
+    assert '\n   "exercise": ' in text, "a person can read it, too"
+    result = json.loads(text)
     assert [report["points"] for report in result["reports"]] == [3]
     assert result["ungraded"] == [LOST]
     assert LOST == {
