@@ -8,8 +8,9 @@ Reference: Foley, van Dam, Feiner and Hughes, Computer Graphics, 2nd ed., 3.6 (s
 15.4 (z-buffer).
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from itertools import groupby
 
 import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
@@ -136,9 +137,8 @@ def render(
     window = _window(K, width, height, distortion) * (1.0 if to_pixels is None else STRAY)
     eye = _Eye(see, T_camera_world, width, height, near, any(distortion), window)
     draw = {MeshItem: _draw_mesh, SegmentItem: _draw_segments, PointItem: _draw_points}
-    return _resolve(
-        [draw[type(item)](item, eye) for item in items], width, height, background=background
-    )
+    parts = [draw[type(item)](item, eye) for item in _meshes_joined(items)]
+    return _resolve(parts, width, height, background=background)
 
 
 def in_sight(
@@ -154,6 +154,21 @@ def in_sight(
     inside = np.asarray(((uv >= 1.0) & (uv <= np.array([w, h]) - 2.0)).all(axis=1))
     column, row = np.where(inside[:, None], uv, 0.0).round().astype(int).T
     return inside & (np.abs(depth[row, column] - z) < 0.02 * z)
+
+
+def _meshes_joined(items: Iterable[Item]) -> Iterator[Item]:
+    """Yield the items with meshes that follow each other as one: each costs calls of its own."""
+    for is_mesh, group in groupby(items, lambda item: isinstance(item, MeshItem)):
+        if not is_mesh:
+            yield from group
+            continue
+        meshes = [item for item in group if isinstance(item, MeshItem)]
+        before = np.cumsum([0, *(len(mesh.p_world) for mesh in meshes[:-1])])
+        yield MeshItem(
+            np.concatenate([mesh.p_world for mesh in meshes]),
+            np.concatenate([mesh.faces + n for mesh, n in zip(meshes, before, strict=True)]),
+            np.concatenate([mesh.colors for mesh in meshes]),
+        )
 
 
 def _resolve(
@@ -254,26 +269,25 @@ def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
     left, right = np.zeros(len(v)), np.full(len(v), eye.width - 1.0)
     slack = SLACK[eye.bends]
     for k in range(3):
-        rise, run = edge[triangle, k, 1], edge[triangle, k, 0]
+        rise = edge[:, k, 1]
         with np.errstate(divide="ignore", invalid="ignore"):
-            crossing = uv[triangle, k, 0] + (v - uv[triangle, k, 1]) * run / rise
-        opens = rise * area[triangle] < 0  # the inside is to the right of this edge
-        np.maximum(left, crossing - slack, out=left, where=opens & (rise != 0))
-        np.minimum(right, crossing + slack, out=right, where=~opens & (rise != 0))
+            slope = (edge[:, k, 0] / rise)[triangle]
+            crossing = uv[triangle, k, 0] + (v - uv[triangle, k, 1]) * slope
+        opens, closes = rise * area < 0, rise * area > 0  # the inside is to the right of this edge
+        np.maximum(left, crossing - slack, out=left, where=opens[triangle])
+        np.minimum(right, crossing + slack, out=right, where=closes[triangle])
     left, right = np.ceil(left).astype(np.intp), np.floor(right).astype(np.intp)
+    # 1/Z at the first corner's u of each row, and from there on
+    at_corner = w[triangle, 0] + w_v[triangle] * (v - uv[triangle, 0, 1])
+    corner, along = uv[triangle, 0, 0], w_u[triangle]
+    # a sliver's slope may overshoot beyond its corners, where no depth is
+    least, most = (over_corners(choose, w)[triangle] for choose in (np.minimum, np.maximum))
     span, u = _ragged(np.maximum(right - left + 1, 0))
-    u = u + left[span]
-    triangle, v = triangle[span], v[span]
-    inverse_depth = (
-        w[triangle, 0]
-        + w_u[triangle] * (u - uv[triangle, 0, 0])
-        + w_v[triangle] * (v - uv[triangle, 0, 1])
-    )
-    # A sliver's slope may overshoot beyond its corners, where no depth is.
-    inverse_depth = np.clip(
-        inverse_depth, over_corners(np.minimum, w)[triangle], over_corners(np.maximum, w)[triangle]
-    )
-    return _Fragments(v * eye.width + u, inverse_depth, owner[kept][triangle], colors)
+    u += left[span]
+    inverse_depth = at_corner[span] + along[span] * (u - corner[span])
+    inverse_depth = np.clip(inverse_depth, least[span], most[span])
+    u += (v * eye.width)[span]
+    return _Fragments(u, inverse_depth, owner[kept][triangle][span], colors)
 
 
 def _ragged(counts: Int[np.ndarray, " n"]) -> tuple[Int[np.ndarray, " m"], Int[np.ndarray, " m"]]:
