@@ -8,7 +8,7 @@ import pytest
 
 from tests import fake
 from workbench.page.charts import chart_of, outline, series_of
-from workbench.page.plots import plot_of
+from workbench.page.plots import line_of, plot_of
 from workbench.page.steps import Steps
 from workbench.run.timeline import Series, Timeline
 from workbench.scene import Caption, Chart, Curve, Scalar
@@ -42,8 +42,8 @@ def test_a_logarithmic_chart_shows_the_numbers_and_keeps_its_mark_on_the_axis():
     x = np.arange(4.0)
     kept: list[dict[str, Any]] = []
 
-    def keep(curve: dict[str, Any]) -> int:
-        kept.append(curve)
+    def keep(curve: Curve) -> int:
+        kept.append(line_of(curve))
         return len(kept) - 1
 
     parts = [chart.whole(x, np.array([100.0, 10.0, 1.0, 0.0]), "c"), chart.mark(3.0, 0.0, "m")]

@@ -6,9 +6,10 @@ import numpy as np
 
 from tests import fake
 from workbench.page.legend import legend_html
+from workbench.page.plots import line_of
 from workbench.page.steps import Steps
 from workbench.run.timeline import Timeline
-from workbench.scene import Field, Picture
+from workbench.scene import Chart, Field, Picture
 
 
 def test_steps_are_the_same_in_whatever_order_they_are_asked_for():
@@ -49,3 +50,26 @@ def test_the_legend_names_what_is_in_space_and_a_picture_beside_has_a_bar_of_its
     field = Field(np.zeros((2, 3)), 0.0, 31.0, "Disparity", "px")
     assert "Disparity" in legend_html({"map": Picture(field, width=1.0)}, None)
     assert legend_html({"map": Picture(field)}, None) == ""
+
+
+def test_a_line_is_written_once_for_all_steps_with_its_numbers(monkeypatch):
+    written = []
+
+    def noted(curve):
+        written.append(curve.name)
+        return line_of(curve)
+
+    monkeypatch.setattr("workbench.page.steps.line_of", noted)
+    chart, x = Chart("Cost"), np.arange(5.0)
+    steps = Steps(Timeline(fake.lesson, fake.Params()))
+
+    def shown(y, name="c", color="source"):
+        scene = {"line": chart.whole(x.copy(), y, name, color), "here": chart.mark(1.0, y[1], "m")}
+        (n,) = steps._shown(scene)
+        return steps.things[n]["whole"]
+
+    first = shown(x**2)
+    assert shown(x**2) == first
+    assert written == ["c"]
+    assert len({*first, *shown(x**3), *shown(x**2, "d"), *shown(x**2, "c", "wrong")}) == 4
+    assert shown(np.append(x[:-1], np.nan) ** 2) != first

@@ -2,6 +2,7 @@
 steps of a run.
 """
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -134,17 +135,22 @@ def series_charts(series: Mapping[str, Series], known: int) -> dict[str, Any]:
 
 
 def _curve(curve: Curve) -> dict[str, Any]:
-    order = np.argsort(curve.x, kind="stable")
     return {
         "name": curve.name,
         "kind": curve.kind,
         "color": css_color(PALETTE[curve.color]),
-        "x": [number(value) for value in curve.x[order]],
-        "y": [number(value) for value in curve.y[order]],
-        "marks": [number(value) for value in curve.marks],
+        **in_order(curve),
+        "marks": numbers(curve.marks),
     }
 
 
-def number(value: float) -> float | None:
-    """Return a number with the digits that a curve needs; None where there is none."""
-    return float(f"{float(value):.6g}") if np.isfinite(value) else None
+def in_order(curve: Curve) -> dict[str, list[float | None]]:
+    """Return the numbers of a curve from left to right."""
+    order = np.argsort(curve.x, kind="stable")
+    return {"x": numbers(curve.x[order]), "y": numbers(curve.y[order])}
+
+
+def numbers(values: np.ndarray | Sequence[float]) -> list[float | None]:
+    """Return numbers with the digits that a curve needs; None where there is none."""
+    plain = np.asarray(values, float).tolist()
+    return [float(f"{value:.6g}") if math.isfinite(value) else None for value in plain]

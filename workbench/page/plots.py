@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from workbench.page.charts import number as digits
-from workbench.page.charts import slug
+from workbench.page.charts import in_order, numbers, slug
 from workbench.scene import Chart, Curve
 from workbench.words.axis import Axis, axis, number, of_powers, ticks, value_axis
 
@@ -24,12 +23,13 @@ DEGREES = (15.0, 30.0, 45.0, 60.0, 90.0, 180.0)
 """Steps between the ticks of angles, where those of ten would look odd."""
 
 
-def plot_of(parts: Sequence[Curve], keep: Callable[[dict[str, Any]], int]) -> dict[str, Any]:
+def plot_of(parts: Sequence[Curve], keep: Callable[[Curve], int]) -> dict[str, Any]:
     """Return the large chart of a step.
 
     Args:
         parts: What `draw` made with the verbs of one Chart.
-        keep: Keeps a curve that may come again with another step, and returns its number.
+        keep: Keeps the `line_of` a curve, which may come again with another step, and returns its
+            number.
     """
     chart = parts[0].plot
     assert chart is not None, "the verbs of a Chart name it"
@@ -54,15 +54,14 @@ def plot_of(parts: Sequence[Curve], keep: Callable[[dict[str, Any]], int]) -> di
         "y": asdict(y_axis(chart, by_part, None)),
         **({"log": True} if chart.log else {}),
         "near": None if chart.near is None else _near(chart, parts, by_part),
-        "whole": [keep(_line(curve)) for curve in by_part["whole"]],
-        "seconds": [keep(_line(curve)) for curve in by_part["second"]],
+        "whole": [keep(curve) for curve in by_part["whole"]],
+        "seconds": [keep(curve) for curve in by_part["second"]],
         "marks": [_mark(curve) for curve in by_part["mark"]],
         "bands": [
             {
                 "name": one.name,
                 "color": one.color,
-                "low": digits(one.x[0]),
-                "high": digits(one.x[1]),
+                **dict(zip(("low", "high"), numbers(one.x), strict=True)),
             }
             for one in by_part["band"]
         ],
@@ -143,19 +142,13 @@ def _logarithm(curve: Curve, chart: Chart) -> Curve:
     return replace(curve, y=np.log10(np.where(y > 0.0, y, np.nan)))
 
 
-def _line(curve: Curve) -> dict[str, Any]:
-    order = np.argsort(curve.x, kind="stable")
-    return {
-        "kind": "line",
-        "name": curve.name,
-        "color": curve.color,
-        "x": [digits(value) for value in curve.x[order]],
-        "y": [digits(value) for value in curve.y[order]],
-    }
+def line_of(curve: Curve) -> dict[str, Any]:
+    """Return a line of a large chart."""
+    return {"kind": "line", "name": curve.name, "color": curve.color, **in_order(curve)}
 
 
 def _mark(curve: Curve) -> dict[str, Any]:
-    place = {"x": digits(curve.x[0]), "y": digits(curve.y[0])}
+    place = {"x": numbers(curve.x)[0], "y": numbers(curve.y)[0]}
     return (
         {"name": curve.name, "color": curve.color}
         | place

@@ -15,7 +15,7 @@ from workbench.machinery.images import webp_address
 from workbench.page.charts import chart_of, series_charts, series_of, table_html
 from workbench.page.code import moment_data, source_html
 from workbench.page.legend import bar_html, legend_html
-from workbench.page.plots import plot_of
+from workbench.page.plots import line_of, plot_of
 from workbench.run.timeline import Step, Timeline
 from workbench.scene import Curve, Field, Picture, Scene, Table, in_space
 
@@ -159,7 +159,7 @@ class Steps:
             drawn = chart_of(curves)
             found.append(self._number(drawn, repr(drawn)))
         for parts in plots.values():
-            drawn = plot_of(parts, lambda line: self._number(line, repr(line)))
+            drawn = plot_of(parts, self._line)
             found.append(self._number(drawn, repr(drawn)))
         return found
 
@@ -223,6 +223,15 @@ class Steps:
                     content,
                 )
             self._numbers[same] = self._numbers[content]
+        return self._numbers[same]
+
+    def _line(self, curve: Curve) -> int:
+        """Return the number of a line: one that came with another step is not written again."""
+        values = np.stack([curve.x, curve.y]).astype(float)
+        same = curve.name, curve.color, hashlib.sha256(values.tobytes()).digest()
+        if same not in self._numbers:
+            line = line_of(curve)
+            self._numbers[same] = self._number(line, repr(line))
         return self._numbers[same]
 
     def _number(self, thing: Any, key: Any) -> int:
