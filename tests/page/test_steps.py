@@ -1,6 +1,7 @@
 """The data of a run's steps: equal things once, in any order asked for, by many at once."""
 
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import numpy as np
 
@@ -63,7 +64,7 @@ def test_a_line_is_written_once_for_all_steps_with_its_numbers(monkeypatch):
     chart, x = Chart("Cost"), np.arange(5.0)
     steps = Steps(Timeline(fake.lesson, fake.Params()))
 
-    def shown(y, name="c", color="source"):
+    def shown(y: np.ndarray, name: str = "c", color: Any = "source") -> list[int]:
         scene = {"line": chart.whole(x.copy(), y, name, color), "here": chart.mark(1.0, y[1], "m")}
         (n,) = steps._shown(scene)
         return steps.things[n]["whole"]
