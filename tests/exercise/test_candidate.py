@@ -115,6 +115,12 @@ def test_where_the_right_answer_is_infinite_so_may_the_student_s_be():
     np.testing.assert_array_equal(held_to_contract(right, right, "f"), right)
 
 
+def test_our_own_function_divides_by_zero_in_silence():
+    ours = Candidate(lambda p: np.full(2, np.inf), lambda p: 1.0 / p)
+    assert np.isinf(ours(np.zeros(2))).all()
+    assert ours.calls[0].right.error == ""
+
+
 def test_arguments_are_copies_and_who_changes_them_is_noticed():
     def doubling(p, k):
         p *= 2
