@@ -1,6 +1,7 @@
 """What a student's process takes from itself, layer by layer: limits, Landlock alone."""
 
 import ctypes
+import errno
 import importlib
 import json
 import os
@@ -36,6 +37,11 @@ def test_the_numbers_are_the_kernel_s(lockdown, machine):
         "landlock_restrict_self": lockdown.RESTRICT_SELF,
     }.items():
         assert known[name] == str(number), name
+
+
+def test_a_call_that_the_kernel_refuses_is_told(lockdown):
+    with pytest.raises(OSError, match=os.strerror(errno.ENOSYS)):
+        lockdown._call(-1)
 
 
 def test_all_that_a_version_of_landlock_knows_is_denied(lockdown):

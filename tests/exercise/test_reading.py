@@ -5,6 +5,9 @@ time and memory.
 import ast
 import json
 import resource
+import subprocess
+import sys
+import textwrap
 
 import pytest
 
@@ -82,6 +85,32 @@ def test_a_mark_is_found_behind_what_an_editor_puts_before_it(tmp_path, head):
         f" icp.\n{head.strip()[-3:] if '#' not in head else ''}\n{RIGHT}"
     )
     assert [exercise.name for exercise in said_for(read_submission(path))] == ["match"]
+
+
+def test_each_request_may_use_so_many_seconds_of_the_processor():
+    """Of those whose process takes more than that in all, each is answered."""
+    lines = """
+    import time
+    from workbench.exercise.child import reading
+
+    def busy(file, content):
+        end = time.process_time() + 0.8
+        while time.process_time() < end:
+            pass
+        return {}
+
+    reading.SECONDS, reading.read = 2, busy
+    reading.main()
+    """
+    asked = json.dumps({"file": "a.py", "content": ""}) + "\n"
+    said = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(lines)],
+        input=3 * asked,
+        text=True,
+        capture_output=True,
+        check=True,
+    )
+    assert said.stdout == "{}\n" * 3
 
 
 def test_no_process_stays_behind():
