@@ -18,10 +18,15 @@ os.environ |= ONE_EACH  # before numpy is imported; workers inherit it
 import jaxtyping
 import pytest
 from beartype import BeartypeConf
+from hypothesis import HealthCheck, settings
 
 from tests.browser.chrome import HOW_TO, find_chromium, started
 
 ROOT = Path(__file__).resolve().parents[1]
+
+# no example has a deadline: a machine may be busy, and a first call imports and compiles
+settings.register_profile("patient", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("patient")
 
 
 def checked(function_or_class):

@@ -122,7 +122,12 @@ def test_who_did_not_come_to_look_has_refused_nothing(error):
 
 
 @pytest.mark.parametrize(
-    ("value", "said"), [(None, "gave nothing"), (np.zeros(2), "gave an answer ([0. 0.])")]
+    ("value", "said"),
+    [
+        (None, "gave nothing"),
+        (np.zeros(2), "gave an answer ([0. 0.])"),
+        (np.zeros(20), "gave an answer ([0. 0. 0. ... 0. 0. 0.])"),
+    ],
 )
 def test_an_answer_where_an_error_was_asked_for_is_told(value, said):
     verdict = refused(lambda _: value, 0, what="No point")

@@ -108,6 +108,14 @@ SEVERAL = "centroid is in several files (a.py, b.py): leave one of them"
             },
         ),
         (
+            {"m.py": MIDDLE, "a.py": RIGHT},
+            ("centroid",),
+            {
+                "graded": [("a.py", "centroid")],
+                "notes": ["m.py: defines no function centroid"],
+            },
+        ),
+        (
             {"my_middle.py": "def middle(:\n", "a.py": RIGHT},
             (),
             {

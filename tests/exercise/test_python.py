@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-from workbench.exercise.sandbox import SandboxedFunction, python
+from workbench.exercise.sandbox import SandboxedFunction, isolation, python
 
 
 def inside(path: str, tree: str) -> bool:
@@ -27,6 +27,13 @@ def test_of_a_system_s_libraries_only_those_of_its_machine_are_seen(tmp_path, mo
     assert python._libraries(str(tmp_path)) == str(tmp_path / "some-linux-gnu")
     monkeypatch.delattr(sys.implementation, "_multiarch")
     assert python._libraries(str(tmp_path)).rstrip("/") == str(tmp_path)
+
+
+def test_where_no_wall_stands_that_is_told_with_the_reasons(monkeypatch):
+    monkeypatch.setattr(isolation, "_without", lambda name: f"no {name} here")
+    wall = isolation.best.__wrapped__()
+    assert not wall.holds
+    assert wall.why.count(" here; no ") == 1
 
 
 def test_a_function_does_not_see_how_its_process_was_started(tmp_path):

@@ -64,12 +64,15 @@ class FaceTree:
 def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
     """Return a mesh sorted for `mesh_sdf`, worth it for many points; a closed one has an inside."""
     depth = max(len(faces) - 1, 0).bit_length()
-    corners = p[faces][np.minimum(np.arange(2**depth), len(faces) - 1)]
+    face = np.minimum(np.arange(2**depth), len(faces) - 1)
+    middles = p[faces].mean(axis=1).take(face, axis=0)
     for level in range(depth):  # each group in halves, along the longest side of its middles
-        middles = corners.mean(axis=1).reshape(2**level, -1, 3)
-        axis = np.ptp(middles, axis=1).argmax(axis=1)
-        order = np.take_along_axis(middles, axis[:, None, None], axis=2)[:, :, 0].argsort(axis=1)
-        corners = corners[(order + np.arange(2**level)[:, None] * order.shape[1]).ravel()]
+        groups = middles.reshape(2**level, -1, 3)
+        axis = np.ptp(groups, axis=1).argmax(axis=1)
+        order = np.take_along_axis(groups, axis[:, None, None], axis=2)[:, :, 0].argsort(axis=1)
+        place = (order + np.arange(2**level)[:, None] * order.shape[1]).ravel()
+        face, middles = face.take(place), middles.take(place, axis=0)
+    corners = p[faces].take(face, axis=0)
     boxes = [np.stack([corners.min(axis=1), corners.max(axis=1)])]
     for _ in range(depth):
         low, high = boxes[-1].reshape(2, -1, 2, 3)
@@ -77,7 +80,7 @@ def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
     return FaceTree(
         np.ascontiguousarray(corners.transpose(1, 2, 0)),
         tuple(np.ascontiguousarray(level.transpose(0, 2, 1)) for level in boxes[::-1]),
-        scipy.spatial.cKDTree(corners.mean(axis=1)),
+        scipy.spatial.cKDTree(middles),
         columns(p, faces) if closed else None,
     )
 
