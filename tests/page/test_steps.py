@@ -61,7 +61,8 @@ def test_a_line_is_written_once_for_all_steps_with_its_numbers(monkeypatch):
         return line_of(curve)
 
     monkeypatch.setattr("workbench.page.steps.line_of", noted)
-    chart, x = Chart("Cost"), np.arange(5.0)
+    x = np.arange(5.0)
+    chart = Chart("Cost")
     steps = Steps(Timeline(fake.lesson, fake.Params()))
 
     def shown(y: np.ndarray, name: str = "c", color: Any = "source") -> list[int]:

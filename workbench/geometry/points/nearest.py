@@ -1,4 +1,8 @@
-"""What searches for nearest points share: a tree that is soon built, and what a cloud must be."""
+"""What searches for nearest points share: a tree that is soon built, and what a cloud must be.
+
+Reference: Maneewongvatana and Mount, It's okay to be skinny, if your friends are fat, 1999 (the
+sliding midpoint, where scipy's tree is cut that is not balanced).
+"""
 
 import numpy as np
 import scipy
