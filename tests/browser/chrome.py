@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, BrowserContext, Page
+    from playwright.sync_api import Browser, BrowserContext, BrowserType, Page
 
 WAIT = 180_000
 """Milliseconds after which a test gives up: it waits for states, also on a busy machine that draws
@@ -71,17 +71,30 @@ class Chrome:
         page.set_default_timeout(WAIT)
         return page
 
+    @contextmanager
+    def another(self) -> Iterator["Chrome"]:
+        """Start a browser in which nothing was done before; the value opens pages."""
+        browser = _launched(self._browser.browser_type)
+        try:
+            yield Chrome(browser)
+        finally:
+            browser.close()
+
 
 @contextmanager
 def started() -> Iterator[Chrome]:
     """Start a browser; the value opens pages."""
     from playwright.sync_api import sync_playwright
 
-    path = find_chromium()
-    assert path is not None, HOW_TO
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        browser = _launched(playwright.chromium)
         try:
             yield Chrome(browser)
         finally:
             browser.close()
+
+
+def _launched(kind: "BrowserType") -> "Browser":
+    path = find_chromium()
+    assert path is not None, HOW_TO
+    return kind.launch(executable_path=path, args=FLAGS)
