@@ -23,6 +23,9 @@ FLAGS = [
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
+    # what draws by software on a busy machine is slow, not dead
+    "--disable-gpu-watchdog",
+    "--disable-gpu-process-crash-limit",
     # a page around the scene is put together without WebGL's software renderer
     "--disable-gpu-compositing",
     "--disable-gpu-rasterization",
