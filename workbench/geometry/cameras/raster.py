@@ -258,6 +258,8 @@ def _fill(uv, w, owner, *, colors, eye: _Eye) -> _Fragments:
     edge = np.roll(uv, -1, axis=1) - uv
     area = edge[:, 0, 0] * edge[:, 1, 1] - edge[:, 0, 1] * edge[:, 1, 0]
     kept = np.flatnonzero(in_picture & (np.abs(area) > 1e-9))
+    # pieces in the order of their faces, of which the later wins; cutting mixes them
+    kept = kept[np.argsort(owner[kept], kind="stable")]
     uv, w, edge, area, low, high = uv[kept], w[kept], edge[kept], area[kept], low[kept], high[kept]
     w_u = ((w[:, 1] - w[:, 0]) * -edge[:, 2, 1] - (w[:, 2] - w[:, 0]) * edge[:, 0, 1]) / area
     w_v = ((w[:, 2] - w[:, 0]) * edge[:, 0, 0] - (w[:, 1] - w[:, 0]) * -edge[:, 2, 0]) / area
