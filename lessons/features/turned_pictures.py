@@ -10,7 +10,7 @@ import scipy
 from jaxtyping import Float, Int
 
 from workbench.data.files import read_image
-from workbench.data.views.stereo import grey, motorcycle_pair, shrunk
+from workbench.data.views.stereo import grey, motorcycle, shrunk
 from workbench.errors import InputError
 
 Image = Float[np.ndarray, "h w"]
@@ -23,7 +23,7 @@ def motorcycle_levels() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the grey levels of the left and of the right picture of the motorcycle, and the left
     one's true disparity.
     """
-    made = shrunk(motorcycle_pair(), SHRINK)
+    made = shrunk(motorcycle(), SHRINK)
     assert made.disparity is not None
     return grey(made.left), grey(made.right), made.disparity
 

@@ -131,11 +131,18 @@ def motorcycle_pair() -> StereoPair:
     Reference: Scharstein et al., High-resolution stereo datasets with subpixel-accurate ground
     truth, GCPR 2014.
     """
+    pair = motorcycle()
+    assert pair.disparity is not None
+    return replace(pair, visible=in_both(pair.disparity))
+
+
+def motorcycle() -> StereoPair:
+    """Return `motorcycle_pair` without what is visible in both pictures, which takes a while."""
     left, right = (shipped_image(f"motorcycle_{side}.png") for side in ("left", "right"))
     disparity = shipped_array("motorcycle_disp.npz")
     camera = StereoCamera(f=994.978, cx=311.193, cy=254.877, baseline=0.193001, doffs=31.086)
     d = np.where(np.isfinite(disparity), disparity, np.nan).astype(float)
-    return StereoPair(left, right, camera, d, in_both(d))
+    return StereoPair(left, right, camera, d)
 
 
 def read_pair(left: Path, right: Path, f: float, baseline: float, doffs: float = 0.0) -> StereoPair:
@@ -179,9 +186,13 @@ def shrunk(pair: StereoPair, k: int) -> StereoPair:
         return pair
 
     def averaged(picture: np.ndarray) -> np.ndarray:
-        rows = picture[: h * k, : w * k].reshape(h, k, w * k, 3).sum(axis=1, dtype=np.uint32)
-        blocks = rows.reshape(h, w, k, 3).sum(axis=2, dtype=np.float32)
-        return np.rint(blocks / k**2).astype(np.uint8)
+        rows = np.zeros((h, w * k, 3), dtype=np.uint32)
+        for row in range(k):
+            rows += picture[row : h * k : k, : w * k]
+        blocks = np.zeros((h, w, 3), dtype=np.uint32)
+        for column in range(k):
+            blocks += rows[:, column::k]
+        return np.rint(blocks.astype(np.float32) / k**2).astype(np.uint8)
 
     middle = (slice(k // 2, h * k, k), slice(k // 2, w * k, k))
     return replace(

@@ -58,10 +58,16 @@ class Board:
         return tuple(np.array(a, float) for a in (self.p_corner, self.v_right, self.v_down))
 
     def _shares(self, p_eye: np.ndarray, v: np.ndarray, depth: np.ndarray) -> list[np.ndarray]:
-        """Return how far along both sides the rays are at a depth, in shares of them."""
+        """Return how far along both sides the rays are at a depth, in shares of them.
+
+        Most sides lie along an axis: of the others nothing is needed.
+        """
         corner, *sides = self._edges()
-        from_corner = p_eye + depth[..., None] * v - corner
-        return [from_corner @ a / (a @ a) for a in sides]
+        return [
+            sum((p_eye[k] + depth * v[..., k] - corner[k]) * a[k] for k in np.flatnonzero(a))
+            / (a @ a)
+            for a in sides
+        ]
 
 
 @dataclass(frozen=True, eq=False)
