@@ -130,10 +130,8 @@ def overlays(shot: Shot, model: Model) -> Callable[[Stage], np.ndarray]:
         p = np.frombuffer(p_world).reshape(-1, 3).copy()
         return {now.stage: now for now in islice(model(p), len(STAGES) - 1)}
 
-    def overlaid(stage: Stage) -> np.ndarray:
-        if stage in ("world", "camera"):
-            return shot.picture
-        reached: Stage = "pixels" if stage == "back" else stage
+    @cache
+    def laid_over(stage: Stage) -> np.ndarray:
         drawn = render(
             [item],
             shot.T_camera_world,
@@ -141,9 +139,14 @@ def overlays(shot: Shot, model: Model) -> Callable[[Stage], np.ndarray]:
             w,
             h,
             shot.lens,
-            to_pixels=lambda p: calculated(np.asarray(p, float).tobytes())[reached].seen(shot.K),
+            to_pixels=lambda p: calculated(np.asarray(p, float).tobytes())[stage].seen(shot.K),
         )
         shown = np.isfinite(drawn.depth)
         return np.where(shown[..., None], drawn.colors, shot.picture)
+
+    def overlaid(stage: Stage) -> np.ndarray:
+        if stage in ("world", "camera"):
+            return shot.picture
+        return laid_over("pixels" if stage == "back" else stage)
 
     return overlaid
