@@ -29,6 +29,7 @@ from workbench.knobs import ParamField, fields_of
 from workbench.lesson import Lesson, catalog
 from workbench.page.steps import Steps
 from workbench.run.timeline import Timeline
+from workbench.viewer.runs import settle
 
 MOST = 0.1
 """Seconds of processor time that a first picture may need."""
@@ -91,6 +92,7 @@ def additions() -> float:
 def main(names: list[str]) -> None:
     """Print a row per lesson, and below it the knobs whose first picture takes too long."""
     load_parts()  # as the server does when it starts
+    settle()
     print(f"this machine: {ADDITIONS:,} additions in Python take {additions():.2f} s")
     print(
         f"{'processor time, ms':<18}{'opened':>8}{'its run':>9}{'knobs':>7}"

@@ -32,6 +32,7 @@ from lessons.ransac.robust_scenes import match_scene, plane_scene
 from workbench.algorithms.robust.models import FUNDAMENTAL, HOMOGRAPHY, PLANE, Model, rms_distance
 from workbench.algorithms.robust.ransac import Judge, ransac
 from workbench.algorithms.robust.samplers import uniform_samples
+from workbench.viewer.runs import settle
 
 MOST_SAMPLES = 500
 Contender = Callable[[np.ndarray], np.ndarray | None]
@@ -42,6 +43,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=10)
     seeds = range(5000, 5000 + parser.parse_args().seeds)
+    settle()  # as the server does: collections of garbage are no part of an algorithm
     planes = [
         plane_scene(np.random.default_rng(seed), count=5000, outlier_ratio=0.5, sigma=0.01)
         for seed in seeds

@@ -121,12 +121,18 @@ def test_who_did_not_come_to_look_has_refused_nothing(error):
         refused(raising(StudentError("no", "raised", error)), 0, what="No point")
 
 
+LONG = np.array([1_000_000, *6 * [10_000], *5 * [100_000]])
+"""Told in 80 characters, as many as are told whole."""
+
+
 @pytest.mark.parametrize(
     ("value", "said"),
     [
         (None, "gave nothing"),
         (np.zeros(2), "gave an answer ([0. 0.])"),
         (np.zeros(20), "gave an answer ([0. 0. 0. ... 0. 0. 0.])"),
+        (LONG, f"gave an answer ([{' '.join(map(str, LONG))}])"),
+        (10 * LONG, f"gave an answer ([{' '.join(map(str, 10 * LONG))[:76]}...)"),
     ],
 )
 def test_an_answer_where_an_error_was_asked_for_is_told(value, said):

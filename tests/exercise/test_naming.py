@@ -9,7 +9,7 @@ from tests.exercise.centroid import EXERCISE
 from workbench.exercise.candidate import Returned
 from workbench.exercise.grading import Report, grade_function
 from workbench.exercise.model import Exercise, check, contract, fail, full, mistake
-from workbench.exercise.naming import _gap, values_alike
+from workbench.exercise.naming import _gap, _is_beyond, values_alike
 
 ROWS = np.arange(12.0).reshape(4, 3) ** 2
 
@@ -215,3 +215,23 @@ def test_a_forgotten_error_is_named_only_where_it_is_forgotten_everywhere():
     checks = (asking(ROWS), refuses_both)
     assert report(forgets, forgotten, checks=checks).mistake is forgotten
     assert report(forgets_once, forgotten, checks=checks).mistake is None
+
+
+@pytest.mark.parametrize(
+    ("argument", "beyond"),
+    [
+        (1e51, True),
+        (-1e51, True),
+        (1e-51, True),
+        (0.0, False),
+        (np.inf, False),
+        (1.0, False),
+        (10**60, False),
+        ("1e60", False),
+        (np.array([1.0, 1e51]), True),
+        (np.array([1.0, np.nan, 0.0]), False),
+        (np.array([10**18]), False),
+    ],
+)
+def test_ours_are_not_asked_with_numbers_too_large_or_too_small(argument, beyond):
+    assert _is_beyond(argument) is beyond

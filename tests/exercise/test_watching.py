@@ -9,7 +9,7 @@ import pytest
 from workbench.cli import main
 from workbench.errors import InputError
 from workbench.exercise import finding
-from workbench.exercise.driven import DIFFERENCE, calls_it, driven, first_difference
+from workbench.exercise.driven import DIFFERENCE, calls_it, driven, first_difference, gap
 from workbench.exercise.finding import exercises
 from workbench.exercise.starter import write_starter
 from workbench.exercise.watching import GONE_AFTER, WatchedFile
@@ -215,3 +215,20 @@ def test_a_run_that_does_not_call_the_function_says_so():
         calling.extend()
     assert calls_it(calling) is True
     assert DIFFERENCE in calling.series()
+
+
+def test_how_far_a_step_is_off_is_measured_by_the_reference():
+    exercise = exercises()["point_to_plane_step"]
+    lesson = catalog()["icp"]
+    params = lesson.preset("plane").params
+
+    def doubled(p_target, p_source, n_target):
+        return exercise.reference(p_target, 2 * p_source, n_target)
+
+    ours, theirs = Timeline(lesson, params), Timeline(driven(lesson, exercise, doubled), params)
+    for _ in range(3):
+        ours.extend()
+        theirs.extend()
+    for right, wrong in zip(ours.known(), theirs.known(), strict=True):
+        assert wrong.state.difference == gap(right.scene, wrong.state.scene)
+    assert wrong.state.difference != gap(wrong.state.scene, right.scene)
