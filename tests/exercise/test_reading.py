@@ -141,6 +141,22 @@ def test_names_are_known_without_running_anything(text, names):
 
 
 @pytest.mark.parametrize(
+    ("text", "runs"),
+    [
+        ("import os", False),
+        ("from math import sin", False),
+        ("def f(p): ...", False),
+        ("class A: ...", False),
+        ("x = 1", True),
+        ("f(1)", True),
+        ("if a:\n    import os", True),
+    ],
+)
+def test_what_a_file_does_as_it_is_loaded_is_told_from_what_it_only_names(text, runs):
+    assert [part["runs"] for part in reading.read("a.py", text.encode())["parts"]] == [runs]
+
+
+@pytest.mark.parametrize(
     ("written", "text"),
     [
         ("'os'", "os"),

@@ -225,7 +225,8 @@ def test_how_far_a_step_is_off_is_measured_by_the_reference():
     def doubled(p_target, p_source, n_target):
         return exercise.reference(p_target, 2 * p_source, n_target)
 
-    ours, theirs = Timeline(lesson, params), Timeline(driven(lesson, exercise, doubled), params)
+    ours = Timeline(lesson, params)
+    theirs = Timeline(driven(lesson, exercise, doubled), params)
     for _ in range(3):
         ours.extend()
         theirs.extend()
