@@ -230,6 +230,8 @@ def test_how_far_a_step_is_off_is_measured_by_the_reference():
     for _ in range(3):
         ours.extend()
         theirs.extend()
-    for right, wrong in zip(ours.known(), theirs.known(), strict=True):
+    pairs = list(zip(ours.known(), theirs.known(), strict=True))
+    for right, wrong in pairs:
         assert wrong.state.difference == gap(right.scene, wrong.state.scene)
+    right, wrong = pairs[-1]
     assert wrong.state.difference != gap(wrong.state.scene, right.scene)
