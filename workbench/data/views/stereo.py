@@ -136,6 +136,7 @@ def motorcycle_pair() -> StereoPair:
     return replace(pair, visible=in_both(pair.disparity))
 
 
+@functools.lru_cache(maxsize=1)
 def motorcycle() -> StereoPair:
     """Return `motorcycle_pair` without what is visible in both pictures, which takes a while."""
     left, right = (shipped_image(f"motorcycle_{side}.png") for side in ("left", "right"))
