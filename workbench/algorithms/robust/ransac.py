@@ -24,7 +24,7 @@ Phase = Literal["sample", "degenerate", "model", "inliers", "best", "refit", "st
 NO_ROWS = np.zeros(0, dtype=int)
 NO_ROWS.setflags(write=False)
 TOGETHER = 64  # samples that are solved at once, where the model can
-DISTANCES_TOGETHER = 2**13  # distances that are measured at once
+DISTANCES_TOGETHER = 2**15  # distances that are measured at once
 
 
 class Stop(Enum):
@@ -221,7 +221,7 @@ class Ahead:
     def samples(self) -> Iterator[np.ndarray]:
         """Yield the samples; with the first of each batch all of it is solved."""
         while batch := list(islice(self._to_come, TOGETHER)):
-            rows = self._p[np.stack(batch)]
+            rows = self._p[np.array(batch)]
             assert self._model.solve_each is not None
             self._estimates, of_sample = self._model.solve_each(rows)
             ends = np.searchsorted(of_sample, np.arange(len(batch) + 1)).tolist()

@@ -63,6 +63,12 @@ def epipolar_lines(
 
 
 GENERATORS = np.array([skew(axis) for axis in np.eye(3)])
+_FIRST, _SECOND = np.diag([1.0, 0.0, 0.0]), np.diag([0.0, 1.0, 0.0])
+# Slopes of diag(cos a, sin a, 0) between two turning rotations: what cos a and sin a contribute
+_BY_COSINE = np.concatenate([GENERATORS @ _FIRST, -_FIRST @ GENERATORS, _SECOND[None]])
+_BY_SINE = np.concatenate([GENERATORS @ _SECOND, -_SECOND @ GENERATORS, -_FIRST[None]])
+_AROUND = np.arange(5)[:, None] % 3 * 3 + np.arange(5) % 3
+"""Where a 3 x 3 matrix, flat, has the entries of one that goes on around in both directions."""
 
 
 def sampson_distances(
@@ -74,13 +80,25 @@ def sampson_distances(
 
     The sign is that of `uv_second_h.T @ F @ uv_first_h`. Works in the precision of its input.
     """
-    x, y = homogeneous(uv_first).T, homogeneous(uv_second).T
-    lines_y, lines_x = F @ x, np.swapaxes(F, -1, -2)[..., :2, :] @ y
-    algebraic = lines_y[..., 0, :] * y[0] + lines_y[..., 1, :] * y[1] + lines_y[..., 2, :]
-    squared = (lines_y[..., 0, :] ** 2 + lines_y[..., 1, :] ** 2) + (
-        lines_x[..., 0, :] ** 2 + lines_x[..., 1, :] ** 2
-    )
-    return algebraic / np.sqrt(np.maximum(squared, np.finfo(squared.dtype).tiny))
+    u, v = y = np.ascontiguousarray(uv_second.T)
+    a, b, algebraic = _lines(np.moveaxis(F, -2, 0), uv_first.T)
+    algebraic += a * u
+    algebraic += b * v
+    squared = np.square(_lines(np.moveaxis(F, -1, 0)[:2], y)).sum(axis=0)
+    squared += np.square(a, out=a)
+    squared += np.square(b, out=b)
+    np.maximum(squared, np.finfo(squared.dtype).tiny, out=squared)
+    return np.divide(algebraic, np.sqrt(squared, out=squared), out=algebraic)
+
+
+def _lines(
+    rows: Float[np.ndarray, "r *k 3"], uv: Float[np.ndarray, "2 n"]
+) -> Float[np.ndarray, "r *k n"]:
+    """Return each row times each homogeneous pixel, all rows in one product."""
+    flat = rows.reshape(-1, 3)
+    products = flat[:, :2] @ uv
+    products += flat[:, 2:]
+    return products.reshape(*rows.shape[:-1], -1)
 
 
 def fundamentals_from_seven(
@@ -216,7 +234,8 @@ def refine_fundamental(
 
     def retract(unknown: _Factors, step: np.ndarray) -> _Factors:
         U, V, angle = unknown
-        return U @ _turn(step[:3]), V @ _turn(step[3:6]), angle + step[6]
+        turn_U, turn_V = _turns(step[:6].reshape(2, 3))
+        return U @ turn_U, V @ turn_V, angle + step[6]
 
     back = np.linalg.inv(T)
     U, s, Vt = np.linalg.svd(back.T @ F @ back)
@@ -245,11 +264,14 @@ def sampson_slopes(
     """
     lines_y, lines_x = F @ x, F.T @ y
     lines_y[2] = lines_x[2] = 0.0
-    scale = np.sqrt(np.maximum(np.square(lines_y).sum(0) + np.square(lines_x).sum(0), _SMALLEST))
-    residuals = F.ravel() @ outer / scale
+    squared = np.square(lines_y).sum(0) + np.square(lines_x).sum(0)
+    inverse = 1.0 / np.sqrt(np.maximum(squared, _SMALLEST))
+    residuals = F.ravel() @ outer * inverse
     # The quotient rule: the numerator changes by y x', half the squared scale by l_y x' + y l_x'.
-    by_F = outer - (residuals / scale) * (outer_products(lines_y, x) + outer_products(y, lines_x))
-    return residuals, by_F / scale
+    share = residuals * inverse
+    by_F = outer_products((y - share * lines_y) * inverse, x)
+    by_F -= outer_products(y, share * inverse * lines_x)
+    return residuals, by_F
 
 
 def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarray, "*k 3"]:
@@ -258,46 +280,48 @@ def real_cubic_roots(coefficients: Float[np.ndarray, "*k 4"]) -> Float[np.ndarra
     Reference: Press et al., Numerical Recipes, 3rd ed., 5.6, eq. 5.6.10 to 5.6.18.
     """
     with np.errstate(all="ignore"):
-        b, c, d = np.moveaxis(coefficients[..., 1:] / coefficients[..., :1], -1, 0)
-        Q, R = (b * b - 3.0 * c) / 9.0, (2.0 * b**3 - 9.0 * b * c + 27.0 * d) / 54.0
-        three = R * R < Q**3
-        third = np.arccos(np.clip(R / np.sqrt(np.abs(Q)) ** 3, -1.0, 1.0)) / 3.0
-        trigonometric = -2.0 * np.sqrt(np.abs(Q)) * np.cos(third + _THIRDS[:, *([None] * b.ndim)])
-        A = -np.copysign(np.cbrt(np.abs(R) + np.sqrt(np.maximum(R * R - Q**3, 0.0))), R)
+        b, c, d = (coefficients[..., i] / coefficients[..., 0] for i in (1, 2, 3))
+        middle = b / 3.0
+        Q = middle * middle - c / 3.0
+        R = middle * (middle * middle - 0.5 * c) + 0.5 * d
+        beyond = R * R - Q * Q * Q  # below 0 there are three
+        root = np.sqrt(np.abs(Q))
+        third = np.arccos(np.clip(R / root**3, -1.0, 1.0)) / 3.0
+        roots = -2.0 * root * np.cos(third + _THIRDS.reshape(3, *[1] * b.ndim))
+        A = -np.copysign(np.cbrt(np.abs(R) + np.sqrt(np.maximum(beyond, 0.0))), R)
         alone = A + np.where(A == 0.0, 0.0, Q / A)
-        single = np.stack([alone, np.full_like(b, np.nan), np.full_like(b, np.nan)])
-        roots = np.moveaxis(np.where(three, trigonometric, single), 0, -1) - b[..., None] / 3.0
+        single = ~(beyond < 0.0)
+        roots[0, single], roots[1:, single] = alone[single], np.nan
+        roots -= middle
         # The closed form cancels where a is small: two Newton steps put that right
         for _ in range(2):
-            b_, c_, d_ = b[..., None], c[..., None], d[..., None]
-            value = ((roots + b_) * roots + c_) * roots + d_
-            slope = (3.0 * roots + 2.0 * b_) * roots + c_
-            roots = roots - np.where(slope == 0.0, 0.0, value / slope)
-    return roots
+            value = ((roots + b) * roots + c) * roots + d
+            slope = (3.0 * roots + 2.0 * b) * roots + c
+            roots -= np.where(slope == 0.0, 0.0, value / slope)
+    return np.moveaxis(roots, 0, -1)
 
 
 def _compose(factors: _Factors) -> np.ndarray:
     U, V, angle = factors
-    return np.cos(angle) * np.outer(U[:, 0], V[:, 0]) + np.sin(angle) * np.outer(U[:, 1], V[:, 1])
+    return (U[:, :2] * np.array([np.cos(angle), np.sin(angle)])) @ V[:, :2].T
 
 
 def _tangent(factors: _Factors) -> np.ndarray:
     """Return the entries of F differentiated by the turn of U, that of V and the angle: (7, 9)."""
     U, V, angle = factors
-    S = np.diag([np.cos(angle), np.sin(angle), 0.0])
-    turned = np.diag([-np.sin(angle), np.cos(angle), 0.0])
-    middle = np.concatenate([GENERATORS @ S, -S @ GENERATORS, turned[None]])
-    return (U @ middle @ V.T).reshape(7, 9)
+    return (U @ (np.cos(angle) * _BY_COSINE + np.sin(angle) * _BY_SINE) @ V.T).reshape(7, 9)
 
 
-def _turn(w: np.ndarray) -> np.ndarray:
-    """Return a rotation that is `exp(skew(w))` to second order (Cayley's map)."""
-    half = skew(0.5 * w)
-    return np.eye(3) + (2.0 / (1.0 + 0.25 * (w @ w))) * (half + half @ half)
+def _turns(w: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
+    """Return rotations that are `exp(skew(w))` to second order (Cayley's map)."""
+    half = (0.5 * w @ GENERATORS.reshape(3, 9)).reshape(-1, 3, 3)
+    return np.eye(3) + (2.0 / (1.0 + 0.25 * np.square(w).sum(1)))[:, None, None] * (
+        half + half @ half
+    )
 
 
 def _cofactors(A: np.ndarray) -> np.ndarray:
-    """Return the matrix of cofactors, row by row."""
-    return np.stack(
-        [cross(A[..., i, :], A[..., j, :]) for i, j in ((1, 2), (2, 0), (0, 1))], axis=-2
-    )
+    """Return the matrix of cofactors."""
+    wide = A.reshape(*A.shape[:-2], 9)[..., _AROUND]
+    first, other = wide[..., 1:4, 1:4] * wide[..., 2:, 2:], wide[..., 1:4, 2:] * wide[..., 2:, 1:4]
+    return first - other
