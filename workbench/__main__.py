@@ -5,12 +5,14 @@ import sys
 import warnings
 from typing import Any
 
+from workbench.machinery.memory import keep_freed
 from workbench.machinery.threads import one_each
 
 
 def main() -> int:
     """Carry out the command line and return the exit code."""
     one_each()
+    keep_freed()
     with warnings.catch_warnings():
         _tell_in_one_line()
         return _carry_out()

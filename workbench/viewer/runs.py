@@ -3,8 +3,6 @@ of memory.
 """
 
 import asyncio
-import contextlib
-import ctypes
 import gc
 import queue
 import sys
@@ -14,6 +12,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 
 from workbench.lesson import Lesson
+from workbench.machinery.memory import give_back
 from workbench.page.steps import Steps
 from workbench.run.timeline import Timeline, Timelines
 from workbench.scene import arrays
@@ -26,9 +25,6 @@ MOST_BYTES = 3 * 2**29
 """What runs, their steps' data and lessons' caches may hold together."""
 OFTEN, RARELY = 10, 100
 """Collections of young garbage until one of all: Python's own, and a server's that has no rest."""
-M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
-KEPT = 2**26
-"""Bytes of freed memory that a process keeps; mallopt(3) says what the names mean."""
 
 
 class Crew:
@@ -215,28 +211,9 @@ def settle() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(*gc.get_threshold()[:2], RARELY)
-    _keep_freed()
 
 
 def tidy() -> None:
     """Collect all garbage, where Python by itself would have done so."""
     if gc.get_count()[2] > OFTEN:
         gc.collect()
-
-
-def _keep_freed() -> None:
-    """Let the C library keep what arrays free for the next ones, until `give_back`: from the
-    machine's hands they cost a page fault every 4 kB, three times what small sums take.
-    """
-    if sys.platform == "linux":
-        with contextlib.suppress(OSError, AttributeError):  # another C library
-            mallopt = ctypes.CDLL(None).mallopt
-            mallopt(M_MMAP_THRESHOLD, KEPT // 2)
-            mallopt(M_TRIM_THRESHOLD, KEPT)
-
-
-def give_back() -> None:
-    """Give freed memory back to the machine, where its C library can."""
-    if sys.platform == "linux":
-        with contextlib.suppress(OSError, AttributeError):  # another C library
-            ctypes.CDLL(None).malloc_trim(0)

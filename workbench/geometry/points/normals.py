@@ -12,7 +12,6 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
-
 CHUNK = 4096
 LEAF = 16
 ALONE = 1000  # points up to which threads cost more than they save
