@@ -17,8 +17,8 @@ Faces = Int[np.ndarray, "f 3"]
 Queries = Float[np.ndarray, "n 3"]
 
 # looked at together, so that what they need stays near the processor
-_BLOCK = 1_000  # points
-_PAIRS = 4_000  # of a point and a triangle
+_BLOCK = 4_000  # points
+_PAIRS = 16_000  # of a point and a triangle
 # In which coordinates are summed; rounding, and so every recording, depends on it
 _ORDER = (0, 2, 1)
 
