@@ -167,12 +167,16 @@ def ransac(
     check_rows(p, model)
     if model.solve_each is not None:
         ahead = Ahead(p, model, samples, judge=judge)
-        model, samples, judge = replace(model, solve=ahead.solve), ahead.samples(), ahead.judge
+
+        def left() -> float:
+            return needed - iteration
+
+        model, samples, judge = replace(model, solve=ahead.solve), ahead.samples(left), ahead.judge
     best, needed, stop = None, max_iterations, Stop.SAMPLES_USED_UP
     iteration, sample = 0, NO_ROWS
     for iteration, sample in enumerate(samples, start=1):
         yield State("sample", iteration, needed, sample, None, None, best)
-        estimates = model.solve(p[sample][None])
+        estimates = model.solve(p.take(sample, axis=0)[None])
         if len(estimates) == 0:
             yield State("degenerate", iteration, needed, sample, None, None, best)
         for estimate in estimates:  # seven matches give up to three fundamental matrices
@@ -218,9 +222,11 @@ class Ahead:
         self._place: dict[bytes, int] = {}
         self._fits: dict[int, Fit] = {}
 
-    def samples(self) -> Iterator[np.ndarray]:
-        """Yield the samples; with the first of each batch all of it is solved."""
-        while batch := list(islice(self._to_come, TOGETHER)):
+    def samples(self, left: Callable[[], float]) -> Iterator[np.ndarray]:
+        """Yield the samples; with the first of each batch all of it is solved, but no more than
+        are left to try.
+        """
+        while batch := list(islice(self._to_come, max(1, int(min(TOGETHER, left()))))):
             rows = self._p[np.array(batch)]
             assert self._model.solve_each is not None
             self._estimates, of_sample = self._model.solve_each(rows)

@@ -12,7 +12,6 @@ from jaxtyping import Bool, Float
 from workbench.geometry.motions import skew
 from workbench.geometry.refinement import levenberg_marquardt
 from workbench.geometry.two_views.homography import (
-    cross,
     homogeneous,
     normalising_similarity,
     null_vector,
@@ -142,11 +141,10 @@ def orientation_agrees(
     Reference: Chum, Werner and Matas, Epipolar Geometry Estimation via RANSAC Benefits from the
     Oriented Epipolar Constraint, ICPR 2004, eq. 2.
     """
-    columns = np.swapaxes(F, -1, -2)
-    crosses = _cofactors(columns)
+    crosses = _cofactors(np.swapaxes(F, -1, -2)).reshape(-1, 3, 3)  # of its columns
     longest = np.square(crosses).sum(-1).argmax(-1)
-    epipole = np.take_along_axis(crosses, longest[..., None, None], axis=-2)
-    twisted = np.swapaxes(cross(columns, epipole), -1, -2)  # (e x y) . (F x) = y' twisted x
+    epipole = crosses[np.arange(len(crosses)), longest].reshape(*F.shape[:-2], 3)
+    twisted = skew(epipole) @ F  # (e x y) . (F x) = -y' twisted x
     x, y = homogeneous(uv_first)[..., None, :, :], homogeneous(uv_second)[..., None, :, :]
     side = ((y @ twisted) * x) @ np.ones(3)
     return np.asarray((side > 0.0).all(-1) | (side < 0.0).all(-1))
