@@ -58,6 +58,23 @@ def test_triangles_solved_and_judged_together_give_the_states_of_one_by_one():
     assert all(alike(a, b) for a, b in zip(together, apart, strict=True))
 
 
+@pytest.mark.parametrize(("most", "batches"), [(10, [10]), (70, [TOGETHER, 70 - TOGETHER])])
+def test_no_more_samples_are_solved_than_are_left_to_try(most, batches):
+    scene = match_scene(np.random.default_rng(1), count=60, outlier_ratio=0.9, sigma=1.0, flat=True)
+    solved = []
+
+    def solve_each(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        solved.append(len(rows))
+        assert HOMOGRAPHY.solve_each is not None
+        return HOMOGRAPHY.solve_each(rows)
+
+    model = replace(HOMOGRAPHY, solve_each=solve_each)
+    samples = uniform_samples(60, 4, np.random.default_rng(0))
+    *_, last = ransac(scene.p, model, samples, Judge(scene.p, model, 3.0), max_iterations=most)
+    assert last.iteration == most
+    assert solved == batches
+
+
 def test_a_fit_holds_its_own_distances_alone():
     scene = match_scene(np.random.default_rng(1), count=50, outlier_ratio=0.3, sigma=1.0, flat=True)
     fits = Judge(scene.p, HOMOGRAPHY, 3.0).each(np.stack([scene.truth, np.eye(3)]))
