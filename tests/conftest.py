@@ -125,8 +125,8 @@ def chromium() -> Iterator:
 
 
 def pytest_xdist_auto_num_workers(config):
-    """Two more than there are cores: who drives a browser or a sandbox mostly waits for it."""
-    return (os.cpu_count() or 1) + 2
+    """One more than there are cores: who drives a browser mostly waits for it."""
+    return (os.cpu_count() or 1) + 1
 
 
 def pytest_xdist_make_scheduler(config, log):

@@ -176,7 +176,7 @@ def ransac(
     iteration, sample = 0, NO_ROWS
     for iteration, sample in enumerate(samples, start=1):
         yield State("sample", iteration, needed, sample, None, None, best)
-        estimates = model.solve(p.take(sample, axis=0)[None])
+        estimates = model.solve(p[sample][None])
         if len(estimates) == 0:
             yield State("degenerate", iteration, needed, sample, None, None, best)
         for estimate in estimates:  # seven matches give up to three fundamental matrices
