@@ -77,7 +77,9 @@ OF_BASELINE = Chart(
 WRONG = Chart("Wrong pixels", unit="%")
 HIDDEN = Chart("Hidden pixels", unit="%")
 BAND = Chart("Width of the band", unit="px")
-TURNED = Chart("Value")
+SIDE_TURNED = Chart("Side of the window", unit="px")
+PRICE_TURNED = Chart("Price of a jump")
+BASELINE_TURNED = Chart("Distance between the cameras", unit="m")
 
 
 @dataclass(frozen=True, eq=False)
@@ -264,7 +266,7 @@ def _of_window(look: StudyLook) -> Scene:
     middle = np.array(pictures.pixel)
     box = left.box(middle - half, middle + half, 2 * LAYER)
     scene["left/window"] = Segments(box, "highlight", 3.0, name="the window")
-    scene["window"] = TURNED.scalar(now.value, "window")
+    scene["window"] = SIDE_TURNED.scalar(now.value, "window")
     scene["wrong"] = WRONG.scalar(100 * now.share, "wrong pixels", "truth")
     window = pixels(now.value)
     if not math.isfinite(now.share):
@@ -291,7 +293,7 @@ def _of_window(look: StudyLook) -> Scene:
 def _of_price(look: StudyLook) -> Scene:
     now = look.now
     scene = maps(look)
-    scene["price"] = TURNED.scalar(now.value, "price")
+    scene["price"] = PRICE_TURNED.scalar(now.value, "price")
     scene["wrong"] = WRONG.scalar(100 * now.share, "wrong pixels", "truth")
     price = decimals(now.value, 1)
     if not math.isfinite(now.share):
@@ -332,7 +334,7 @@ def _of_baseline(look: StudyLook) -> Scene:
         ),
         "left/edge": Segments(left.border(LAYER), "target", 2.5),
         **shadow(look),
-        "baseline": TURNED.scalar(here, "baseline"),
+        "baseline": BASELINE_TURNED.scalar(here, "baseline"),
         "hidden": HIDDEN.scalar(100 * now.share, "hidden", "wrong"),
         "sigma": HIDDEN.scalar(100 * now.sigma, "error of the depth", "target"),
         "trade/hidden": OF_BASELINE.whole(x, 100 * behind, "hidden, of all pixels", "wrong"),
