@@ -2,6 +2,7 @@
 
 import json
 import os
+import platform
 import subprocess
 import sys
 
@@ -10,7 +11,7 @@ import pytest
 from workbench.machinery import memory
 
 glibc = pytest.mark.skipif(
-    not sys.platform.startswith("linux") or not os.confstr("CS_GNU_LIBC_VERSION"),
+    platform.libc_ver()[0] != "glibc",
     reason="another C library decides by itself",
 )
 SCRIPT = """

@@ -5,14 +5,12 @@ import sys
 import warnings
 from typing import Any
 
-from workbench.machinery.memory import keep_freed
 from workbench.machinery.threads import one_each
 
 
 def main() -> int:
     """Carry out the command line and return the exit code."""
     one_each()
-    keep_freed()
     with warnings.catch_warnings():
         _tell_in_one_line()
         return _carry_out()
@@ -27,7 +25,9 @@ def _carry_out() -> int:
             sys.stdout.flush()
             return 0
     from workbench.cli import main as carry_out
+    from workbench.machinery.memory import keep_freed
 
+    keep_freed()
     return carry_out()
 
 

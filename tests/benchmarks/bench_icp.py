@@ -19,7 +19,8 @@ from workbench.algorithms.registration.icp import Gate, icp, matcher
 from workbench.data.shapes.clouds import pair
 from workbench.geometry.motions import exp_so3, motion, rotation_angle
 from workbench.geometry.motions.alignment import align_rigid, point_to_plane_step
-from workbench.geometry.points.normals import LEAF, point_normals
+from workbench.geometry.points.nearest import tree_for_many
+from workbench.geometry.points.normals import point_normals
 
 Register = Callable[[float, np.ndarray, float, int], np.ndarray]
 """register(gate, T_target_source, stop below, most iterations) -> T_target_source"""
@@ -112,7 +113,7 @@ def bench_normals() -> None:
         by_gicp = lambda: small_gicp.estimate_normals(points, num_neighbors=16, num_threads=2)  # noqa: E731
 
     def search() -> None:
-        tree = scipy.spatial.KDTree(p, leafsize=LEAF, balanced_tree=False)
+        tree = tree_for_many(p)
         tree.query(p[tree.indices], k=16, workers=-1)
 
     ours, bare, *peers = best(

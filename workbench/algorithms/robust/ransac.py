@@ -166,12 +166,9 @@ def ransac(
     """
     check_rows(p, model)
     if model.solve_each is not None:
-        ahead = Ahead(p, model, samples, judge=judge)
-
-        def left() -> float:
-            return needed - iteration
-
-        model, samples, judge = replace(model, solve=ahead.solve), ahead.samples(left), ahead.judge
+        ahead = Ahead(p, model, samples, judge=judge, needed_for=needed_for, most=max_iterations)
+        model, samples, judge = replace(model, solve=ahead.solve), ahead.samples(), ahead.judge
+        needed_for = ahead.needed_for
     best, needed, stop = None, max_iterations, Stop.SAMPLES_USED_UP
     iteration, sample = 0, NO_ROWS
     for iteration, sample in enumerate(samples, start=1):
@@ -214,19 +211,25 @@ class Ahead:
         samples: Iterator[np.ndarray],
         *,
         judge: Callable[[np.ndarray], Fit],
+        needed_for: Callable[[float, int, float], float],
+        most: int,
     ):
         self._p, self._model, self._judge = p, model, judge
+        self._needed_for, self._most = needed_for, most
+        self._needed: float = most
         self._to_come = iter(samples)
         self._of_sample: dict[bytes, np.ndarray] = {}
         self._estimates = np.zeros((0,))
         self._place: dict[bytes, int] = {}
         self._fits: dict[int, Fit] = {}
 
-    def samples(self, left: Callable[[], float]) -> Iterator[np.ndarray]:
+    def samples(self) -> Iterator[np.ndarray]:
         """Yield the samples; with the first of each batch all of it is solved, but no more than
         are left to try.
         """
-        while batch := list(islice(self._to_come, max(1, int(min(TOGETHER, left()))))):
+        tried = 0
+        while batch := list(islice(self._to_come, self._next_batch(tried))):
+            tried += len(batch)
             rows = self._p[np.array(batch)]
             assert self._model.solve_each is not None
             self._estimates, of_sample = self._model.solve_each(rows)
@@ -238,6 +241,15 @@ class Ahead:
             self._place = {one.tobytes(): i for i, one in enumerate(self._estimates)}
             self._fits = {}
             yield from batch
+
+    def _next_batch(self, tried: int) -> int:
+        return max(1, int(min(TOGETHER, self._needed - tried)))
+
+    def needed_for(self, inlier_ratio: float, sample_size: int, confidence: float) -> float:
+        """Return how many samples are needed, and remember it."""
+        found = self._needed_for(inlier_ratio, sample_size, confidence)
+        self._needed = min(self._most, found)
+        return found
 
     def solve(self, asked: Float[np.ndarray, "1 m d"]) -> Float[np.ndarray, "j ..."]:
         """Return the estimates through one sample."""

@@ -12,8 +12,9 @@ import numpy as np
 import scipy
 from jaxtyping import Float, Int
 
+from workbench.geometry.points.nearest import tree_for_many
+
 CHUNK = 4096
-LEAF = 16
 ALONE = 1000  # points up to which threads cost more than they save
 LINE = 0.2
 
@@ -65,8 +66,7 @@ class Normals:
         self._k = min(k, len(p))
         self._outwards = p - p.mean(axis=0) if viewpoint is None else viewpoint - p
         self._spread = spread
-        # smaller leaves and closer boxes than `tree_of`: many neighbours are asked of each point
-        self._tree = tree or scipy.spatial.KDTree(p, leafsize=LEAF, balanced_tree=False)
+        self._tree = tree or tree_for_many(p)
         self._normals = np.empty_like(p, dtype=float)
         self._line = np.ones(len(p), bool)  # unless known better
         self._known = np.zeros(len(p), bool)

@@ -93,7 +93,9 @@ def sampson_distances(
 def _lines(
     rows: Float[np.ndarray, "r *k 3"], uv: Float[np.ndarray, "2 n"]
 ) -> Float[np.ndarray, "r *k n"]:
-    """Return each row times each homogeneous pixel, all rows in one product."""
+    """Return each row times each homogeneous pixel, all rows in one product: two at least, for the
+    sums of one row alone are rounded otherwise.
+    """
     flat = rows.reshape(-1, 3)
     products = flat[:, :2] @ uv
     products += flat[:, 2:]
@@ -312,7 +314,7 @@ def _tangent(factors: _Factors) -> np.ndarray:
 
 def _turns(w: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "k 3 3"]:
     """Return rotations that are `exp(skew(w))` to second order (Cayley's map)."""
-    half = (0.5 * w @ GENERATORS.reshape(3, 9)).reshape(-1, 3, 3)
+    half = skew(0.5 * w)
     return np.eye(3) + (2.0 / (1.0 + 0.25 * np.square(w).sum(1)))[:, None, None] * (
         half + half @ half
     )
