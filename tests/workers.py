@@ -10,7 +10,7 @@ import re
 from xdist.scheduler import LoadScopeScheduling
 
 RUN_LESSONS = re.compile(
-    r"tests/(?:test_lessons|test_ordered_pairs|test_spoilers|lessons/test_rest|page/test_article"
+    r"tests/(?:test_lessons|test_verdicts|test_ordered_pairs|test_spoilers|lessons/test_rest|page/test_article"
     r"|page/test_links|page/test_thumbnail|recording/test_read_back)\.py::"
     r"\w+\[(\w+)"
 )
@@ -18,7 +18,6 @@ OF_A_LESSON = re.compile(
     r"tests/lessons/test_(?!rest\b)(\w+?)(?:_(?:own|slots|drawn|flat|run))?\.py::"
 )
 HOMES_OF_A_LESSON = re.compile(r"(tests/browser/test_matrix\.py::\w+\[\w+)-")
-AUDITS = re.compile(r"tests/test_verdicts\.py::")
 IN_A_BROWSER = re.compile(r"(tests/(?:browser/\w+|recording/test_browser)\.py)::")
 
 
@@ -37,4 +36,4 @@ def rank(nodeid: str) -> int:
 
 
 GROUPS = (HOMES_OF_A_LESSON, IN_A_BROWSER, OF_A_LESSON, RUN_LESSONS)
-FIRST = (AUDITS, IN_A_BROWSER, OF_A_LESSON, RUN_LESSONS)
+FIRST = (IN_A_BROWSER, OF_A_LESSON, RUN_LESSONS)

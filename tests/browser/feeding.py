@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.lesson import View
-from workbench.page.document import SCENE, STATIC
+from workbench.page.bundles import SCENE, STATIC
 from workbench.scene import Scene
 from workbench.wire.nodes import Maker
 from workbench.wire.packing import PageWire

@@ -10,8 +10,8 @@ import pytest
 from tests import fake
 from workbench.chapters import CHAPTERS, MORE, NAMES, chapter_of, place
 from workbench.lesson import Lesson, catalog, course, place_of
+from workbench.page.bundles import FONTS, FRONT_SCRIPTS, FRONT_STYLES, STATIC, bundle
 from workbench.page.course import FRONT_DARK, FRONT_LIGHT, Card, course_document
-from workbench.page.document import FONTS, STATIC, bare
 from workbench.viewer.documents import course_page
 
 TODAY = {
@@ -105,9 +105,8 @@ def test_the_page_is_light_before_its_pictures():
     } - {"third-parties.txt", "front-still.webp"}  # the loop comes where motion is allowed
     for names in (FRONT_LIGHT, FRONT_DARK):
         assert sum((STATIC / name).stat().st_size for name in names) < BUDGET
-    assert {"front.css", "front.js", "progress.js"} <= files
-    assert "math.css" not in files, "no formula stands here"
-    weight = len(html.encode()) + sum(len(bare(STATIC / name).encode()) for name in files)
+    assert files == {FRONT_STYLES, FRONT_SCRIPTS, "icon.svg", "unscripted.css"}
+    weight = len(html.encode()) + sum(len(bundle(name)) for name in (FRONT_STYLES, FRONT_SCRIPTS))
     assert weight + (STATIC / FONTS[0]).stat().st_size < BUDGET / 2
 
 

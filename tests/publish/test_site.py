@@ -11,12 +11,13 @@ from tests import fake
 from tests.publish.conftest import TINY
 from workbench.errors import InputError
 from workbench.lesson import Sweep, View, catalog
-from workbench.page.document import (
-    MATH,
-    SCRIPTS,
-    STATIC,
-    STYLES,
-    bare,
+from workbench.page.bundles import (
+    BENCH_STYLES,
+    BUNDLES,
+    SITE_BENCH,
+    SITE_STORY,
+    STORY_STYLES,
+    bundle,
 )
 from workbench.page.steps import Steps
 from workbench.publish import runs, site, sizes
@@ -261,7 +262,7 @@ def test_nothing_is_rendered_twice_and_what_changed_is(published, rendered, monk
 
 def test_a_recording_of_equal_content_is_left_alone(out, rendered, monkeypatch):
     before = (out / "fake" / "runs" / "fake.rrd").read_bytes()
-    monkeypatch.setattr("workbench.publish.site.digest_of", lambda lesson, run: "another")
+    monkeypatch.setattr("workbench.publish.site.digest_of", lambda lesson, run, sources: "another")
     site.publish(out, [TINY])
     assert rendered == ["fake/default"]
     assert (out / "fake" / "runs" / "fake.rrd").read_bytes() == before
@@ -368,7 +369,10 @@ def test_a_lesson_s_page_is_within_its_budget(name):
     known = runs.recorded(lesson, runs.runs_of(lesson)[0], root="../", runs="runs/", answers={})
     page = lesson_page(lesson, known)
     files = {Path(link).name for link in sizes.links_in(page) if link.startswith("../page/")}
-    assert {*STYLES, *SCRIPTS, MATH} < files
-    shared = sum(len(bare(STATIC / file).encode()) for file in files - {MATH})
-    budget = sizes.TOLD_BUDGET if has_story(lesson) else sizes.PAGE_BUDGET
+    told = has_story(lesson)
+    assert files & BUNDLES.keys() == (
+        {STORY_STYLES, SITE_STORY} if told else {BENCH_STYLES, SITE_BENCH}
+    )
+    shared = sum(len(bundle(file).encode()) for file in files & BUNDLES.keys())
+    budget = sizes.TOLD_BUDGET if told else sizes.PAGE_BUDGET
     assert len(page.encode()) + shared < budget - 6_000

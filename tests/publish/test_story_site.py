@@ -7,23 +7,13 @@ import pytest
 
 from tests.story.hill import lesson
 from workbench.lesson import catalog
-from workbench.page.document import (
-    FONTS,
-    MATH_FONT,
-    RECORDED,
-    SCRIPTS,
-    STATIC,
-    STORY_SCRIPTS,
-    STORY_STYLES,
-    STYLES,
-    bare,
-)
+from workbench.page.bundles import FONTS, MATH_FONT, SITE_STORY, STATIC, STORY_STYLES, bundle
 from workbench.publish import site
 from workbench.publish.pages import lesson_page
 from workbench.publish.runs import _all_runs, client_script, recorded, run_script, runs_of
 from workbench.run.timeline import Timeline
 from workbench.story import has_story, story_of
-from workbench.words.typeset import math_font, math_font_css
+from workbench.words.typeset import math_font
 
 BUDGET = 1_500_000
 """Bytes of a story on a site before its first what-if, as a static server sends them: compressed
@@ -55,14 +45,12 @@ def test_a_page_has_both_faces_and_one_stage(out):
     ]
     assert 'data-face="story"' in page
     assert page.index("const STORY") > page.index("const LESSON")
-    assert (
-        page.index("page/storyplot.js") < page.index("page/story.js") < page.index("page/page.js")
-    )
+    assert re.findall(r'src="../page/([^"]+)"', page) == [SITE_STORY]
     assert page.count('class="question"') == 0, "its questions stand in their scenes"
 
 
 def test_its_letters_styles_and_scripts_are_there(out):
-    for name in (*FONTS, *STORY_STYLES, *STORY_SCRIPTS):
+    for name in (*FONTS, STORY_STYLES, SITE_STORY):
         assert (out / "page" / name).stat().st_size > 0
     assert "Source Serif" in (out / "page" / "third-parties.txt").read_text(encoding="utf-8")
 
@@ -85,9 +73,7 @@ def test_a_story_loads_little_before_its_first_what_if(name):
     story = story_of(told, "site")
     assert story is not None
     known = recorded(told, runs_of(told)[0], root="../", runs="runs/", answers={})
-    texts = [lesson_page(told, known), math_font_css(MATH_FONT), client_script()]
-    files = (*STYLES, *RECORDED, *SCRIPTS, *STORY_STYLES, *STORY_SCRIPTS)
-    texts += [bare(STATIC / file) for file in files]
+    texts = [lesson_page(told, known), client_script(), bundle(STORY_STYLES), bundle(SITE_STORY)]
     by_name = {run.name: run for run in _all_runs(told)}
     for run in story.runs_before_what_ifs():
         timeline = Timeline(told, by_name[run].params).complete()

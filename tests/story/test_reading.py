@@ -37,6 +37,19 @@ def test_a_page_without_a_named_heading_tells_no_story(tmp_path):
     assert story_of(unnamed, "live") is None
 
 
+def test_it_is_read_once_and_anew_when_its_page_or_its_lesson_changes(tmp_path):
+    there = with_page(tmp_path, "# T\n\n## A {#a}\n\nOne.\n")
+    first = sure(story_of(there, "live"))
+    assert story_of(there, "live") is first
+    site = sure(story_of(there, "site"))
+    assert site is not first
+    assert story_of(there, "live") is first
+    there.page.write_text("# T\n\n## B {#b}\n\nTwo.\n", encoding="utf-8")
+    assert [scene.name for scene in sure(story_of(there, "live")).scenes] == ["b"]
+    other = replace(there, title="Another")
+    assert sure(story_of(other, "site")).scenes[0].name == "b"
+
+
 def test_scenes_stand_in_order_with_their_names_and_titles():
     story = sure(story_of(lesson, "live"))
     assert [(one.name, one.title) for one in story.scenes] == [

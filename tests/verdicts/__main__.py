@@ -38,24 +38,37 @@ def main() -> int:
     return 1 if found else 0
 
 
-def audit(lesson: Lesson, *, whole: bool) -> Iterator[str]:
-    """Return what captions, preset lines and explanations of a lesson say that is not true."""
+def audit(
+    lesson: Lesson, *, whole: bool, run: Callable[[Any], States] | None = None
+) -> Iterator[str]:
+    """Return what captions, preset lines and explanations of a lesson say that is not true.
+
+    Args:
+        lesson: Whose words are held to the truth.
+        whole: Whether all steps are looked at from many seeds.
+        run: Returns all states of the lesson's own runs, where somebody has them; they are run
+            here otherwise.
+    """
     judge = importlib.import_module(f"tests.verdicts.{lesson.name}")
     yield from nameless(lesson, judge)
     form = lesson.form
     short: Callable[[Any], Iterator[Any]] = getattr(judge, "until_the_end", form.states)
     for params, texts in experiments(lesson, judge):
         for one in seeded(params, WHOLE if whole else QUICK):
-            states = tuple(form.states(one) if whole or one == params else short(one))
+            own = one == params
+            if own and run is not None:
+                states = run(one)
+            else:
+                states = tuple(form.states(one) if whole or own else short(one))
             where = (
                 f"{lesson.name}, {texts[0][0] if texts else 'default'}, seed"
                 f" {getattr(one, 'seed', '-')}"
             )
             subject = form.setup(one)
-            run = Run(one, States.of(states, params=one, subject=subject), subject)
-            wrong = list(judged(lesson, judge, run, texts))
-            if one == params:
-                wrong += wordless(run, texts)
+            seen = Run(one, States.of(states, params=one, subject=subject), subject)
+            wrong = list(judged(lesson, judge, seen, texts))
+            if own:
+                wrong += wordless(seen, texts)
             yield from (f"{where}, {line}" for line in wrong[:MOST])
             if len(wrong) > MOST:
                 yield f"{where}: {len(wrong) - MOST} more"

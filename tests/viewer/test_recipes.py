@@ -136,7 +136,7 @@ def test_behind_a_prefix_every_address_of_a_page_leads_somewhere(site):
             one for one in re.findall(r'(?:src|href)="([^"]+)"', page) if not urlsplit(one).scheme
         ]
         files = {one.replace("&amp;", "&") for one in found if not one.startswith("#")}
-        assert {"page/page.css", "page/page.js", "page/live.js"} <= files
+        assert {"page/story-page.css", "page/live-story.js"} <= files
         for one in files:
             assert not one.startswith("/")
             assert (await asked(site, f"/workbench/{one}"))[0] == 200, one

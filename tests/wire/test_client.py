@@ -11,18 +11,20 @@ import pytest
 import viser
 
 from workbench.errors import InputError
-from workbench.viewer.transfers import scene_response
+from workbench.page.bundles import BUNDLES, LIVE_FILES, STATIC, bundle
+from workbench.viewer.transfers import bundle_served, client_served, text_response
 from workbench.wire import client
-from workbench.wire.client import client_bytes, client_html
+from workbench.wire.client import client_html
 
 
 def test_the_client_is_one_file_whose_worker_is_the_page():
-    html, (plain, compressed, etag) = client_html(), client_bytes()
-    assert plain.decode() == html
-    assert gzip.decompress(compressed) == plain
-    assert len(compressed) < len(plain)
-    assert client_bytes()[2] == etag
-    assert etag[0] == etag[-1] == '"'
+    html = client_html()
+    served = client_served()
+    assert served.plain.decode() == html
+    assert gzip.decompress(served.compressed) == served.plain
+    assert len(served.compressed) < len(served.plain)
+    assert served.media_type == "text/html"
+    assert served.etag[0] == served.etag[-1] == '"'
     own = (Path(str(viser.__file__)).parent / "client" / "build" / "index.html").read_text(
         encoding="utf-8"
     )
@@ -37,10 +39,10 @@ def test_who_has_the_client_is_sent_nothing_and_who_reads_gzip_the_compressed_on
         request: Any = SimpleNamespace(
             headers={name.replace("_", "-"): value for name, value in headers.items()}
         )
-        return scene_response(request, *client_bytes())
+        return text_response(request, client_served())
 
-    plain, compressed, etag = client_bytes()
-    assert (asked().body, asked().headers["etag"]) == (plain, etag)
+    compressed, etag = client_served().compressed, client_served().etag
+    assert (asked().body, asked().headers["etag"]) == (client_served().plain, etag)
     small = asked(accept_encoding="br, gzip")
     assert (small.body, small.headers["content-encoding"], small.headers["vary"]) == (
         compressed,
@@ -51,6 +53,25 @@ def test_who_has_the_client_is_sent_nothing_and_who_reads_gzip_the_compressed_on
         again = asked(if_none_match=known)
         assert (again.status_code, again.body, again.headers["etag"]) == (304, b"", etag)
     assert asked(if_none_match='"x"').status_code == 200
+
+
+@pytest.mark.parametrize("name", LIVE_FILES)
+def test_a_bundle_has_its_files_one_after_the_other(name):
+    served = bundle_served(name)
+    text = served.plain.decode()
+    assert text == bundle(name)
+    assert served.media_type == {"css": "text/css", "js": "text/javascript"}[name.split(".")[1]]
+    at = -1
+    for file in BUNDLES[name]:
+        if file == "math.css":
+            assert text.endswith("math{font-family:'Workbench Math',math}")
+            continue
+        source = (STATIC / file).read_text(encoding="utf-8").splitlines()
+        lines = [line.strip() for line in source if line.strip()[:2] not in ("", "//")]
+        begin = text.find("\n".join(lines) + "\n")
+        assert begin > at, file
+        at = begin
+    assert bundle_served(name).etag != client_served().etag
 
 
 @pytest.mark.parametrize("content", [None, "", "<body></body>"])

@@ -8,14 +8,13 @@ from html import escape
 from importlib.metadata import PackageNotFoundError, metadata
 
 from workbench.machinery.licence import CC_BY, CC_BY_TEXT, PACKAGE
-from workbench.page.document import COURSE, THIRD_PARTIES, document_head, in_script
+from workbench.page.bundles import FRONT_STYLES, THIRD_PARTIES, WORDS_SCRIPTS
+from workbench.page.document import COURSE, document_head, in_script, scripts_html
 
 ADDRESS = "WORKBENCH_ADDRESS"
 """Of the environment: where the source is, when a distribution is built and a course published."""
 NOTICES_PAGE = "notices.html"
 MISSING_PAGE = "404.html"
-PLAIN = "plain.js"
-"""The script of a page of words alone."""
 _NOTICES = """\
 <h2>Whose this is</h2>
 <p>The geometry workbench and its course are the work of the geometry workbench authors.</p>
@@ -156,11 +155,9 @@ def about_document(title: str, body: str, *, root: str, head: str = "", first: s
         first: What stands before every address of the head.
     """
     summary = f"{title}: {COURSE}."
-    styles = f'<link rel="stylesheet" href="{root}front.css">{head}'
-    opened = document_head(title, summary, root, more=styles, math=False, first=first)
-    scripts = "".join(f'<script src="{root}{name}"></script>' for name in ("tools.js", PLAIN))
+    opened = document_head(title, summary, root, styles=FRONT_STYLES, more=head, first=first)
     return (
         f'{opened}<body class="front plain"><header class="hero"><p class="brand"><a'
         f' href="index.html">{COURSE}</a></p></header><main><h1>{escape(title)}</h1>{body}</main>'
-        f"{footer_html('')}{scripts}</body></html>\n"
+        f"{footer_html('')}{scripts_html(root, WORDS_SCRIPTS)}</body></html>\n"
     )

@@ -6,7 +6,8 @@ from html import escape
 from itertools import groupby
 
 from workbench.chapters import MINUTES, Chapter, chapter_of
-from workbench.page.document import COURSE, THIRD_PARTIES, document_head
+from workbench.page.bundles import FRONT_SCRIPTS, FRONT_STYLES, THIRD_PARTIES
+from workbench.page.document import COURSE, document_head, scripts_html
 from workbench.page.map import course_map
 from workbench.page.toy import toy_html
 
@@ -18,8 +19,6 @@ STANDS_STILL = (
     "These pages need JavaScript to move. Without it the rabbits stand still, and a lesson shows"
     " its text and pictures."
 )
-FRONT_FILES = ("front.css", "front.js")
-"""The page's own styles and script, beside those of every page."""
 FRONT_LIGHT = ("front-still.webp", "front-loop.webp")
 FRONT_DARK = ("front-still-dark.webp", "front-loop-dark.webp")
 FRONT_PICTURES = (*FRONT_LIGHT, *FRONT_DARK)
@@ -75,22 +74,16 @@ def course_document(
         for chapter, own in groupby(cards, key=lambda card: chapter_of(card.chapter))
     ]
     said = f'<p class="trouble" role="alert">{escape(trouble)}</p>' if trouble else ""
-    styles, script = FRONT_FILES
-    head = f'<link rel="stylesheet" href="{root}{styles}">{head}'
     skip = (
         f'<a class="skip" href="#{chapters[0][0].address}">To the lessons</a>' if chapters else ""
     )
     return (
-        f"{document_head(COURSE, WELCOME, root, more=head, math=False)}"
+        f"{document_head(COURSE, WELCOME, root, styles=FRONT_STYLES, more=head)}"
         f'<body class="front">{skip}{_hero(cards, said)}{_line(chapters)}<main id="course">'
         + _loop(cards, root)
         + "".join(_chapter(chapter, own, titles) for chapter, own in chapters)
         + f"{_map(chapters)}</main>"
-        f"{footer}"
-        + "".join(
-            f'<script src="{root}{name}"></script>' for name in ("tools.js", "progress.js", script)
-        )
-        + "</body></html>\n"
+        f"{footer}{scripts_html(root, FRONT_SCRIPTS)}</body></html>\n"
     )
 
 

@@ -3,70 +3,23 @@
 import json
 from collections.abc import Mapping
 from html import escape
-from pathlib import Path
 from typing import Any
 
 from workbench.knobs import fields_of
 from workbench.lesson import Lesson
+from workbench.page import bundles
 from workbench.page.article import PLACE, QUESTION
 from workbench.page.lessons import lesson_data
 from workbench.story import Story, story_data
-from workbench.words.typeset import math_font_css
 
-STATIC = Path(__file__).with_name("static")
 COURSE = "Geometry workbench"
 """The name of the course, in the title of every page."""
-ICON = "icon.svg"
-MATH, MATH_FONT = "math.css", "math.woff2"
-THIRD_PARTIES = "third-parties.txt"
-"""Whose work is in our pages, and its licences."""
-STYLES = ("page.css", "ending.css", "course.css")
-SCRIPTS = (
-    "tools.js",
-    "curves.js",
-    "stage.js",
-    "transport.js",
-    "panels.js",
-    "article.js",
-    "knobs.js",
-    "exercise.js",
-    "run.js",
-    "progress.js",
-    "text.js",
-    "page.js",
-)
-SCENE = ("wire.js", "looks.js", "feed.js", "labels.js", "handles.js", "sceneview.js")
-"""The scripts that show scenes in viser's client."""
-LIVE = (*SCENE, "files.js", "edited.js", "returning.js", "live.js")
-"""The scripts that feed the page from a server."""
-RECORDED = (*SCENE, "shelf.js", "sweeps.js", "recorded.js")
-"""The scripts that feed the page from recorded runs, on a site and in a notebook."""
-STORY_SCRIPTS = (
-    "storyplot.js",
-    "storyparts.js",
-    "storychart.js",
-    "storystage.js",
-    "storywords.js",
-    "storyask.js",
-    "story.js",
-)
-"""The scripts of the story, before `page.js`."""
-STORY_STYLES = ("story.css", "storystage.css")
-DRESS = ("dress.css", "dress.js")
-"""What a lesson without a story has of a story's look."""
-UNSCRIPTED = "unscripted.css"
-"""The style of a page where no script runs."""
-EMBED = ("embed.js",)
-"""What one run alone, in a page of somebody else, has besides."""
-COMPUTING = ("compute.css", "compute.js", "bench.js", "computing.js", "codemirror.js")
-"""What a published page computes with: the last two are loaded when it does."""
-FONTS = ("source-serif-4-latin-wght-normal.woff2", "source-serif-4-latin-wght-italic.woff2")
-"""The letters of the story, beside its styles."""
-STORY_FILES = (*STORY_STYLES, *FONTS, *STORY_SCRIPTS, *DRESS)
 STANDS_STILL = (
     "This page needs JavaScript to move: with it the scene turns, steps and plays, questions are"
     " answered, and experiments open. Without it there are the text and pictures."
 )
+_CLOSED = r"<\/script"
+"""How a script says that end of itself."""
 SPEEDS = (0.5, 1.0, 2.0, 4.0, 8.0)
 """Steps a second of Play, as a page offers them."""
 VERBS = (
@@ -115,8 +68,6 @@ def lesson_document(
     data = lesson_data(lesson) | ({} if home == "live" else {"knobs": []})
     told = story is not None
     dressed = root is not None and not alone and not told
-    embedded = root is not None and bool(alone)
-    scripts = _scripts(home, told=told, dressed=dressed, embedded=embedded)
     constants = (
         {"LESSON": data}
         | ({} if story is None else {"STORY": story_data(lesson, story)})
@@ -132,10 +83,8 @@ def lesson_document(
         heading,
         lesson.summary,
         root,
+        styles=_styles(root, alone=bool(alone), told=told),
         more=head,
-        math=root is not None or not alone,
-        told=told,
-        dressed=dressed,
     )
     face = "story" if told else "bench"
     dress = " data-dress" if dressed else ""
@@ -147,21 +96,29 @@ def lesson_document(
         f'<div id="side">{_stage(still, dressed=dressed)}</div></main>'
         + _third_parties(root)
         + f"<script>{''.join(f'const {name} = {in_script(value)};' for name, value in constants.items())}</script>"  # noqa: E501
-        + "".join(_script(root, name) for name in scripts)
+        + scripts_html(root, _scripts(root, home, alone=bool(alone), told=told))
         + "</body></html>\n"
     )
 
 
-def _scripts(home: str, *, told: bool, dressed: bool, embedded: bool) -> tuple[str, ...]:
-    *others, page = SCRIPTS
-    return (
-        *(LIVE if home == "live" else RECORDED),
-        *others,
-        *(STORY_SCRIPTS if told else ()),
-        *(DRESS[1:] if dressed else ()),
-        *(EMBED if embedded else ()),
-        page,
-    )
+def _styles(root: str | None, *, alone: bool, told: bool) -> str:
+    """Return the name of the bundle with a page's styles."""
+    if alone:
+        return bundles.NOTEBOOK_STYLES if root is None else bundles.RUN_STYLES
+    if root is None:
+        return bundles.RUN_STYLES
+    return bundles.STORY_STYLES if told else bundles.BENCH_STYLES
+
+
+def _scripts(root: str | None, home: str, *, alone: bool, told: bool) -> str:
+    """Return the name of the bundle with a page's scripts."""
+    if root is None:
+        return bundles.NOTEBOOK_SCRIPTS
+    if home == "live":
+        return bundles.LIVE_STORY if told else bundles.LIVE_BENCH
+    if alone:
+        return bundles.RUN_SCRIPTS
+    return bundles.SITE_STORY if told else bundles.SITE_BENCH
 
 
 def _told(story: Story | None, footer: str) -> str:
@@ -188,29 +145,24 @@ def _third_parties(root: str | None) -> str:
     """
     if root is not None:
         return ""
-    text = (STATIC / THIRD_PARTIES).read_text(encoding="utf-8")
+    text = (bundles.STATIC / bundles.THIRD_PARTIES).read_text(encoding="utf-8")
     return f'<script type="text/plain" id="third-parties">{text}</script>'
 
 
-def _script(root: str | None, name: str) -> str:
+def scripts_html(root: str | None, name: str) -> str:
+    """Return what loads the scripts of a bundle, or has them in itself."""
     if root is not None:
         return f'<script src="{root}{name}"></script>'
-    text = bare(STATIC / name).replace("</script", "<\\/script")
-    return f"<script>{text}</script>"
+    texts = (bundles.part(file, inside=True) for file in bundles.BUNDLES[name])
+    return "".join(f"<script>{text.replace('</script', _CLOSED)}</script>" for text in texts)
 
 
-def _style(root: str | None, name: str) -> str:
+def _styles_html(root: str | None, name: str) -> str:
+    """Return what loads the styles of a bundle, or has them in itself."""
     if root is not None:
         return f'<link rel="stylesheet" href="{root}{name}">'
-    return f"<style>{math_font_css() if name == MATH else bare(STATIC / name)}</style>"
-
-
-def bare(file: Path) -> str:
-    """Return a script or style without the lines that only tell a reader something, and without
-    indents.
-    """
-    lines = (line.strip() for line in file.read_text(encoding="utf-8").splitlines())
-    return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
+    texts = (bundles.part(file, inside=True) for file in bundles.BUNDLES[name])
+    return "".join(f"<style>{text}</style>" for text in texts)
 
 
 def _article(
@@ -279,35 +231,20 @@ def in_script(value: Any) -> str:
 
 
 def document_head(
-    title: str,
-    summary: str,
-    root: str | None,
-    *,
-    more: str,
-    math: bool = True,
-    told: bool = False,
-    dressed: bool = False,
-    first: str = "",
+    title: str, summary: str, root: str | None, *, styles: str, more: str, first: str = ""
 ) -> str:
-    """Return the head of a document of ours; `first` is HTML that stands before every address."""
+    """Return the head of a document of ours; `styles` is the name of a bundle, `first` is HTML that
+    stands before every address.
+    """
     name = title if title == COURSE else f"{title} · {COURSE}"
-    icon = "data:," if root is None else f"{root}{ICON}"
+    icon = "data:," if root is None else f"{root}{bundles.ICON}"
+    unscripted = "" if root is None else _styles_html(root, bundles.UNSCRIPTED)
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<title>{escape(name)}</title><meta name="description" content="{escape(summary)}">'
-        f'{first}<link rel="icon" href="{icon}">'
-        + "".join(
-            _style(root, name)
-            for name in (
-                *STYLES,
-                *(STORY_STYLES if told else ()),
-                *(DRESS[:1] if told or dressed else ()),
-                *([MATH] if math else []),
-            )
-        )
-        + ("" if root is None else f"<noscript>{_style(root, UNSCRIPTED)}</noscript>")
-        + f"{more}</head>"
+        f'{first}<link rel="icon" href="{icon}">{_styles_html(root, styles)}'
+        f"{unscripted and f'<noscript>{unscripted}</noscript>'}{more}</head>"
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from fontTools.ttLib import TTFont
 from PIL import Image, ImageDraw, ImageFont
 
-from workbench.page.document import STATIC
+from workbench.page.bundles import STATIC
 
 SERIF = "source-serif-4-latin-wght-normal.woff2"
 PLAIN = 400

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from workbench.page import chart_svg
-from workbench.page.document import STATIC
+from workbench.page.bundles import STATIC
 
 _LIGHT = r"(?<![\]\w]):root\{([^}]*)\}"
 _DARK = r":root\[data-theme=dark\]\{([^}]*)\}"

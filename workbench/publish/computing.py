@@ -8,7 +8,7 @@ from typing import Any
 from workbench.computed import archive
 from workbench.knobs import changed
 from workbench.lesson import Lesson, course, is_of_course
-from workbench.page.document import COMPUTING, STATIC, bare
+from workbench.page.bundles import COMPUTING, STATIC, bare
 from workbench.page.lessons import lesson_data
 from workbench.publish.python import FOLDER, Python, python_from
 from workbench.publish.runs import PAGE, runs_of

@@ -14,8 +14,9 @@ from workbench.exercise.finding import exercises_of
 from workbench.lesson import Lesson, Question, is_of_course
 from workbench.page.about import footer_html
 from workbench.page.article import article_html
+from workbench.page.bundles import COMPUTING
 from workbench.page.course import Card, course_document
-from workbench.page.document import COMPUTING, in_script, lesson_document
+from workbench.page.document import in_script, lesson_document
 from workbench.page.exercise import exercises_html
 from workbench.picture.stills import stills_of, with_stills
 from workbench.publish.manifest import Listed

@@ -15,7 +15,8 @@ from workbench.machinery.workers import WorkerLostError, parallel_map
 from workbench.moved import runs_led_on
 from workbench.page.about import short_notice
 from workbench.page.article import LINK
-from workbench.page.document import STATIC, in_script, lesson_document
+from workbench.page.bundles import STATIC
+from workbench.page.document import in_script, lesson_document
 from workbench.page.steps import Steps
 from workbench.picture.stills import Still, still_svg, stills_of
 from workbench.publish.sources import sources_digest
@@ -360,12 +361,13 @@ def run_page(lesson: Lesson, run: Run) -> str:
     )
 
 
-def digest_of(lesson: Lesson, run: Run) -> str:
+def digest_of(lesson: Lesson, run: Run, sources: str) -> str:
     """Return what a published run must agree with: itself, its params, and all source and data that
-    it depends on.
+    it depends on, by their digest.
     """
     view = lesson.view_of(run.params)
-    said = f"{lesson.name}\0{lesson.title}\0{view}\0{run}\0{knobs.to_json(run.params)}\0{sources_digest(lesson)}"  # noqa: E501
+    params = knobs.to_json(run.params)
+    said = "\0".join([lesson.name, lesson.title, str(view), str(run), params, sources])
     return hashlib.sha256(said.encode()).hexdigest()
 
 

@@ -12,33 +12,20 @@ from workbench.lesson import Lesson
 from workbench.machinery.progress import Progress
 from workbench.machinery.version import __version__
 from workbench.moved import lessons_led_on, runs_led_on
-from workbench.page.about import (
-    MISSING_PAGE,
-    NOTICES_PAGE,
-    PLAIN,
-    missing_document,
-    notices_document,
-)
-from workbench.page.course import FRONT_FILES, FRONT_PICTURES, WELCOME
-from workbench.page.document import (
-    COURSE,
-    DRESS,
-    EMBED,
+from workbench.page.about import MISSING_PAGE, NOTICES_PAGE, missing_document, notices_document
+from workbench.page.bundles import (
     FONTS,
     ICON,
-    MATH,
     MATH_FONT,
-    RECORDED,
-    SCRIPTS,
+    SITE_FILES,
     STATIC,
-    STORY_SCRIPTS,
-    STORY_STYLES,
-    STYLES,
     THIRD_PARTIES,
     UNSCRIPTED,
     bare,
-    in_script,
+    bundle,
 )
+from workbench.page.course import FRONT_PICTURES, WELCOME
+from workbench.page.document import COURSE, in_script
 from workbench.page.thumbnail import card, course_card, thumbnail
 from workbench.publish.address import SITEMAP, base_of, folder_of, sitemap, social_head
 from workbench.publish.computing import computing
@@ -67,10 +54,11 @@ from workbench.publish.runs import (
     runs_of,
 )
 from workbench.publish.sizes import COURSE_PAGE, checked
+from workbench.publish.sources import sources_digest
 from workbench.recording import equal_content
 from workbench.run.timeline import Timelines
 from workbench.wire.client import viser_version
-from workbench.words.typeset import math_font, math_font_css
+from workbench.words.typeset import math_font
 
 PICTURE = "picture.webp"
 CARD_PICTURE = "card.png"
@@ -169,26 +157,16 @@ def _publish(
         )
     work = [(lesson, run) for lesson in lessons for run in runs_of(lesson, recordings)]
     computes = None if python is None else computing(python, lessons, others)
-    shared = {
-        f"{PAGE}/{name}": bare(STATIC / name).encode()
-        for name in (*STYLES, *FRONT_FILES, *RECORDED, *SCRIPTS)
+    shared = {f"{PAGE}/{name}": bundle(name).encode() for name in SITE_FILES}
+    shared |= {
+        f"{PAGE}/{name}": (STATIC / name).read_bytes()
+        for name in (*FONTS, ICON, *FRONT_PICTURES, THIRD_PARTIES)
     }
     shared |= {
-        f"{PAGE}/{name}": bare(STATIC / name).encode()
-        for name in (*STORY_STYLES, *STORY_SCRIPTS, *DRESS, *EMBED)
-    }
-    shared |= {
-        f"{PAGE}/{name}": (STATIC / name).read_bytes() for name in (*FONTS, ICON, *FRONT_PICTURES)
-    }
-    shared |= {
-        f"{PAGE}/{MATH}": math_font_css(MATH_FONT).encode(),
+        f"{PAGE}/{UNSCRIPTED}": bare(STATIC / UNSCRIPTED).encode(),
         f"{PAGE}/{MATH_FONT}": math_font(),
         ".nojekyll": b"",
-    }
-    shared |= {CLIENT: client_script().encode()}
-    shared |= {f"{PAGE}/{THIRD_PARTIES}": (STATIC / THIRD_PARTIES).read_bytes()}
-    shared |= {
-        **{f"{PAGE}/{name}": bare(STATIC / name).encode() for name in (PLAIN, UNSCRIPTED)},
+        CLIENT: client_script().encode(),
         NOTICES_PAGE: notices_document(f"{PAGE}/", accessibility_html()).encode(),
     }
     shared |= {} if computes is None else computes.files
@@ -264,7 +242,12 @@ def _render(
     manifest: Manifest, work: Sequence[tuple[Lesson, Run]], progress: Progress | None
 ) -> None:
     """Write the files of those runs that are not there as they should be."""
-    digests = {(lesson.name, run.name): digest_of(lesson, run) for lesson, run in work}
+    lessons = {lesson.name: lesson for lesson, _ in work}
+    sources = {name: sources_digest(lesson) for name, lesson in lessons.items()}
+    digests = {
+        (lesson.name, run.name): digest_of(lesson, run, sources[lesson.name])
+        for lesson, run in work
+    }
     stale = [
         (lesson, run)
         for lesson, run in work

@@ -6,7 +6,7 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import unquote, urlsplit
 
 from workbench.errors import InputError
-from workbench.page.document import COMPUTING, STORY_SCRIPTS
+from workbench.page.bundles import COMPUTING, SITE_STORY
 from workbench.publish.runs import PAGE
 
 COURSE_PAGE = "index.html"
@@ -54,7 +54,7 @@ def checked(out: Path, names: Iterable[str]) -> list[tuple[str, int]]:
         if pictures > PICTURES_BUDGET:
             raise InputError(_over(f"the pictures of {name}", pictures, PICTURES_BUDGET))
         weight -= pictures
-        budget = TOLD_BUDGET if f"{PAGE}/{STORY_SCRIPTS[-1]}" in text else PAGE_BUDGET
+        budget = TOLD_BUDGET if f"{PAGE}/{SITE_STORY}" in text else PAGE_BUDGET
         budget += COMPUTING_BUDGET if f"{PAGE}/{COMPUTING[1]}" in text else 0
         if weight > budget:
             raise InputError(_over(f"{name} with its styles and scripts", weight, budget))

@@ -33,6 +33,12 @@ ASKED = re.compile(r"(?m)^::: \{\.ask #([\w-]+)\}\n:::\n?")
 """Where a page without a story asks a question, by its name."""
 
 
+_read: dict[tuple[str, str], tuple[Lesson, str, Story]] = {}
+"""The story of each lesson's name and home, with the lesson and the text that it was read of: a
+publish asks for it with every run.
+"""
+
+
 def has_story(lesson: Lesson) -> bool:
     """Tell whether page.md tells a story: whether a heading of it has a name in braces."""
     headings = re.findall(r"(?m)^#{1,2}\s.*\{[^{}\n]*#[\w-]+[^{}\n]*\}\s*$", lesson.text())
@@ -47,8 +53,14 @@ def story_of(lesson: Lesson, home: str) -> Story | None:
     """
     if not has_story(lesson):
         return None
+    text = lesson.text()
+    known, read, story = _read.get((lesson.name, home), (None, "", None))
+    if known is lesson and read == text:
+        return story
     with typesetting(lesson.page):
-        return _Reader(Names(lesson, home)).read(sections(in_home(lesson.text(), home)))
+        story = _Reader(Names(lesson, home)).read(sections(in_home(text, home)))
+    _read[lesson.name, home] = (lesson, text, story)
+    return story
 
 
 def bench_text(lesson: Lesson) -> str:

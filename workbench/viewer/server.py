@@ -27,20 +27,17 @@ from workbench.exercise.watching import WatchedFile
 from workbench.lesson import Lesson, catalog
 from workbench.machinery.hosts import listening
 from workbench.machinery.warming import load_parts
-from workbench.page.code import source_html
-from workbench.page.course import FRONT_FILES, FRONT_PICTURES
-from workbench.page.document import (
+from workbench.page.bundles import (
+    FONTS,
     ICON,
-    LIVE,
-    MATH,
+    LIVE_FILES,
     MATH_FONT,
-    SCRIPTS,
     STATIC,
-    STORY_FILES,
-    STYLES,
     THIRD_PARTIES,
     UNSCRIPTED,
 )
+from workbench.page.code import source_html
+from workbench.page.course import FRONT_PICTURES
 from workbench.page.thumbnail import thumbnail
 from workbench.run import links
 from workbench.viewer.addresses import Doors
@@ -51,21 +48,17 @@ from workbench.viewer.pace import FIRST_WORD, Pace
 from workbench.viewer.patience import Patience, more_files
 from workbench.viewer.rules import RequestGate, Rules, page_response
 from workbench.viewer.runs import MOST_BYTES, SharedRuns, tidy
-from workbench.viewer.transfers import receive, recording, scene_response
-from workbench.wire.client import client_bytes
-from workbench.words.typeset import math_font, math_font_css
-
-FILES = (
-    *STYLES,
-    *LIVE,
-    *SCRIPTS,
-    *STORY_FILES,
-    *FRONT_FILES,
-    *FRONT_PICTURES,
-    ICON,
-    UNSCRIPTED,
-    THIRD_PARTIES,
+from workbench.viewer.transfers import (
+    bundle_served,
+    client_served,
+    receive,
+    recording,
+    text_response,
 )
+from workbench.words.typeset import math_font
+
+FILES = (*FONTS, *FRONT_PICTURES, ICON, UNSCRIPTED, THIRD_PARTIES)
+"""What is served as it is; styles and scripts come as bundles."""
 MOST_PAGES = 400
 """Pages at once; whoever comes later is told so."""
 MOST_A_SECOND = 200
@@ -171,7 +164,6 @@ class Server:
         return Starlette(
             routes=[
                 Route("/", self._page),
-                Route(f"/page/{MATH}", self._math),
                 Route(f"/page/{MATH_FONT}", self._math_font),
                 Route("/page/{file}", self._file),
                 Route("/picture/{lesson}", self._picture),
@@ -196,8 +188,9 @@ class Server:
 
     async def _warm_up(self) -> None:
         """Make what every page needs before the first one asks."""
-        await self.runs.asking.do(client_bytes)
-        await self.runs.asking.do(math_font)
+        await self.runs.asking.do(client_served)
+        for name in LIVE_FILES:
+            await self.runs.asking.do(bundle_served, name)
         await self.runs.asking.do(source_html, lesson_page)
         await self.runs.asking.do(load_parts)
 
@@ -272,11 +265,6 @@ class Server:
     async def _receive(self, request: Request) -> Response:
         return await receive(request, self.students.get(request.path_params["token"]))
 
-    async def _math(self, request: Request) -> Response:
-        return PlainTextResponse(
-            await self.runs.asking.do(math_font_css, MATH_FONT), media_type="text/css"
-        )
-
     async def _math_font(self, request: Request) -> Response:
         return Response(await self.runs.asking.do(math_font), media_type="font/woff2")
 
@@ -298,9 +286,11 @@ class Server:
 
     async def _file(self, request: Request) -> Response:
         name = request.path_params["file"]
-        return (
-            FileResponse(STATIC / name) if name in FILES else PlainTextResponse("no such file", 404)
-        )
+        if name in LIVE_FILES:
+            return text_response(request, await self.runs.opening.do(bundle_served, name))
+        if name in FILES:
+            return FileResponse(STATIC / name)
+        return PlainTextResponse("no such file", 404)
 
     async def _live(self, socket: WebSocket) -> None:
         await socket.accept()
@@ -340,7 +330,7 @@ class Server:
             await pace.step()
 
     async def _scene(self, request: Request) -> Response:
-        return scene_response(request, *await self.runs.opening.do(client_bytes))
+        return text_response(request, await self.runs.opening.do(client_served))
 
 
 async def _send(socket: WebSocket, part: str | bytes) -> None:

@@ -2,32 +2,69 @@
 its run and own files.
 """
 
+import functools
+import gzip
+import hashlib
+from dataclasses import dataclass
 from urllib.parse import quote
 
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import PlainTextResponse, Response
 
 from workbench.errors import InputError
+from workbench.page.bundles import bundle
 from workbench.run.timeline import Timeline
 from workbench.viewer.connection import PageConnection
 from workbench.viewer.terminal import tell_terminal
+from workbench.wire.client import client_html
 
 
-def scene_response(request: Request, plain: bytes, compressed: bytes, etag: str) -> Response:
-    """Return viser's client: nothing where the browser has it already, else compressed where it can
-    read that.
+@dataclass(frozen=True)
+class Served:
+    """A text that all pages ask for: as it is, compressed by gzip, and what stands for its content.
+
+    Attributes:
+        media_type: What kind of text it is.
     """
-    headers = {"etag": etag, "cache-control": "no-cache", "vary": "accept-encoding"}
-    if etag in (
+
+    plain: bytes
+    compressed: bytes
+    etag: str
+    media_type: str
+
+
+@functools.cache
+def client_served() -> Served:
+    """Return viser's client."""
+    return _served(client_html(), "text/html")
+
+
+@functools.cache
+def bundle_served(name: str) -> Served:
+    """Return a bundle of our own scripts or styles."""
+    return _served(bundle(name), "text/css" if name.endswith(".css") else "text/javascript")
+
+
+def _served(text: str, media_type: str) -> Served:
+    plain = text.encode()
+    etag = f'"{hashlib.blake2b(plain, digest_size=12).hexdigest()}"'
+    return Served(plain, gzip.compress(plain, 9, mtime=0), etag, media_type)
+
+
+def text_response(request: Request, text: Served) -> Response:
+    """Return a text: nothing where the browser has it already, else compressed where it can read
+    that.
+    """
+    headers = {"etag": text.etag, "cache-control": "no-cache", "vary": "accept-encoding"}
+    if text.etag in (
         one.strip().removeprefix("W/")
         for one in request.headers.get("if-none-match", "").split(",")
     ):
         return Response(status_code=304, headers=headers)
     if "gzip" in request.headers.get("accept-encoding", ""):
-        return Response(
-            compressed, headers=headers | {"content-encoding": "gzip"}, media_type="text/html"
-        )
-    return Response(plain, headers=headers, media_type="text/html")
+        headers["content-encoding"] = "gzip"
+        return Response(text.compressed, headers=headers, media_type=text.media_type)
+    return Response(text.plain, headers=headers, media_type=text.media_type)
 
 
 async def recording(student: PageConnection | None) -> Response:

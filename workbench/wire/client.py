@@ -3,8 +3,6 @@ would reach a server.
 """
 
 import functools
-import gzip
-import hashlib
 import importlib.util
 from importlib.metadata import version
 from pathlib import Path
@@ -45,16 +43,3 @@ def client_html() -> str:
             f"viser {viser_version()} has no client that a page can feed: install viser 1.1.1"
         )
     return html.replace("<head>", f"<head>{_WORKER}", 1)
-
-
-@functools.cache
-def client_bytes() -> tuple[bytes, bytes, str]:
-    """Return the client's file as it is, compressed by gzip, and what stands for its content in an
-    ETag.
-    """
-    plain = client_html().encode()
-    return (
-        plain,
-        gzip.compress(plain, 9, mtime=0),
-        f'"{hashlib.blake2b(plain, digest_size=12).hexdigest()}"',
-    )
