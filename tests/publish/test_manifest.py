@@ -15,6 +15,7 @@ from tests.publish.conftest import TINY
 from workbench.cli import main
 from workbench.errors import InputError
 from workbench.machinery import atomic
+from workbench.page.bundles import SITE_STORY
 from workbench.publish import site
 from workbench.publish.manifest import KEPT
 
@@ -272,6 +273,17 @@ def test_a_name_that_fits_no_folder_is_refused(tmp_path):
         with pytest.raises(InputError, match="name"):
             site.publish(tmp_path, [replace(TINY, name=name)])
     assert list(tmp_path.iterdir()) == []
+
+
+def test_one_lesson_is_not_published_where_files_would_go_that_the_others_need(out, monkeypatch):
+    before = contents(out)
+    fewer = tuple(name for name in site.SITE_FILES if name != SITE_STORY)
+    monkeypatch.setattr(site, "SITE_FILES", fewer)
+    with pytest.raises(InputError, match=r"other lessons' pages need files.*publish all"):
+        site.publish(out, [OTHER])
+    assert contents(out) == before
+    site.publish(out, [TINY])
+    assert not (out / "page" / SITE_STORY).exists()
 
 
 def test_part_of_a_site_of_another_version_is_not_published_alone(out):

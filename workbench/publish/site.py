@@ -177,6 +177,10 @@ def _publish(
     wanted |= {name for lesson, run in work for name in files_of(lesson, run)}
     leading = _leading_on(lessons, {*names, *others})
     wanted |= set(leading)
+    if others and any(name.startswith(f"{PAGE}/") for name in manifest.files.keys() - wanted):
+        raise InputError(
+            f"{out}: its other lessons' pages need files that would go; publish all of them again"
+        )
     manifest.check(wanted, force=force)
 
     manifest.made_by = made_by
