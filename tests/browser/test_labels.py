@@ -94,6 +94,27 @@ def test_words_are_not_cut_off_at_the_edge_of_a_narrow_picture(fed, words):
     assert (height > 30) == (words == 60), "what is longer than the picture is wide has more lines"
 
 
+def test_a_word_goes_out_of_the_way_of_the_page_s_buttons(fed):
+    there = {"w": Label("word", np.zeros(3))}
+    show(fed, there)
+    left, top, width, height = fed(WORDS)["w"]
+    fed(
+        """([x, y, w, h]) => {
+          const tools = element("div", { id: "tools" });
+          tools.style = `left:${x}px;top:${y}px;right:auto;bottom:auto;width:${w}px;height:${h}px`;
+          $("#scene").append(tools);
+        }""",
+        [left - 5, top - 5, width + 10, height + 10],
+    )
+    show(fed, there)
+    moved_left, moved_top, *_ = fed(WORDS)["w"]
+    fed("() => $('#tools').remove()")
+    assert moved_left == left
+    assert moved_top + height <= top - 5 or moved_top >= top + height + 5
+    show(fed, there)
+    assert fed(WORDS)["w"][:2] == [left, top]
+
+
 @pytest.mark.parametrize("up", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0)])
 @pytest.mark.parametrize("eye", [(2.0, -2.0, 1.5), (-0.5, 0.2, -3.0), (0.1, 4.0, 0.0)])
 def test_before_the_client_tells_its_camera_it_is_that_of_the_view(fed, eye, up):

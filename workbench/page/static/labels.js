@@ -43,7 +43,7 @@ const labels = {
       const [x, y, z] = turnedBack(this.camera.wxyz, (node.at ?? node).position.map((value, i) => value - this.camera.position[i]));
       return { word: this.words.get(name), z, u: width / 2 + (focal * x) / z, v: height / 2 + (focal * y) / z, small: node.props.small };
     });
-    const taken = [];
+    const taken = buttons(stage.frame);
     for (const { word, z, u, v, small } of found.sort((a, b) => a.z - b.z)) {
       word.hidden = !(z > 1e-6) || u < -50 || v < -50 || u > width + 50 || v > height + 50;
       if (word.hidden) continue;
@@ -58,6 +58,12 @@ const labels = {
 };
 
 const SHIFTS = [0, -1.05, 1.3, -2.1, 2.35, -3.15];  // heights of a word that it may go up or down to be read
+
+// where the page's own buttons lie over the picture: no word is read under them
+function buttons(frame) {
+  const box = $("#tools")?.getBoundingClientRect(), at = frame.getBoundingClientRect();
+  return box?.width ? [{ left: box.left - at.left, top: box.top - at.top, width: box.width, height: box.height }] : [];
+}
 
 // what is in the picture is not cut off at its edge
 function within(value, most) { return Math.max(0, Math.min(value, most)); }
