@@ -289,15 +289,15 @@ def _answer(question: bytes) -> bytes:
         read = getattr(importlib.import_module(module), name)
         read = getattr(read, "__wrapped__", read)
         with allowing(allowed), _limited(allowed):
-            found = read(*args, **kwargs)
-        return pickle.dumps((found, None, tuple(_noted)), protocol=5)
+            value = read(*args, **kwargs)
+        return pickle.dumps((value, None, tuple(_noted)), protocol=5)
     except InputError as error:
-        said = str(error)
+        message = str(error)
     except MemoryError:
-        said = f"{file}: to read it takes more memory than it may{allowed.more}"
+        message = f"{file}: to read it takes more memory than it may{allowed.more}"
     except Exception as error:  # readers and libraries raise what they trip over
-        said = f"{file}: not readable ({type(error).__name__})"
-    return pickle.dumps((None, said, ()), protocol=5)
+        message = f"{file}: not readable ({type(error).__name__})"
+    return pickle.dumps((None, message, ()), protocol=5)
 
 
 @contextlib.contextmanager

@@ -146,8 +146,8 @@ def cached(function: Any = None, /, *, most: int = 32) -> Any:
         bare, outer = plain(params), reader(params)
         values = _values_of(bare)
         others = (type(bare), rest, tuple(sorted(named.items())))
-        found = kept.find(values, others)
-        if found is None:
+        entry = kept.find(values, others)
+        if entry is None:
             reads = _Reads(function)
             try:
                 value = function(watched(bare, reads.note), *rest, **named)
@@ -158,7 +158,7 @@ def cached(function: Any = None, /, *, most: int = 32) -> Any:
                 array.setflags(write=False)
             kept.keep(values, others, tuple(sorted(reads.names)), value)
             return value
-        names, value = found
+        names, value = entry
         _tell(outer, names)
         return value
 
@@ -168,11 +168,11 @@ def cached(function: Any = None, /, *, most: int = 32) -> Any:
 
 def _values_of(params: Any) -> dict[str, Hashable]:
     """Return the values of all fields; with a file's, when it was changed and its size."""
-    found = {}
-    for one in dataclasses.fields(params):
-        value = getattr(params, one.name)
-        found[one.name] = (value, _stamp(value)) if isinstance(value, Path) else value
-    return found
+    values = {}
+    for field in dataclasses.fields(params):
+        value = getattr(params, field.name)
+        values[field.name] = (value, _stamp(value)) if isinstance(value, Path) else value
+    return values
 
 
 def _stamp(path: Path) -> tuple[int, int] | None:

@@ -214,11 +214,11 @@ def reopen(
     from workbench.viewer.serving import serve as serve_page
 
     given = None if lesson is None else lesson_given(lesson)
-    found, params, warnings = reopening(file, given, files=files)
+    recorded, params, warnings = reopening(file, given, files=files)
     for warning in warnings:
         _complain(warning)
-    _try_first_step(found, params)
-    serve_page(found, params, None, **asdict(serving))
+    _try_first_step(recorded, params)
+    serve_page(recorded, params, None, **asdict(serving))
 
 
 @command
@@ -428,12 +428,12 @@ def validate(
     """
     from workbench.authoring.validate import validate as held_to_its_promises
 
-    found = held_to_its_promises(
+    report = held_to_its_promises(
         lesson, lambda line: sys.stdout.write(f"{line}\n") and sys.stdout.flush()
     )
-    if found.wrong:
+    if report.wrong:
         return 1
-    sys.stdout.write(f"{found.name}: holds ({found.looked_at} checks)\n")
+    sys.stdout.write(f"{report.name}: holds ({report.looked_at} checks)\n")
     return 0
 
 
@@ -475,13 +475,13 @@ def publish(
     names = dict.fromkeys(name for word in lesson for name in word.split(",") if name)
     chosen = [lesson_given(name) for name in names or catalog()]
     given = dict[str, str]()
-    for word, one in zip(names or catalog(), chosen, strict=True):
-        if one.name in given:
+    for word, entry in zip(names or catalog(), chosen, strict=True):
+        if entry.name in given:
             raise InputError(
-                f"{given[one.name]} and {word} are both named {one.name!r}: a site has one of a"
+                f"{given[entry.name]} and {word} are both named {entry.name!r}: a site has one of a"
                 " name"
             )
-        given[one.name] = word
+        given[entry.name] = word
     with bar(sys.stderr, "Publishing") as progress:
         files = publish_site(
             out,

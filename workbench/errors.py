@@ -29,9 +29,9 @@ def not_among(name: str, known: Iterable[str]) -> str:
     names = list(known)
     meant = difflib.get_close_matches(name[:80], names, n=3)
     meant += [
-        one
-        for one in names
-        if one not in meant and one.replace("_", "") == name.replace("_", "")[:80]
+        other
+        for other in names
+        if other not in meant and other.replace("_", "") == name.replace("_", "")[:80]
     ]
     return (
         f"did you mean {' or '.join(meant)}?"

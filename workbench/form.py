@@ -84,7 +84,7 @@ def keywords_of(run: Callable[..., Any]) -> list[str]:
         parameters = inspect.signature(run).parameters.values()
     except (TypeError, ValueError):  # a function of C says nothing of its arguments
         return []
-    return [one.name for one in parameters if one.kind is one.KEYWORD_ONLY]
+    return [parameter.name for parameter in parameters if parameter.kind is parameter.KEYWORD_ONLY]
 
 
 def mistakes(setup: Any, run: Any, draw: Any) -> Iterator[str]:

@@ -248,10 +248,10 @@ class ParamField:
         if self.kind == "choice":
             return "one of " + ", ".join(self.choices)
         unit = f" {self.knob.unit}" if self.knob.unit else ""
-        what = "a whole number" if self.kind in ("int", "ints") else "a number"
+        number = "a whole number" if self.kind in ("int", "ints") else "a number"
         if self.kind in ("ints", "floats"):
-            what = f"{self.length} comma-separated numbers, each {what}"
-        return f"{what} from {_shown(self.knob.low)} to {_shown(self.knob.high)}{unit}"
+            number = f"{self.length} comma-separated numbers, each {number}"
+        return f"{number} from {_shown(self.knob.low)} to {_shown(self.knob.high)}{unit}"
 
 
 @functools.lru_cache(maxsize=128)
@@ -419,10 +419,10 @@ def in_words(message: str, params: type) -> str:
     """
     labels = {field.name: field.label for field in fields_of(params)}
 
-    def name(found: re.Match) -> str:
-        if found[1] not in labels:
-            return found[0]
-        return "--" + found[1].replace("_", "-") if _flags.get() else called(labels[found[1]])
+    def name(match: re.Match) -> str:
+        if match[1] not in labels:
+            return match[0]
+        return "--" + match[1].replace("_", "-") if _flags.get() else called(labels[match[1]])
 
     return _CALLED.sub(name, message)
 

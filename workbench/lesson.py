@@ -141,18 +141,20 @@ class Lesson(Generic[P, S]):
         else:
             yield from mistakes(self.setup, self.run, self.draw)
         places: dict[str, str] = {}
-        presets = [(f"preset {i}", "preset", one) for i, one in enumerate(self.presets, 1)]
-        questions = [(f"question {i}", "question", one) for i, one in enumerate(self.questions, 1)]
-        for place, _, one in [*presets, *questions]:
-            if one.name in places:
-                both = f"{places[one.name]} and {place}"
-                yield f": {both} share the name {one.name!r}; each is a run of the page"
-            places[one.name] = place
-        for _, what, one in [*presets, *questions]:
+        presets = [(f"preset {i}", "preset", preset) for i, preset in enumerate(self.presets, 1)]
+        questions = [
+            (f"question {i}", "question", question) for i, question in enumerate(self.questions, 1)
+        ]
+        for place, _, run in [*presets, *questions]:
+            if run.name in places:
+                both = f"{places[run.name]} and {place}"
+                yield f": {both} share the name {run.name!r}; each is a run of the page"
+            places[run.name] = place
+        for _, kind, run in [*presets, *questions]:
             try:
-                self.validated(one.params)
+                self.validated(run.params)
             except InputError as error:
-                yield f", {what} {one.name!r}: {error}"
+                yield f", {kind} {run.name!r}: {error}"
 
         for i, sweep in enumerate(self.sweeps, 1):
             if not sweep.values:
@@ -206,7 +208,7 @@ class Lesson(Generic[P, S]):
         ]
         return max(
             known,
-            key=lambda one: [getattr(one[0], name) == getattr(params, name) for name in choices],
+            key=lambda pair: [getattr(pair[0], name) == getattr(params, name) for name in choices],
         )[1]
 
     def text(self) -> str:
@@ -275,7 +277,7 @@ def course() -> Mapping[str, Lesson]:
     Raises:
         InputError: If two of them have one name; tells both places.
     """
-    found, places = list[Lesson](), dict[str, str]()
+    lessons, places = list[Lesson](), dict[str, str]()
     for folder in folders():
         lesson = _lesson_of(folder)
         if lesson is None:
@@ -283,9 +285,9 @@ def course() -> Mapping[str, Lesson]:
         if lesson.name in places:
             both = f"{places[lesson.name]} and lessons.{folder}"
             raise InputError(f"{both} are both named {lesson.name!r}: rename one")
-        found.append(lesson)
+        lessons.append(lesson)
         places[lesson.name] = f"lessons.{folder}"
-    return _in_order(found)
+    return _in_order(lessons)
 
 
 class Catalog(Mapping[str, Lesson]):
@@ -316,12 +318,12 @@ class Catalog(Mapping[str, Lesson]):
 
     @functools.cached_property
     def _whole(self) -> Mapping[str, Lesson]:
-        found, places = dict(course()), {name: f"lessons.{name}" for name in course()}
+        lessons, places = dict(course()), {name: f"lessons.{name}" for name in course()}
         for entry in importlib.metadata.entry_points(group="workbench.lessons"):
             place = f"{entry.name} ({entry.value})"
             try:
                 lesson = lesson_in(importlib.import_module(entry.module), entry.attr or "lesson")
-                if lesson.name in found:
+                if lesson.name in lessons:
                     raise InputError(f"its name {lesson.name!r} is taken by {places[lesson.name]}")
             except (
                 Exception,
@@ -329,8 +331,8 @@ class Catalog(Mapping[str, Lesson]):
             ) as error:  # somebody else's lesson must not take the course down
                 warnings.warn(LeftOutWarning(f"lesson {place} is left out: {error}"), stacklevel=1)
             else:
-                found[lesson.name], places[lesson.name] = lesson, place
-        return _in_order(found.values())
+                lessons[lesson.name], places[lesson.name] = lesson, place
+        return _in_order(lessons.values())
 
 
 @functools.cache

@@ -127,7 +127,7 @@ class Moved:
 def moved(lesson: str, preset: str | None, values: Mapping[str, Any]) -> Moved:
     """Return where a lesson's preset and params are now; what did not move is returned as it is."""
     move = next(
-        (one for one in MOVES if one.lesson == lesson and one.is_meant(preset, values)), None
+        (move for move in MOVES if move.lesson == lesson and move.is_meant(preset, values)), None
     )
     if move is None:
         return Moved(lesson, preset, dict(values))

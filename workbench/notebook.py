@@ -107,9 +107,9 @@ class Replay:
         """
         last = len(self.timeline) - 1
         numbers = [
-            f"{one.scalar.name}: {_said(one.values[last], one.scalar.unit)}"
-            for one in self.timeline.series().values()
-            if np.isfinite(one.values[last])
+            f"{series.scalar.name}: {_said(series.values[last], series.scalar.unit)}"
+            for series in self.timeline.series().values()
+            if np.isfinite(series.values[last])
         ]
         lines = [
             f"{self.lesson.title}, step {last} of {last}: {self.timeline[last].caption.text}",

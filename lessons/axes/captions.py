@@ -26,7 +26,7 @@ PLACE = {"cloud": "scans", "order": "axes", "signs": "signs"}
 
 def of_state(look: Look) -> Caption:
     """Return the caption of a step of the stages `space` and `turn`."""
-    state, now, place = look.now, look.now.jacobi, PLACE.get(look.now.moment, "")
+    state, rotated, place = look.now, look.now.jacobi, PLACE.get(look.now.moment, "")
     match state.moment:
         case "cloud":
             p, q = look.subject.p_target, look.subject.p_source
@@ -39,18 +39,24 @@ def of_state(look: Look) -> Caption:
             return say("Centroid on centroid settles the shift. A turn is left to find.")
         case "covariance":
             words = "The entries off the diagonal make {left} of the norm of C."
-            return say(words, left=part(now.off), place=place)
+            return say(words, left=part(rotated.off), place=place)
         case "rotation":
             words = "Turn {n}: {turned} in its {i}-{j} plane leaves {left} off the diagonal."
-            turned = degrees(abs(np.degrees(now.angle)))
-            i, j = ("xyz"[k] for k in now.plane)
-            given = {"n": state.rotations, "turned": turned, "i": i, "j": j, "left": part(now.off)}
+            turned = degrees(abs(np.degrees(rotated.angle)))
+            i, j = ("xyz"[k] for k in rotated.plane)
+            given = {
+                "n": state.rotations,
+                "turned": turned,
+                "i": i,
+                "j": j,
+                "left": part(rotated.off),
+            }
             return say(words, **given)
         case "hand":
-            i, j = now.plane
+            i, j = rotated.plane
             words = f"Turned by {{turned}}, the {'xyz'[i]}-{'xyz'[j]} entry is {{entry}} cm²."
-            entry = number(CM2 * now.A[i, j])
-            return say(words, turned=degrees(np.degrees(now.angle)), entry=entry)
+            entry = number(CM2 * rotated.A[i, j])
+            return say(words, turned=degrees(np.degrees(rotated.angle)), entry=entry)
         case "order":
             a, b, c = (metres(float(np.sqrt(max(v, 0.0)))) for v in state.variances)
             words = "In the order of variance: standard deviations {a}, {b} and {c}."
@@ -60,11 +66,11 @@ def of_state(look: Look) -> Caption:
             gap = metres(state.frames[state.frame - 1].gap)
             return say(words, k=state.frame, n=len(state.frames), gap=gap)
         case "signs":
-            one, two, _ = skewness(state)
+            first, second, _ = skewness(state)
             words = (
                 f"{RULES[look.params.signs]}: frame {{k}}. The moments were {{one}} and {{two}}."
             )
-            return say(words, k=state.frame, one=fixed(one, 2), two=fixed(two, 2), place=place)
+            return say(words, k=state.frame, one=fixed(first, 2), two=fixed(second, 2), place=place)
         case "pose":
             return _of_pose(look)
     turns = sure(state.turns)

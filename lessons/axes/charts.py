@@ -31,12 +31,12 @@ OFF_TRUTH, GAP = Chart("Rotation error", unit="deg"), Chart("To the nearest poin
 
 def of_space(look: Look) -> dict[str, Primitive]:
     """Return the charts and tables of a step of the stages in space."""
-    state, now = look.now, look.now.jacobi
-    if now is None:
+    state, rotated = look.now, look.now.jacobi
+    if rotated is None:
         return {}
     turning = state.axes is None
     off, to_axes = (
-        (max(now.off, ROUNDING), max(_to_axes(state), 1e-9)) if turning else (np.nan,) * 2
+        (max(rotated.off, ROUNDING), max(_to_axes(state), 1e-9)) if turning else (np.nan,) * 2
     )
     scene: dict[str, Primitive] = {
         "off diagonal": OFF.scalar(100.0 * off, "off the diagonal", log=True),
@@ -45,13 +45,14 @@ def of_space(look: Look) -> dict[str, Primitive]:
     if turning:
         rows = ("xyz"[k : k + 1] for k in range(3))
         cells = tuple(
-            (name, *(fixed(CM2 * v, 2) for v in row)) for name, row in zip(rows, now.A, strict=True)
+            (name, *(fixed(CM2 * v, 2) for v in row))
+            for name, row in zip(rows, rotated.A, strict=True)
         )
         scene["covariance"] = Table("Covariance in the frame (cm²)", ("", "x", "y", "z"), cells)
         if state.moment == "hand":
             return scene | _by_hand(state)
-        if state.before is not None and now.plane is not None:
-            scene["variance"] = _variance(state.before, now.plane, now.angle)
+        if state.before is not None and rotated.plane is not None:
+            scene["variance"] = _variance(state.before, rotated.plane, rotated.angle)
         return scene
     k, three = state.moment, np.arange(1.0, 4.0)
     if k in ("order", "frame", "signs"):
@@ -60,7 +61,7 @@ def of_space(look: Look) -> dict[str, Primitive]:
         scene["frame number"] = FRAME.scalar(state.frame, "frame")
     if k == "frame":
         scene["gap"] = GAP.scalar(state.frames[state.frame - 1].gap, "gap")
-        gaps = np.array([MM * one.gap for one in state.frames])
+        gaps = np.array([MM * frame.gap for frame in state.frames])
         x = np.arange(1.0, len(gaps) + 1)
         scene["gaps"] = FRAMES.bars(x, gaps, "to the nearest points")
     if k == "signs":
@@ -83,16 +84,18 @@ def of_space(look: Look) -> dict[str, Primitive]:
 
 
 def _by_hand(state: State) -> dict[str, Primitive]:
-    now, before = sure(state.jacobi), sure(state.before)
-    i, j = sure(now.plane)
+    rotated, before = sure(state.jacobi), sure(state.before)
+    i, j = sure(rotated.plane)
     a = np.radians(HAND)
     c, s = np.cos(a), np.sin(a)
     entry = CM2 * ((before[j, j] - before[i, i]) * c * s + before[i, j] * (c * c - s * s))
-    held = float(np.degrees(now.angle))
+    held = float(np.degrees(rotated.angle))
     return {
         "entry/curve": ENTRY.whole(HAND, entry, "entry of the shaded plane", "source"),
         "entry/zero": ENTRY.second(HAND, 0.0 * HAND, "zero", "neutral"),
-        "entry/mark": ENTRY.mark(held, CM2 * now.A[i, j], "your hand", "source", steps="turned"),
+        "entry/mark": ENTRY.mark(
+            held, CM2 * rotated.A[i, j], "your hand", "source", steps="turned"
+        ),
         "turned": HELD.scalar(held, "turned"),
     }
 

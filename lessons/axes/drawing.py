@@ -116,13 +116,13 @@ def _candidates(look: Look) -> dict[str, Primitive]:
     scans, state = look.subject, look.now
     chosen = state.frame - 1
     names: list[tuple[str, Role]] = []
-    for k, one in enumerate(state.frames):
+    for k, frame in enumerate(state.frames):
         picked = state.moment == "signs" and k == chosen
-        words = f"{k + 1}: {length(one.gap, 2)}"
+        words = f"{k + 1}: {length(frame.gap, 2)}"
         names.append(
             (f"{words}, by the rule" if picked else words, "source" if k == chosen else "neutral")
         )
-    T = np.stack([one.T_target_source for one in state.frames])
+    T = np.stack([frame.T_target_source for frame in state.frames])
     cell = _cells(scans)[chosen] @ T[chosen]
     axes = sure(state.axes)
     covariance = sure(state.jacobi).V @ sure(state.jacobi).A @ sure(state.jacobi).V.T
@@ -180,20 +180,20 @@ def _four(
 
 def _turned(state: State) -> dict[str, Primitive]:
     """Return the frame as it stands, and the plane in which it was turned, with its angle."""
-    now, m = sure(state.jacobi), state.p_centre
-    reach = BEYOND * SIGMAS * np.sqrt(np.maximum(np.diag(now.A), 1e-6))
-    scene = _lines("frame", m, now.V * reach, "turned {}", "xyz")
-    if now.plane is None:
+    rotated, m = sure(state.jacobi), state.p_centre
+    reach = BEYOND * SIGMAS * np.sqrt(np.maximum(np.diag(rotated.A), 1e-6))
+    scene = _lines("frame", m, rotated.V * reach, "turned {}", "xyz")
+    if rotated.plane is None:
         return scene
-    i, j = now.plane
-    c, s = np.cos(now.angle), np.sin(now.angle)
-    before = now.V[:, i] * c - now.V[:, j] * s  # V G^T: where axis i was
-    about, radius = np.cross(now.V[:, i], now.V[:, j]), 0.55
+    i, j = rotated.plane
+    c, s = np.cos(rotated.angle), np.sin(rotated.angle)
+    before = rotated.V[:, i] * c - rotated.V[:, j] * s  # V G^T: where axis i was
+    about, radius = np.cross(rotated.V[:, i], rotated.V[:, j]), 0.55
     ring = circle(m, about, radius, "neutral", opacity=0.5)
     p = ring.ends[:, 0]
     name = "plane of the turn"
     scene["plane"] = Mesh(p, fan(len(p)), "neutral", opacity=0.12, name=name)
-    degrees = float(np.degrees(now.angle))
+    degrees = float(np.degrees(rotated.angle))
     if abs(degrees) > 0.5:
         scene |= arc("angle", m, before, degrees, about=about, radius=radius, color="highlight")
     return scene
@@ -201,8 +201,8 @@ def _turned(state: State) -> dict[str, Primitive]:
 
 def _matrix(state: State) -> dict[str, Primitive]:
     """Return the covariance in the frame as nine cells; those off the diagonal show their size."""
-    now = sure(state.jacobi)
-    first = now.V @ now.A @ now.V.T
+    rotated = sure(state.jacobi)
+    first = rotated.V @ rotated.A @ rotated.V.T
     most = float(np.abs(first - np.diag(np.diag(first))).max()) or 1.0
     right, down = np.array([CELL, 0.0, 0.0]), np.array([0.0, 0.0, -CELL])
     corners, levels, scene = [], [], dict[str, Primitive]()
@@ -218,11 +218,11 @@ def _matrix(state: State) -> dict[str, Primitive]:
                     p + down + gap * [1, 0, -1],
                 ]
             )
-            levels.append(0.5 if i == j else 0.5 + 0.5 * now.A[i, j] / most)
+            levels.append(0.5 if i == j else 0.5 + 0.5 * rotated.A[i, j] / most)
             middle = p + (right + down) / 2 - [0.0, 0.02, 0.0]
-            turned = now.plane is not None and {i, j} == set(now.plane)
+            turned = rotated.plane is not None and {i, j} == set(rotated.plane)
             role: Role = "highlight" if turned else "neutral"
-            scene[f"matrix/{i}{j}"] = Label(fixed(CM2 * now.A[i, j], 0), middle, role)
+            scene[f"matrix/{i}{j}"] = Label(fixed(CM2 * rotated.A[i, j], 0), middle, role)
     faces = np.concatenate(
         [[[4 * k, 4 * k + 1, 4 * k + 2], [4 * k, 4 * k + 2, 4 * k + 3]] for k in range(9)]
     )
@@ -255,8 +255,8 @@ def _missed(scans: Scans, state: State, T_world_source: np.ndarray) -> dict[str,
     if T is None or state.turns is not None:
         return {}
     p = scans.p_source[every(len(scans.p_source), MOST_MISSES)]
-    there = apply(T_world_source, scans.p_source), apply(scans.T_world_target, scans.p_target)
-    high = max(float(np.percentile(one[:, 2], 99)) for one in there)
+    clouds = apply(T_world_source, scans.p_source), apply(scans.T_world_target, scans.p_target)
+    high = max(float(np.percentile(cloud[:, 2], 99)) for cloud in clouds)
     top = np.array([scans.T_world_target[0, 3], 0.0, high + 0.2])
     words = f"{angle(outcome.rotation)} from the truth"
     scene: dict[str, Primitive] = {"off": Label(words, top, "truth" if outcome.home else "wrong")}
@@ -310,8 +310,8 @@ def _arrows(path: str, p: np.ndarray, axes: np.ndarray, T: np.ndarray) -> dict[s
     """Return three arrows from a point, along the columns of a matrix, with their numbers."""
     scene: dict[str, Primitive] = {}
     for k in range(3):
-        one = arrows(p[None], p[None] + axes[:, k], COLORS[k], head=0.1, name=f"axis {k + 1}")
-        scene[f"{path}/{k + 1}"] = Segments(one.ends, COLORS[k], 4, T, name=one.name)
+        arrow = arrows(p[None], p[None] + axes[:, k], COLORS[k], head=0.1, name=f"axis {k + 1}")
+        scene[f"{path}/{k + 1}"] = Segments(arrow.ends, COLORS[k], 4, T, name=arrow.name)
         scene[f"{path}/{k + 1} name"] = Label(str(k + 1), p + 1.08 * axes[:, k], COLORS[k], T)
     return scene
 

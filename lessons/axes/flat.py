@@ -103,14 +103,14 @@ def hand(outline: Outline) -> Iterator[Held]:
 
 def draw(look: Look[Params, Outline, Held]) -> Scene:
     """Return the points, the line, their shadow on it, and the variance over the direction."""
-    outline, now = look.subject, look.now
-    a = np.radians(now.direction)
+    outline, state = look.subject, look.now
+    a = np.radians(state.direction)
     u, across, m = (
         np.array([np.cos(a), np.sin(a)]),
         np.array([-np.sin(a), np.cos(a)]),
         outline.centre,
     )
-    sd = float(np.sqrt(now.variance))
+    sd = float(np.sqrt(state.variance))
     shadow = m + np.outer((outline.p - m) @ u, u)
     ends = np.stack([m - SIGMAS * sd * u, m + SIGMAS * sd * u])
     reach = max(REACH, 1.1 * float(np.abs((outline.p - m) @ u).max()))
@@ -129,30 +129,30 @@ def draw(look: Look[Params, Outline, Held]) -> Scene:
         ),
         "caption": say(
             "At {direction} the standard deviation of the shadow is {sd}.",
-            direction=degrees(now.direction),
+            direction=degrees(state.direction),
             sd=metres(sd),
         ),
-        "direction": DIRECTION.scalar(now.direction, "direction"),
+        "direction": DIRECTION.scalar(state.direction, "direction"),
         "sd": SPREAD.scalar(sd, "standard deviation"),
     }
     zero = np.stack([m, m + 0.5 * REACH * np.array([1.0, 0.0])])
     scene["zero/line"] = Segments(segments(upright(zero, -0.001)), "neutral", 1.0, opacity=0.6)
     scene["zero/name"] = Label("0°", upright(zero[1:] + np.array([0.05, 0.0]))[0], "neutral")
-    if now.direction > 0:
+    if state.direction > 0:
         at = {"about": np.array([0.0, -1.0, 0.0]), "radius": 0.4 * REACH, "width": 2.0}
         along_x = np.array([1.0, 0.0, 0.0])
-        scene |= arc("turned", upright(m[None], -0.005)[0], along_x, now.direction, **at)
-    reached = 1.5 * SIGMAS * np.sqrt(float(held(outline.C, now.direction + 90.0)[0]))
+        scene |= arc("turned", upright(m[None], -0.005)[0], along_x, state.direction, **at)
+    reached = 1.5 * SIGMAS * np.sqrt(float(held(outline.C, state.direction + 90.0)[0]))
     fences = np.stack([ends - reached * across, ends + reached * across], axis=1)
     scene["ellipse/line"] = Segments(
         segments(upright(_ellipse(outline), -0.004)), "highlight", 3.0, name="ellipse of 2 sd"
     )
     scene["ellipse/fences"] = Segments(
-        np.stack([upright(one, -0.003) for one in fences]), "highlight", 1.5, opacity=0.6
+        np.stack([upright(fence, -0.003) for fence in fences]), "highlight", 1.5, opacity=0.6
     )
     if outline.has_stray:
         scene |= _stray(outline)
-    return scene | _charts(outline, now)
+    return scene | _charts(outline, state)
 
 
 def _ellipse(outline: Outline) -> np.ndarray:
@@ -176,9 +176,9 @@ def _stray(outline: Outline) -> dict[str, Primitive]:
     }
 
 
-def _charts(outline: Outline, now: Held) -> dict[str, Primitive]:
-    variance, covariance = (CM2 * one for one in held(outline.C, FINE))
-    x, y, c = now.direction, CM2 * now.variance, CM2 * now.covariance
+def _charts(outline: Outline, state: Held) -> dict[str, Primitive]:
+    variance, covariance = (CM2 * values for values in held(outline.C, FINE))
+    x, y, c = state.direction, CM2 * state.variance, CM2 * state.covariance
     return {
         "variance/curve": VARIANCE.whole(FINE, variance, "variance", "source"),
         "variance/mark": VARIANCE.mark(x, y, "your hand", "source", steps="direction"),

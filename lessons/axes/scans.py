@@ -72,8 +72,8 @@ def _scans(params: Input) -> Scans:
     sides = None
     if params.source is None and params.shape in ("box", "cube"):
         sides = (1.0, params.side, LOW) if params.shape == "box" else (1.0, 1.0, 1.0)
-    what = f"one {params.shape}" if params.source is None else params.source.name
-    return _beside(p_target, p_source, motion(R, np.zeros(3)), params, what, sides)
+    subject = f"one {params.shape}" if params.source is None else params.source.name
+    return _beside(p_target, p_source, motion(R, np.zeros(3)), params, subject, sides)
 
 
 def sample_of(params: Input) -> Sample:
@@ -126,7 +126,7 @@ def _beside(
     p_source: np.ndarray,
     T: np.ndarray | None,
     params: Input,
-    what: str,
+    subject: str,
     sides: tuple[float, float, float] | None = None,
 ) -> Scans:
     """Return the scans, the first to the left of the second, with the stray point that was
@@ -142,6 +142,6 @@ def _beside(
         T_target_source=T,
         T_world_target=T_world_target,
         stray=stray,
-        what=what,
+        what=subject,
         sides=sides,
     )

@@ -140,10 +140,10 @@ def steps(params: Input, scans: Scans, find: Slot | None, sign: Slot | None) -> 
     state = State(moment="cloud", p_centre=p_centre)
     yield state
     yield replace(state, moment="centroid")
-    for k, now in enumerate(jacobi(covariance)):
+    for k, rotated in enumerate(jacobi(covariance)):
         before = state.jacobi.A if state.jacobi else None
         moment = "rotation" if k else "covariance"
-        state = replace(state, moment=moment, jacobi=now, before=before, rotations=k)
+        state = replace(state, moment=moment, jacobi=rotated, before=before, rotations=k)
         yield state
     axes, axes_target = ((find or by_jacobi)(p) for p in (scans.p_source, scans.p_target))
     variances = np.einsum("ij,ik,kj->j", axes, covariance, axes)
@@ -155,7 +155,7 @@ def steps(params: Input, scans: Scans, find: Slot | None, sign: Slot | None) -> 
     axes_target = with_signs(axes_target, scans.p_target, params, sign)
     outcome = outcome_of(scans, p_centre, axes, axes_target)
     R = outcome.T_target_source
-    chosen = [degrees_between(one.T_target_source, R) for one in frames]
+    chosen = [degrees_between(frame.T_target_source, R) for frame in frames]
     state = replace(
         state,
         moment="signs",
@@ -176,27 +176,29 @@ def steps(params: Input, scans: Scans, find: Slot | None, sign: Slot | None) -> 
 def candidates(scans: Scans, find: Slot | None) -> Iterator[State]:
     """Yield the axes of both as lines, then the four frames of the source laid on the target's."""
     p_centre, covariance = centroid_and_covariance(scans.p_source)
-    *_, now = jacobi(covariance)
+    *_, rotated = jacobi(covariance)
     axes, axes_target = ((find or by_jacobi)(p) for p in (scans.p_source, scans.p_target))
     state = State(
         moment="order",
         p_centre=p_centre,
-        jacobi=now,
+        jacobi=rotated,
         axes=axes,
         axes_target=axes_target,
         variances=np.einsum("ij,ik,kj->j", axes, covariance, axes),
         frames=outcomes(scans, p_centre, axes, axes_target),
     )
     yield state
-    for k, one in enumerate(right_handed_frames(axes)):
-        yield replace(state, moment="frame", axes=one, frame=k + 1)
+    for k, right_handed in enumerate(right_handed_frames(axes)):
+        yield replace(state, moment="frame", axes=right_handed, frame=k + 1)
 
 
 def outcomes(
     scans: Scans, p_centre: np.ndarray, axes: np.ndarray, axes_target: np.ndarray
 ) -> tuple[Outcome, ...]:
     """Return what comes of laying each right-handed frame with these axes on the target's."""
-    return tuple(outcome_of(scans, p_centre, one, axes_target) for one in right_handed_frames(axes))
+    return tuple(
+        outcome_of(scans, p_centre, frame, axes_target) for frame in right_handed_frames(axes)
+    )
 
 
 def by_hand(scans: Scans) -> Iterator[State]:
@@ -211,8 +213,8 @@ def by_hand(scans: Scans) -> Iterator[State]:
         G[[i, j, i, j], [i, j, j, i]] = c, c, -s, s
         A = G.T @ covariance @ G
         off = float(np.linalg.norm(A - np.diag(np.diag(A))) / np.linalg.norm(A))
-        now = Rotated(A, G, (i, j), angle, off)
-        yield State(moment="hand", p_centre=p_centre, jacobi=now, before=covariance)
+        rotated = Rotated(A, G, (i, j), angle, off)
+        yield State(moment="hand", p_centre=p_centre, jacobi=rotated, before=covariance)
 
 
 def by_jacobi(p: np.ndarray) -> np.ndarray:
@@ -296,7 +298,7 @@ def off_by_side(params: Input) -> np.ndarray:
 
     The medians of PAIRS pairs of scans.
     """
-    found = []
+    medians = []
     with untraced():
         for side in SIDES:
             rng, sample = np.random.default_rng(params.seed), sampler("box", side)
@@ -307,5 +309,5 @@ def off_by_side(params: Input) -> np.ndarray:
                 )
                 axes = [np.linalg.eigh(C)[1][:, ::-1] for C in (first, second)]
                 pairs.append(degrees_between_axes(*axes)[0])
-            found.append(np.median(pairs))
-    return np.array(found)
+            medians.append(np.median(pairs))
+    return np.array(medians)

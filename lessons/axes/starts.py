@@ -81,8 +81,10 @@ def race(scans: Scans, find: Slot | None) -> Iterator[Race]:
     p_centre, _ = centroid_and_covariance(scans.p_source)
     with untraced():
         axes, axes_target = ((find or by_jacobi)(p) for p in (scans.p_source, scans.p_target))
-    T = np.stack([one.T_target_source for one in outcomes(scans, p_centre, axes, axes_target)])
-    runs, rmse, running = [_icp(scans, one) for one in T], np.zeros(4), [True] * 4
+    T = np.stack(
+        [outcome.T_target_source for outcome in outcomes(scans, p_centre, axes, axes_target)]
+    )
+    runs, rmse, running = [_icp(scans, start) for start in T], np.zeros(4), [True] * 4
     count = 0
     for count in range(MOST + 1):
         for k in np.flatnonzero(running):
@@ -106,5 +108,5 @@ def race(scans: Scans, find: Slot | None) -> Iterator[Race]:
 def _now(scans: Scans, count: int, T: np.ndarray, rmse: np.ndarray, **more: Any) -> Race:
     off = np.full(4, np.nan)
     if scans.T_target_source is not None:
-        off = np.array([degrees_between(one, scans.T_target_source) for one in T])
+        off = np.array([degrees_between(pose, scans.T_target_source) for pose in T])
     return Race(round=count, T=T.copy(), rmse=rmse.copy(), off=off, **more)

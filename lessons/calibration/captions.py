@@ -86,15 +86,15 @@ def _left_out(names: tuple[str, ...]) -> str:
 
 
 def _constraints(state: State) -> Caption:
-    now, view = state.now, state.subject.views[len(state.now.Hs_image_board) - 1]
-    text = f"View {view} adds two rows: {len(now.rows)} in all for B = K⁻ᵀK⁻¹."
-    if len(now.rows) < 4:
+    estimate, view = state.now, state.subject.views[len(state.now.Hs_image_board) - 1]
+    text = f"View {view} adds two rows: {len(estimate.rows)} in all for B = K⁻ᵀK⁻¹."
+    if len(estimate.rows) < 4:
         return Caption(f"{text} They leave B open; more views are needed.")
-    if now.K is None:
+    if estimate.K is None:
         return Caption(
             f"{text} The B that fits best is not positive definite: no camera sees such views."
         )
-    cx, cy = now.K[:2, 2]
+    cx, cy = estimate.K[:2, 2]
     return Caption(
         f"{text} K so far: {f_of(state)}; principal point ({fixed(cx, 0)}, {fixed(cy, 0)}). No lens"
         " is in it yet."
@@ -102,11 +102,11 @@ def _constraints(state: State) -> Caption:
 
 
 def _poses(state: State) -> Caption:
-    now = state.now
-    Ts = now.Ts_camera_board
+    estimate = state.now
+    Ts = estimate.Ts_camera_board
     start = (
         "No likely camera has these rows: f is guessed as the picture's width. "
-        if now.guessed
+        if estimate.guessed
         else ""
     )
     behind = int((Ts[:, 2, 3] <= 0).sum())
@@ -114,7 +114,7 @@ def _poses(state: State) -> Caption:
     off = np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max(axis=(1, 2)) > ORTHONORMAL
     mirrored = int((np.linalg.det(R) < 0).sum())
     if behind or off.any() or mirrored:
-        what = [
+        faults = [
             (behind, "stands behind the camera", "stand behind the camera"),
             (
                 int(off.sum()),
@@ -123,10 +123,12 @@ def _poses(state: State) -> Caption:
             ),
             (mirrored, "is a mirror image", "are mirror images"),
         ]
-        said = "; ".join(
-            counted(count, f"board {one}", f"boards {more}") for count, one, more in what if count
+        text = "; ".join(
+            counted(count, f"board {single}", f"boards {more}")
+            for count, single, more in faults
+            if count
         )
-        return Caption(f"{start}{said}: these are no poses.", "wrong")
+        return Caption(f"{start}{text}: these are no poses.", "wrong")
     return Caption(
         f"{start}With this K every view gets a pose: {counted(len(Ts), 'board')} before the camera."
         f" {f_of(state)}. No lens yet: corners are off by {pixels(state.rms)} (rms)."
@@ -149,21 +151,21 @@ def _lens(state: State) -> Caption:
 
 
 def _refine(state: State) -> Caption:
-    now = sure(state.now.adjustment)
-    unknowns = int(now.free.sum()) + 6 * len(now.Ts_camera_board)
-    if not now.accepted:
+    adjustment = sure(state.now.adjustment)
+    unknowns = int(adjustment.free.sum()) + 6 * len(adjustment.Ts_camera_board)
+    if not adjustment.accepted:
         text = (
-            f"Iteration {now.iteration}: the step would raise the cost and is not taken; the"
+            f"Iteration {adjustment.iteration}: the step would raise the cost and is not taken; the"
             " damping grows tenfold."
         )
-    elif now.iteration == 1:
+    elif adjustment.iteration == 1:
         text = (
             f"Iteration 1: camera, lens and poses move together, {unknowns} unknowns at once. The"
             f" rms falls from {pixels(state.before)} to {pixels(state.rms)}; {f_of(state)}."
         )
     else:
-        text = f"Iteration {now.iteration}: rms {pixels(state.rms)}; {f_of(state)}."
-    return Caption(f"{text} {STOPS[now.stop]}" if now.stop else text)
+        text = f"Iteration {adjustment.iteration}: rms {pixels(state.rms)}; {f_of(state)}."
+    return Caption(f"{text} {STOPS[adjustment.stop]}" if adjustment.stop else text)
 
 
 def _views(state: State, ending: Ending) -> Caption:
@@ -178,49 +180,53 @@ def _views(state: State, ending: Ending) -> Caption:
 
 
 def _without(state: State, ending: Ending) -> Caption:
-    found, now = sure(state.now.adjustment), sure(ending.without)
-    sd = found.deviations[0]
-    moved = float(now.K[0, 0] - found.K[0, 0])
+    full, without = sure(state.now.adjustment), sure(ending.without)
+    sd = full.deviations[0]
+    moved = float(without.K[0, 0] - full.K[0, 0])
     by = (
         f"{brief(abs(moved) / sd, 2)} times its ±"
         if np.isfinite(sd) and sd > 0
         else "with no ± to compare"
     )
     return Caption(
-        f"Without view {state.subject.views[ending.worst]}: f = {fixed(found.K[0, 0], 1)} px"
-        f" becomes {fixed(now.K[0, 0], 1)} px, a move of {pixels(abs(moved))},"
-        f" {by}.{_cut_off(found, now)}"
+        f"Without view {state.subject.views[ending.worst]}: f = {fixed(full.K[0, 0], 1)} px"
+        f" becomes {fixed(without.K[0, 0], 1)} px, a move of {pixels(abs(moved))},"
+        f" {by}.{_cut_off(full, without)}"
     )
 
 
-def _cut_off(*found: Adjustment) -> str:
+def _cut_off(*adjustments: Adjustment) -> str:
     """Say that a refinement was ended by its limit, where one was."""
-    if all(one.stop is not Stop.MAX_ITERATIONS for one in found):
+    if all(adjustment.stop is not Stop.MAX_ITERATIONS for adjustment in adjustments):
         return ""
-    most = max(one.iteration for one in found)
+    most = max(adjustment.iteration for adjustment in adjustments)
     return f" That is where {most} iterations came to: not at rest, f still moves."
 
 
 def _known(state: State, ending: Ending) -> Caption:
-    now = sure(state.now.adjustment)
-    sd = now.deviations[0]
-    f = " ± ".join(plus_minus(now.K[0, 0], sd)) if 0 < sd < np.inf else fixed(now.K[0, 0], 1)
+    adjustment = sure(state.now.adjustment)
+    sd = adjustment.deviations[0]
+    f = (
+        " ± ".join(plus_minus(adjustment.K[0, 0], sd))
+        if 0 < sd < np.inf
+        else fixed(adjustment.K[0, 0], 1)
+    )
     text = f"f = {f} px" + ("" if np.isfinite(sd) else ", and the views do not determine it")
     if state.subject.K is None:
         return Caption(
             f"{text}; rms {pixels(state.rms)}. Nobody knows the truth here: the ± takes the board"
-            f" for flat, and errors of corners for independent.{_cut_off(now)}"
+            f" for flat, and errors of corners for independent.{_cut_off(adjustment)}"
         )
     text += f", in truth {fixed(state.subject.K[0, 0], 0)} px"
     worst = state.worst_in_picture
-    apart = abs(now.K[0, 0] / now.K[1, 1] - 1)
+    apart = abs(adjustment.K[0, 0] / adjustment.K[1, 1] - 1)
     if apart > UNEQUAL:
         text += f"; fx and fy are {percent(apart, 1)} apart"
-    said = "How far the lens map is off cannot be told."
+    remark = "How far the lens map is off cannot be told."
     if np.isfinite(worst):
-        said = f"The largest error of the lens map anywhere in the picture is {pixels(worst)}."
+        remark = f"The largest error of the lens map anywhere in the picture is {pixels(worst)}."
     return Caption.verdict(
-        f"{text}. {said}{_cut_off(now)}",
+        f"{text}. {remark}{_cut_off(adjustment)}",
         right=is_right(state),
-        settled=now.stop is Stop.CONVERGED,
+        settled=adjustment.stop is Stop.CONVERGED,
     )

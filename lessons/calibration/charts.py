@@ -20,18 +20,18 @@ RINGS = 9
 
 def beside(state: State) -> dict[str, Primitive]:
     """Return the charts and tables of a step."""
-    now, subject = state.now, state.subject
+    estimate, subject = state.now, state.subject
     scene: dict[str, Primitive] = {"rms": ERROR.scalar(state.rms, "reprojection, rms", log=True)}
-    if now.K is not None:
-        scene["f"] = FOCAL.scalar(float(now.K[0, 0]), "fx as found")
+    if estimate.K is not None:
+        scene["f"] = FOCAL.scalar(float(estimate.K[0, 0]), "fx as found")
         scene["camera in numbers"] = _camera(state)
     if subject.K is not None:
         scene["f/truth"] = FOCAL.scalar(float(subject.K[0, 0]), "fx in truth", "truth")
         scene["map"] = ERROR.scalar(
             state.worst_in_picture, "worst in the picture", "truth", log=True
         )
-    if now.phase == "constraints":
-        rows = tuple((str(i + 1), brief(value)) for i, value in enumerate(now.singular_values))
+    if estimate.phase == "constraints":
+        rows = tuple((str(i + 1), brief(value)) for i, value in enumerate(estimate.singular_values))
         scene["singular values"] = Table("Singular values of the rows", ("", "value"), rows)
     if state.ending is not None:
         scene |= _ending(state, state.ending)
@@ -40,17 +40,17 @@ def beside(state: State) -> dict[str, Primitive]:
 
 def _camera(state: State) -> Table:
     """Return the numbers that all views share, their ±, and the true ones."""
-    now, truth = state.now, state.subject.K
-    assert now.K is not None
-    found = shared_numbers(now.K, now.lens)
-    sd = np.full(9, np.nan) if now.adjustment is None else now.adjustment.deviations
+    estimate, truth = state.now, state.subject.K
+    assert estimate.K is not None
+    numbers = shared_numbers(estimate.K, estimate.lens)
+    sd = np.full(9, np.nan) if estimate.adjustment is None else estimate.adjustment.deviations
     true = None if truth is None else shared_numbers(truth, state.subject.lens)
     rows = []
     for i, name in enumerate(SHARED):
         decimals = 1 if i < 4 else 4
-        value, deviation = fixed(found[i], decimals), ""
+        value, deviation = fixed(numbers[i], decimals), ""
         if 0 < sd[i] < np.inf:
-            value, deviation = plus_minus(found[i], sd[i], decimals)
+            value, deviation = plus_minus(numbers[i], sd[i], decimals)
         rows.append(
             (name, value, deviation, *(() if true is None else (fixed(true[i], decimals),)))
         )

@@ -47,7 +47,7 @@ def draw(state: State) -> Scene:
 
 def _boards(state: State) -> dict[str, Primitive]:
     """Draw camera and boards as they are found, with the true ones in green."""
-    subject, now = state.subject, state.now
+    subject, estimate = state.subject, state.now
     w, h = subject.size
     scale, outline = _scale(subject), _outline(subject)
     scene: dict[str, Primitive] = {}
@@ -59,11 +59,11 @@ def _boards(state: State) -> dict[str, Primitive]:
             scene[f"true boards/{view}"] = Segments(
                 outline, "truth", 2.5, _placed(T, scale), name="true boards"
             )
-    if now.K is not None and now.K[0, 0] > 0 and now.K[1, 1] > 0:
+    if estimate.K is not None and estimate.K[0, 0] > 0 and estimate.K[1, 1] > 0:
         scene["camera"] = Camera(
-            now.K, w, h, T_WORLD_CAMERA, DEPTH, color="source", name="camera as found"
+            estimate.K, w, h, T_WORLD_CAMERA, DEPTH, color="source", name="camera as found"
         )
-    for i, (view, T) in enumerate(zip(subject.views, now.Ts_camera_board, strict=False)):
+    for i, (view, T) in enumerate(zip(subject.views, estimate.Ts_camera_board, strict=False)):
         T_world_board = _placed(T, scale)
         scene[f"boards/{view}"] = Segments(
             outline, "source", 2.0, T_world_board, name="boards as found"
@@ -71,13 +71,13 @@ def _boards(state: State) -> dict[str, Primitive]:
         if subject.K is not None and i == state.shown:
             p, faces, colors = _squares()
             scene["squares"] = Mesh(p, faces, colors, T_world_board, flat=True)
-    Ts = now.Ts_camera_board if len(now.Ts_camera_board) else subject.Ts_camera_board
+    Ts = estimate.Ts_camera_board if len(estimate.Ts_camera_board) else subject.Ts_camera_board
     if len(Ts):
         middle = subject.p_board.mean(axis=0) * scale
         p = np.stack([apply(_placed(T, scale), middle) for T in Ts])
         color: Color = (
             Field.magnitude(state.per_view, "rms of a view", "px")
-            if len(now.Ts_camera_board)
+            if len(estimate.Ts_camera_board)
             else "target"
         )
         scene["middles"] = Points(p, color, 0.008, name="middles of the boards")
@@ -123,11 +123,11 @@ def _squares() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _picture(state: State) -> dict[str, Primitive]:
     """Draw the view that is shown, with corners as measured and as the model has them."""
-    subject, now = state.subject, state.now
+    subject, estimate = state.subject, state.now
     image = photograph(state.params, subject, state.shown)
     picture = Picture(image, title(subject, subject.views[state.shown]), SCREEN[1], SCREEN[0])
     factor = picture.size[0] / subject.size[0]
-    uv, off = subject.uv[state.shown], now.residuals[state.shown]
+    uv, off = subject.uv[state.shown], estimate.residuals[state.shown]
     long = LONGER * off
     long = long * np.minimum(
         1.0, MOST / np.maximum(np.linalg.norm(long, axis=1, keepdims=True), 1e-12)

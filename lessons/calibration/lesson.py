@@ -43,7 +43,7 @@ def run(
     corner = params.corner if params.loss == "Cauchy" else None
     shown = subject.views.index(params.shown) if params.shown in subject.views else 0
     rms, state = float("nan"), None
-    for now in calibrate(
+    for step in calibrate(
         subject.p_board,
         subject.uv,
         subject.size,
@@ -54,28 +54,28 @@ def run(
         max_iterations=MOST_ITERATIONS,
         tolerance=TOLERANCE,
     ):
-        if passed_over(now):
+        if passed_over(step):
             continue
-        before, rms = rms, float(reprojection_rms(now.residuals.reshape(-1, 2)))
-        if not np.isfinite(now.residuals).all():
+        before, rms = rms, float(reprojection_rms(step.residuals.reshape(-1, 2)))
+        if not np.isfinite(step.residuals).all():
             raise InputError("the poses put corners at depth 0: nothing can be projected")
         state = State(
             params=params,
             subject=subject,
-            now=now,
+            now=step,
             rms=rms,
             before=before,
-            shown=len(now.residuals) - 1 if now.phase in ("homography", "constraints") else shown,
-            map_error=np.empty(0) if now.K is None else map_error(subject, now.K, now.lens),
+            shown=len(step.residuals) - 1 if step.phase in ("homography", "constraints") else shown,
+            map_error=np.empty(0) if step.K is None else map_error(subject, step.K, step.lens),
         )
         yield state
     if state is not None:
         yield from endings(state, corner)
 
 
-def passed_over(now: calibration_steps.State) -> bool:
+def passed_over(step: calibration_steps.State) -> bool:
     """Tell whether an iteration is not shown: of a long refinement every tenth is, and the last."""
-    refined = now.adjustment
+    refined = step.adjustment
     return bool(
         refined and refined.iteration > EACH and refined.iteration % EVERY and not refined.stop
     )
@@ -85,7 +85,7 @@ def endings(state: State, corner: float | None) -> Iterator[State]:
     """Yield how well each view fits, what changes without the worst one, and how well all is
     known.
     """
-    subject, found, worst = (
+    subject, refined, worst = (
         state.subject,
         sure(state.now.adjustment),
         int(np.argmax(state.per_view)),
@@ -95,9 +95,9 @@ def endings(state: State, corner: float | None) -> Iterator[State]:
     if len(subject.views) > 2:
         keep = np.arange(len(subject.views)) != worst
         *_, without = adjust(
-            found.K,
-            found.lens,
-            found.Ts_camera_board[keep],
+            refined.K,
+            refined.lens,
+            refined.Ts_camera_board[keep],
             p_board=subject.p_board,
             uv=subject.uv[keep],
             coefficients=COEFFICIENTS[state.params.lens],
@@ -109,7 +109,7 @@ def endings(state: State, corner: float | None) -> Iterator[State]:
     known = Ending(
         kind="known",
         worst=worst,
-        deviation=deviations(subject.size, found.K, found.lens, found.covariance),
+        deviation=deviations(subject.size, refined.K, refined.lens, refined.covariance),
         tilts=over_tilt(state.params) if subject.K is not None and state.params.noise > 0 else None,
     )
     yield replace(state, ending=known)

@@ -105,14 +105,14 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def f_error(states: Sequence[State]) -> float:
     """Return how far f is off at the end, px."""
-    now, truth = sure(states[-1].now.K), sure(states[-1].subject.K)
-    return float(now[0, 0] - truth[0, 0])
+    K, truth = sure(states[-1].now.K), sure(states[-1].subject.K)
+    return float(K[0, 0] - truth[0, 0])
 
 
 def f_deviation(states: Sequence[State]) -> float:
     """Return the ± of f at the end, px."""
-    now = sure(states[-1].now.adjustment)
-    return float(now.deviations[0])
+    refined = sure(states[-1].now.adjustment)
+    return float(refined.deviations[0])
 
 
 def f_sure(states: Sequence[State]) -> str:
@@ -131,10 +131,10 @@ def views_needed(states: Sequence[State]) -> float:
 
 def distance_ratio(states: Sequence[State]) -> float:
     """Return the length of t as found over the true one, of all views together."""
-    found, true = (
+    estimated, true = (
         Ts[:, :3, 3] for Ts in (states[-1].now.Ts_camera_board, states[-1].subject.Ts_camera_board)
     )
-    return float(np.linalg.norm(found, axis=1).sum() / np.linalg.norm(true, axis=1).sum())
+    return float(np.linalg.norm(estimated, axis=1).sum() / np.linalg.norm(true, axis=1).sum())
 
 
 def _changed(states: Sequence[State]) -> float:
@@ -143,11 +143,11 @@ def _changed(states: Sequence[State]) -> float:
 
 
 def _closed_forms(states: Sequence[State]) -> str:
-    said = []
+    parts = []
     for state in states:
         if state.now.phase == "constraints" and state.now.K is not None:
-            said.append(f"{fixed(state.now.K[0, 0], 0)} px with {len(state.now.Hs_image_board)}")
-    return ", ".join(said) or "none"
+            parts.append(f"{fixed(state.now.K[0, 0], 0)} px with {len(state.now.Hs_image_board)}")
+    return ", ".join(parts) or "none"
 
 
 QUESTIONS: tuple[Question[Params, State], ...] = (

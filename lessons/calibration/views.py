@@ -69,17 +69,17 @@ def _own(params: Params) -> Subject:
     pictures, without = None, ()
     if params.corners is None:
         assert params.images is not None
-        found, pictures, without = find_corners(params.images, *params.board)
+        corners, pictures, without = find_corners(params.images, *params.board)
     else:
-        found = read_corners(params.corners, params.camera)
+        corners = read_corners(params.corners, params.camera)
         pictures = (
-            None if params.images is None else pictures_below(found, params.images, params.shown)
+            None if params.images is None else pictures_below(corners, params.images, params.shown)
         )
     return Subject(
-        p_board=METRES[params.unit if params.corners else "m"] * found.p_board,
-        uv=found.uv,
-        views=found.views,
-        size=found.size if pictures is None else found.stated or pictures.size,
+        p_board=METRES[params.unit if params.corners else "m"] * corners.p_board,
+        uv=corners.uv,
+        views=corners.views,
+        size=corners.size if pictures is None else corners.stated or pictures.size,
         pictures=pictures,
         without=without,
     )
@@ -176,9 +176,9 @@ def deviations(
     J = J.reshape(len(covariance), 2, -1)
     C = np.einsum("iap,ij,jbp->pab", J, covariance, J)
     known = np.isfinite(C).all(axis=(1, 2))
-    found = np.full(len(p), np.nan)
-    found[known] = np.sqrt(np.linalg.eigvalsh(C[known])[:, -1])
-    return found.reshape(GRID[::-1])
+    sd = np.full(len(p), np.nan)
+    sd[known] = np.sqrt(np.linalg.eigvalsh(C[known])[:, -1])
+    return sd.reshape(GRID[::-1])
 
 
 def over_tilt(params: Params) -> tuple[np.ndarray, np.ndarray]:
@@ -191,13 +191,13 @@ def _over_tilt(params: Params) -> tuple[np.ndarray, np.ndarray]:
     free = np.arange(9) < 4 + COEFFICIENTS[params.lens]
     shared = shared_numbers(boards.K_TRUE, boards.LENS_TRUE)
     shared[~free] = 0.0
-    p_board, found = boards.board_points(), []
+    p_board, sd = boards.board_points(), []
     for tilt in TILTS:
         T = _poses(np.random.default_rng(params.seed), params, tilt)
         block = linearised(
             shared, T[:, :3, :3], T[:, :3, 3], p_board, np.zeros((len(T), len(p_board), 2))
         )
-        found.append(
+        sd.append(
             params.noise * float(np.sqrt(np.linalg.inv(shared_information(block, free))[0, 0]))
         )
-    return TILTS, np.array(found)
+    return TILTS, np.array(sd)

@@ -76,22 +76,22 @@ def setup(params: Input) -> Pairs:
         *_, end = flow(far, target, earth_movers, earth_movers_gradient, max_steps=40)
     both = far, end.p_moving
     exact = np.array([earth_movers(p, target) for p in both])
-    found = [[cost_of(p, target, blur) for p in both] for blur in BLURS.tolist()]
+    results = [[cost_of(p, target, blur) for p in both] for blur in BLURS.tolist()]
     return Pairs(
         p_target=target,
         p_far=far,
         p_near=end.p_moving,
         exact=exact,
-        costs=np.array([[cost for cost, _ in at] for at in found]),
-        plans=tuple((far_at[1], near_at[1]) for far_at, near_at in found),
+        costs=np.array([[cost for cost, _ in at] for at in results]),
+        plans=tuple((far_at[1], near_at[1]) for far_at, near_at in results),
     )
 
 
 def cost_of(p: np.ndarray, p_target: np.ndarray, blur: float) -> tuple[float, np.ndarray]:
     """Return the cost of Sinkhorn's plan, metres, and the plan in shares of a point's mass."""
     distances = scipy.spatial.distance.cdist(p, p_target)
-    found = sinkhorn(distances, blur, max_sweeps=200, tolerance=1e-4)
-    return found.cost(distances), len(p) * found.plan(distances)
+    solution = sinkhorn(distances, blur, max_sweeps=200, tolerance=1e-4)
+    return solution.cost(distances), len(p) * solution.plan(distances)
 
 
 def run(params: Input, pairs: Pairs, measures: Measures) -> Iterator[Held]:
@@ -102,26 +102,26 @@ def run(params: Input, pairs: Pairs, measures: Measures) -> Iterator[Held]:
 
 def draw(look: Look[Input, Pairs, Held]) -> Scene:
     """Return both plans as lines, and what Sinkhorn says of both pairs over the blur."""
-    now, pairs = look.now, look.subject
+    state, pairs = look.now, look.subject
     level = np.ones(len(BLURS))
     scene: Scene = {
-        **_pair("left", pairs.p_far, pairs.p_target, now.plans[0], T_WORLD_LEFT),
-        **_pair("right", pairs.p_near, pairs.p_target, now.plans[1], T_WORLD_RIGHT),
-        **titled("left", "a blob", _said(now, pairs, 0), T_WORLD_LEFT),
-        **titled("right", "almost at home", _said(now, pairs, 1), T_WORLD_RIGHT),
-        "blur": BLUR.scalar(now.blur, "blur"),
-        "caption": caption(now),
+        **_pair("left", pairs.p_far, pairs.p_target, state.plans[0], T_WORLD_LEFT),
+        **_pair("right", pairs.p_near, pairs.p_target, state.plans[1], T_WORLD_RIGHT),
+        **titled("left", "a blob", _said(state, pairs, 0), T_WORLD_LEFT),
+        **titled("right", "almost at home", _said(state, pairs, 1), T_WORLD_RIGHT),
+        "blur": BLUR.scalar(state.blur, "blur"),
+        "caption": caption(state),
     }
     for k, (name, role) in enumerate(PAIRS):
         scene[f"cost/{name}"] = COST.whole(BLURS, pairs.costs[:, k], name, role)
         scene[f"exact/{name}"] = COST.second(BLURS, level * pairs.exact[k], f"exact: {name}", role)
-        scene[f"mark/{name}"] = COST.mark(now.blur, now.costs[k], "here", role, steps="blur")
-        scene[f"said/{name}"] = COST.scalar(float(now.costs[k]), name, role)
+        scene[f"mark/{name}"] = COST.mark(state.blur, state.costs[k], "here", role, steps="blur")
+        scene[f"said/{name}"] = COST.scalar(float(state.costs[k]), name, role)
     return scene
 
 
-def _said(now: Held, pairs: Pairs, k: int) -> tuple[str, str]:
-    return f"Sinkhorn {metres(now.costs[k])}", f"exact {metres(pairs.exact[k])}"
+def _said(state: Held, pairs: Pairs, k: int) -> tuple[str, str]:
+    return f"Sinkhorn {metres(state.costs[k])}", f"exact {metres(pairs.exact[k])}"
 
 
 def _pair(
@@ -140,12 +140,12 @@ def _pair(
     return scene
 
 
-def caption(now: Held) -> Caption:
+def caption(state: Held) -> Caption:
     """Say what Sinkhorn makes of both pairs at this blur."""
     return say(
         "With a blur of {blur} Sinkhorn says {far} for the blob, and {near} for the cloud that is"
         " almost at home.",
-        blur=length(now.blur),
-        far=in_metres(now.costs[0]),
-        near=in_metres(now.costs[1]),
+        blur=length(state.blur),
+        far=in_metres(state.costs[0]),
+        near=in_metres(state.costs[1]),
     )

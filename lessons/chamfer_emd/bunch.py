@@ -115,39 +115,41 @@ def run(params: Input, rings: Rings, measures: Measures) -> Iterator[Held]:
 
 def draw(look: Look[Input, Rings, Held]) -> Scene:
     """Return the bunched cloud and the larger ring beside it, and both numbers over the share."""
-    now, rings = look.now, look.subject
+    state, rings = look.now, look.subject
     x = 100 * SHARES
-    here = 100 * now.share
+    here = 100 * state.share
     return {
-        **_cloud("left", now.p, rings, T_WORLD_LEFT),
+        **_cloud("left", state.p, rings, T_WORLD_LEFT),
         **_cloud("right", rings.p_larger, rings, T_WORLD_RIGHT),
-        **clumps("left", now.p, 0.5 * disc(len(now.p)), T_WORLD_LEFT),
-        **_count(now),
-        **titled("left", "B: a bunch", both(now.chamfer, now.earth_movers), T_WORLD_LEFT),
-        **titled("right", "L: 5 % larger", both(now.larger_chamfer, now.larger_emd), T_WORLD_RIGHT),
+        **clumps("left", state.p, 0.5 * disc(len(state.p)), T_WORLD_LEFT),
+        **_count(state),
+        **titled("left", "B: a bunch", both(state.chamfer, state.earth_movers), T_WORLD_LEFT),
+        **titled(
+            "right", "L: 5 % larger", both(state.larger_chamfer, state.larger_emd), T_WORLD_RIGHT
+        ),
         "larger": TIMES.second(x, np.ones(len(x)), "L", "truth"),
         "chamfer/whole": TIMES.whole(x, rings.chamfer / rings.larger_chamfer, "Chamfer", "source"),
         "emd/whole": TIMES.whole(x, rings.earth_movers / rings.larger_emd, "EMD", "highlight"),
-        **_marks(now),
+        **_marks(state),
         "bunched": SHARE.scalar(here, "bunched"),
-        "chamfer": CHAMFER.scalar(now.chamfer, "Chamfer"),
-        "emd": EMD.scalar(now.earth_movers, "earth mover's", "highlight"),
-        "caption": caption(now),
+        "chamfer": CHAMFER.scalar(state.chamfer, "Chamfer"),
+        "emd": EMD.scalar(state.earth_movers, "earth mover's", "highlight"),
+        "caption": caption(state),
     }
 
 
-def _marks(now: Held) -> dict[str, Primitive]:
+def _marks(state: Held) -> dict[str, Primitive]:
     """Return both numbers of this bunch in units of those of the larger ring."""
     pairs: tuple[tuple[str, float, float, Role], ...] = (
-        ("Chamfer", now.chamfer, now.larger_chamfer, "source"),
-        ("EMD", now.earth_movers, now.larger_emd, "highlight"),
+        ("Chamfer", state.chamfer, state.larger_chamfer, "source"),
+        ("EMD", state.earth_movers, state.larger_emd, "highlight"),
     )
     return {
         f"{name.lower()}/mark": TIMES.mark(
-            100 * now.share, here / there, name, role, steps="bunched"
+            100 * state.share, here / larger, name, role, steps="bunched"
         )
-        for name, here, there, role in pairs
-        if there
+        for name, here, larger, role in pairs
+        if larger
     }
 
 
@@ -172,25 +174,25 @@ def _cloud(side: str, p: np.ndarray, rings: Rings, T: np.ndarray) -> dict[str, P
     }
 
 
-def _count(now: Held) -> dict[str, Primitive]:
+def _count(state: Held) -> dict[str, Primitive]:
     """Return the number of points in the bunch, written inside the ring."""
-    crowd = round(now.share * len(now.p))
+    crowd = round(state.share * len(state.p))
     if crowd < 2:
         return {}
-    p = 0.72 * now.p[len(now.p) - crowd :].mean(axis=0)
+    p = 0.72 * state.p[len(state.p) - crowd :].mean(axis=0)
     return {"left/bunch": Label(f"{crowd} points", p, "source", T_WORLD_LEFT)}
 
 
-def caption(now: Held) -> Caption:
+def caption(state: Held) -> Caption:
     """Say which of the two clouds is closer by which number."""
     values: dict[str, Any] = {
-        "bunched": share(now.share),
-        "chamfer": in_squares(now.chamfer),
-        "emd": in_metres(now.earth_movers),
+        "bunched": share(state.share),
+        "chamfer": in_squares(state.chamfer),
+        "emd": in_metres(state.earth_movers),
     }
-    if now.earth_movers < ROUND_OFF:
+    if state.earth_movers < ROUND_OFF:
         return say("No bunch yet: every point is at home.")
-    if now.chamfer < now.larger_chamfer and now.earth_movers > now.larger_emd:
+    if state.chamfer < state.larger_chamfer and state.earth_movers > state.larger_emd:
         return say(
             "{bunched} in a bunch: closer than L by Chamfer ({chamfer}), and farther by earth"
             " mover's ({emd}).",

@@ -55,45 +55,46 @@ def _looks_left(state: State) -> bool:
 
 
 def _missing(state: State) -> Caption:
-    now = state.left.numbers
+    numbers = state.left.numbers
     if state.before is None:
         return say(
-            "A part of the ring has no dots: Chamfer is {chamfer}.", chamfer=in_squares(now.chamfer)
+            "A part of the ring has no dots: Chamfer is {chamfer}.",
+            chamfer=in_squares(numbers.chamfer),
         )
-    left = share(now.out_of_place, 0)
+    left = share(numbers.out_of_place, 0)
     if not state.last:
         return say(
             "Step {step}: {left} of the left mass is out of place.", step=state.step, left=left
         )
     return say(
         "The flow {left_end}, {left} of its mass out of place.",
-        tone="good" if now.out_of_place <= ALMOST_NONE else "info",
+        tone="good" if numbers.out_of_place <= ALMOST_NONE else "info",
         left_end=_end(state.left),
         left=left,
     )
 
 
 def _start(state: State) -> Caption:
-    now, note, params = state.left.numbers, state.yardsticks["5 % larger"], state.params
+    numbers, note, params = state.left.numbers, state.yardsticks["5 % larger"], state.params
     values: dict[str, Any] = {
-        "chamfer": in_squares(now.chamfer),
-        "emd": in_metres(now.earth_movers),
+        "chamfer": in_squares(numbers.chamfer),
+        "emd": in_metres(numbers.earth_movers),
     }
     text = f"The source is {state.clouds.name}: " + "Chamfer {chamfer}, earth mover's {emd}."
-    if 0 < now.chamfer < note.chamfer and now.earth_movers > note.earth_movers:
+    if 0 < numbers.chamfer < note.chamfer and numbers.earth_movers > note.earth_movers:
         text += (
             " The ranking flips: to Chamfer this is closer than the target 5 % larger ({larger}),"
             " to earth mover's it is farther."
         )
         values["larger"] = in_squares(note.chamfer)
-    elif now.chamfer == 0 < now.earth_movers:
+    elif numbers.chamfer == 0 < numbers.earth_movers:
         text += " To Chamfer the two are equal: each point lies on one of the other cloud."
     elif params.lowers == "source to target" and state.left.flow.stop is Stop.ARRIVED:
         text += (
             " Every source point lies on the target, so the left flow has nothing to do; the other"
             " side is {back}."
         )
-        values["back"] = in_squares(now.to_source)
+        values["back"] = in_squares(numbers.to_source)
     if state.clouds.scale != 1:
         text += " A unit of your files is {unit} m of the picture."
         values["unit"] = number(state.clouds.scale)

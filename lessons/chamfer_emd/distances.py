@@ -38,18 +38,18 @@ class Measures:
 
 
 def measured(
-    now: Flow, before: Side | None, p_target: np.ndarray, params: Input, measures: Measures
+    flow: Flow, before: Side | None, p_target: np.ndarray, params: Input, measures: Measures
 ) -> Side:
     """Measure a flow where it is, or return what was measured where it has been waiting."""
-    if before is not None and before.flow is now:
+    if before is not None and before.flow is flow:
         return before
     near, matching = (
-        nearest_both_ways(now.p_moving, p_target),
-        best_matching(now.p_moving, p_target),
+        nearest_both_ways(flow.p_moving, p_target),
+        best_matching(flow.p_moving, p_target),
     )
-    now_numbers = numbers(now.p_moving, p_target, near, matching, params, measures)
+    now_numbers = numbers(flow.p_moving, p_target, near, matching, params, measures)
     return Side(
-        flow=now,
+        flow=flow,
         numbers=now_numbers,
         near=near,
         matching=matching,

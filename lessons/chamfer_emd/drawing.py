@@ -62,12 +62,12 @@ def draw(look: Look[Input, Clouds, Step]) -> Scene:
         "right/pairs": Segments(_matched(right), "correspondence", 1.5, T_WORLD_RIGHT),
         **_owed(state),
         **{
-            f"left/unrolled/{path}": one
-            for path, one in unrolled(state, left, T_WORLD_LEFT, nearest=True).items()
+            f"left/unrolled/{path}": primitive
+            for path, primitive in unrolled(state, left, T_WORLD_LEFT, nearest=True).items()
         },
         **{
-            f"right/unrolled/{path}": one
-            for path, one in unrolled(state, right, T_WORLD_RIGHT, nearest=False).items()
+            f"right/unrolled/{path}": primitive
+            for path, primitive in unrolled(state, right, T_WORLD_RIGHT, nearest=False).items()
         },
         **_busiest(left, state),
         **_curves(state),
@@ -79,7 +79,7 @@ def draw(look: Look[Input, Clouds, Step]) -> Scene:
 def _trails(look: Look[Input, Clouds, Step]) -> dict[str, Primitive]:
     """Return where the points of both clouds were in the last steps."""
     last = [*look.past[-TRAIL:], look.now]
-    found: dict[str, Primitive] = {}
+    trails: dict[str, Primitive] = {}
     for side, T in (("left", T_WORLD_LEFT), ("right", T_WORLD_RIGHT)):
         places = [getattr(step, side).flow.p_moving for step in last]
         moved = [
@@ -88,8 +88,8 @@ def _trails(look: Look[Input, Clouds, Step]) -> dict[str, Primitive]:
         ]
         ends = np.concatenate(moved) if moved else np.empty((0, 2, 3))
         if len(ends):
-            found[f"{side}/trail"] = Segments(ends, "source", 1.5, T, 0.35)
-    return found
+            trails[f"{side}/trail"] = Segments(ends, "source", 1.5, T, 0.35)
+    return trails
 
 
 def _sides(state: State) -> dict[str, Primitive]:
@@ -138,12 +138,12 @@ def _clouds(state: State) -> dict[str, Primitive]:
     p_target, left, right = state.clouds.p_target, state.left, state.right
     radius = disc(len(p_target))
     dot, idle = 0.5 * radius, left.served == 0
-    who = Classes.marking(idle, "wrong", "nearest to no place", others=("source", "source"))
+    classes = Classes.marking(idle, "wrong", "nearest to no place", others=("source", "source"))
     # Where several share a place, the one that is somebody's nearest lies on top.
     p_left = nearer(left.flow.p_moving, np.where(idle, 0.75, 1.0))
     return {
         "left/target": Points(p_target, "target", radius, T_WORLD_LEFT, name="target"),
-        "left/source": Points(p_left, who, dot, T_WORLD_LEFT, name="source"),
+        "left/source": Points(p_left, classes, dot, T_WORLD_LEFT, name="source"),
         "right/target": Points(p_target, "target", radius, T_WORLD_RIGHT),
         "right/source": Points(nearer(right.flow.p_moving), "source", dot, T_WORLD_RIGHT),
         **clumps("left", left.flow.p_moving, dot, T_WORLD_LEFT),

@@ -89,11 +89,11 @@ def in_units(
     p: np.ndarray, p_target: np.ndarray, p_larger: np.ndarray, measures: Measures
 ) -> np.ndarray:
     """Return Hausdorff, Chamfer and earth mover's of a cloud over those of the larger target."""
-    found = [
+    pairs = [
         (name(p, p_target), name(p_larger, p_target))
         for name in (hausdorff, measures.chamfer, measures.earth_movers)
     ]
-    return np.array([here / there if there else np.nan for here, there in found])
+    return np.array([here / larger if larger else np.nan for here, larger in pairs])
 
 
 def run(params: Input, ring: Ring, measures: Measures) -> Iterator[Held]:
@@ -105,14 +105,14 @@ def run(params: Input, ring: Ring, measures: Measures) -> Iterator[Held]:
 
 def draw(look: Look[Input, Ring, Held]) -> Scene:
     """Return the ring with its dot, three bars, and the three curves over the distance."""
-    now, ring = look.now, look.subject
-    i = int(np.argmax(now.p[:, 2]))
-    radius = disc(len(now.p))
+    state, ring = look.now, look.subject
+    i = int(np.argmax(state.p[:, 2]))
+    radius = disc(len(state.p))
     home = ring.p_target[i]
     scene: Scene = {
         "target": Points(ring.p_target, "target", radius, name="ring"),
-        "source": Points(nearer(np.delete(now.p, i, axis=0)), "source", 0.5 * radius),
-        "dot": Points(nearer(now.p[i : i + 1]), "source", 1.6 * radius, name="the far dot"),
+        "source": Points(nearer(np.delete(state.p, i, axis=0)), "source", 0.5 * radius),
+        "dot": Points(nearer(state.p[i : i + 1]), "source", 1.6 * radius, name="the far dot"),
         "larger": circle(
             np.array([0.0, 0.02, 0.0]),
             np.array([0.0, 1.0, 0.0]),
@@ -121,18 +121,18 @@ def draw(look: Look[Input, Ring, Held]) -> Scene:
             width=2.0,
             name="the ring 5 % larger",
         ),
-        **dimension("off", home, now.p[i], aside=np.array([-0.14, 0.0, 0.0])),
-        "distance": OFF.scalar(now.off, "off"),
-        "caption": caption(now),
+        **dimension("off", home, state.p[i], aside=np.array([-0.14, 0.0, 0.0])),
+        "distance": OFF.scalar(state.off, "off"),
+        "caption": caption(state),
     }
     for k, (name, role) in enumerate(zip(NAMES, ROLES, strict=True)):
-        scene |= _bar(k, name, role, float(now.times[k]))
+        scene |= _bar(k, name, role, float(state.times[k]))
         scene[f"times/{name}"] = TIMES.whole(FAR, ring.times[k], name, role)
-        if np.isfinite(now.times[k]):
+        if np.isfinite(state.times[k]):
             scene[f"mark/{name}"] = TIMES.mark(
-                now.off, float(now.times[k]), name, role, steps="off"
+                state.off, float(state.times[k]), name, role, steps="off"
             )
-        scene[f"value/{name}"] = TIMES.scalar(float(now.times[k]), name, role)
+        scene[f"value/{name}"] = TIMES.scalar(float(state.times[k]), name, role)
     return scene
 
 
@@ -145,21 +145,21 @@ def _bar(k: int, name: str, role: Role, times: float) -> dict[str, Primitive]:
         + foot
         - np.array([WIDE / 2, 0.0, 0.0])
     )
-    said = f"{brief(times, 2)} ×" if np.isfinite(times) else "–"
+    text = f"{brief(times, 2)} ×" if np.isfinite(times) else "–"
     return {
         f"bar/{name}": Mesh(corners, fan(4), role, flat=True),
         f"bar line/{name}": Segments(np.array([[corners[0], corners[1]]]), role, 3.0),
         f"bar name/{name}": Label(name, foot - np.array([0.0, 0.0, 0.16]), role),
-        f"bar value/{name}": Label(said, foot + np.array([0.0, 0.0, tall + 0.13]), role),
+        f"bar value/{name}": Label(text, foot + np.array([0.0, 0.0, tall + 0.13]), role),
     }
 
 
-def caption(now: Held) -> Caption:
+def caption(state: Held) -> Caption:
     """Say how far off the dot is."""
-    if now.off == 0:
+    if state.off == 0:
         return say("Every dot is at home.")
     return say(
         "One dot is {off} off, the other {others} are at home.",
-        off=metres(now.off),
-        others=len(now.p) - 1,
+        off=metres(state.off),
+        others=len(state.p) - 1,
     )

@@ -22,10 +22,10 @@ def unrolled(
     source = _row(side.flow.p_moving, p_target, SOURCE_ROW)
     radius = min(0.02, 0.45 * WIDTH / max(len(target), len(source)))
     ends, used, words = _nearest(state, side) if nearest else _matched(state, side)
-    who = Classes.marking(~used, "wrong", "nearest to no place", others=("source", "source"))
+    classes = Classes.marking(~used, "wrong", "nearest to no place", others=("source", "source"))
     return {
         "target row": Points(target, "target", radius, T_world_side),
-        "source row": Points(source, who if nearest else "source", radius, T_world_side),
+        "source row": Points(source, classes if nearest else "source", radius, T_world_side),
         "pairing": Segments(
             between(target[ends[0]], source[ends[1]]),
             "other" if nearest else "correspondence",

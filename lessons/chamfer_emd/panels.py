@@ -25,12 +25,12 @@ def titled(
     side: str, title: str, numbers: tuple[str, ...], T_world_side: np.ndarray
 ) -> dict[str, Primitive]:
     """Return what stands over a panel: its rule, and below it what is said of it, one line each."""
-    lines: list[tuple[str, Role]] = [(title, "neutral"), *((said, "source") for said in numbers)]
+    lines: list[tuple[str, Role]] = [(title, "neutral"), *((text, "source") for text in numbers)]
     return {
         f"{side}/title/{k}": Label(
-            said, np.array([0.0, 0.0, NUMBER + SPACING * (len(lines) - 1 - k)]), role, T_world_side
+            text, np.array([0.0, 0.0, NUMBER + SPACING * (len(lines) - 1 - k)]), role, T_world_side
         )
-        for k, (said, role) in enumerate(lines)
+        for k, (text, role) in enumerate(lines)
     }
 
 

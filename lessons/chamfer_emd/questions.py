@@ -22,8 +22,8 @@ def nearer_side(side: Side) -> float:
 
 def _changed(states: States) -> float:
     """Return which of the numbers of the shuffled rows is not 0: one of them, all, or none."""
-    now = states[SHUFFLED]
-    changed = [value > 1e-9 for value in (now.by_row, now.chamfer, now.earth_movers)]
+    state = states[SHUFFLED]
+    changed = [value > 1e-9 for value in (state.by_row, state.chamfer, state.earth_movers)]
     return {(True, False, False): 0.0, (True, True, True): 1.0, (False, False, False): 2.0}[
         tuple(changed)
     ]
@@ -40,15 +40,17 @@ def _spread_why(states: States) -> str:
 
 
 def _flip_answer(states: States) -> float:
-    now = states[ASKED_BUNCH]
-    return 2.0 * (now.chamfer > now.larger_chamfer) + 1.0 * (now.earth_movers > now.larger_emd)
+    state = states[ASKED_BUNCH]
+    return 2.0 * (state.chamfer > state.larger_chamfer) + 1.0 * (
+        state.earth_movers > state.larger_emd
+    )
 
 
 def _flip_why(states: States) -> str:
-    now = states[ASKED_BUNCH]
+    state = states[ASKED_BUNCH]
     return (
-        f"B has Chamfer {squared(now.chamfer)} and EMD {metres(now.earth_movers)}; L has"
-        f" {squared(now.larger_chamfer)} and {metres(now.larger_emd)}. One point in five"
+        f"B has Chamfer {squared(state.chamfer)} and EMD {metres(state.earth_movers)}; L has"
+        f" {squared(state.larger_chamfer)} and {metres(state.larger_emd)}. One point in five"
         " is enough to have a neighbour nearby everywhere, and Chamfer asks for no more."
     )
 
@@ -83,9 +85,9 @@ def _far_why(states: States) -> str:
 
 
 def _blur_why(states: States) -> str:
-    now, pairs = states[ASKED_BLUR], states.subject
+    state, pairs = states[ASKED_BLUR], states.subject
     return (
-        f"It says {metres(now.costs[1])}, where the exact distance is"
+        f"It says {metres(state.costs[1])}, where the exact distance is"
         f" {brief(1000 * pairs.exact[1], 2)} mm. Every dot pays a little to many places, however"
         " near its own is."
     )

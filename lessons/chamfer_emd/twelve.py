@@ -115,56 +115,56 @@ def run(params: Input, subject: Twelve, measures: Measures) -> Iterator[Held]:
 
 def draw(look: Look[Input, Twelve, Held]) -> Scene:
     """Return both rings with the partners that each rule gives, and both numbers over the heap."""
-    now, target = look.now, look.subject.p_target
-    near, matching = nearest_both_ways(now.p, target), best_matching(now.p, target)
+    state, target = look.now, look.subject.p_target
+    near, matching = nearest_both_ways(state.p, target), best_matching(state.p, target)
     heaps = np.arange(float(COUNT))
     of_chamfer, of_emd = look.subject.shares
     scene: Scene = {
-        **_ring("left", now, target),
-        **_ring("right", now, target),
-        "right/pairs": _lines(now.p[matching.i_a], target[matching.i_b], "right", "one each"),
-        **_titled("right", "one for each", metres(now.earth_movers)),
+        **_ring("left", state, target),
+        **_ring("right", state, target),
+        "right/pairs": _lines(state.p[matching.i_a], target[matching.i_b], "right", "one each"),
+        **_titled("right", "one for each", metres(state.earth_movers)),
         "chamfer/whole": BOTH.whole(heaps, of_chamfer * look.subject.chamfer, "Chamfer", "source"),
         "chamfer/mark": BOTH.mark(
-            now.heaped, of_chamfer * now.chamfer, "here", "source", steps="heaped"
+            state.heaped, of_chamfer * state.chamfer, "here", "source", steps="heaped"
         ),
         "emd/whole": BOTH.whole(
             heaps, of_emd * look.subject.earth_movers, "earth mover's", "highlight"
         ),
         "emd/mark": BOTH.mark(
-            now.heaped, of_emd * now.earth_movers, "here", "highlight", steps="heaped"
+            state.heaped, of_emd * state.earth_movers, "here", "highlight", steps="heaped"
         ),
-        "heaped": HEAPED.scalar(now.heaped, "heaped"),
-        "chamfer": CHAMFER.scalar(now.chamfer, "Chamfer"),
-        "emd": EMD.scalar(now.earth_movers, "earth mover's", "highlight"),
-        "rows": ROWS.scalar(now.by_row, "by row", "highlight"),
-        "caption": caption(look.params, now),
+        "heaped": HEAPED.scalar(state.heaped, "heaped"),
+        "chamfer": CHAMFER.scalar(state.chamfer, "Chamfer"),
+        "emd": EMD.scalar(state.earth_movers, "earth mover's", "highlight"),
+        "rows": ROWS.scalar(state.by_row, "by row", "highlight"),
+        "caption": caption(look.params, state),
     }
     if look.params.shuffled:
-        by_row = _lines(now.p, target, "left", "the same row")
-        return scene | {"left/rows": by_row, **_titled("left", "row by row", squared(now.by_row))}
+        by_row = _lines(state.p, target, "left", "the same row")
+        return scene | {"left/rows": by_row, **_titled("left", "row by row", squared(state.by_row))}
     return scene | {
-        "left/to target": _lines(now.p, target[near.a_to_b], "left", "nearest of a dot"),
+        "left/to target": _lines(state.p, target[near.a_to_b], "left", "nearest of a dot"),
         "left/to source": Segments(
-            between(target, now.p[near.b_to_a]), "other", 3.0, name="nearest of a place"
+            between(target, state.p[near.b_to_a]), "other", 3.0, name="nearest of a place"
         ),
-        **_titled("left", "take the nearest", squared(now.chamfer)),
+        **_titled("left", "take the nearest", squared(state.chamfer)),
     }
 
 
-def _ring(side: str, now: Held, target: np.ndarray) -> dict[str, Primitive]:
+def _ring(side: str, state: Held, target: np.ndarray) -> dict[str, Primitive]:
     """Return the places and the dots of one panel, and how many share a place."""
     T, named = T_WORLD[side], side == "left"
     above = np.array([0.0, 0.0, 0.02])
-    first, counts = shared_places(now.p, 1e-6)
+    first, counts = shared_places(state.p, 1e-6)
     scene: dict[str, Primitive] = {
         f"{side}/target": Points(target, "target", PLACE, T, name="places" if named else ""),
-        f"{side}/source": Points(now.p + above, "source", DOT, T, name="dots" if named else ""),
+        f"{side}/source": Points(state.p + above, "source", DOT, T, name="dots" if named else ""),
     }
     for i, count in zip(first.tolist(), counts.tolist(), strict=True):
         if count > 1:
             scene[f"{side}/heap"] = Label(
-                f"{count} dots", now.p[i] + np.array([0.0, 0.16, 0.03]), "source", T
+                f"{count} dots", state.p[i] + np.array([0.0, 0.16, 0.03]), "source", T
             )
     return scene
 
@@ -181,22 +181,22 @@ def _titled(side: str, title: str, number: str) -> dict[str, Primitive]:
     }
 
 
-def caption(params: Input, now: Held) -> Caption:
+def caption(params: Input, state: Held) -> Caption:
     """Say what both rules make of the dots."""
     values: dict[str, Any] = {
-        "chamfer": in_squares(now.chamfer),
-        "emd": in_metres(now.earth_movers),
+        "chamfer": in_squares(state.chamfer),
+        "emd": in_metres(state.earth_movers),
     }
-    if params.shuffled and now.by_row > ROUND_OFF:
+    if params.shuffled and state.by_row > ROUND_OFF:
         return say(
             "Pairs by row say {rows}. Chamfer says {chamfer} and earth mover's {emd}.",
-            rows=in_squares(now.by_row),
+            rows=in_squares(state.by_row),
             **values,
         )
-    if now.earth_movers < ROUND_OFF:
+    if state.earth_movers < ROUND_OFF:
         return say("Every dot is at home: both numbers are 0.")
     return say(
         "{dots} in one place: Chamfer says {chamfer}, earth mover's {emd}.",
-        dots=counted(now.heaped + 1, "dot", "dots"),
+        dots=counted(state.heaped + 1, "dot", "dots"),
         **values,
     )

@@ -38,32 +38,32 @@ FAR_APART = 1e4  # metres between two means
 
 def caption(state: State) -> Caption:
     """Return the caption of a step."""
-    now, params, subject = state.now, state.params, state.subject
-    match now, subject:
+    step, params, subject = state.now, state.params, state.subject
+    match step, subject:
         case Placed(), Coordinates():
-            return Caption(_placed(now, subject, params))
+            return Caption(_placed(step, subject, params))
         case Cell(), Coordinates():
-            return Caption(_cell(now, subject, params))
+            return Caption(_cell(step, subject, params))
         case Readings(), _:
-            return Caption(_readings(now, params))
+            return Caption(_readings(step, params))
         case Walked(), Coordinates():
-            return _walked(now, subject, state)
+            return _walked(step, subject, state)
         case Scaled(), _:
-            return Caption(_scaled(now))
+            return Caption(_scaled(step))
         case Scattered(), _:
-            return _scattered(now, state)
+            return _scattered(step, state)
         case Ranged(), _:
-            return _ranged(now, state)
+            return _ranged(step, state)
         case Travelled(), Places():
-            return _travelled(now, subject)
+            return _travelled(step, subject)
         case Raised(), _:
-            return Caption(_raised(now, state))
+            return Caption(_raised(step, state))
         case Followed(), _:
-            return _followed(now, state)
+            return _followed(step, state)
         case Met(), _:
-            return _met(now, state)
+            return _met(step, state)
         case Seen(), _:
-            return Caption(_seen(now))
+            return Caption(_seen(step))
     raise AssertionError
 
 
@@ -80,24 +80,24 @@ def said(c: np.ndarray, system: Coordinates) -> str:
     return ", ".join(parts)
 
 
-def _placed(now: Placed, system: Coordinates, params: Params) -> str:
-    if now.moves is None:
+def _placed(placed: Placed, system: Coordinates, params: Params) -> str:
+    if placed.moves is None:
         return (
             f"{params.system.capitalize()} coordinates {', '.join(system.names)}: each says how far"
             " to go from the origin to the point, on a way of its own."
         )
     name, value = (
-        system.names[now.moves],
-        quantity(float(now.c[now.moves]), system.angles[now.moves]),
+        system.names[placed.moves],
+        quantity(float(placed.c[placed.moves]), system.angles[placed.moves]),
     )
-    return f"{name} = {value}, {WAYS[name]}: the point is at {coordinates(now.p, 2)} m."
+    return f"{name} = {value}, {WAYS[name]}: the point is at {coordinates(placed.p, 2)} m."
 
 
-def _cell(now: Cell, system: Coordinates, params: Params) -> str:
-    sides = zip(now.high - now.low, system.angles, strict=True)
+def _cell(cell: Cell, system: Coordinates, params: Params) -> str:
+    sides = zip(cell.high - cell.low, system.angles, strict=True)
     text = (
         f"A cell of {' × '.join(quantity(float(s), a) for s, a in sides)} holds"
-        f" {brief(1e3 * now.volume)} litres"
+        f" {brief(1e3 * cell.volume)} litres"
     )
     if params.system == "cartesian":
         return f"{text}, here as anywhere."
@@ -107,14 +107,15 @@ def _cell(now: Cell, system: Coordinates, params: Params) -> str:
     )
 
 
-def _readings(now: Readings, params: Params) -> str:
+def _readings(readings: Readings, params: Params) -> str:
     numbers = ", ".join(
-        [brief(float(now.numbers[0]))] + [angle(float(np.degrees(a))) for a in now.numbers[1:]]
+        [brief(float(readings.numbers[0]))]
+        + [angle(float(np.degrees(a))) for a in readings.numbers[1:]]
     )
-    here = now.p[params.convention]
+    here = readings.p[params.convention]
     others = [
         length(float(np.linalg.norm(p - here)))
-        for name, p in now.p.items()
+        for name, p in readings.p.items()
         if name != params.convention
     ]
     return (
@@ -131,15 +132,15 @@ def turned(c: np.ndarray) -> float:
     return float(np.degrees(np.abs(changes).max(initial=0.0)))
 
 
-def _walked(now: Walked, system: Coordinates, state: State) -> Caption:
-    c = now.c[:, system.names.index("φ")] if "φ" in system.names else np.zeros(len(now.c))
+def _walked(walk: Walked, system: Coordinates, state: State) -> Caption:
+    c = walk.c[:, system.names.index("φ")] if "φ" in system.names else np.zeros(len(walk.c))
     if not state.last:
-        text = f"A straight walk past the axis: {said(now.c[-1], system)}."
+        text = f"A straight walk past the axis: {said(walk.c[-1], system)}."
         if len(c) == 1 or "φ" not in system.names:
             return Caption(text)
-        step = length(float(np.linalg.norm(now.p[-1] - now.p[-2])))
+        step = length(float(np.linalg.norm(walk.p[-1] - walk.p[-2])))
         return Caption(f"{text} This step of {step} changed φ by {angle(turned(c[-2:]))}.")
-    miss = float(now.misses.max())
+    miss = float(walk.misses.max())
     if not miss < HOME:
         return Caption(
             f"Put back from their coordinates, places of the walk are up to {length(miss)} off. It"
@@ -150,27 +151,27 @@ def _walked(now: Walked, system: Coordinates, state: State) -> Caption:
     if "φ" not in system.names:
         return Caption(f"{text} None of them changed faster than the walk.", "good")
     return Caption(
-        f"{text} One step of {length(float(np.linalg.norm(now.p[-1] - now.p[-2])))} changed φ by"
+        f"{text} One step of {length(float(np.linalg.norm(walk.p[-1] - walk.p[-2])))} changed φ by"
         f" {angle(turned(c))}.",
         "good",
     )
 
 
-def _scaled(now: Scaled) -> str:
-    if now.mean_h is not None and now.other_h is not None:
-        a, b, mean = (v[:3] / v[3] for v in (now.p_h, now.other_h, now.mean_h))
+def _scaled(ray: Scaled) -> str:
+    if ray.mean_h is not None and ray.other_h is not None:
+        a, b, mean = (v[:3] / v[3] for v in (ray.p_h, ray.other_h, ray.mean_h))
         return (
-            f"Vectors with w = {brief(float(now.p_h[3]))} and w = {brief(float(now.other_h[3]))},"
+            f"Vectors with w = {brief(float(ray.p_h[3]))} and w = {brief(float(ray.other_h[3]))},"
             f" averaged entry by entry: that is {length(float(np.linalg.norm(mean - (a + b) / 2)))}"
             " from the middle of the two points. Divide by w first."
         )
-    w, v = float(now.p_h[3]), coordinates(now.p_h, 2)
+    w, v = float(ray.p_h[3]), coordinates(ray.p_h, 2)
     if w == 0:
         return (
             f"{v}, w = 0: no point has this name, but a direction has. It is the point at infinity"
             " that way."
         )
-    p = now.p_h[:3] / w
+    p = ray.p_h[:3] / w
     return (
         f"{v} names the point {coordinates(p, 2)} m: {length(float(np.linalg.norm(p)))} from the"
         " origin."
@@ -182,14 +183,14 @@ def in_caps(p: np.ndarray) -> float:
     return float((np.abs(p[:, 2]) > np.cos(CAP)).mean())
 
 
-def _scattered(now: Scattered, state: State) -> Caption:
+def _scattered(dots: Scattered, state: State) -> Caption:
     if not state.last:
         how = "θ and φ are" if state.params.even == "angle" else "z and φ are"
         return Caption(
-            f"{counted(len(now.p), 'point')} on the unit sphere: {how} drawn evenly. Compare poles"
+            f"{counted(len(dots.p), 'point')} on the unit sphere: {how} drawn evenly. Compare poles"
             " and equator."
         )
-    share, sigma = in_caps(now.p), np.sqrt(CAPS_AREA * (1 - CAPS_AREA) / len(now.p))
+    share, sigma = in_caps(dots.p), np.sqrt(CAPS_AREA * (1 - CAPS_AREA) / len(dots.p))
     text = (
         f"{percent(share, 1)} of the points lie within 30° of a pole, in {percent(CAPS_AREA, 1)} of"
         " the area"
@@ -201,19 +202,19 @@ def _scattered(now: Scattered, state: State) -> Caption:
     )
 
 
-def _ranged(now: Ranged, state: State) -> Caption:
+def _ranged(radar: Ranged, state: State) -> Caption:
     sigma, off = (
         angle(state.params.bearing_noise),
-        length(float(np.linalg.norm(now.mean - now.true))),
+        length(float(np.linalg.norm(radar.mean - radar.true))),
     )
     text = (
-        f"{counted(len(now.p), 'measurement')}, bearings with σ = {sigma}: their mean is {off} from"
-        " the point"
+        f"{counted(len(radar.p), 'measurement')}, bearings with σ = {sigma}: their mean is {off}"
+        " from the point"
     )
     if not state.last:
         return Caption(f"{text}.")
-    expected = length(float(np.linalg.norm(now.expected - now.true)))
-    debiased = length(float(np.linalg.norm(now.debiased - now.true)))
+    expected = length(float(np.linalg.norm(radar.expected - radar.true)))
+    debiased = length(float(np.linalg.norm(radar.debiased - radar.true)))
     return Caption(f"{text}; theory says {expected}. Divided by exp(−σ²/2) it is {debiased} off.")
 
 
@@ -222,35 +223,37 @@ def kilometres(metres: float) -> str:
     return f"{fixed(metres / 1e3, 0)} km"
 
 
-def _travelled(now: Travelled, places: Places) -> Caption:
+def _travelled(trip: Travelled, places: Places) -> Caption:
     start, end = places.names[0], places.names[-1]
-    if now.means is not None:
+    if trip.means is not None:
         text = (
-            f"The mean of the latitudes and longitudes is {kilometres(now.apart)} from the middle"
+            f"The mean of the latitudes and longitudes is {kilometres(trip.apart)} from the middle"
             " of the places"
         )
-        if now.apart < FAR_APART:
+        if trip.apart < FAR_APART:
             return Caption(f"{text}: here it is right.", "good")
         return Caption(f"{text}. It is wrong.", "wrong")
-    if now.share == 0:
+    if trip.share == 0:
         return Caption(
             f"{start} to {end}: one goes straight on the map, latitude and longitude changing"
             " evenly, the other along the great circle."
         )
-    if not abs(now.circle_length / (now.share * direct(places)) - 1) < MEASURED:
-        said = kilometres(now.circle_length) if np.isfinite(now.circle_length) else "no number"
+    if not abs(trip.circle_length / (trip.share * direct(places)) - 1) < MEASURED:
+        measured = (
+            kilometres(trip.circle_length) if np.isfinite(trip.circle_length) else "no number"
+        )
         return Caption(
-            f"So far {said} along the great circle, by your measure;"
-            f" {kilometres(now.share * direct(places))} were gone. It is wrong.",
+            f"So far {measured} along the great circle, by your measure;"
+            f" {kilometres(trip.share * direct(places))} were gone. It is wrong.",
             "wrong",
         )
     text = (
-        f"{kilometres(now.circle_length)} along the great circle, {kilometres(now.straight_length)}"
-        " straight on the map"
+        f"{kilometres(trip.circle_length)} along the great circle,"
+        f" {kilometres(trip.straight_length)} straight on the map"
     )
-    if now.share < 1:
+    if trip.share < 1:
         return Caption(f"So far {text}.")
-    share = now.straight_length / now.circle_length - 1
+    share = trip.straight_length / trip.circle_length - 1
     more = percent(share, 1) if 1e-3 < share < 1 else percent(share)
     return Caption(f"{start} to {end}: {text}, {more} more.")
 
@@ -260,12 +263,12 @@ def direct(places: Places) -> float:
     return float(great_circle_distance(places.degrees[:1], places.degrees[-1:])[0])
 
 
-def _raised(now: Raised, state: State) -> str:
-    k = int(now.apart.argmax()) if state.last else -1
-    plumb, centre = float(np.degrees(now.latitude[k])), float(np.degrees(now.geocentric[k]))
+def _raised(arc: Raised, state: State) -> str:
+    k = int(arc.apart.argmax()) if state.last else -1
+    plumb, centre = float(np.degrees(arc.latitude[k])), float(np.degrees(arc.geocentric[k]))
     text = f"the plumb line rises by {angle(plumb)}, the line to the centre by {fixed(centre, 3)}°:"
     text += (
-        f" {fixed(plumb - centre, 3)}° less, {kilometres(float(now.apart[k]))} along the ground."
+        f" {fixed(plumb - centre, 3)}° less, {kilometres(float(arc.apart[k]))} along the ground."
     )
     if state.last:
         return f"At the pole both are 90°. Between, they differ most where {text}"
@@ -278,48 +281,53 @@ def per_second(rate: float) -> str:
     return f"{fixed(degrees, 0) if degrees >= 100 else brief(degrees)}°/s"
 
 
-def _followed(now: Followed, state: State) -> Caption:
-    if not now.off < HOME:
-        off = angle(float(np.degrees(now.off)))
+def _followed(mount: Followed, state: State) -> Caption:
+    if not mount.off < HOME:
+        off = angle(float(np.degrees(mount.off)))
         return Caption(
-            f"Pan {angle(float(np.degrees(now.pan)))}: the camera looks {off} past the target. It"
+            f"Pan {angle(float(np.degrees(mount.pan)))}: the camera looks {off} past the target. It"
             " is wrong.",
             "wrong",
         )
     if state.last:
         return Caption(
             "The target was in the middle all the time: right. For that the pan axis turned with"
-            f" {per_second(now.pan_peak)} at its fastest, the line of sight with"
-            f" {per_second(now.sight_peak)}.",
+            f" {per_second(mount.pan_peak)} at its fastest, the line of sight with"
+            f" {per_second(mount.sight_peak)}.",
             "good",
         )
-    pan, tilt = (angle(float(np.degrees(a))) for a in (now.pan, now.tilt))
+    pan, tilt = (angle(float(np.degrees(a))) for a in (mount.pan, mount.tilt))
     return Caption(
-        f"Pan {pan}, tilt {tilt}: the pan axis turns with {per_second(now.pan_rate)}, the line of"
-        f" sight with {per_second(now.sight_rate)}."
+        f"Pan {pan}, tilt {tilt}: the pan axis turns with {per_second(mount.pan_rate)}, the line of"
+        f" sight with {per_second(mount.sight_rate)}."
     )
 
 
-def lies_on_both(now: Met) -> bool:
+def lies_on_both(meeting: Met) -> bool:
     """Tell whether the vector is a point of both lines."""
     with np.errstate(all="ignore"):
-        off = now.lines @ now.x_h / np.linalg.norm(now.lines, axis=1) / np.linalg.norm(now.x_h)
+        off = (
+            meeting.lines
+            @ meeting.x_h
+            / np.linalg.norm(meeting.lines, axis=1)
+            / np.linalg.norm(meeting.x_h)
+        )
     return bool((np.abs(off) < HOME).all())
 
 
-def _met(now: Met, state: State) -> Caption:
-    if not lies_on_both(now):
+def _met(meeting: Met, state: State) -> Caption:
+    if not lies_on_both(meeting):
         return Caption(
-            f"{coordinates(now.x_h, 3)} is no point of both lines. It is wrong.", "wrong"
+            f"{coordinates(meeting.x_h, 3)} is no point of both lines. It is wrong.", "wrong"
         )
-    x, y, w = now.x_h / np.abs(now.x_h).max()
-    degrees, tilt = angle_of(now), float(now.H[2, 0])
+    x, y, w = meeting.x_h / np.abs(meeting.x_h).max()
+    degrees, tilt = angle_of(meeting), float(meeting.H[2, 0])
     if tilt:
         where = f"({brief(x / w)}, {fixed(y / w, 2)}) m" if w else "infinity still"
         text = (
             f"A homography with h₃₁ = {brief(tilt)} takes infinity to the horizon x ="
             f" {brief(1 / tilt)} m, and the meeting to {where}. The cross-ratio stays"
-            f" {brief(now.cross_ratio)}, lengths as 3 : 1 become {brief(now.ratio)} : 1."
+            f" {brief(meeting.cross_ratio)}, lengths as 3 : 1 become {brief(meeting.ratio)} : 1."
         )
         return (
             Caption(f"{text} Both lines still go through it: right.", "good")
@@ -338,9 +346,9 @@ def _met(now: Met, state: State) -> Caption:
     )
 
 
-def angle_of(now: Met) -> str:
+def angle_of(meeting: Met) -> str:
     """Write the angle between the lines, however small."""
-    degrees = float(np.degrees(now.angle))
+    degrees = float(np.degrees(meeting.angle))
     return (
         f"{brief(degrees)}°"
         if degrees >= 0.001
@@ -353,9 +361,9 @@ def far(metres: float) -> str:
     return length(metres) if metres < 1e6 else f"{brief(metres / 1e3, 2)} km"
 
 
-def _seen(now: Seen) -> str:
+def _seen(view: Seen) -> str:
     return (
-        f"The eye is {brief(now.times)} half-depths away: the near side looks {percent(now.near)}"
-        f" too large, the far side {percent(-now.far)} too small. Parallel rays show both in one"
+        f"The eye is {brief(view.times)} half-depths away: the near side looks {percent(view.near)}"
+        f" too large, the far side {percent(-view.far)} too small. Parallel rays show both in one"
         " size."
     )

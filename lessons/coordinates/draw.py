@@ -56,69 +56,71 @@ K = intrinsics(60.0, 31.5, 23.5)
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    now, subject = state.now, state.subject
+    step, subject = state.now, state.subject
     scene: dict[str, Primitive] = {"caption": caption(state)}
-    match now:
+    match step:
         case Placed() | Cell() | Readings() | Walked():
             assert isinstance(subject, Coordinates)
             return scene | _point(state, subject)
         case Scaled():
-            return scene | _scaled(now)
+            return scene | _scaled(step)
         case Scattered():
-            return scene | _scattered(now)
+            return scene | _scattered(step)
         case Travelled():
             assert isinstance(subject, Places)
-            return scene | _travelled(now, subject)
+            return scene | _travelled(step, subject)
         case Raised():
-            return scene | _raised(now)
+            return scene | _raised(step)
         case Followed():
-            return scene | _followed(now)
+            return scene | _followed(step)
         case Ranged():
-            return scene | ranged(now)
+            return scene | ranged(step)
         case Met():
-            return scene | met(now)
+            return scene | met(step)
         case Seen():
-            return scene | seen(state, now)
+            return scene | seen(state, step)
 
 
 def _point(state: State, system: Coordinates) -> dict[str, Primitive]:
-    now, p = state.now, np.array(state.params.point)
+    step, p = state.now, np.array(state.params.point)
     scene: dict[str, Primitive] = {"frame": RINGS, "axis": AXIS}
-    if not isinstance(now, Walked):
+    if not isinstance(step, Walked):
         scene["point"] = Points(p[None], "target", 0.03, name="the point")
-    if isinstance(now, Placed):
-        if now.moves:  # the first goes straight out and sweeps nothing
-            swept = np.vstack([ORIGIN, now.path])
+    if isinstance(step, Placed):
+        if step.moves:  # the first goes straight out and sweeps nothing
+            swept = np.vstack([ORIGIN, step.path])
             scene["swept"] = Mesh(
                 swept, fan(len(swept)), "source", opacity=0.6, name="swept by the ray to it"
             )
-        if now.moves is not None:
+        if step.moves is not None:
             scene["path"] = Segments(
-                segments(now.path), "source", 4, name="its coordinates, one after the other"
+                segments(step.path), "source", 4, name="its coordinates, one after the other"
             )
-        scene["place"] = Points(now.p[None], "source", 0.025, name="so far")
-        scene["numbers"] = _table("So far", system, now.c)
-    elif isinstance(now, Cell):
-        scene["cell"] = Segments(cell_edges(system, now.low, now.high), "source", 3, name="a cell")
+        scene["place"] = Points(step.p[None], "source", 0.025, name="so far")
+        scene["numbers"] = _table("So far", system, step.c)
+    elif isinstance(step, Cell):
+        scene["cell"] = Segments(
+            cell_edges(system, step.low, step.high), "source", 3, name="a cell"
+        )
         rows = (
-            ("with the density", fixed(now.solid[0], 2)),
-            ("sides alone", fixed(now.solid[1], 2)),
+            ("with the density", fixed(step.solid[0], 2)),
+            ("sides alone", fixed(step.solid[1], 2)),
         )
-        what = "unit ball" if state.params.system == "spherical" else "solid 2 m wide"
+        body = "unit ball" if state.params.system == "spherical" else "solid 2 m wide"
         scene["solid"] = Table(
-            f"Cells of a {what} (m³)", ("", "sum"), (*rows, ("true", fixed(system.volume, 2)))
+            f"Cells of a {body} (m³)", ("", "sum"), (*rows, ("true", fixed(system.volume, 2)))
         )
-    elif isinstance(now, Readings):
-        others = [name for name in now.p if name != state.params.convention]
-        q = np.stack([now.p[name] for name in others])
+    elif isinstance(step, Readings):
+        others = [name for name in step.p if name != state.params.convention]
+        q = np.stack([step.p[name] for name in others])
         scene["ray"] = Segments(between(ORIGIN, p), "source", 3)
         scene["others"] = Points(q, "wrong", 0.03, name="by other conventions")
         scene["other rays"] = Segments(between(ORIGIN, q), "wrong", 2, opacity=0.6)
         for name, where in (*zip(others, q, strict=True), (state.params.convention, p)):
             color = "wrong" if name in others else "source"
             scene[f"name/{name}"] = Label(name, where + np.array([0.0, 0.0, 0.08]), color)
-    elif isinstance(now, Walked):
-        scene |= _walked(now, system)
+    elif isinstance(step, Walked):
+        scene |= _walked(step, system)
     return scene
 
 
@@ -127,83 +129,83 @@ def _table(title: str, system: Coordinates, c: np.ndarray) -> Table:
     return Table(title, ("", "value"), tuple(zip(system.names, rows, strict=True)))
 
 
-def _walked(now: Walked, system: Coordinates) -> dict[str, Primitive]:
+def _walked(walk: Walked, system: Coordinates) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
-        "walk": Points(now.p, "target", 0.014, name="the walk"),
-        "ray": Segments(between(ORIGIN, now.p[-1]), "source", 3, name="to here"),
+        "walk": Points(walk.p, "target", 0.014, name="the walk"),
+        "ray": Segments(between(ORIGIN, walk.p[-1]), "source", 3, name="to here"),
         "shadow": Segments(
-            between(ORIGIN, now.p[-1] * [1.0, 1.0, 0.0]),
+            between(ORIGIN, walk.p[-1] * [1.0, 1.0, 0.0]),
             "source",
             2,
             opacity=0.6,
             name="its direction below",
         ),
-        "drop": Segments(between(now.p[-1] * [1.0, 1.0, 0.0], now.p[-1]), "correspondence", 1.5),
-        "here": _table("Here", system, now.c[-1]),
+        "drop": Segments(between(walk.p[-1] * [1.0, 1.0, 0.0], walk.p[-1]), "correspondence", 1.5),
+        "here": _table("Here", system, walk.c[-1]),
     }
     roles = ("target", "other", "source")
     for name, values, is_angle, role in zip(
-        system.names, now.c.T, system.angles, roles, strict=True
+        system.names, walk.c.T, system.angles, roles, strict=True
     ):
         if is_angle or not any(system.angles):
             chart = WALK if is_angle else WALK_LENGTHS
             scene[f"along {name}"] = chart.curve(
-                now.p[:, 0], np.degrees(values) if is_angle else values, name, role
+                walk.p[:, 0], np.degrees(values) if is_angle else values, name, role
             )
     return scene
 
 
-def _scaled(now: Scaled) -> dict[str, Primitive]:
-    v = now.p_h[:3]
+def _scaled(ray: Scaled) -> dict[str, Primitive]:
+    v = ray.p_h[:3]
     scene: dict[str, Primitive] = {"frame": RINGS}
     scene["ray"] = Segments(
         between(ORIGIN, 3.0 * v), "correspondence", 2, name="all points of this direction"
     )
-    if now.mean_h is not None and now.other_h is not None:
-        p, q, mean = (h[:3] / h[3] for h in (now.p_h, now.other_h, now.mean_h))
+    if ray.mean_h is not None and ray.other_h is not None:
+        p, q, mean = (h[:3] / h[3] for h in (ray.p_h, ray.other_h, ray.mean_h))
         scene["two"] = Points(np.stack([p, q]), "target", 0.03, name="two points")
         scene["line"] = Segments(between(p, q), "correspondence", 2)
         scene["middle"] = Points((p + q)[None] / 2, "truth", 0.03, name="their middle")
         scene["mean"] = Points(mean[None], "wrong", 0.03, name="mean of the vectors")
         return scene
-    w = float(now.p_h[3])
+    w = float(ray.p_h[3])
     if w and np.linalg.norm(v / w) <= 3.0:
         scene["point"] = Points(v[None] / w, "source", 0.035, name="the point")
     else:
         scene["arrow"] = Segments(
             between(ORIGIN, 3.0 * v / np.linalg.norm(v)), "source", 4, name="beyond the picture"
         )
-    names = zip("xyzw", now.p_h, strict=True)
+    names = zip("xyzw", ray.p_h, strict=True)
     scene["numbers"] = Table(
         "The vector", ("", "value"), tuple((name, fixed(float(value), 2)) for name, value in names)
     )
     return scene
 
 
-def _scattered(now: Scattered) -> dict[str, Primitive]:
-    near = np.abs(now.p[:, 2]) > np.cos(CAP)
-    radius = 0.02 if len(now.p) < 1000 else 0.012 if len(now.p) < 6000 else 0.008
+def _scattered(dots: Scattered) -> dict[str, Primitive]:
+    near = np.abs(dots.p[:, 2]) > np.cos(CAP)
+    radius = 0.02 if len(dots.p) < 1000 else 0.012 if len(dots.p) < 6000 else 0.008
     edges = np.arange(0.0, 181.0, 10.0)
-    expected = len(now.p) * -np.diff(np.cos(np.radians(edges))) / 2
+    expected = len(dots.p) * -np.diff(np.cos(np.radians(edges))) / 2
     rims = np.concatenate([parallel(polar) for polar in (CAP, np.pi - CAP)])
-    polar = np.degrees(np.arccos(np.clip(now.p[:, 2], -1.0, 1.0)))
+    polar = np.degrees(np.arccos(np.clip(dots.p[:, 2], -1.0, 1.0)))
     return {
         "ball": Mesh(0.985 * BALL.p, BALL.faces, PALE),
         "rims": Segments(rims, "highlight", 3, name="30° from a pole"),
         "points": Points(
-            now.p,
+            dots.p,
             Classes.marking(near, "source", "near a pole", others=("target", "elsewhere")),
             radius,
             name="points",
         ),
         "drawn": CELLS.histogram(polar, edges, "drawn"),
         "even": CELLS.curve((edges[1:] + edges[:-1]) / 2, expected, "even on the sphere", "truth"),
-        "share": IN_CAPS.scalar(100 * in_caps(now.p), "drawn"),
+        "share": IN_CAPS.scalar(100 * in_caps(dots.p), "drawn"),
         "area": IN_CAPS.scalar(100 * CAPS_AREA, "of the area", "truth"),
     }
 
 
-def _travelled(now: Travelled, places: Places) -> dict[str, Primitive]:
+def _travelled(trip: Travelled, places: Places) -> dict[str, Primitive]:
     turn = np.radians(-90.0 - _middle(places)[1])
     T = motion(
         np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]]),
@@ -211,8 +213,8 @@ def _travelled(now: Travelled, places: Places) -> dict[str, Primitive]:
     )
     names, degrees = places.names, places.degrees
     ways: dict[str, tuple[np.ndarray, Role, str]] = {
-        "straight": (now.straight, "wrong", "straight on the map"),
-        "circle": (now.circle, "truth", "great circle"),
+        "straight": (trip.straight, "wrong", "straight on the map"),
+        "circle": (trip.circle, "truth", "great circle"),
     }
     scene: dict[str, Primitive] = {
         "ball": Mesh(0.985 * BALL.p, BALL.faces, PALE, T),
@@ -228,13 +230,13 @@ def _travelled(now: Travelled, places: Places) -> dict[str, Primitive]:
         longitude = np.degrees(np.unwrap(np.radians(way[:, 1]))) if path == "circle" else way[:, 1]
         scene[f"map {path}"] = MAP.curve(longitude, way[:, 0], name, role)
     scene["map places"] = MAP.dots(degrees[:, 1], degrees[:, 0], "places", "target")
-    if now.means is not None:
-        p = 1.01 * units_of_places(now.means)
+    if trip.means is not None:
+        p = 1.01 * units_of_places(trip.means)
         scene["mean"] = Points(p[:1], "wrong", 0.035, T, name="mean of the numbers")
         scene["middle"] = Points(p[1:], "truth", 0.035, T, name="middle of the places")
     else:
-        scene["way"] = WAY.scalar(now.straight_length / 1e3, "straight on the map", "wrong")
-        scene["great"] = WAY.scalar(now.circle_length / 1e3, "great circle", "truth")
+        scene["way"] = WAY.scalar(trip.straight_length / 1e3, "straight on the map", "wrong")
+        scene["great"] = WAY.scalar(trip.circle_length / 1e3, "great circle", "truth")
     return scene
 
 
@@ -243,11 +245,11 @@ def _middle(places: Places) -> np.ndarray:
     return np.degrees([np.arctan2(p[2], np.hypot(p[0], p[1])), np.arctan2(p[1], p[0])])
 
 
-def _raised(now: Raised) -> dict[str, Primitive]:
+def _raised(arc: Raised) -> dict[str, Primitive]:
     """Return the meridian of a planet, drawn flatter than it is, with both lines at the latitude
     reached.
     """
-    latitude = now.latitude[-1:]
+    latitude = arc.latitude[-1:]
     rho, z = FLAT.meridian(latitude)[0]
     p, turn = np.array([rho, 0.0, z]), np.linspace(-np.pi, np.pi, 145)
     outline = FLAT.meridian(turn)
@@ -255,7 +257,7 @@ def _raised(now: Raised) -> dict[str, Primitive]:
         [np.cos(latitude[0]), 0.0, np.sin(latitude[0])]
     )
     up = p + 0.3 * np.array([np.cos(latitude[0]), 0.0, np.sin(latitude[0])])
-    apart = np.degrees(now.latitude - now.geocentric)
+    apart = np.degrees(arc.latitude - arc.geocentric)
     return {
         "meridian": Segments(
             segments(np.insert(outline, 1, 0.0, axis=1)),
@@ -268,16 +270,16 @@ def _raised(now: Raised) -> dict[str, Primitive]:
         "place": Points(p[None], "target", 0.025, name="a place"),
         "plumb": Segments(np.stack([foot, up])[None], "source", 4, name="plumb line"),
         "centre": Segments(between(ORIGIN, p), "other", 4, name="line to the centre"),
-        "difference": LATITUDES.curve(np.degrees(now.latitude), apart, "difference"),
+        "difference": LATITUDES.curve(np.degrees(arc.latitude), apart, "difference"),
     }
 
 
-def _followed(now: Followed) -> dict[str, Primitive]:
-    c, s = np.cos(now.pan), np.sin(now.pan)
-    n = cartesian_from_spherical(np.array([[1.0, np.pi / 2 - now.tilt, now.pan]]))[0]
+def _followed(mount: Followed) -> dict[str, Primitive]:
+    c, s = np.cos(mount.pan), np.sin(mount.pan)
+    n = cartesian_from_spherical(np.array([[1.0, np.pi / 2 - mount.tilt, mount.pan]]))[0]
     right = np.array([s, -c, 0.0])
     T_world_camera = motion(np.column_stack([right, np.cross(n, right), n]), ORIGIN)
-    track = np.array([[[-18.0, now.p[1], now.p[2]], [18.0, now.p[1], now.p[2]]]])
+    track = np.array([[[-18.0, mount.p[1], mount.p[2]], [18.0, mount.p[1], mount.p[2]]]])
     return {
         "ring": Segments(segments(at_height(4.0 * circle())), "neutral", 2, name="pan axis"),
         "pan": Segments(between(ORIGIN, 4.0 * np.array([c, s, 0.0])), "source", 5, name="pan"),
@@ -286,21 +288,21 @@ def _followed(now: Followed) -> dict[str, Primitive]:
         "zenith": Segments(
             between(ORIGIN, np.array([0.0, 0.0, 12.0])), "z", 1.5, opacity=0.6, name="zenith"
         ),
-        "sight": Segments(between(ORIGIN, now.p), "correspondence", 2, name="line of sight"),
-        "target": Points(now.p[None], "target", 0.4, name="target"),
-        "pan rate": RATES.scalar(abs(float(np.degrees(now.pan_rate))), "pan axis", log=True),
+        "sight": Segments(between(ORIGIN, mount.p), "correspondence", 2, name="line of sight"),
+        "target": Points(mount.p[None], "target", 0.4, name="target"),
+        "pan rate": RATES.scalar(abs(float(np.degrees(mount.pan_rate))), "pan axis", log=True),
         "sight rate": RATES.scalar(
-            float(np.degrees(now.sight_rate)), "line of sight", "truth", log=True
+            float(np.degrees(mount.sight_rate)), "line of sight", "truth", log=True
         ),
-        "pan angle": ANGLES.scalar(float(np.degrees(now.pan)), "pan"),
-        "tilt angle": ANGLES.scalar(float(np.degrees(now.tilt)), "tilt", "other"),
+        "pan angle": ANGLES.scalar(float(np.degrees(mount.pan)), "pan"),
+        "tilt angle": ANGLES.scalar(float(np.degrees(mount.tilt)), "tilt", "other"),
         "moment": Table(
             "Now",
             ("", "value"),
             (
-                ("time", f"{fixed(now.time, 3)} s"),
-                ("pan", angle(float(np.degrees(now.pan)))),
-                ("tilt", angle(float(np.degrees(now.tilt)))),
+                ("time", f"{fixed(mount.time, 3)} s"),
+                ("pan", angle(float(np.degrees(mount.pan)))),
+                ("tilt", angle(float(np.degrees(mount.tilt)))),
             ),
         ),
     }

@@ -26,50 +26,50 @@ LOW, HIGH = np.array([-2.0, -1.5]), np.array([8.0, 2.5])  # of the plane w = 1 t
 EYE_SHOWN, RAY = 4.0, 2.2  # metres
 
 
-def ranged(now: Ranged) -> dict[str, Primitive]:
+def ranged(radar: Ranged) -> dict[str, Primitive]:
     """Return measured points beside the true one and their means."""
     return {
-        "range": Segments(_arc(now), "correspondence", 1.5, name="the true range"),
+        "range": Segments(_arc(radar), "correspondence", 1.5, name="the true range"),
         "radar": Points(ORIGIN[None], "neutral", 0.15, name="radar"),
         "points": Points(
-            at_height(now.p),
+            at_height(radar.p),
             "target",
-            0.05 if len(now.p) > 500 else 0.08,
+            0.05 if len(radar.p) > 500 else 0.08,
             opacity=0.6,
             name="measurements",
         ),
-        "true": Points(at_height(now.true[None], 0.1), "truth", 0.2, name="true point"),
-        "mean": Points(at_height(now.mean[None], 0.1), "wrong", 0.2, name="mean of the points"),
+        "true": Points(at_height(radar.true[None], 0.1), "truth", 0.2, name="true point"),
+        "mean": Points(at_height(radar.mean[None], 0.1), "wrong", 0.2, name="mean of the points"),
         "debiased": Points(
-            at_height(now.debiased[None], 0.1), "source", 0.15, name="mean, divided"
+            at_height(radar.debiased[None], 0.1), "source", 0.15, name="mean, divided"
         ),
         "off": OFF.scalar(
-            float(np.linalg.norm(now.mean - now.true)), "mean of the points", "wrong"
+            float(np.linalg.norm(radar.mean - radar.true)), "mean of the points", "wrong"
         ),
         "expected": OFF.scalar(
-            float(np.linalg.norm(now.expected - now.true)), "expected of it", "correspondence"
+            float(np.linalg.norm(radar.expected - radar.true)), "expected of it", "correspondence"
         ),
         "off divided": OFF.scalar(
-            float(np.linalg.norm(now.debiased - now.true)), "divided by exp(−σ²/2)"
+            float(np.linalg.norm(radar.debiased - radar.true)), "divided by exp(−σ²/2)"
         ),
         "means": Table(
             "Means",
             ("of", "off the true point"),
             (
-                ("the points", length(float(np.linalg.norm(now.mean - now.true)))),
-                ("the same, divided", length(float(np.linalg.norm(now.debiased - now.true)))),
-                ("range and bearing", length(float(np.linalg.norm(now.polar_mean - now.true)))),
+                ("the points", length(float(np.linalg.norm(radar.mean - radar.true)))),
+                ("the same, divided", length(float(np.linalg.norm(radar.debiased - radar.true)))),
+                ("range and bearing", length(float(np.linalg.norm(radar.polar_mean - radar.true)))),
             ),
         ),
     }
 
 
-def _arc(now: Ranged) -> np.ndarray:
+def _arc(radar: Ranged) -> np.ndarray:
     turn = np.linspace(-np.pi / 2, np.pi / 2, 61)
-    return segments(at_height(now.true[0] * np.column_stack([np.cos(turn), np.sin(turn)])))
+    return segments(at_height(radar.true[0] * np.column_stack([np.cos(turn), np.sin(turn)])))
 
 
-def met(now: Met) -> dict[str, Primitive]:
+def met(meeting: Met) -> dict[str, Primitive]:
     """Return the plane w = 1, both lines with the planes that they span with the origin, and the
     vector of their meeting.
     """
@@ -81,13 +81,13 @@ def met(now: Met) -> dict[str, Primitive]:
             name="the plane w = 1",
         ),
         "origin": Points(ORIGIN[None], "neutral", 0.06, name="origin"),
-        "rails": Segments(_grid(now.H), "neutral", 1, opacity=0.5),
+        "rails": Segments(_grid(meeting.H), "neutral", 1, opacity=0.5),
     }
     roles: tuple[Role, Role] = ("target", "source")
     for k, (name, role) in enumerate(zip(("l", "l′"), roles, strict=True)):
-        a, b, _ = now.lines[k]
+        a, b, _ = meeting.lines[k]
         ends = (
-            clip_lines(now.lines[[k]] / np.hypot(a, b), LOW, HIGH)
+            clip_lines(meeting.lines[[k]] / np.hypot(a, b), LOW, HIGH)
             if np.hypot(a, b) > 1e-9
             else np.empty((0, 2, 2))
         )
@@ -97,12 +97,12 @@ def met(now: Met) -> dict[str, Primitive]:
             scene[f"fan/{k + 1}"] = Mesh(
                 np.vstack([ORIGIN, p]), np.array([[0, 1, 2]]), role, opacity=0.2
             )
-    horizon = now.horizon / max(float(np.hypot(*now.horizon[:2])), 1e-12)
-    if now.H[2, 0] and len(ends := clip_lines(horizon[None], LOW, HIGH)):
+    horizon = meeting.horizon / max(float(np.hypot(*meeting.horizon[:2])), 1e-12)
+    if meeting.H[2, 0] and len(ends := clip_lines(horizon[None], LOW, HIGH)):
         scene["horizon"] = Segments(at_height(ends[0], 1.0)[None], "highlight", 4, name="horizon")
-    stops = now.places[:, :2] / now.places[:, 2:]
+    stops = meeting.places[:, :2] / meeting.places[:, 2:]
     scene["stops"] = Points(at_height(stops, 1.0), "target", 0.05, name="four points of l")
-    x_h, right = now.x_h, lies_on_both(now)
+    x_h, right = meeting.x_h, lies_on_both(meeting)
     if np.isfinite(x_h).all() and x_h.any():
         n = (
             x_h
@@ -117,8 +117,8 @@ def met(now: Met) -> dict[str, Primitive]:
             scene["point"] = Points(
                 np.append(p, 1.0)[None], "truth" if right else "wrong", 0.1, name="meeting"
             )
-    scene["kept"] = KEPT.scalar(now.cross_ratio, "cross-ratio", "truth")
-    scene["lengths"] = KEPT.scalar(now.ratio, "first to third over first to second")
+    scene["kept"] = KEPT.scalar(meeting.cross_ratio, "cross-ratio", "truth")
+    scene["lengths"] = KEPT.scalar(meeting.ratio, "first to third over first to second")
     return scene
 
 
@@ -134,7 +134,7 @@ def _grid(H: np.ndarray) -> np.ndarray:
     return at_height(segments_inside(ends, LOW, HIGH), 1.0)
 
 
-def seen(state: State, now: Seen) -> dict[str, Primitive]:
+def seen(state: State, view: Seen) -> dict[str, Primitive]:
     """Return the object, its two pictures on the plane y = 0, and the rays to the eye."""
     thing = as_a(Thing, state.subject)
     scene: dict[str, Primitive] = {}
@@ -144,9 +144,9 @@ def seen(state: State, now: Seen) -> dict[str, Primitive]:
     else:
         scene["object"] = Points(thing.p, "target", 0.008, name=thing.name)
         corners = thing.p[:: max(1, len(thing.p) // 12)]
-    scene["perspective"] = _picture(thing, now, "source", "by the eye")
+    scene["perspective"] = _picture(thing, view, "source", "by the eye")
     scene["parallel"] = _picture(thing, None, "truth", "by parallel rays")
-    v = now.eye - corners
+    v = view.eye - corners
     reach = np.minimum(1.0, RAY / np.linalg.norm(v, axis=1, keepdims=True))
     scene["rays"] = Segments(
         between(corners, corners + reach * v),
@@ -155,21 +155,21 @@ def seen(state: State, now: Seen) -> dict[str, Primitive]:
         opacity=0.7,
         name="rays to the eye",
     )
-    if -now.eye[1] < EYE_SHOWN:
+    if -view.eye[1] < EYE_SHOWN:
         scene["eye"] = Camera(
-            intrinsics(50.0, 31.5, 23.5), 64, 48, motion(R_UPRIGHT, now.eye), 0.15, name="eye"
+            intrinsics(50.0, 31.5, 23.5), 64, 48, motion(R_UPRIGHT, view.eye), 0.15, name="eye"
         )
-    scene["near"] = SIZES.scalar(100 * now.near, "near side", "source", log=True)
-    scene["far"] = SIZES.scalar(-100 * now.far, "far side", "other", log=True)
+    scene["near"] = SIZES.scalar(100 * view.near, "near side", "source", log=True)
+    scene["far"] = SIZES.scalar(-100 * view.far, "far side", "other", log=True)
     return scene
 
 
-def _picture(thing: Thing, now: Seen | None, role: Role, name: str) -> Primitive:
+def _picture(thing: Thing, view: Seen | None, role: Role, name: str) -> Primitive:
     """Return the picture of an object on the plane y = 0: through the eye where there is one, else
     by parallel rays.
     """
     p = thing.lines.reshape(-1, 3) if len(thing.lines) else thing.p
-    factor = np.ones(len(p)) if now is None else -now.eye[1] / (p[:, 1] - now.eye[1])
+    factor = np.ones(len(p)) if view is None else -view.eye[1] / (p[:, 1] - view.eye[1])
     flat = np.column_stack([p[:, 0] * factor, np.zeros(len(p)), p[:, 2] * factor])
     if len(thing.lines):
         return Segments(flat.reshape(-1, 2, 3), role, 4, name=name)

@@ -54,35 +54,35 @@ def run(
 ) -> Iterator[State]:
     """Yield the steps of one stage."""
     rng, subject = np.random.default_rng(params.seed), None
-    found: Iterator[Now]
+    steps: Iterator[Now]
     if params.stage == "point":
         yield from point_stage(params, spherical_from_cartesian)
         return
     if params.stage == "sphere":
-        found = scatter(growing(params.samples, 6), params.even, rng)
+        steps = scatter(growing(params.samples, 6), params.even, rng)
     elif params.stage == "radar":
-        found = measure(
+        steps = measure(
             RANGE, np.radians(params.bearing_noise), RANGE_SIGMA, growing(params.samples, 6), rng
         )
     elif params.stage == "globe":
         subject = places_of(params)
-        found = travel(subject.degrees, 16, great_circle_distance)
+        steps = travel(subject.degrees, 16, great_circle_distance)
     elif params.stage == "latitude":
-        found = to_the_pole(PLANETS[params.planet], 18)
+        steps = to_the_pole(PLANETS[params.planet], 18)
     elif params.stage == "mount":
         beside = HEIGHT * np.tan(np.radians(params.miss))
         start, v = np.array([0.0, beside, HEIGHT]), np.array([SPEED, 0.0, 0.0])
-        found = follow(start, v, moments(beside / SPEED), spherical_from_cartesian)
+        steps = follow(start, v, moments(beside / SPEED), spherical_from_cartesian)
     elif params.stage == "projective":
         angles = [angle for angle in TURNS if angle > params.angle_between] + [params.angle_between]
-        found = turn_parallel(np.radians(angles), TILTS, 1.0, STOPS, meet)
+        steps = turn_parallel(np.radians(angles), TILTS, 1.0, STOPS, meet)
     else:
         subject = thing_of(params)
-        found = step_back(
+        steps = step_back(
             subject.p, subject.half_depth, np.geomspace(1.5, max(params.distance, 1.51), 17)
         )
-    for now in found:
-        yield State(params=params, now=now, subject=subject)
+    for step in steps:
+        yield State(params=params, now=step, subject=subject)
 
 
 def moments(scale: float) -> np.ndarray:

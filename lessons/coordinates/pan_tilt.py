@@ -67,11 +67,11 @@ def follow(
         spherical_from_cartesian: Tells polar angle and azimuth of the target.
     """
     p = p_start + times[:, None] * v
-    before, now, after = (
+    before, middle, after = (
         spherical_from_cartesian(p + dt * v) for dt in (-INSTANT / 2, 0.0, INSTANT / 2)
     )
     turned = (after - before + np.pi) % (2.0 * np.pi) - np.pi  # the short way round
-    looks = cartesian_from_spherical(np.column_stack([np.ones(len(p)), now[:, 1:]]))
+    looks = cartesian_from_spherical(np.column_stack([np.ones(len(p)), middle[:, 1:]]))
     across = np.linalg.norm(np.cross(p, v), axis=1)
     off = np.arctan2(np.linalg.norm(np.cross(looks, p), axis=1), (looks * p).sum(axis=1))
     pan_rate, tilt_rate, sight_rate = (
@@ -83,8 +83,8 @@ def follow(
         yield Followed(
             time=float(times[k]),
             p=p[k],
-            pan=float(now[k, 2]),
-            tilt=float(np.pi / 2 - now[k, 1]),
+            pan=float(middle[k, 2]),
+            tilt=float(np.pi / 2 - middle[k, 1]),
             pan_rate=float(pan_rate[k]),
             tilt_rate=float(tilt_rate[k]),
             sight_rate=float(sight_rate[k]),

@@ -55,15 +55,15 @@ def place(c: Float[np.ndarray, "3"], system: Coordinates, steps: int) -> Iterato
         system: What they mean.
         steps: Into how many steps each coordinate is cut.
     """
-    now, path = np.zeros(3), np.zeros((1, 3))
-    yield Placed(c=now, p=path[0], path=path)
+    reached, path = np.zeros(3), np.zeros((1, 3))
+    yield Placed(c=reached, p=path[0], path=path)
     for k in range(3):
         for step in range(steps):
-            arc = np.tile(now, (ARC, 1))
+            arc = np.tile(reached, (ARC, 1))
             arc[:, k] = c[k] * (step + np.arange(1, ARC + 1) / ARC) / steps
             path = np.concatenate([path, system.to_points(arc)])
-            now = arc[-1]
-            yield Placed(c=now, p=path[-1], path=path, moves=k)
+            reached = arc[-1]
+            yield Placed(c=reached, p=path[-1], path=path, moves=k)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -169,21 +169,21 @@ class State:
     @property
     def last(self) -> bool:
         """Whether the run ends here."""
-        now, params = self.now, self.params
-        match now:
+        step, params = self.now, self.params
+        match step:
             case Walked():
-                return len(now.p) == WALKED
+                return len(step.p) == WALKED
             case Scaled() | Travelled():
-                return (now.mean_h if isinstance(now, Scaled) else now.means) is not None
+                return (step.mean_h if isinstance(step, Scaled) else step.means) is not None
             case Scattered() | Ranged():
-                return len(now.p) == params.samples
+                return len(step.p) == params.samples
             case Raised():
-                return now.latitude[-1] == np.pi / 2
+                return step.latitude[-1] == np.pi / 2
             case Followed():
-                return now.time >= SECONDS - 1e-6
+                return step.time >= SECONDS - 1e-6
             case Met():
-                return now.H[2, 0] == TILTS[-1]
+                return step.H[2, 0] == TILTS[-1]
             case Seen():
-                return now.times >= params.distance - 1e-9
+                return step.times >= params.distance - 1e-9
             case _:
                 return False

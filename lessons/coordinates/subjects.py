@@ -29,8 +29,8 @@ def places_of(params: Params) -> Places:
     ends = places.degrees[[0, -1]]
     way = float(great_circle_distance(ends[:1], ends[1:], 1.0)[0])
     if not SHORTEST < way < np.pi - SHORTEST:
-        what = "one place" if way <= SHORTEST else "antipodes"
-        raise InputError(f"the first place and the last are {what}: they have no one shortest way")
+        fault = "one place" if way <= SHORTEST else "antipodes"
+        raise InputError(f"the first place and the last are {fault}: they have no one shortest way")
     try:
         mean_place(places.degrees)
     except ValueError as error:

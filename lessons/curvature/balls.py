@@ -60,7 +60,10 @@ class Held:
 def setup(params: Input) -> Balls:
     """Return the balls, and of each a vertex in front."""
     surfaces = tuple(sphere(count) for count in COUNTS)
-    fronts = (front_of(one.p, one.normals, on_boundary(one.faces, len(one.p))) for one in surfaces)
+    fronts = (
+        front_of(surface.p, surface.normals, on_boundary(surface.faces, len(surface.p)))
+        for surface in surfaces
+    )
     return Balls(surfaces, tuple(fronts))
 
 
@@ -82,22 +85,22 @@ def run(params: Input, subject: Balls, functions: Functions) -> Iterator[Held]:
 
 def draw(look: Look[Input, Balls, Held]) -> Scene:
     """Return the four balls, cell and numbers of those that are measured, and the error of each."""
-    now, subject = look.now, look.subject
+    state, subject = look.now, look.subject
     scene: dict[str, Primitive] = {}
     for k, surface in enumerate(subject.surfaces):
         scene |= _ball(k, surface)
-        if k < len(now.K):
-            scene |= _measured(k, subject, now)
-    x = np.log10([len(one.p) for one in subject.surfaces])
+        if k < len(state.K):
+            scene |= _measured(k, subject, state)
+    x = np.log10([len(surface.p) for surface in subject.surfaces])
     y = np.full(len(x), np.nan)
-    y[: len(now.K)] = np.log10(100 * np.array(now.errors))
-    here = slice(len(now.K) - 1, len(now.K))
+    y[: len(state.K)] = np.log10(100 * np.array(state.errors))
+    here = slice(len(state.K) - 1, len(state.K))
     return scene | {
-        "vertices": VERTICES.scalar(len(subject.surfaces[len(now.K) - 1].p), "vertices"),
-        "gap scalar": GAP.scalar(now.gaps[-1], "gap", "other"),
-        "area scalar": AREA.scalar(now.areas[-1], "area of the cell", "highlight"),
-        "K scalar": CURVATURE.scalar(now.K[-1], "K"),
-        "error scalar": ERROR.scalar(100 * now.errors[-1], "error of K"),
+        "vertices": VERTICES.scalar(len(subject.surfaces[len(state.K) - 1].p), "vertices"),
+        "gap scalar": GAP.scalar(state.gaps[-1], "gap", "other"),
+        "area scalar": AREA.scalar(state.areas[-1], "area of the cell", "highlight"),
+        "K scalar": CURVATURE.scalar(state.K[-1], "K"),
+        "error scalar": ERROR.scalar(100 * state.errors[-1], "error of K"),
         "finer": FINER.curve(x, y, "K from angles"),
         "finer/here": FINER.dots(x[here], y[here], "here"),
         "caption": caption(look),
@@ -119,30 +122,30 @@ def _ball(k: int, surface: Surface) -> dict[str, Primitive]:
     return scene
 
 
-def _measured(k: int, subject: Balls, now: Held) -> dict[str, Primitive]:
+def _measured(k: int, subject: Balls, state: Held) -> dict[str, Primitive]:
     surface, v = subject.surfaces[k], subject.vertices[k]
     around = surface.faces[(surface.faces == v).any(axis=1)]
     quads = mixed_cell(surface.p, around, v) + 0.02 * surface.normals[v]
     below = _at(k) - np.array([0.0, 0.0, 1.5])
     return {
         **ring.cell_of(f"balls/{k + 1} cell", quads + _at(k)),
-        f"balls/{k + 1} gap": Label(f"gap {angle(now.gaps[k])}", below, "other"),
+        f"balls/{k + 1} gap": Label(f"gap {angle(state.gaps[k])}", below, "other"),
         f"balls/{k + 1} K": Label(
-            f"K = {brief(now.K[k], 4)} m⁻²", below - np.array([0.0, 0.0, 0.35]), "source"
+            f"K = {brief(state.K[k], 4)} m⁻²", below - np.array([0.0, 0.0, 0.35]), "source"
         ),
     }
 
 
 def caption(look: Look[Input, Balls, Held]) -> Caption:
     """Say the gap, and what is left of it when it is divided by the area."""
-    now, subject = look.now, look.subject
-    k = len(now.K) - 1
-    if not np.isfinite([now.gaps[k], now.K[k]]).all():
+    state, subject = look.now, look.subject
+    k = len(state.K) - 1
+    if not np.isfinite([state.gaps[k], state.K[k]]).all():
         return say(f"On ball {k + 1} of {len(COUNTS)} the gap or K is no number.", tone="wrong")
     return say(
         "{vertices}: a gap of {gap} on {area} makes K = {K} m⁻².",
         vertices=counted(len(subject.surfaces[k].p), "vertex", "vertices"),
-        gap=degrees(now.gaps[k]),
-        area=square_metres(now.areas[k]),
-        K=number(now.K[k], 4),
+        gap=degrees(state.gaps[k]),
+        area=square_metres(state.areas[k]),
+        K=number(state.K[k], 4),
     )

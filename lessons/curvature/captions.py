@@ -87,54 +87,56 @@ def _defect(state: State) -> Caption:
 
 
 def _gaussian(state: State) -> Caption:
-    now = state.now
-    v, true = now.vertex, state.true("gaussian")
+    mesh = state.now
+    v, true = mesh.vertex, state.true("gaussian")
     if state.on_border:
-        return say(NOWHERE.format("K") + _error(state, "K") + _colors(state, now.K, K_SCALE, "m⁻²"))
+        return say(
+            NOWHERE.format("K") + _error(state, "K") + _colors(state, mesh.K, K_SCALE, "m⁻²")
+        )
     if state.params.mistake == "defect taken for K":
-        text = f"Without the division by the area, K at vertex {v:,} would be {brief(now.K[v])}"
+        text = f"Without the division by the area, K at vertex {v:,} would be {brief(mesh.K[v])}"
         return say(
             text + _truth(true, "") + f" The mesh decides, not the surface.{_error(state, 'K')}",
             tone="wrong",
         )
-    text = f"Here K, the defect over the area, is {brief(now.K[v])} m⁻²"
-    return say(text + _truth(true, "m⁻²") + _colors(state, now.K, K_SCALE, "m⁻²"))
+    text = f"Here K, the defect over the area, is {brief(mesh.K[v])} m⁻²"
+    return say(text + _truth(true, "m⁻²") + _colors(state, mesh.K, K_SCALE, "m⁻²"))
 
 
 def _normal(state: State) -> Caption:
-    now = state.now
+    mesh = state.now
     if state.on_border:
         return say(NOWHERE.format("the mean-curvature normal"))
-    v = now.normals_2H[now.vertex]
-    side = "outward" if v @ now.normals[now.vertex] > 0 else "inward"
+    v = mesh.normals_2H[mesh.vertex]
+    side = "outward" if v @ mesh.normals[mesh.vertex] > 0 else "inward"
     if np.linalg.norm(v) < 1e-6:
         return say(
-            f"At vertex {now.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H"
+            f"At vertex {mesh.vertex:,} the neighbours' pushes, weighted by cotangents, cancel: 2 H"
             " n = 0."
         )
     return say(
-        f"Over twice the area, the pushes at vertex {now.vertex:,} add up to 2 H n,"
+        f"Over twice the area, the pushes at vertex {mesh.vertex:,} add up to 2 H n,"
         f" {brief(float(np.linalg.norm(v)))} m⁻¹ long and pointing {side}."
     )
 
 
 def _mean(state: State) -> Caption:
-    now = state.now
+    mesh = state.now
     if state.on_border:
         return say(NOWHERE.format("H") + _error(state, "H"))
-    H, true = float(now.H[now.vertex]), state.true("mean")
+    H, true = float(mesh.H[mesh.vertex]), state.true("mean")
     if state.params.mistake == "H without the half":
         text = f"Taken whole, the normal's length gives H = {brief(H)} m⁻¹"
         return say(
             text + _truth(true, "m⁻¹") + " The ½ is missing." + _error(state, "H"), tone="wrong"
         )
     text = f"H is half the normal's length, positive where it points outward: {brief(H)} m⁻¹"
-    return say(text + _truth(true, "m⁻¹") + _colors(state, now.H, H_SCALE, "m⁻¹"))
+    return say(text + _truth(true, "m⁻¹") + _colors(state, mesh.H, H_SCALE, "m⁻¹"))
 
 
 def _principal(state: State) -> Caption:
-    now = state.now
-    k1, k2 = float(now.k1[now.vertex]), float(now.k2[now.vertex])
+    mesh = state.now
+    k1, k2 = float(mesh.k1[mesh.vertex]), float(mesh.k2[mesh.vertex])
     if not np.isfinite([k1, k2]).all():
         return say(NOWHERE.format("K or H"))
     text = f"k₁ = {brief(k1)} and k₂ = {brief(k2)} m⁻¹"
@@ -171,17 +173,17 @@ def _quadric(state: State) -> Caption:
 
 
 def _total(state: State) -> Caption:
-    now = state.now
-    expected = 2 * np.pi * now.chi
-    text = f"All {len(now.p):,} defects add up to {brief(now.total / np.pi)} π."
-    if abs(now.total - expected) < 1e-6:
+    mesh = state.now
+    expected = 2 * np.pi * mesh.chi
+    text = f"All {len(mesh.p):,} defects add up to {brief(mesh.total / np.pi)} π."
+    if abs(mesh.total - expected) < 1e-6:
         return say(
-            f"{text} Gauss-Bonnet: that is 2 π times V − E + F = {brief(now.chi)}, and no noise or"
+            f"{text} Gauss-Bonnet: that is 2 π times V − E + F = {brief(mesh.chi)}, and no noise or"
             " resolution changes it.",
             tone="good",
         )
-    halves = (now.total - expected) / np.pi
-    text += f" 2 π times V − E + F is {brief(2 * now.chi)} π. "
+    halves = (mesh.total - expected) / np.pi
+    text += f" 2 π times V − E + F is {brief(2 * mesh.chi)} π. "
     if state.params.mistake == "2 pi on the border":
         return say(
             f"{text}The sum is too large: π for each of the {halves:.0f} border vertices.",

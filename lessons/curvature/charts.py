@@ -86,14 +86,14 @@ def _against(
 
 
 def _sum(state: State) -> dict[str, Primitive]:
-    now = state.now
-    running = np.cumsum(np.sort(now.defects)[::-1])
+    mesh = state.now
+    running = np.cumsum(np.sort(mesh.defects)[::-1])
     k = evenly(len(running), SAMPLES)
     share = 100 * (k + 1) / len(running)
     chart = Chart("Sum of angle defects", "vertices added, largest defect first (%)", "rad")
     return {
         "running sum": chart.curve(share, running[k], "sum so far"),
-        "expected sum": chart.curve(share, np.full(len(k), 2 * np.pi * now.chi), "2π χ", "truth"),
+        "expected sum": chart.curve(share, np.full(len(k), 2 * np.pi * mesh.chi), "2π χ", "truth"),
     }
 
 
@@ -118,7 +118,7 @@ def _finer(state: State) -> dict[str, Primitive]:
 
 def vertex_table(state: State) -> Table:
     """Return what is known about the vertex, beside the truth."""
-    now, v = state.now, state.now.vertex
+    mesh, v = state.now, state.now.vertex
     rows: list[tuple[str, str, str]] = []
 
     def add(name: str, values: np.ndarray, unit: str, true: str | None = None) -> None:
@@ -126,12 +126,12 @@ def vertex_table(state: State) -> Table:
             known = "" if true is None else _number(state.true(true))
             rows.append((f"{name} ({unit})", _number(float(values[v])), known))
 
-    rows.append(("sum of angles (°)", f"{np.degrees(now.angles.sum()):.2f}", ""))
-    add("angle defect", np.degrees(now.defects), "°")
-    add("mixed area A", now.areas, "m²")
-    add("K = defect / A", now.K, "m⁻²", "gaussian")
-    if len(now.normals_2H):
-        length = np.linalg.norm(now.normals_2H, axis=1)
+    rows.append(("sum of angles (°)", f"{np.degrees(mesh.angles.sum()):.2f}", ""))
+    add("angle defect", np.degrees(mesh.defects), "°")
+    add("mixed area A", mesh.areas, "m²")
+    add("K = defect / A", mesh.K, "m⁻²", "gaussian")
+    if len(mesh.normals_2H):
+        length = np.linalg.norm(mesh.normals_2H, axis=1)
         rows.append(
             (
                 "length of 2 H n (m⁻¹)",
@@ -139,11 +139,11 @@ def vertex_table(state: State) -> Table:
                 _number(2 * abs(state.true("mean"))),
             )
         )
-    add("H", now.H, "m⁻¹", "mean")
-    add("k₁", now.k1, "m⁻¹", "k1")
-    add("k₂", now.k2, "m⁻¹", "k2")
-    if now.quadrics is not None:
-        K, H = now.quadrics.curvatures()
+    add("H", mesh.H, "m⁻¹", "mean")
+    add("k₁", mesh.k1, "m⁻¹", "k1")
+    add("k₂", mesh.k2, "m⁻¹", "k2")
+    if mesh.quadrics is not None:
+        K, H = mesh.quadrics.curvatures()
         add("K by fit", K, "m⁻²", "gaussian")
         add("H by fit", H, "m⁻¹", "mean")
         rows.append(

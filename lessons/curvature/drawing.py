@@ -28,47 +28,47 @@ def draw(state: State) -> Scene:
     """Return the picture of one step."""
     if state.study is not None:
         return row.drawn(state, state.study) | {"caption": caption(state)} | beside(state)
-    subject, now, stage = state.subject, state.now, state.stage
-    edge = ring.edge_length(now)
+    subject, mesh, stage = state.subject, state.now, state.stage
+    edge = ring.edge_length(mesh)
     scene: dict[str, Primitive] = {
         "surface": Mesh(
             subject.p, subject.faces, _color(state), opacity=0.6 if stage == "principal" else 1.0
         ),
         "vertex": Points(
-            now.p[[now.vertex]] + 0.1 * edge * now.normals[now.vertex],
+            mesh.p[[mesh.vertex]] + 0.1 * edge * mesh.normals[mesh.vertex],
             "highlight",
             0.1 * edge,
-            name=f"vertex {now.vertex:,}",
+            name=f"vertex {mesh.vertex:,}",
         ),
         "caption": caption(state),
     }
     if len(subject.edges) <= MOST_EDGES:
         scene["edges"] = Segments(subject.p[subject.edges], "neutral", 1, opacity=0.4)
     if stage == "ring":
-        scene |= ring.angles(now)
+        scene |= ring.angles(mesh)
     elif stage in ("unfolding", "defect"):
-        scene |= ring.flattened(now, state.unfolded)
+        scene |= ring.flattened(mesh, state.unfolded)
     elif stage == "gaussian":
-        scene |= ring.cell(now)
+        scene |= ring.cell(mesh)
     elif stage == "normal":
-        scene |= {"normals": _arrows(state)} | ring.pushes(now, arrow(state))
+        scene |= {"normals": _arrows(state)} | ring.pushes(mesh, arrow(state))
     elif stage == "principal":
-        scene |= _crosses(state) | ring.circles(now)
+        scene |= _crosses(state) | ring.circles(mesh)
     elif stage == "quadric":
         scene |= ring.patch(state)
     return scene | beside(state)
 
 
 def _color(state: State) -> Color:
-    now, stage = state.now, state.stage
+    mesh, stage = state.now, state.stage
     if stage == "gaussian":
-        return _signed(state, now.K, K_SCALE, "Gaussian curvature K", "m⁻²")
+        return _signed(state, mesh.K, K_SCALE, "Gaussian curvature K", "m⁻²")
     if stage == "mean":
-        return _signed(state, now.H, H_SCALE, "mean curvature H", "m⁻¹")
+        return _signed(state, mesh.H, H_SCALE, "mean curvature H", "m⁻¹")
     if stage in ("defect", "total"):
-        return _signed(state, now.defects, DEFECT_SCALE, "angle defect", "rad")
-    if stage == "quadric" and now.quadrics is not None:
-        return _signed(state, now.quadrics.curvatures()[0], K_SCALE, "K by quadric fit", "m⁻²")
+        return _signed(state, mesh.defects, DEFECT_SCALE, "angle defect", "rad")
+    if stage == "quadric" and mesh.quadrics is not None:
+        return _signed(state, mesh.quadrics.curvatures()[0], K_SCALE, "K by quadric fit", "m⁻²")
     return "neutral"
 
 
@@ -94,16 +94,16 @@ def _arrows(state: State) -> Segments:
 
 def _crosses(state: State) -> dict[str, Primitive]:
     """Return the two principal directions at all vertices, or at enough of them."""
-    now = state.now
-    rows = every(len(now.p), MOST_CROSSES)
-    p, n = now.p[rows], now.normals[rows]
+    mesh = state.now
+    rows = every(len(mesh.p), MOST_CROSSES)
+    p, n = mesh.p[rows], mesh.normals[rows]
     half = 0.3 * np.median(
-        np.linalg.norm(np.diff(now.p[state.subject.edges], axis=1)[:, 0], axis=1)
+        np.linalg.norm(np.diff(mesh.p[state.subject.edges], axis=1)[:, 0], axis=1)
     )
     scene: dict[str, Primitive] = {}
     both: tuple[tuple[str, Role, np.ndarray], ...] = (
-        ("k₁", "source", now.along_k1),
-        ("k₂", "other", now.along_k2),
+        ("k₁", "source", mesh.along_k1),
+        ("k₂", "other", mesh.along_k2),
     )
     for name, role, v in both:
         ends = between(p - half * v[rows], p + half * v[rows]) + 0.05 * half * n[:, None]

@@ -80,19 +80,19 @@ def height_of(gap: float) -> float:
 HEIGHTS = np.array([height_of(gap) for gap in FINE])
 
 
-def spokes(now: Held) -> np.ndarray:
+def spokes(state: Held) -> np.ndarray:
     """Return the seven directions (7, 3) of the flat ring's edges; the first and the last are one
     edge, cut.
     """
-    turn = np.pi / 2 + np.radians(now.gap / 2 + now.angle * np.arange(TRIANGLES + 1))
+    turn = np.pi / 2 + np.radians(state.gap / 2 + state.angle * np.arange(TRIANGLES + 1))
     return np.stack([np.cos(turn), np.zeros(len(turn)), np.sin(turn)], axis=1)
 
 
 def draw(look: Look[Input, Sheet, Held]) -> Scene:
     """Return the ring in space, the same ring laid flat beside it, and its height over the gap."""
-    now = look.now
-    p = np.vstack([np.zeros(3), rim(now.gap), rim(now.gap)[:1]])
-    height = height_of(now.gap)
+    state = look.now
+    p = np.vstack([np.zeros(3), rim(state.gap), rim(state.gap)[:1]])
+    height = height_of(state.gap)
     scene: dict[str, Primitive] = {
         "ring": Mesh(p, fan(len(p)), "highlight", opacity=0.8, flat=True, name="ring of paper"),
         "ring edges": Segments(
@@ -102,20 +102,20 @@ def draw(look: Look[Input, Sheet, Held]) -> Scene:
     }
     return (
         scene
-        | _flat(now)
+        | _flat(state)
         | {
-            "gap scalar": GAP.scalar(now.gap, "gap"),
+            "gap scalar": GAP.scalar(state.gap, "gap"),
             "height/whole": HEIGHT.whole(FINE, HEIGHTS, "height of the ring", "highlight"),
-            "height/mark": HEIGHT.mark(now.gap, height, "your hand", "source", steps="gap"),
+            "height/mark": HEIGHT.mark(state.gap, height, "your hand", "source", steps="gap"),
             "caption": caption(look),
         }
     )
 
 
-def _flat(now: Held) -> dict[str, Primitive]:
-    along = spokes(now)
+def _flat(state: Held) -> dict[str, Primitive]:
+    along = spokes(state)
     lift = np.zeros((len(along), 3))
-    if now.gap < 0:  # faces that overlap are kept apart
+    if state.gap < 0:  # faces that overlap are kept apart
         lift[:, 1] = -0.01 * np.arange(len(along))
     p = np.vstack([FLAT, FLAT + along + lift])
     scene: dict[str, Primitive] = {
@@ -127,43 +127,43 @@ def _flat(now: Held) -> dict[str, Primitive]:
         ),
         "cut": Segments(between(p[0], p[[1, -1]]), "other", 4.0, name="the edge that is cut"),
     }
-    if now.gap == 0:
+    if state.gap == 0:
         scene["gap words"] = Label("no gap", FLAT + np.array([0.0, -0.05, 1.12]), "other")
         return scene
-    word = "gap" if now.gap > 0 else "overlap"
+    word = "gap" if state.gap > 0 else "overlap"
     # From the last edge on to the first one; the axis points at the viewer.
     return scene | arc(
         "gap",
         FLAT + np.array([0.0, -0.08, 0.0]),
         along[-1],
-        now.gap,
+        state.gap,
         about=np.array([0.0, -1.0, 0.0]),
         radius=0.75,
         color="other",
-        text=f"{word} {abs(now.gap):.0f}°",
+        text=f"{word} {abs(state.gap):.0f}°",
     )
 
 
 def caption(look: Look[Input, Sheet, Held]) -> Caption:
     """Say what the ring is, and the angle that makes it so."""
-    now = look.now
-    angle, place = degrees(now.angle), PLACES.get(now.gap, "")
-    if now.gap == 0:
+    state = look.now
+    angle, place = degrees(state.angle), PLACES.get(state.gap, "")
+    if state.gap == 0:
         return say(
             "Six angles of {angle} make a full turn: the ring lies flat.", angle=angle, place=place
         )
-    if now.gap > 0:
+    if state.gap > 0:
         return say(
             "Six angles of {angle} leave a gap of {gap}. Closed, they make a cone {height} high.",
             angle=angle,
-            gap=degrees(now.gap),
-            height=metres(height_of(now.gap)),
+            gap=degrees(state.gap),
+            height=metres(height_of(state.gap)),
             place=place,
         )
     return say(
         "Six angles of {angle} overlap by {overlap}. In space they make a saddle {height} high.",
         angle=angle,
-        overlap=degrees(-now.gap),
-        height=metres(height_of(now.gap)),
+        overlap=degrees(-state.gap),
+        height=metres(height_of(state.gap)),
         place=place,
     )

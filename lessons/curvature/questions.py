@@ -38,14 +38,14 @@ def _why_cylinder(states: States) -> str:
 
 def _size_ratio(states: States) -> float:
     """Return how K at twice the size compares with K of the same mesh at its own size."""
-    now = at_stage(states, "gaussian").now
-    return float(np.nanmedian(now.K / gaussian_curvature(now.p / DOUBLE.size, now.faces)))
+    mesh = at_stage(states, "gaussian").now
+    return float(np.nanmedian(mesh.K / gaussian_curvature(mesh.p / DOUBLE.size, mesh.faces)))
 
 
 def _signs(states: States) -> tuple[bool, bool]:
     """Return whether K and H at the vertex have another sign than on the surface as it was made."""
-    now, subject = at_stage(states, "mean").now, as_a(Subject, states.subject)
-    K, H, surface, v = now.K, now.H, sure(subject.truth), now.vertex
+    mesh, subject = at_stage(states, "mean").now, as_a(Subject, states.subject)
+    K, H, surface, v = mesh.K, mesh.H, sure(subject.truth), mesh.vertex
     # Made outside out, K is the same and H the other way round (`inside_out`).
     return bool(K[v] * surface.gaussian[v] < 0), bool(H[v] * -surface.mean[v] < 0)
 

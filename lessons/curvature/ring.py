@@ -18,29 +18,31 @@ FARTHEST = 1.3  # metres from the vertex that a circle's centre is drawn
 CIRCLE = 2 * np.pi * np.arange(97) / 96
 
 
-def edge_length(now: Measured) -> float:
+def edge_length(mesh: Measured) -> float:
     """Return the mean length of the edges at the vertex, the measure of all that is drawn there."""
-    return float(np.linalg.norm(now.p[neighbours(now)] - now.p[now.vertex], axis=1).mean())
+    return float(np.linalg.norm(mesh.p[neighbours(mesh)] - mesh.p[mesh.vertex], axis=1).mean())
 
 
-def neighbours(now: Measured) -> np.ndarray:
+def neighbours(mesh: Measured) -> np.ndarray:
     """Return the ring; before it is known, the vertices of the faces around."""
-    if len(now.ring):
-        return now.ring
-    return np.setdiff1d(now.faces[(now.faces == now.vertex).any(axis=1)], now.vertex)
+    if len(mesh.ring):
+        return mesh.ring
+    return np.setdiff1d(mesh.faces[(mesh.faces == mesh.vertex).any(axis=1)], mesh.vertex)
 
 
-def angles(now: Measured) -> dict[str, Primitive]:
+def angles(mesh: Measured) -> dict[str, Primitive]:
     """Return the faces around the vertex, an arc in each, and its degrees."""
-    centre, lift = _lifted(now), LIFT * edge_length(now) * now.normals[now.vertex]
-    v = now.p[now.ring] - now.p[now.vertex]
+    centre, lift = _lifted(mesh), LIFT * edge_length(mesh) * mesh.normals[mesh.vertex]
+    v = mesh.p[mesh.ring] - mesh.p[mesh.vertex]
     radius = 0.35 * np.linalg.norm(v, axis=1).min()
-    used, name = np.unique(now.faces[now.ring_faces], return_inverse=True)
+    used, name = np.unique(mesh.faces[mesh.ring_faces], return_inverse=True)
     scene: dict[str, Primitive] = {
-        "ring": Mesh(now.p[used] + lift, name.reshape(-1, 3), "highlight", opacity=0.55, flat=True),
+        "ring": Mesh(
+            mesh.p[used] + lift, name.reshape(-1, 3), "highlight", opacity=0.55, flat=True
+        ),
     }
     arcs = []
-    for i, angle in enumerate(now.angles):
+    for i, angle in enumerate(mesh.angles):
         a = v[i] / np.linalg.norm(v[i])
         b = v[(i + 1) % len(v)] - (v[(i + 1) % len(v)] @ a) * a
         b /= np.linalg.norm(b) or 1.0
@@ -54,22 +56,22 @@ def angles(now: Measured) -> dict[str, Primitive]:
     return scene
 
 
-def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
+def flattened(mesh: Measured, share: float = 1.0) -> dict[str, Primitive]:
     """Return the ring, cut along an edge and laid flat beside the vertex to a share of the way; no
     triangle is bent.
 
     Where it is flat and does not close, the gap is the defect.
     """
-    n, edge, defect = now.normals[now.vertex], edge_length(now), float(now.defects[now.vertex])
-    inner = len(now.ring) == len(now.angles)
-    rim = now.p[now.ring] - now.p[now.vertex]
+    n, edge, defect = mesh.normals[mesh.vertex], edge_length(mesh), float(mesh.defects[mesh.vertex])
+    inner = len(mesh.ring) == len(mesh.angles)
+    rim = mesh.p[mesh.ring] - mesh.p[mesh.vertex]
     rim = np.vstack([rim, rim[:1]]) if inner else rim
     lengths = np.linalg.norm(rim, axis=1)
-    turned = np.concatenate([[0.0], np.cumsum(now.angles)])
+    turned = np.concatenate([[0.0], np.cumsum(mesh.angles)])
     right = rim[0] - (rim[0] @ n) * n
     right /= np.linalg.norm(right)
     up = np.cross(n, right)
-    centre = now.p[now.vertex] + edge * ((LIFT + share) * n + ASIDE * share * _aside(n))
+    centre = mesh.p[mesh.vertex] + edge * ((LIFT + share) * n + ASIDE * share * _aside(n))
     rise = 0.02 * share * edge * (defect < 0)  # for each radian: keeps faces apart that overlap
 
     def flat(turn: np.ndarray) -> np.ndarray:
@@ -86,12 +88,12 @@ def flattened(now: Measured, share: float = 1.0) -> dict[str, Primitive]:
 
     along = flat(turned)
     if share < 1:
-        along = _unbent((1 - share) * rim / lengths[:, None] + share * along, now.angles)
+        along = _unbent((1 - share) * rim / lengths[:, None] + share * along, mesh.angles)
     p = np.vstack([centre, at(along, turned, lengths)])
     scene: dict[str, Primitive] = {
         "flat ring": Mesh(p, fan(len(p)), "highlight", opacity=0.5, flat=True),
         "flat edges": Segments(between(centre, p[1:]), "highlight", 2),
-        "stalk": Segments(between(now.p[now.vertex], centre), "correspondence", 1),
+        "stalk": Segments(between(mesh.p[mesh.vertex], centre), "correspondence", 1),
     }
     if share < 1:
         return scene
@@ -126,23 +128,23 @@ def _unbent(along: np.ndarray, angles: np.ndarray) -> np.ndarray:
     """Return directions near those given, each at its angle from the one before, so that triangles
     keep their shape.
     """
-    found = [along[0] / np.linalg.norm(along[0])]
+    directions = [along[0] / np.linalg.norm(along[0])]
     for wanted, angle in zip(along[1:], angles, strict=True):
-        aside = wanted - (wanted @ found[-1]) * found[-1]
-        found.append(
-            np.cos(angle) * found[-1]
+        aside = wanted - (wanted @ directions[-1]) * directions[-1]
+        directions.append(
+            np.cos(angle) * directions[-1]
             + np.sin(angle) * aside / max(float(np.linalg.norm(aside)), 1e-12)
         )
-    return np.array(found)
+    return np.array(directions)
 
 
-def cell(now: Measured) -> dict[str, Primitive]:
+def cell(mesh: Measured) -> dict[str, Primitive]:
     """Return the mixed area of the vertex, and how large it is."""
-    lift = 2 * LIFT * edge_length(now) * now.normals[now.vertex]
-    text = f"A = {brief(now.areas[now.vertex])} m²"
+    lift = 2 * LIFT * edge_length(mesh) * mesh.normals[mesh.vertex]
+    text = f"A = {brief(mesh.areas[mesh.vertex])} m²"
     return {
-        **cell_of("cell", mixed_cell(now.p, now.faces[now.ring_faces], now.vertex) + lift),
-        "cell label": Label(text, _lifted(now, 0.5), "highlight"),
+        **cell_of("cell", mixed_cell(mesh.p, mesh.faces[mesh.ring_faces], mesh.vertex) + lift),
+        "cell label": Label(text, _lifted(mesh, 0.5), "highlight"),
     }
 
 
@@ -157,12 +159,14 @@ def cell_of(name: str, quads: np.ndarray) -> dict[str, Primitive]:
     }
 
 
-def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
+def pushes(mesh: Measured, scale: float) -> dict[str, Primitive]:
     """Return what each neighbour adds to the mean-curvature normal of the vertex, and their sum."""
-    start, total = _lifted(now), now.normals_2H[now.vertex]
+    start, total = _lifted(mesh), mesh.normals_2H[mesh.vertex]
     scene: dict[str, Primitive] = {}
     if np.isfinite(total).all():
-        parts = scale * vertex_pushes(now.p[now.vertex], now.p[now.ring], now.areas[now.vertex])
+        parts = scale * vertex_pushes(
+            mesh.p[mesh.vertex], mesh.p[mesh.ring], mesh.areas[mesh.vertex]
+        )
         scene["pushes"] = Segments(
             between(np.broadcast_to(start, parts.shape), start + parts),
             "other",
@@ -181,18 +185,18 @@ def pushes(now: Measured, scale: float) -> dict[str, Primitive]:
     return scene
 
 
-def circles(now: Measured) -> dict[str, Primitive]:
+def circles(mesh: Measured) -> dict[str, Primitive]:
     """Return the two osculating circles at the vertex: radius 1/|k|, on the side to which the
     surface bends.
     """
     scene: dict[str, Primitive] = {}
-    here, n = now.p[now.vertex], now.normals[now.vertex]
+    here, n = mesh.p[mesh.vertex], mesh.normals[mesh.vertex]
     both: tuple[tuple[str, Role, np.ndarray, np.ndarray], ...] = (
-        ("k₁", "source", now.k1, now.along_k1),
-        ("k₂", "other", now.k2, now.along_k2),
+        ("k₁", "source", mesh.k1, mesh.along_k1),
+        ("k₂", "other", mesh.k2, mesh.along_k2),
     )
     for name, role, k, along in both:
-        k, t = float(k[now.vertex]), along[now.vertex]
+        k, t = float(k[mesh.vertex]), along[mesh.vertex]
         if not np.isfinite(k):
             continue
         # An arc of at most a full turn and at most 2.5 m: nearly straight where k is nearly 0.
@@ -215,22 +219,22 @@ def circles(now: Measured) -> dict[str, Primitive]:
 
 def patch(state: State) -> dict[str, Primitive]:
     """Return the quadric at the vertex over its two rings, and the vertices it was fitted to."""
-    now, quadrics = state.now, sure(state.now.quadrics)
+    mesh, quadrics = state.now, sure(state.now.quadrics)
     near = state.two_rings
     scene: dict[str, Primitive] = {
         "fitted": Points(
-            now.p[near] + 0.1 * edge_length(now) * now.normals[near],
+            mesh.p[near] + 0.1 * edge_length(mesh) * mesh.normals[near],
             "truth",
-            0.12 * edge_length(now),
+            0.12 * edge_length(mesh),
             name="vertices of the fit",
         )
     }
-    c = quadrics.coefficients[now.vertex]
+    c = quadrics.coefficients[mesh.vertex]
     if np.isfinite(c).all():
         right, up, n = (
-            axis[now.vertex] for axis in (quadrics.right, quadrics.up, quadrics.normals)
+            axis[mesh.vertex] for axis in (quadrics.right, quadrics.up, quadrics.normals)
         )
-        reach = 0.8 * np.linalg.norm(now.p[near] - now.p[now.vertex], axis=1).max()
+        reach = 0.8 * np.linalg.norm(mesh.p[near] - mesh.p[mesh.vertex], axis=1).max()
         r, t = (
             g.ravel()[:, None]
             for g in np.meshgrid(reach * np.arange(9) / 8, CIRCLE[::4], indexing="ij")
@@ -240,10 +244,10 @@ def patch(state: State) -> dict[str, Primitive]:
         i, j = (g.ravel() for g in np.meshgrid(np.arange(8), np.arange(24), indexing="ij"))
         a, b = 25 * i + j, 25 * (i + 1) + j
         faces = np.concatenate([np.stack([a, b, b + 1], 1), np.stack([a, b + 1, a + 1], 1)])
-        p = now.p[now.vertex] + x * right + y * up + z * n
+        p = mesh.p[mesh.vertex] + x * right + y * up + z * n
         scene["patch"] = Mesh(p, faces, "highlight", opacity=0.7, name="quadric")
     return scene
 
 
-def _lifted(now: Measured, edges: float = LIFT) -> np.ndarray:
-    return now.p[now.vertex] + edges * edge_length(now) * now.normals[now.vertex]
+def _lifted(mesh: Measured, edges: float = LIFT) -> np.ndarray:
+    return mesh.p[mesh.vertex] + edges * edge_length(mesh) * mesh.normals[mesh.vertex]

@@ -31,7 +31,7 @@ def run(params: Input, subject: Subject, functions: Functions) -> Iterator[Step]
     functions = with_mistake(params, functions)
     errors: dict[str, float] = {}
     step = None
-    for now in measure_curvature(
+    for mesh in measure_curvature(
         subject.p,
         subject.faces,
         subject.front if params.vertex < 0 else params.vertex % len(subject.p),
@@ -39,9 +39,9 @@ def run(params: Input, subject: Subject, functions: Functions) -> Iterator[Step]
         gaussian_curvature=functions.gaussian,
         mean_curvature_normals=functions.normals,
     ):
-        errors = errors | new_errors(subject, now)
-        step = Step(now=now, errors=errors)
-        if now.stage == "defect":
+        errors = errors | new_errors(subject, mesh)
+        step = Step(now=mesh, errors=errors)
+        if mesh.stage == "defect":
             yield from (replace(step, unfolded=share) for share in UNFOLDING)
         yield step
     if step is not None and subject.truth is not None:
@@ -58,17 +58,17 @@ def draw(look: Look[Input, Subject, Step]) -> Scene:
     return drawing.draw(state_of(look))
 
 
-def new_errors(subject: Subject, now: Measured) -> dict[str, float]:
+def new_errors(subject: Subject, mesh: Measured) -> dict[str, float]:
     """Return the errors that this stage lets one know."""
     surface, inside = subject.truth, subject.inside
     if surface is None:
         return {}
-    if now.stage == "gaussian":
-        return {"K": error_of(surface, inside, "gaussian", now.K)}
-    if now.stage == "mean":
-        return {"H": error_of(surface, inside, "mean", now.H)}
-    if now.stage == "quadric" and now.quadrics is not None:
-        K, H = now.quadrics.curvatures()
+    if mesh.stage == "gaussian":
+        return {"K": error_of(surface, inside, "gaussian", mesh.K)}
+    if mesh.stage == "mean":
+        return {"H": error_of(surface, inside, "mean", mesh.H)}
+    if mesh.stage == "quadric" and mesh.quadrics is not None:
+        K, H = mesh.quadrics.curvatures()
         both = error_of(surface, inside, "gaussian", K), error_of(surface, inside, "mean", H)
         return {"K by fit": both[0], "H by fit": both[1]}
     return {}

@@ -112,11 +112,11 @@ def eyes(left: tuple[float, float], apart: float) -> dict[str, Primitive]:
     return scene
 
 
-def _jump(look: RigLook, now: Seen) -> Scene:
+def _jump(look: RigLook, state: Seen) -> Scene:
     rig = look.subject
     left = np.array(RAIL)
     right = left + np.array([APART, 0.0])
-    p = left + np.array([0.0, REACH * now.depth / 21.0])
+    p = left + np.array([0.0, REACH * state.depth / 21.0])
     depths = np.linspace(1.0, 21.0, 161)
     scene: Scene = eyes(RAIL, APART) | {
         "rail": Segments(
@@ -127,18 +127,18 @@ def _jump(look: RigLook, now: Seen) -> Scene:
             stand(np.array([[right, p]]), 0.004), "source", 3.0, name="right ray"
         ),
         "point": Points(stand(p[None], 0.01), "highlight", DOT, name="the point"),
-        "point/name": Label(length(now.depth), stand(p + np.array([-0.2, 0.0])), "highlight"),
+        "point/name": Label(length(state.depth), stand(p + np.array([-0.2, 0.0])), "highlight"),
         "jump/whole": JUMP.whole(depths, rig.jump(depths), "jump", "source"),
-        "jump/mark": JUMP.mark(now.depth, now.jump, "the point", "source", steps="distance"),
-        "distance": DISTANCE.scalar(now.depth, "distance"),
-        "shift": SHIFT.scalar(now.jump, "jump"),
+        "jump/mark": JUMP.mark(state.depth, state.jump, "the point", "source", steps="distance"),
+        "distance": DISTANCE.scalar(state.depth, "distance"),
+        "shift": SHIFT.scalar(state.jump, "jump"),
         "caption": say(
             "{depth} away, the point jumps by {jump}.",
-            depth=metres(now.depth),
-            jump=pixels(now.jump),
+            depth=metres(state.depth),
+            jump=pixels(state.jump),
         ),
     }
-    return scene | _strips(now.jump)
+    return scene | _strips(state.jump)
 
 
 def _strips(jump: float) -> dict[str, Primitive]:
@@ -173,7 +173,7 @@ def _strips(jump: float) -> dict[str, Primitive]:
     )
 
 
-def _net(look: RigLook, now: Off) -> Scene:
+def _net(look: RigLook, state: Off) -> Scene:
     rig = look.subject
     scene: Scene = eyes(NET, NET_APART) | _rays(rig)
     moved = {}
@@ -189,32 +189,32 @@ def _net(look: RigLook, now: Off) -> Scene:
             opacity=0.25,
             name="one pixel of either picture" if depth == BOARDS[-1] else "",
         )
-        found = moved[depth] = float(rig.depth(jump + now.error))
-        at = _crossing(rig, 0.0, jump + now.error)
+        measured = moved[depth] = float(rig.depth(jump + state.error))
+        at = _crossing(rig, 0.0, jump + state.error)
         scene[f"board/{depth:g}"] = Points(stand(at[None], 0.01), "source", DOT)
         scene[f"board/{depth:g} name"] = Label(
-            f"{length(found)}", stand(at + np.array([-0.23, 0.0])), "source"
+            f"{length(measured)}", stand(at + np.array([-0.23, 0.0])), "source"
         )
-    scene["error"] = MEASURED.scalar(now.error, "error")
+    scene["error"] = MEASURED.scalar(state.error, "error")
     if FARTHEST not in moved:
         return scene | {
-            "caption": say("Every jump is made {error} larger.", error=pixels(now.error))
+            "caption": say("Every jump is made {error} larger.", error=pixels(state.error))
         }
     jump = float(rig.jump(FARTHEST))
-    found = moved[FARTHEST]
+    measured = moved[FARTHEST]
     chart = Chart("Depth over jump", "measured jump", "m", x_unit="px")
     around = np.linspace(max(jump - 1.1, 0.5 * jump), jump + 1.1, 91)
     tangent = FARTHEST - FARTHEST / jump * (around - jump)
     words = "With an error of {error} the far board seems {found} away."
     return scene | {
-        "measured": SHIFT.scalar(jump + now.error, "measured jump"),
+        "measured": SHIFT.scalar(jump + state.error, "measured jump"),
         "depth/whole": chart.whole(around, rig.depth(around), "Z = f B / d", "source"),
         "depth/tangent": chart.second(around, tangent, "its tangent at the true jump"),
         "depth/mark": chart.mark(
-            jump + now.error, found, "measured", "source", steps="measured jump"
+            jump + state.error, measured, "measured", "source", steps="measured jump"
         ),
-        "found": DISTANCE.scalar(found, "distance found", "truth"),
-        "caption": say(words, error=pixels(now.error), found=metres(found)),
+        "found": DISTANCE.scalar(measured, "distance found", "truth"),
+        "caption": say(words, error=pixels(state.error), found=metres(measured)),
     }
 
 

@@ -31,9 +31,9 @@ WAYS = {
 
 def caption(look: MapLook) -> Caption:
     """Return the caption of one step."""
-    now = look.now
-    if now.stage is None:
-        return _of_depth(look) if now.uncertainty is None else _of_error(look)
+    state = look.now
+    if state.stage is None:
+        return _of_depth(look) if state.uncertainty is None else _of_error(look)
     return {
         Stage.COMPARE: _compared,
         Stage.AGGREGATE: _aggregated,
@@ -41,7 +41,7 @@ def caption(look: MapLook) -> Caption:
         Stage.CHECK: _checked,
         Stage.REFINE: _refined,
         Stage.SMOOTH: _smoothed,
-    }[now.stage](look)
+    }[state.stage](look)
 
 
 def _compared(look: MapLook) -> Caption:
@@ -75,32 +75,32 @@ def _aggregated(look: MapLook) -> Caption:
 
 
 def _path(look: MapLook) -> Caption:
-    now = look.now
+    state = look.now
     before = sure(look.before)
-    words = f"Path {{k}} of 8, {WAYS[sure(now.direction)]}: "
-    place = "paths" if now.done == 1 else ""
-    if math.isnan(now.wrong):
+    words = f"Path {{k}} of 8, {WAYS[sure(state.direction)]}: "
+    place = "paths" if state.done == 1 else ""
+    if math.isnan(state.wrong):
         words += "the energy falls from {was} to {is_now} per pixel."
-        if now.energy > before.energy:
+        if state.energy > before.energy:
             words = words.replace("falls", "goes")
         was = number(before.energy, 4)
-        is_now = number(now.energy, 4)
-        return say(words, k=now.done, was=was, is_now=is_now, place=place)
+        is_now = number(state.energy, 4)
+        return say(words, k=state.done, was=was, is_now=is_now, place=place)
     words += "wrong pixels {was} → {wrong}."
     was = share(before.wrong, 1)
-    wrong = share(now.wrong, 1)
-    return say(words, k=now.done, was=was, wrong=wrong, place=place)
+    wrong = share(state.wrong, 1)
+    return say(words, k=state.done, was=was, wrong=wrong, place=place)
 
 
 def _checked(look: MapLook) -> Caption:
-    now = look.now
+    state = look.now
     pair = look.subject.pair
     words = "Where left and right disagree by over 1 px, the pixel is given up: {lost}"
-    values: dict[str, Any] = {"lost": share(now.unknown, 1)}
+    values: dict[str, Any] = {"lost": share(state.unknown, 1)}
     truth = pair.disparity
     visible = pair.visible
     if visible is not None and truth is not None and (np.isfinite(truth) & ~visible).any():
-        hidden = np.isnan(now.disparity[np.isfinite(truth) & ~visible]).mean()
+        hidden = np.isnan(state.disparity[np.isfinite(truth) & ~visible]).mean()
         words += " of all, {hidden} of what the right camera cannot see"
         values["hidden"] = share(hidden, 0)
     words += "."
@@ -172,26 +172,26 @@ def _of_depth(look: MapLook) -> Caption:
 
 def _of_error(look: MapLook) -> Caption:
     pictures = look.subject
-    now = look.now
+    state = look.now
     if not pictures.metric:
         return _of_relative_error(look)
-    known = np.isfinite(now.depth) & (now.depth <= pictures.far)
+    known = np.isfinite(state.depth) & (state.depth <= pictures.far)
     if not known.any():
         return say("No pixel has a depth, so there is no error to show.", tone="wrong")
-    error = now.disparity_error
+    error = state.disparity_error
     baseline = pictures.pair.camera.baseline
-    flat = flat_parts(pictures, now.depth)
-    at = [float(z) for z in np.percentile(now.depth[known], [2, 98])]
+    flat = flat_parts(pictures, state.depth)
+    at = [float(z) for z in np.percentile(state.depth[known], [2, 98])]
     if 1 < len(flat) <= 4 and max(flat) > 1.2 * min(flat):
         at = list(flat)
     moved = depth_uncertainty(np.array(at), pictures.f, baseline, disparity_error=error)
     told = ", ".join(f"{length(z)} by {length(m)}" for z, m in zip(at, moved, strict=True))
     words = f"To first order {{error}} of error moves a depth by Z² / (f B): {told}."
     if look.params.disparity_error and at == list(flat):
-        found = (length(abs(float(np.median(off)))) for off in flat.values())
-        words += f" Measured: {', '.join(found)}."
+        medians = (length(abs(float(np.median(off)))) for off in flat.values())
+        words += f" Measured: {', '.join(medians)}."
     values: dict[str, Any] = {"error": pixels(error)}
-    off = depth_errors(pictures, now.depth)
+    off = depth_errors(pictures, state.depth)
     if len(off):
         words += " Half of all points are within {half} of the truth."
         values["half"] = metres(float(np.median(off)))
@@ -221,11 +221,11 @@ def _tone(look: MapLook) -> Tone:
 
     Who asks for a mistake, or leaves the paths out, gets what was asked for.
     """
-    found, true = known_depths(look.subject, look.now.depth)
-    if not len(found):
+    depths, true = known_depths(look.subject, look.now.depth)
+    if not len(depths):
         return "info"
     params = look.params
-    relative = float(np.median(np.abs(found / true - 1.0)))
+    relative = float(np.median(np.abs(depths / true - 1.0)))
     if relative > 0.1 or look.now.wrong > 0.2:
         asked_for = (
             params.mistake != "none" or params.disparity_error != 0 or params.smoothness == 0

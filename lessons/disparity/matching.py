@@ -125,8 +125,8 @@ def states_of(
 ) -> Iterator[State]:
     """Yield a state per step of the matching, then two of the depths."""
     state = None
-    for now in matching:
-        state = _of_matching(pictures, now, depth_of)
+    for step in matching:
+        state = _of_matching(pictures, step, depth_of)
         yield state
     assert state is not None
     camera = pictures.pair.camera
@@ -144,35 +144,35 @@ def states_of(
         )
 
 
-def _of_matching(pictures: Pictures, now: Matching, depth_of: DepthOf) -> State:
+def _of_matching(pictures: Pictures, step: Matching, depth_of: DepthOf) -> State:
     u, v = pictures.pixel
-    comparing = now.stage is Stage.COMPARE
-    whole = now.stage in (Stage.COMPARE, Stage.AGGREGATE, Stage.PATHS)
+    comparing = step.stage is Stage.COMPARE
+    whole = step.stage in (Stage.COMPARE, Stage.AGGREGATE, Stage.PATHS)
     kind = np.float32 if whole else np.float64  # these steps are many, and whole pixels
     costs = np.full(pictures.max_disparity + 1, np.nan)
-    costs[: len(now.cost)] = now.cost[:, v, u]
+    costs[: len(step.cost)] = step.cost[:, v, u]
     costs[~np.isfinite(costs)] = np.nan
     camera = pictures.pair.camera
-    wrong, error, unknown = judged(pictures, now.disparity)
-    depth = depth_of(now.disparity + camera.doffs, pictures.f, camera.baseline)
+    wrong, error, unknown = judged(pictures, step.disparity)
+    depth = depth_of(step.disparity + camera.doffs, pictures.f, camera.baseline)
     return State(
-        stage=now.stage,
-        disparity=now.disparity.astype(kind),
+        stage=step.stage,
+        disparity=step.disparity.astype(kind),
         depth=depth.astype(kind),
         costs=costs,
-        piece=now.cost[-1].astype(np.float32) if comparing else None,
-        done=now.done,
-        direction=now.direction,
-        jumps=now.jumps,
-        lowest=_mean_lowest(now) if comparing else np.nan,
-        energy=np.nan if now.summed is None else energy(now.summed, now.disparity, *now.jumps),
+        piece=step.cost[-1].astype(np.float32) if comparing else None,
+        done=step.done,
+        direction=step.direction,
+        jumps=step.jumps,
+        lowest=_mean_lowest(step) if comparing else np.nan,
+        energy=np.nan if step.summed is None else energy(step.summed, step.disparity, *step.jumps),
         wrong=wrong,
         error=error,
         unknown=unknown,
     )
 
 
-def _mean_lowest(now: Matching) -> float:
-    best = np.clip(np.nan_to_num(now.disparity), 0, len(now.cost) - 1).astype(np.intp)
-    lowest = np.take_along_axis(now.cost, best[None], axis=0)[0]
+def _mean_lowest(step: Matching) -> float:
+    best = np.clip(np.nan_to_num(step.disparity), 0, len(step.cost) - 1).astype(np.intp)
+    lowest = np.take_along_axis(step.cost, best[None], axis=0)[0]
     return float(np.mean(lowest, where=np.isfinite(lowest)))

@@ -110,9 +110,9 @@ def wrong(look: TapeLook, shifts: np.ndarray) -> float:
 
 def draw(look: TapeLook) -> Scene:
     """Return the row, the tape of costs below it, and the path through them."""
-    now = look.now
+    state = look.now
     pictures = look.subject
-    tape = now.tape
+    tape = state.tape
     v = pictures.pixel[1]
     n_shifts, w = tape.costs.shape
     h = pictures.left.shape[0]
@@ -132,8 +132,8 @@ def draw(look: TapeLook) -> Scene:
         x = LEFT_EDGE + WIDE * (columns + 0.5) / w
         return stand(np.column_stack([x, FOOT + pitch * (shifts + 0.5)]), 0.02)
 
-    columns = np.arange(now.columns)
-    line = at(columns, now.path)
+    columns = np.arange(state.columns)
+    line = at(columns, state.path)
     scene: Scene = {
         "left/strip": strip,
         "left/edge": Segments(strip.border(LAYER), "target", 2.0),
@@ -146,7 +146,7 @@ def draw(look: TapeLook) -> Scene:
             stand(np.array([LEFT_EDGE - 0.08, FOOT + pitch * n_shifts - 0.03])),
             "neutral",
         ),
-        "column": COLUMN.scalar(now.columns, "column"),
+        "column": COLUMN.scalar(state.columns, "column"),
     }
     truth = pictures.pair.disparity
     if truth is not None:
@@ -154,16 +154,16 @@ def draw(look: TapeLook) -> Scene:
         true = at(known, truth[v][known])
         ends = between(true[:-1], true[1:])
         scene["truth"] = Segments(ends, "truth", 2.0, name="truth")
-    off = wrong(look, now.path.astype(float))
+    off = wrong(look, state.path.astype(float))
     alone = wrong(look, tape.alone.astype(float))
     scene["wrong/path"] = WRONG.scalar(100 * off, "path")
     scene["wrong/alone"] = WRONG.scalar(100 * alone, "alone", "wrong")
     if not np.isfinite(off):
-        return scene | {"caption": say("The path has walked {n} columns.", n=now.columns)}
+        return scene | {"caption": say("The path has walked {n} columns.", n=state.columns)}
     return scene | {
         "caption": say(
             "After {n} columns {alone} are wrong by themselves, {off} on the path.",
-            n=now.columns,
+            n=state.columns,
             alone=share(alone, 0),
             off=share(off, 0),
         )
@@ -177,10 +177,10 @@ def _rows_of_shift(n_shifts: int, w: int) -> int:
 
 def _tape(look: TapeLook, w: int) -> Primitive:
     """Return the costs walked so far as a picture, shift 0 at the bottom."""
-    now = look.now
-    shown = now.tape.costs[::-1].astype(np.float32).copy()
-    shown[:, now.columns :] = np.nan
-    top = float(np.percentile(now.tape.costs, 90))
+    state = look.now
+    shown = state.tape.costs[::-1].astype(np.float32).copy()
+    shown[:, state.columns :] = np.nan
+    top = float(np.percentile(state.tape.costs, 90))
     high = _rows_of_shift(len(shown), w)
     block = max(1, SHARP // w)
     large = blocks(shown, block * high, block)

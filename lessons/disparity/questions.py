@@ -84,9 +84,9 @@ def hidden_at(states: Tries, baseline: float) -> float:
 
 def _why_baseline(states: Tries) -> str:
     was = hidden_at(states, 0.1)
-    now = hidden_at(states, 0.2)
+    became = hidden_at(states, 0.2)
     return (
-        f"{percent(was, 1)} became {percent(now, 1)}. The depths of the rest are twice as exact:"
+        f"{percent(was, 1)} became {percent(became, 1)}. The depths of the rest are twice as exact:"
         " a longer baseline is a trade, not a gain."
     )
 
@@ -116,11 +116,11 @@ def boards(states: Maps) -> dict[float, float]:
 
 def mean_depths(states: Maps) -> tuple[float, float]:
     """Return the mean of the boards' depths, and the depth of their mean disparity, metres."""
-    found = boards(states)
+    depths = boards(states)
     camera = states.subject.pair.camera
     fB = camera.f * camera.baseline
-    mean = float(np.mean([fB / z for z in found.values()]))
-    return float(np.mean(list(found.values()))), fB / mean
+    mean = float(np.mean([fB / z for z in depths.values()]))
+    return float(np.mean(list(depths.values()))), fB / mean
 
 
 def _averages(states: Maps) -> float:

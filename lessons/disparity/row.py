@@ -103,13 +103,13 @@ def costs_of_row(pictures: Pictures, compare: CostVolume, window: int) -> np.nda
 @cached
 def three_curves(params: Input) -> dict[str, np.ndarray]:
     """Return the costs by shift of a pixel with texture, on a bare wall, and on stripes."""
-    found = {}
+    curves = {}
     for name, (scene, (u, v)) in KINDS.items():
         pair = taken(scene, 150.0, 0.1, noise=4.0, seed=params.seed)
         rows = slice(v - params.window // 2 - 2, v + params.window // 2 + 3)
         volume = sad_cost_volume(grey(pair.left[rows]), grey(pair.right[rows]), 31, params.window)
-        found[name] = volume[:, params.window // 2 + 2, u]
-    return found
+        curves[name] = volume[:, params.window // 2 + 2, u]
+    return curves
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,26 +159,26 @@ def strips_of(look: Look[Input, Pictures, Slid]) -> Strips:
 
 def draw(look: RowLook) -> Scene:
     """Return both strips, the cost curve below them, and the two rays that cross."""
-    now = look.now
+    state = look.now
     pictures = look.subject
     strips = strips_of(look)
-    costs = now.costs
+    costs = state.costs
     words = "Shift {d}: no partner so far left."
-    cost = float(costs[now.d])
-    values: dict[str, Any] = {"d": now.d}
+    cost = float(costs[state.d])
+    values: dict[str, Any] = {"d": state.d}
     if math.isfinite(cost):
         words = "Shift {d}: the cost is {cost}; the lowest so far is {lowest} at {best}."
-        values |= {"cost": number(cost), "best": now.best}
-        values["lowest"] = number(float(costs[now.best]))
+        values |= {"cost": number(cost), "best": state.best}
+        values["lowest"] = number(float(costs[state.best]))
     return {
         **_rows(look, strips),
         **_curve(look, strips),
         **_plate(look),
         **_crossed(look),
         **_charts(look),
-        "shift": SHIFT.scalar(now.d, "shift"),
+        "shift": SHIFT.scalar(state.d, "shift"),
         "cost": COST.scalar(cost, "cost at this shift"),
-        "lowest": COST.scalar(float(costs[now.best]), "lowest so far", "highlight"),
+        "lowest": COST.scalar(float(costs[state.best]), "lowest so far", "highlight"),
         "caption": say(words, **values),
     } | _truth(look, strips, pictures)
 
@@ -215,11 +215,11 @@ def _height(look: RowLook, costs: np.ndarray) -> np.ndarray:
 
 def _curve(look: RowLook, strips: Strips) -> dict[str, Primitive]:
     """Return the cost of the shifts tried so far, each below the column that it compares."""
-    now = look.now
+    state = look.now
     u = look.subject.pixel[0]
-    shifts = np.flatnonzero(np.isfinite(now.known))
+    shifts = np.flatnonzero(np.isfinite(state.known))
     foot = CHART[0]
-    ends = strips.column(np.array([u - len(now.costs) + 1.0, u]))
+    ends = strips.column(np.array([u - len(state.costs) + 1.0, u]))
     axis = stand(np.array([[[ends[0], foot], [ends[1], foot]]]))
     scene: dict[str, Primitive] = {
         "axis": Segments(axis, "neutral", 1.5, opacity=0.7),
@@ -227,28 +227,30 @@ def _curve(look: RowLook, strips: Strips) -> dict[str, Primitive]:
             "cost of each shift", stand(np.array([LEFT_EDGE + 0.22, foot + CHART[1]])), "highlight"
         ),
     }
-    for d in range(0, len(now.costs), 10):
+    for d in range(0, len(state.costs), 10):
         text = f"d = {d}" if d == 0 else str(d)
         at = stand(np.array([float(strips.column(u - d)), foot - 0.09]))
         scene[f"axis/{d}"] = Label(text, at, "neutral")
     if not len(shifts):
         return scene
-    p = stand(np.column_stack([strips.column(u - shifts), _height(look, now.costs[shifts])]), 0.01)
+    p = stand(
+        np.column_stack([strips.column(u - shifts), _height(look, state.costs[shifts])]), 0.01
+    )
     scene["costs"] = Points(p, "highlight", DOT, name="cost of a shift")
     if len(p) > 1:
         scene["costs/line"] = Segments(between(p[:-1], p[1:]), "highlight", 1.5, opacity=0.6)
-    if now.d in shifts:
+    if state.d in shifts:
         top = strips.right.places(
-            on_strip(np.array([u - now.d - strips.first, 2 * strips.middle + 0.5]))
+            on_strip(np.array([u - state.d - strips.first, 2 * strips.middle + 0.5]))
         )
         down = np.array([top, p[-1]])
         scene["costs/down"] = dashed(down, "source", dash=0.03)
         scene["costs/here"] = Points(
             p[-1:] + np.array([0, -0.006, 0]), "source", 1.7 * DOT, name="here"
         )
-    best = p[shifts.tolist().index(now.best)]
+    best = p[shifts.tolist().index(state.best)]
     below = np.array([best[0], 0.0, foot - 0.22])
-    scene["costs/best"] = Label(f"lowest: d = {now.best}", below, "highlight")
+    scene["costs/best"] = Label(f"lowest: d = {state.best}", below, "highlight")
     scene["costs/lowest"] = Segments(
         np.array([[best, below + np.array([0.0, 0.0, 0.05])]]), "highlight", 1.5
     )
@@ -280,10 +282,10 @@ def _crossed(look: RowLook) -> dict[str, Primitive]:
     straight and cross where they do.
     """
     pictures = look.subject
-    now = look.now
+    state = look.now
     camera = pictures.pair.camera
-    depths = camera.depth(np.arange(now.d + 1.0))
-    near = depths[(depths <= pictures.far) & np.isfinite(now.known)]
+    depths = camera.depth(np.arange(state.d + 1.0))
+    near = depths[(depths <= pictures.far) & np.isfinite(state.known)]
     foot = np.array(EYES)
     top = foot + np.array([0.0, REACH])
     scene = eyes(EYES, APART) | {
@@ -293,7 +295,7 @@ def _crossed(look: RowLook) -> dict[str, Primitive]:
         tried = foot + np.column_stack([np.zeros(len(near)), REACH * near / pictures.far])
         scene["tried"] = Points(stand(tried, 0.005), "highlight", 0.6 * DOT)
     here = float(depths[-1])
-    if not here > 0 or pictures.pixel[0] < now.d:
+    if not here > 0 or pictures.pixel[0] < state.d:
         return scene
     eye = foot + np.array([APART, 0.0])
     towards = np.array([-APART, REACH * min(here, 1e6) / pictures.far])
@@ -313,27 +315,27 @@ def _crossed(look: RowLook) -> dict[str, Primitive]:
 def _charts(look: RowLook) -> dict[str, Primitive]:
     """Return the cost of each shift tried so far, and the curves of three kinds of place."""
     pictures = look.subject
-    now = look.now
+    state = look.now
     scene: dict[str, Primitive] = {}
-    shifts = np.arange(len(now.costs), dtype=float)
+    shifts = np.arange(len(state.costs), dtype=float)
     ends = (0.0, float(shifts[-1]))
     costs, three = (replace(chart, x_range=ends) for chart in (COSTS, THREE))
-    tried = np.flatnonzero(np.isfinite(now.known))
-    top = 1.06 * float(now.costs[np.isfinite(now.costs)].max(initial=0.0))
+    tried = np.flatnonzero(np.isfinite(state.known))
+    top = 1.06 * float(state.costs[np.isfinite(state.costs)].max(initial=0.0))
     if top > 0.0:
         unit = "grey levels" if look.params.cost == "SAD" else "cost"
         costs = replace(costs, unit=unit, y_range=(0.0, top))
     if len(tried):
-        scene["tried/whole"] = costs.whole(shifts[tried], now.costs[tried], "tried", "highlight")
-    if now.d in tried:
-        cost = float(now.costs[now.d])
-        scene["tried/mark"] = costs.mark(now.d, cost, "here", "source", steps="shift")
+        scene["tried/whole"] = costs.whole(shifts[tried], state.costs[tried], "tried", "highlight")
+    if state.d in tried:
+        cost = float(state.costs[state.d])
+        scene["tried/mark"] = costs.mark(state.d, cost, "here", "source", steps="shift")
     if pictures.left.shape == SIZE[::-1] and look.params.cost == "SAD":
         for name, values in three_curves(look.params).items():
             color = COLORS[name]
             scene[f"three/{name}"] = three.whole(np.arange(len(values)), values, name, color)
-        if math.isfinite(cost := float(now.costs[now.d])):
-            scene["three/mark"] = three.mark(now.d, cost, "here", "source", steps="shift")
+        if math.isfinite(cost := float(state.costs[state.d])):
+            scene["three/mark"] = three.mark(state.d, cost, "here", "source", steps="shift")
     return scene
 
 

@@ -118,14 +118,14 @@ def run(
     for value in WINDOWS if params.stage == "windows" else PRICES:
         window, price = (value, 0.0) if params.stage == "windows" else (params.window, value)
         cost = compare(pictures.left, pictures.right, most, int(window))
-        found = smoothed(cost, price).astype(np.float32)
-        off = judged(pictures, found)[0]
+        disparity = smoothed(cost, price).astype(np.float32)
+        off = judged(pictures, disparity)[0]
         wrong = (
             {name: wrong_at_price(name, params.seed, price) for name in PRICED}
             if params.stage == "penalties" and math.isfinite(off)
             else {}
         )
-        yield Tried(float(value), found, off, wrong=wrong)
+        yield Tried(float(value), disparity, off, wrong=wrong)
 
 
 def _scene(params: Input) -> str:
@@ -153,7 +153,7 @@ def hidden(pair: StereoPair) -> float:
 @functools.lru_cache(maxsize=16)
 def hidden_over_baselines(scene: str, camera: StereoCamera) -> np.ndarray:
     """Return `hidden` at each of BASELINES; else the cameras are as the one given."""
-    return shares_hidden(scene, [replace(camera, baseline=one) for one in BASELINES], SIZE)
+    return shares_hidden(scene, [replace(camera, baseline=B) for B in BASELINES], SIZE)
 
 
 def _sigma(camera: StereoCamera) -> float:
@@ -233,16 +233,16 @@ def _named(picture: Picture, words: str, color: Role = "neutral") -> Label:
 def maps(look: StudyLook) -> dict[str, Primitive]:
     """Return the left picture beside the map, with its wrong pixels marked."""
     pictures = look.subject
-    now = look.now
+    state = look.now
     pair = pictures.pair
-    field = Field(now.disparity, 0.0, float(pictures.max_disparity), "Disparity", "px")
+    field = Field(state.disparity, 0.0, float(pictures.max_disparity), "Disparity", "px")
     shown = field.rgb().copy()
     words = "map of the jumps"
     if pair.disparity is not None and pair.visible is not None:
-        off = np.abs(now.disparity - pair.disparity) > 1.0
+        off = np.abs(state.disparity - pair.disparity) > 1.0
         shown[off & pair.visible] = PALETTE["wrong"]
         shown[~pair.visible] = 128
-        words = f"map: {percent(now.share, 1)} wrong (orange-red), hidden grey"
+        words = f"map: {percent(state.share, 1)} wrong (orange-red), hidden grey"
     left = _picture(pair.left, "left picture", -SIDE)
     right = _picture(shown, "map", SIDE)
     spot = left.places(np.array([pictures.pixel]), 2 * LAYER)
@@ -257,19 +257,19 @@ def maps(look: StudyLook) -> dict[str, Primitive]:
 
 
 def _of_window(look: StudyLook) -> Scene:
-    now = look.now
+    state = look.now
     pictures = look.subject
     scene = maps(look)
     left = scene["left/picture"]
     assert isinstance(left, Picture)
-    half = now.value / 2
+    half = state.value / 2
     middle = np.array(pictures.pixel)
     box = left.box(middle - half, middle + half, 2 * LAYER)
     scene["left/window"] = Segments(box, "highlight", 3.0, name="the window")
-    scene["window"] = SIDE_TURNED.scalar(now.value, "window")
-    scene["wrong"] = WRONG.scalar(100 * now.share, "wrong pixels", "truth")
-    window = pixels(now.value)
-    if not math.isfinite(now.share):
+    scene["window"] = SIDE_TURNED.scalar(state.value, "window")
+    scene["wrong"] = WRONG.scalar(100 * state.share, "wrong pixels", "truth")
+    window = pixels(state.value)
+    if not math.isfinite(state.share):
         return scene | {"caption": say("A window of {window} on a side.", window=window)}
     if look.params.scene != "Motorcycle" and look.params.left is None:
         for noise, role in NOISES.items():
@@ -279,73 +279,73 @@ def _of_window(look: StudyLook) -> Scene:
                 np.array(WINDOWS, float), curve, words, role
             )
     scene["windows/mark"] = OF_WINDOW.mark(
-        now.value, 100 * now.share, "here", "source", steps="window"
+        state.value, 100 * state.share, "here", "source", steps="window"
     )
     return scene | {
         "caption": say(
             "A window of {window} on a side: {wrong} of the pixels are wrong.",
             window=window,
-            wrong=share(now.share, 1),
+            wrong=share(state.share, 1),
         )
     }
 
 
 def _of_price(look: StudyLook) -> Scene:
-    now = look.now
+    last = look.now
     scene = maps(look)
-    scene["price"] = PRICE_TURNED.scalar(now.value, "price")
-    scene["wrong"] = WRONG.scalar(100 * now.share, "wrong pixels", "truth")
-    price = decimals(now.value, 1)
-    if not math.isfinite(now.share):
+    scene["price"] = PRICE_TURNED.scalar(last.value, "price")
+    scene["wrong"] = WRONG.scalar(100 * last.share, "wrong pixels", "truth")
+    price = decimals(last.value, 1)
+    if not math.isfinite(last.share):
         return scene | {"caption": say("A jump costs {price} usual costs.", price=price)}
-    tried = [*look.past, now]
+    tried = [*look.past, last]
     top = max(100 * tried[0].share, *tried[0].wrong.values())  # no price is as bad as none
     chart = replace(OF_PRICE, y_range=(0.0, 1.05 * top + 0.1))
     for name, role in PRICED.items():
         curve = np.full(len(PRICES), math.nan)
-        curve[: len(tried)] = [one.wrong[name] for one in tried]
+        curve[: len(tried)] = [step.wrong[name] for step in tried]
         scene[f"prices/{name}"] = chart.whole(np.array(PRICES), curve, CALLED[name], role)
-    scene["prices/mark"] = chart.mark(now.value, 100 * now.share, "here", "source", steps="price")
+    scene["prices/mark"] = chart.mark(last.value, 100 * last.share, "here", "source", steps="price")
     return scene | {
         "caption": say(
             "A jump costs {price} usual costs: {wrong} of the pixels are wrong.",
             price=price,
-            wrong=share(now.share, 1),
+            wrong=share(last.share, 1),
         )
     }
 
 
 def _of_baseline(look: StudyLook) -> Scene:
-    now = look.now
+    state = look.now
     params = look.params
-    pair = _with(params, now.value)
+    pair = _with(params, state.value)
     shown = pair.left.copy()
     assert pair.visible is not None
     shown[~pair.visible] = PALETTE["wrong"]
     left = _picture(shown, "left picture", -SIDE)
-    here = now.value
+    here = state.value
     x = np.array(BASELINES)
     behind = hidden_over_baselines(_scene(params), replace(pair.camera, baseline=BASELINES[0]))
-    errors = np.array([_sigma(replace(pair.camera, baseline=one)) for one in BASELINES])
+    errors = np.array([_sigma(replace(pair.camera, baseline=B)) for B in BASELINES])
     scene: Scene = {
         "left/picture": left,
         "left/name": _named(
-            left, f"left picture: {percent(now.share, 1)} hidden (orange-red)", "target"
+            left, f"left picture: {percent(state.share, 1)} hidden (orange-red)", "target"
         ),
         "left/edge": Segments(left.border(LAYER), "target", 2.5),
         **shadow(look),
         "baseline": BASELINE_TURNED.scalar(here, "baseline"),
-        "hidden": HIDDEN.scalar(100 * now.share, "hidden", "wrong"),
-        "sigma": HIDDEN.scalar(100 * now.sigma, "error of the depth", "target"),
+        "hidden": HIDDEN.scalar(100 * state.share, "hidden", "wrong"),
+        "sigma": HIDDEN.scalar(100 * state.sigma, "error of the depth", "target"),
         "trade/hidden": OF_BASELINE.whole(x, 100 * behind, "hidden, of all pixels", "wrong"),
         "trade/sigma": OF_BASELINE.whole(x, 100 * errors, "½ px, of the wall's depth", "target"),
-        "trade/mark": OF_BASELINE.mark(here, 100 * now.share, "here", "wrong", steps="baseline"),
+        "trade/mark": OF_BASELINE.mark(here, 100 * state.share, "here", "wrong", steps="baseline"),
         "caption": say(
             "Cameras {baseline} apart: {hidden} hidden, and half a pixel is {sigma} of the wall's"
             " depth.",
             baseline=metres(here),
-            hidden=share(now.share, 1),
-            sigma=share(now.sigma, 1),
+            hidden=share(state.share, 1),
+            sigma=share(state.sigma, 1),
         ),
     }
     return scene
@@ -358,12 +358,12 @@ def shadow(look: StudyLook) -> dict[str, Primitive]:
     Across, the drawing is stretched.
     """
     params = look.params
-    now = look.now
+    state = look.now
     if params.scene != "posts":
         return {}
-    fB = params.focal_length * now.value
+    fB = params.focal_length * state.value
     jumps = fB / POST, fB / WALL
-    wide = APART * now.value / BASELINES[-1]
+    wide = APART * state.value / BASELINES[-1]
     foot = np.array(EYES)
 
     def at(x: float, z: float) -> np.ndarray:

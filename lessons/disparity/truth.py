@@ -32,8 +32,8 @@ def depth_errors(pictures: Pictures, depth: np.ndarray) -> np.ndarray:
     """Return how far the depths that are known are from the true ones, metres; empty without
     truth.
     """
-    found, true = known_depths(pictures, depth)
-    return np.abs(found - true)
+    depths, true = known_depths(pictures, depth)
+    return np.abs(depths - true)
 
 
 def flat_parts(pictures: Pictures, depth: np.ndarray) -> dict[float, np.ndarray]:

@@ -29,22 +29,22 @@ BALLS = {
 
 def caption(state: State) -> Caption:
     """Return what happened in this step and why."""
-    now = state.now
-    match now:
+    result = state.now
+    match result:
         case Front():
-            return Caption(_of_front(state, now))
+            return Caption(_of_front(state, result))
         case HeatState():
-            return Caption(_of_heat(state, now))
+            return Caption(_of_heat(state, result))
         case Found():
-            return _of_found(state, now)
+            return _of_found(state, result)
         case Ball():
-            return Caption(_of_ball(state.params, now))
+            return Caption(_of_ball(state.params, result))
         case Trials():
-            return _of_trials(now)
+            return _of_trials(result)
         case Scatter():
-            return _of_scatter(state.params, now)
+            return _of_scatter(state.params, result)
         case Landmarks():
-            return Caption(_of_landmarks(now))
+            return Caption(_of_landmarks(result))
 
 
 def way_of(params: Params) -> str:
@@ -60,17 +60,17 @@ def way_of(params: Params) -> str:
     return "the edges" if not params.extra else f"{counted(params.extra, 'point')} on every edge"
 
 
-def _of_front(state: State, now: Front) -> str:
+def _of_front(state: State, front: Front) -> str:
     subject = sure(state.subject)
-    done, trial = int(now.accepted.sum()), int((np.isfinite(now.d) & ~now.accepted).sum())
-    where = int(subject.free.sum()) if len(subject.free) else len(now.d)
-    if now.reach == 0:
+    done, trial = int(front.accepted.sum()), int((np.isfinite(front.d) & ~front.accepted).sum())
+    where = int(subject.free.sum()) if len(subject.free) else len(front.d)
+    if front.reach == 0:
         return (
             f"The source has the distance 0; {counted(trial, 'neighbour is', 'neighbours are')} on"
             " trial."
         )
     text = (
-        f"Up to {length(now.reach)}: {done:,} of {where:,} nodes are accepted, their distance is"
+        f"Up to {length(front.reach)}: {done:,} of {where:,} nodes are accepted, their distance is"
         " final"
     )
     if trial:
@@ -80,68 +80,68 @@ def _of_front(state: State, now: Front) -> str:
     return f"{text}."
 
 
-def _of_heat(state: State, now: HeatState) -> str:
-    if now.phase == "flow":
-        far = float(np.log10(max(np.median(np.abs(now.u)) / now.u.max(), 1e-300)))
+def _of_heat(state: State, heat: HeatState) -> str:
+    if heat.phase == "flow":
+        far = float(np.log10(max(np.median(np.abs(heat.u)) / heat.u.max(), 1e-300)))
         return (
             f"Heat has flowed from the source for {brief(10.0**state.params.time, 2)} squared mean"
             f" edges. Half of the surface has less than 10 to the power of {fixed(far, 0)} of the"
             " strongest: its size says little, its direction all."
         )
-    if now.phase == "directions":
+    if heat.phase == "directions":
         return (
-            f"On each of {len(now.X):,} faces only the direction is kept, away from the heat, with"
+            f"On each of {len(heat.X):,} faces only the direction is kept, away from the heat, with"
             " length 1: so steep is a distance everywhere."
         )
-    top = length(float(now.d.max()))
+    top = length(float(heat.d.max()))
     return (
         "The function whose slope is nearest to those directions, by one more linear system: up to"
         f" {top}."
     )
 
 
-def tone_of(now: Found) -> Literal["good", "wrong", "info"]:
+def tone_of(distances: Found) -> Literal["good", "wrong", "info"]:
     """Return whether distances are right: on average to 2 %, and wrong from 6 % on.
 
     Right distances that are no metric claim nothing.
     """
-    known = np.abs(now.error[np.isfinite(now.error)])
-    if not len(known) or (len(now.asymmetry) and known.mean() <= GOOD):
+    known = np.abs(distances.error[np.isfinite(distances.error)])
+    if not len(known) or (len(distances.asymmetry) and known.mean() <= GOOD):
         return "info"
     return "good" if known.mean() <= GOOD else "wrong" if known.mean() > BAD else "info"
 
 
-def _of_found(state: State, now: Found) -> Caption:
+def _of_found(state: State, distances: Found) -> Caption:
     subject, by = sure(state.subject), way_of(state.params)
-    reached = int(np.isfinite(now.d).sum())
-    where = int(subject.free.sum()) if len(subject.free) else len(now.d)
-    if not len(now.truth):
-        far = length(float(now.d[np.isfinite(now.d)].max()))
+    reached = int(np.isfinite(distances.d).sum())
+    where = int(subject.free.sum()) if len(subject.free) else len(distances.d)
+    if not len(distances.truth):
+        far = length(float(distances.d[np.isfinite(distances.d)].max()))
         return Caption(
             f"By {by}: the farthest of {reached:,} points that can be reached is {far} away. Nobody"
             " knows the truth here."
         )
-    if not np.isfinite(now.error).any():
+    if not np.isfinite(distances.error).any():
         return Caption(
             f"By {by} {reached:,} of {where:,} nodes are reached, none of them far enough to be"
             " compared.",
             "wrong",
         )
-    tone = tone_of(now)
-    known = np.abs(now.error[np.isfinite(now.error)])
+    tone = tone_of(distances)
+    known = np.abs(distances.error[np.isfinite(distances.error)])
     median = (
         f" (median {percent(float(np.median(known)))})" if way_of(state.params) == "heat" else ""
     )
     text = (
         f"By {by}: {percent(float(known.mean()))} off on average{median}, at worst"
-        f" {_too(now.worst)}"
+        f" {_too(distances.worst)}"
     )
     if not len(subject.truth):
         text += ", beside ways over many points of the edges"
-    if subject.goal >= 0 and np.isfinite(now.d[subject.goal]):
+    if subject.goal >= 0 and np.isfinite(distances.d[subject.goal]):
         text += (
-            f"; {length(float(now.d[subject.goal]))} to the goal, in truth"
-            f" {length(float(now.truth[subject.goal]))}"
+            f"; {length(float(distances.d[subject.goal]))} to the goal, in truth"
+            f" {length(float(distances.truth[subject.goal]))}"
         )
     text += "."
     if subject.shortcuts.any():
@@ -150,51 +150,53 @@ def _of_found(state: State, now: Found) -> Caption:
         )
     if reached < where:
         text += f" {where - reached:,} nodes cannot be reached."
-    if len(now.asymmetry):
+    if len(distances.asymmetry):
         text += (
-            f" There and back differ by {percent(float(np.median(now.asymmetry)))} in the"
+            f" There and back differ by {percent(float(np.median(distances.asymmetry)))} in the"
             " median and"
         )
         text += (
-            f" {percent(now.asymmetry.max())} at most; {percent(now.broken)} of the triples break"
-            " the triangle"
+            f" {percent(distances.asymmetry.max())} at most; {percent(distances.broken)} of the"
+            " triples break the triangle"
         )
         text += " inequality."
     else:
-        text += _of_weights(now)
+        text += _of_weights(distances)
         text += {"good": " Right to 2 %.", "wrong": " That is wrong, also on average.", "info": ""}[
             tone
         ]
-        text += _of_eight(now)
-    return Caption(text + _of_study(state, now), tone)
+        text += _of_eight(distances)
+    return Caption(text + _of_study(state, distances), tone)
 
 
-def _of_weights(now: Found) -> str:
+def _of_weights(distances: Found) -> str:
     """Return what negative weights did, where they did harm."""
-    if not now.below and not (tone_of(now) != "good" and now.negative > MANY * len(now.d)):
+    if not distances.below and not (
+        tone_of(distances) != "good" and distances.negative > MANY * len(distances.d)
+    ):
         return ""
-    below = f" {percent(now.below)} of the distances are below 0." if now.below else ""
-    edges = counted(now.negative, "edge has", "edges have")
+    below = f" {percent(distances.below)} of the distances are below 0." if distances.below else ""
+    edges = counted(distances.negative, "edge has", "edges have")
     return f"{below} {edges} a negative weight: the angles opposite are more than 180° together."
 
 
-def _of_eight(now: Found) -> str:
-    if not np.isfinite(now.eight):
+def _of_eight(distances: Found) -> str:
+    if not np.isfinite(distances.eight):
         return ""
-    nearer = "nearer to the truth" if abs(now.eight) < abs(now.worst) else "farther off"
-    return f" Ways to 8 neighbours are {nearer} on this grid: at worst {_too(now.eight)}."
+    nearer = "nearer to the truth" if abs(distances.eight) < abs(distances.worst) else "farther off"
+    return f" Ways to 8 neighbours are {nearer} on this grid: at worst {_too(distances.eight)}."
 
 
-def _of_study(state: State, now: Found) -> str:
+def _of_study(state: State, distances: Found) -> str:
     charts = []
-    if now.study:
+    if distances.study:
         on = (
             "from a corner of empty squares, ever finer"
             if state.params.stage == "grid"
             else "on ever finer spheres"
         )
         charts.append(f"the same {on}")
-    if now.times is not None:
+    if distances.times is not None:
         charts.append("the mean error by how long heat flows")
     return f" In the charts: {'; '.join(charts)}." if charts else ""
 
@@ -203,7 +205,7 @@ def _too(error: float) -> str:
     return f"{percent(abs(error))} too {'long' if error > 0 else 'short'}"
 
 
-def _of_ball(params: Params, now: Ball) -> str:
+def _of_ball(params: Params, ball: Ball) -> str:
     if params.metric in ("p", "p-sum"):
         shape = (
             "a star with its arms along the axes" if params.p < 1 else "a rounded square or disc"
@@ -213,40 +215,40 @@ def _of_ball(params: Params, now: Ball) -> str:
         shape = BALLS[params.metric]
     if params.stretch > 1:
         shape += ", but for the unit of y"
-    if not now.nearest:
-        return f"All within {brief(now.radius)} of the purple point by this distance: {shape}."
-    mine = int(np.argmin(now.d))
+    if not ball.nearest:
+        return f"All within {brief(ball.radius)} of the purple point by this distance: {shape}."
+    mine = int(np.argmin(ball.d))
     in_metres = ", with both in metres," if params.stretch > 1 else ""
     text = (
         f"The ball touches its first point, {mine}: the nearest by this distance,"
-        f" {brief(now.radius)} away. By Euclid's{in_metres} it is"
-        f" {'the same' if mine == now.straight else f'point {now.straight}'}."
+        f" {brief(ball.radius)} away. By Euclid's{in_metres} it is"
+        f" {'the same' if mine == ball.straight else f'point {ball.straight}'}."
     )
     return (
-        f"{text} Of {len(now.changed)} other queries {percent(float(now.changed.mean()))} have"
+        f"{text} Of {len(ball.changed)} other queries {percent(float(ball.changed.mean()))} have"
         " another nearest."
     )
 
 
-def _of_trials(now: Trials) -> Caption:
-    ab, bc, ac = now.sides
-    text = f"{now.tried:,} triples tried: {_broken(now)} the triangle inequality."
+def _of_trials(trials: Trials) -> Caption:
+    ab, bc, ac = trials.sides
+    text = f"{trials.tried:,} triples tried: {_broken(trials)} the triangle inequality."
     if ac > ab + bc + 1e-9:
         text += f" Here the way from a to c is {brief(ac)}, over b it is {brief(ab + bc)}."
-    others = [name for name, share in list(now.axioms.items())[:3] if share > 0]
+    others = [name for name, share in list(trials.axioms.items())[:3] if share > 0]
     text += f" Also broken: {', '.join(others)}." if others else ""
-    if now.broken or others:
+    if trials.broken or others:
         return Caption(f"{text} No metric.", "wrong")
     return Caption(f"{text} Nothing speaks against a metric.")
 
 
-def _broken(now: Trials) -> str:
-    return f"{percent(now.broken / now.tried)} break" if now.broken else "none breaks"
+def _broken(trials: Trials) -> str:
+    return f"{percent(trials.broken / trials.tried)} break" if trials.broken else "none breaks"
 
 
-def _of_scatter(params: Params, now: Scatter) -> Caption:
-    n, out = len(now.p), int(now.outlier.sum())
-    match now.phase:
+def _of_scatter(params: Params, scatter: Scatter) -> Caption:
+    n, out = len(scatter.p), int(scatter.outlier.sum())
+    match scatter.phase:
         case "points":
             second = f" and a second cluster of {out}" if out else ""
             whose = "of all points" if params.estimate == "sample" else "of the closest half"
@@ -266,27 +268,27 @@ def _of_scatter(params: Params, now: Scatter) -> Caption:
                 " distance Euclid's."
             )
         case "told":
-            return _of_flags(now)
+            return _of_flags(scatter)
         case _:
-            counts, _ = sure(now.shares)
+            counts, _ = sure(scatter.shares)
             return Caption(
                 f"How many points lie within {WITHIN:g} standard deviations, by dimension: from"
                 f" {percent(counts[0], 1)} in one down to {percent(counts[-1], 1)} in ten."
             )
 
 
-def _of_flags(now: Scatter) -> Caption:
+def _of_flags(scatter: Scatter) -> Caption:
     text = (
-        f"Beyond {fixed(now.limit, 2)} lie {percent(float(now.flagged[~now.outlier].mean()))} of"
-        " the scatter"
+        f"Beyond {fixed(scatter.limit, 2)} lie"
+        f" {percent(float(scatter.flagged[~scatter.outlier].mean()))} of the scatter"
     )
-    if not now.outlier.any():
+    if not scatter.outlier.any():
         return Caption(
             f"{text}. By chance it should be 5 %. The largest distance is"
-            f" {fixed(float(now.d.max()), 2)}."
+            f" {fixed(float(scatter.d.max()), 2)}."
         )
-    caught, all_ = int((now.flagged & now.outlier).sum()), int(now.outlier.sum())
-    mean = fixed(float(now.d[now.outlier].mean()), 2)
+    caught, all_ = int((scatter.flagged & scatter.outlier).sum()), int(scatter.outlier.sum())
+    mean = fixed(float(scatter.d[scatter.outlier].mean()), 2)
     text += f" and {caught:,} of {all_:,} of the second cluster, at {mean} on average."
     if caught >= 0.9 * all_:
         return Caption(f"{text} It is found.", "good")
@@ -296,11 +298,12 @@ def _of_flags(now: Scatter) -> Caption:
     )
 
 
-def _of_landmarks(now: Landmarks) -> str:
+def _of_landmarks(sights: Landmarks) -> str:
     near, told = (
-        percent(float((chosen == now.true).mean())) for chosen in (now.euclid, now.mahalanobis)
+        percent(float((chosen == sights.true).mean()))
+        for chosen in (sights.euclid, sights.mahalanobis)
     )
     return (
-        f"{len(now.true):,} measurements, off far more in depth than across. The nearest landmark"
-        f" by Euclid's distance is the right one for {near}, by Mahalanobis' for {told}."
+        f"{len(sights.true):,} measurements, off far more in depth than across. The nearest"
+        f" landmark by Euclid's distance is the right one for {near}, by Mahalanobis' for {told}."
     )

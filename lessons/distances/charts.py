@@ -24,33 +24,33 @@ ROLES: tuple[Role, ...] = ("wrong", "source", "other", "target", "highlight")
 
 def beside(state: State) -> dict[str, Primitive]:
     """Return the charts and tables of a step."""
-    now = state.now
-    match now:
+    result = state.now
+    match result:
         case Front():
-            return _so_far(state, now.d, now.accepted)
+            return _so_far(state, result.d, result.accepted)
         case Found():
-            return _so_far(state, now.d, np.isfinite(now.d)) | _found(state, now)
+            return _so_far(state, result.d, np.isfinite(result.d)) | _found(state, result)
         case Ball():
-            return _nearest(state.params, now)
+            return _nearest(state.params, result)
         case Trials():
-            return _axioms(now)
+            return _axioms(result)
         case Scatter():
-            return _scatter(now)
+            return _scatter(result)
         case Landmarks():
             return {
                 "by euclid": RIGHT.scalar(
-                    100 * _right(now, now.euclid), "nearest by Euclid's distance", "source"
+                    100 * _right(result, result.euclid), "nearest by Euclid's distance", "source"
                 ),
                 "by mahalanobis": RIGHT.scalar(
-                    100 * _right(now, now.mahalanobis), "by Mahalanobis'", "truth"
+                    100 * _right(result, result.mahalanobis), "by Mahalanobis'", "truth"
                 ),
             }
         case _:
             return {}
 
 
-def _right(now: Landmarks, told: np.ndarray) -> float:
-    return float((told == now.true).mean())
+def _right(sights: Landmarks, told: np.ndarray) -> float:
+    return float((told == sights.true).mean())
 
 
 def _so_far(state: State, d: np.ndarray, accepted: np.ndarray) -> dict[str, Primitive]:
@@ -63,8 +63,8 @@ def _so_far(state: State, d: np.ndarray, accepted: np.ndarray) -> dict[str, Prim
     return {"worst": WORST.scalar(100 * worst, "worst error", "truth")}
 
 
-def _found(state: State, now: Found) -> dict[str, Primitive]:
-    known = 100 * now.error[np.isfinite(now.error)]
+def _found(state: State, distances: Found) -> dict[str, Primitive]:
+    known = 100 * distances.error[np.isfinite(distances.error)]
     scene: dict[str, Primitive] = {}
     if len(known):
         low, high = float(min(known.min(), 0.0)), float(max(known.max(), 0.0))
@@ -77,54 +77,59 @@ def _found(state: State, now: Found) -> dict[str, Primitive]:
         "log₁₀ spacing (m)",
         "log₁₀ worst error (%)",
     )
-    for (name, (x, y)), role in zip(now.study.items(), ROLES, strict=False):
+    for (name, (x, y)), role in zip(distances.study.items(), ROLES, strict=False):
         scene[f"finer/{name}"] = chart.curve(x, y, name, role)
-    if now.times is not None:
-        scene["times"] = TIME.curve(*now.times, "mean error", "truth", marks=(state.params.time,))
-    if len(now.asymmetry):
+    if distances.times is not None:
+        scene["times"] = TIME.curve(
+            *distances.times, "mean error", "truth", marks=(state.params.time,)
+        )
+    if len(distances.asymmetry):
         scene["metric"] = Table(
             "Is heat distance a metric?",
             ("axiom", "broken"),
             (
                 (
                     "d(a, b) = d(b, a)",
-                    f"by {percent(float(np.median(now.asymmetry)))} (median),"
-                    f" {percent(float(now.asymmetry.max()))} at most",
+                    f"by {percent(float(np.median(distances.asymmetry)))} (median),"
+                    f" {percent(float(distances.asymmetry.max()))} at most",
                 ),
-                ("d(a, c) ≤ d(a, b) + d(b, c)", f"by {percent(now.broken)} of the triples"),
+                ("d(a, c) ≤ d(a, b) + d(b, c)", f"by {percent(distances.broken)} of the triples"),
             ),
         )
-    return scene | _goal(state, now)
+    return scene | _goal(state, distances)
 
 
-def _goal(state: State, now: Found) -> dict[str, Primitive]:
+def _goal(state: State, distances: Found) -> dict[str, Primitive]:
     subject = sure(state.subject)
-    if subject.goal < 0 or not np.isfinite(now.d[subject.goal]):
+    if subject.goal < 0 or not np.isfinite(distances.d[subject.goal]):
         return {}
     straight = float(np.linalg.norm(subject.p[subject.goal] - subject.p[subject.source]))
-    rows = [("straight through", length(straight)), ("found", length(float(now.d[subject.goal])))]
-    if len(now.truth):
-        rows.append(("in truth", length(float(now.truth[subject.goal]))))
+    rows = [
+        ("straight through", length(straight)),
+        ("found", length(float(distances.d[subject.goal]))),
+    ]
+    if len(distances.truth):
+        rows.append(("in truth", length(float(distances.truth[subject.goal]))))
     return {"to the goal": Table("From source to goal", ("way", "length"), tuple(rows))}
 
 
-def _nearest(params: Params, now: Ball) -> dict[str, Primitive]:
+def _nearest(params: Params, ball: Ball) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
-        "radius": Chart("Radius of the ball").scalar(now.radius, "radius")
+        "radius": Chart("Radius of the ball").scalar(ball.radius, "radius")
     }
-    if now.nearest:
-        rows = [(name, f"point {index}") for name, index in now.nearest.items()]
+    if ball.nearest:
+        rows = [(name, f"point {index}") for name, index in ball.nearest.items()]
         if params.stretch > 1:
-            rows.append(("euclid, both in metres", f"point {now.straight}"))
+            rows.append(("euclid, both in metres", f"point {ball.straight}"))
         scene["nearest by"] = Table("Nearest to the purple point", ("by", "nearest"), tuple(rows))
     return scene
 
 
-def _axioms(now: Trials) -> dict[str, Primitive]:
+def _axioms(trials: Trials) -> dict[str, Primitive]:
     rows = tuple(
-        (name, "never" if share == 0 else percent(share)) for name, share in now.axioms.items()
+        (name, "never" if share == 0 else percent(share)) for name, share in trials.axioms.items()
     )
-    ab, bc, ac = now.sides
+    ab, bc, ac = trials.sides
     sides = (
         ("d(a, b)", brief(ab)),
         ("d(b, c)", brief(bc)),
@@ -132,19 +137,21 @@ def _axioms(now: Trials) -> dict[str, Primitive]:
         ("d(a, b) + d(b, c)", brief(ab + bc)),
     )
     return {
-        "broken": BROKEN.scalar(100 * now.broken / now.tried, "broken", "wrong"),
+        "broken": BROKEN.scalar(100 * trials.broken / trials.tried, "broken", "wrong"),
         "axioms": Table("Axioms of a metric", ("axiom", "broken in"), rows),
         "sides": Table("This triple", ("", ""), sides),
     }
 
 
-def _scatter(now: Scatter) -> dict[str, Primitive]:
-    if now.shares is not None:
-        x = np.arange(1.0, len(now.shares[0]) + 1)
+def _scatter(scatter: Scatter) -> dict[str, Primitive]:
+    if scatter.shares is not None:
+        x = np.arange(1.0, len(scatter.shares[0]) + 1)
         return {
-            "shares": SHARES.dots(x, 100 * now.shares[0], f"counted within {WITHIN:g}", "source"),
-            "true shares": SHARES.curve(x, 100 * now.shares[1], "chi-squared", "truth"),
+            "shares": SHARES.dots(
+                x, 100 * scatter.shares[0], f"counted within {WITHIN:g}", "source"
+            ),
+            "true shares": SHARES.curve(x, 100 * scatter.shares[1], "chi-squared", "truth"),
         }
-    if now.phase != "told":
+    if scatter.phase != "told":
         return {}
-    return {"radii": RADII.histogram(now.d, 30, "points", "source", marks=(now.limit,))}
+    return {"radii": RADII.histogram(scatter.d, 30, "points", "source", marks=(scatter.limit,))}

@@ -24,23 +24,23 @@ AHEAD = np.array(
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    now = state.now
-    match now:
+    result = state.now
+    match result:
         case Front() | Found() | HeatState():
             scene = _ways(state)
         case Ball():
-            scene = _ball(now)
+            scene = _ball(result)
         case Trials():
-            scene = _trials(now)
+            scene = _trials(result)
         case Scatter():
-            scene = _scatter(now)
+            scene = _scatter(result)
         case Landmarks():
-            scene = _landmarks(now)
+            scene = _landmarks(result)
     return {"caption": caption(state)} | scene | beside(state)
 
 
 def _ways(state: State) -> dict[str, Primitive]:
-    now, subject = state.now, sure(state.subject)
+    result, subject = state.now, sure(state.subject)
     color = _color(state, subject)
     scene: dict[str, Primitive] = {}
     if len(subject.faces):
@@ -63,18 +63,18 @@ def _ways(state: State) -> dict[str, Primitive]:
     if len(subject.shortcuts):
         ends = subject.p[subject.edges[subject.shortcuts]]
         scene["shortcuts"] = Segments(ends, "wrong", 5.0, name="edges that leave the surface")
-    if isinstance(now, Front):
-        trial = np.isfinite(now.d) & ~now.accepted
+    if isinstance(result, Front):
+        trial = np.isfinite(result.d) & ~result.accepted
         scene["trial"] = Points(subject.p[trial] + up, "source", subject.radius, name="on trial")
-    if isinstance(now, HeatState) and now.phase == "directions":
-        scene |= _arrows(subject, now)
-    if isinstance(now, Found):
+    if isinstance(result, HeatState) and result.phase == "directions":
+        scene |= _arrows(subject, result)
+    if isinstance(result, Found):
         goal = subject.goal
-        if len(now.path) > 1:
+        if len(result.path) > 1:
             scene["way"] = Segments(
-                segments(now.path) + 2 * up, "highlight", 5.0, name="shortest way found"
+                segments(result.path) + 2 * up, "highlight", 5.0, name="shortest way found"
             )
-            goal = int(np.argmin(np.linalg.norm(subject.p - now.path[-1], axis=1)))
+            goal = int(np.argmin(np.linalg.norm(subject.p - result.path[-1], axis=1)))
         if goal >= 0:
             scene["goal"] = Points(
                 subject.p[[goal]] + up, "truth", 2.0 * subject.radius, name="goal"
@@ -86,55 +86,61 @@ def _ways(state: State) -> dict[str, Primitive]:
 
 
 def _color(state: State, subject: Subject) -> Color:
-    now = state.now
-    if isinstance(now, Found) and np.isfinite(now.error).any():
-        percent = 100 * now.error
+    result = state.now
+    if isinstance(result, Found) and np.isfinite(result.error).any():
+        percent = 100 * result.error
         reach = max(float(np.nanpercentile(np.abs(percent), 98)), 0.1)
         return Field(percent, -reach, reach, "error to the truth", "%", "diverging")
-    if isinstance(now, HeatState) and now.phase != "distances":
-        u = np.log10(np.maximum(now.u / now.u.max(), 1e-12))
+    if isinstance(result, HeatState) and result.phase != "distances":
+        u = np.log10(np.maximum(result.u / result.u.max(), 1e-12))
         return Field(u, -12.0, 0.0, "heat, log₁₀")
-    d = now.d if isinstance(now, Found | HeatState) else np.where(now.accepted, now.d, np.nan)  # type: ignore[union-attr]
+    d = (
+        result.d
+        if isinstance(result, Found | HeatState)
+        else np.where(result.accepted, result.d, np.nan)
+    )  # type: ignore[union-attr]
     truth = subject.truth[np.isfinite(subject.truth)]
     known = d[np.isfinite(d)]
     top = float(truth.max()) if len(truth) else float(known.max(initial=0.0))
     return Field(np.where(np.isfinite(d), d, np.nan), 0.0, max(top, 1e-6), "distance", "m")
 
 
-def _arrows(subject: Subject, now: HeatState) -> dict[str, Primitive]:
+def _arrows(subject: Subject, heat: HeatState) -> dict[str, Primitive]:
     some = every(len(subject.faces), MOST_ARROWS)
     middle = subject.p[subject.faces[some]].mean(axis=1)
-    tip = middle + 0.8 * subject.h * now.X[some]
+    tip = middle + 0.8 * subject.h * heat.X[some]
     return {
         "directions": Segments(between(middle, tip), "source", 2.5, name="away from the heat"),
         "directions/tips": Points(tip, "source", 0.07 * subject.h),
     }
 
 
-def _ball(now: Ball) -> dict[str, Primitive]:
+def _ball(ball: Ball) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
         "border": Segments(at_height(segments(rectangle(*SQUARE), closed=True)), "neutral", 1.0),
-        "nodes": Points(at_height(now.p), "target", 0.022, name="points"),
+        "nodes": Points(at_height(ball.p), "target", 0.022, name="points"),
         "source": Points(
-            at_height(now.p[[now.query]], 0.01), "highlight", 0.035, name="in the middle"
+            at_height(ball.p[[ball.query]], 0.01), "highlight", 0.035, name="in the middle"
         ),
         "ball": Segments(
-            at_height(_within(now.rims[0])), "source", 4.0, name="ball by this distance"
+            at_height(_within(ball.rims[0])), "source", 4.0, name="ball by this distance"
         ),
-        "euclid": Segments(at_height(_within(now.rims[1])), "correspondence", 2.0, name="Euclid's"),
+        "euclid": Segments(
+            at_height(_within(ball.rims[1])), "correspondence", 2.0, name="Euclid's"
+        ),
     }
-    if now.nearest:
-        first = int(np.argmin(now.d))
+    if ball.nearest:
+        first = int(np.argmin(ball.d))
         scene["nearest"] = Points(
-            at_height(now.p[[first]], 0.005), "source", 0.035, name="nearest by this distance"
+            at_height(ball.p[[first]], 0.005), "source", 0.035, name="nearest by this distance"
         )
         scene["nearest/euclid"] = Points(
-            at_height(now.p[[now.straight]], -0.005), "correspondence", 0.045, name="by Euclid's"
+            at_height(ball.p[[ball.straight]], -0.005), "correspondence", 0.045, name="by Euclid's"
         )
         told = Classes.marking(
-            now.changed, "wrong", "another nearest", others=("neutral", "the same")
+            ball.changed, "wrong", "another nearest", others=("neutral", "the same")
         )
-        scene["queries"] = Points(at_height(now.queries, -0.01), told, 0.009, name="queries")
+        scene["queries"] = Points(at_height(ball.queries, -0.01), told, 0.009, name="queries")
     return scene
 
 
@@ -144,9 +150,9 @@ def _within(line: np.ndarray) -> np.ndarray:
     return pieces[(np.abs(pieces) <= 1.01 * HALF).all(axis=(1, 2))]
 
 
-def _trials(now: Trials) -> dict[str, Primitive]:
-    a, b, c = 2 * HALF * now.corners - HALF
-    role = "wrong" if now.sides[2] > now.sides[0] + now.sides[1] + 1e-9 else "truth"
+def _trials(trials: Trials) -> dict[str, Primitive]:
+    a, b, c = 2 * HALF * trials.corners - HALF
+    role = "wrong" if trials.sides[2] > trials.sides[0] + trials.sides[1] + 1e-9 else "truth"
     p = np.stack([a, b, c])
     out = p - p.mean(axis=0)
     beyond = at_height(p + 0.1 * out / np.maximum(np.linalg.norm(out, axis=1, keepdims=True), 1e-9))
@@ -164,10 +170,10 @@ def _trials(now: Trials) -> dict[str, Primitive]:
     }
 
 
-def _scatter(now: Scatter) -> dict[str, Primitive]:
-    ids = np.where(now.outlier, np.where(now.flagged, 2, 3), np.where(now.flagged, 1, 0)).astype(
-        np.uint8
-    )
+def _scatter(scatter: Scatter) -> dict[str, Primitive]:
+    ids = np.where(
+        scatter.outlier, np.where(scatter.flagged, 2, 3), np.where(scatter.flagged, 1, 0)
+    ).astype(np.uint8)
     named = Classes(
         ids,
         ("target", "other", "source", "wrong"),
@@ -178,31 +184,33 @@ def _scatter(now: Scatter) -> dict[str, Primitive]:
             "second cluster, within 95 %",
         ),
     )
-    told: Color = named if now.phase in ("told", "dimensions") or now.outlier.any() else "target"
+    told: Color = (
+        named if scatter.phase in ("told", "dimensions") or scatter.outlier.any() else "target"
+    )
     return {
-        "nodes": Points(at_height(now.p), told, 0.035, name="points"),
-        "rim": Segments(at_height(segments(now.rim)), "source", 4.0, name="95 %"),
+        "nodes": Points(at_height(scatter.p), told, 0.035, name="points"),
+        "rim": Segments(at_height(segments(scatter.rim)), "source", 4.0, name="95 %"),
         "axes": Segments(
             at_height(np.array([[[-4.0, 0], [4, 0]], [[0, -4], [0, 4]]]), -0.01), "neutral", 1.0
         ),
     }
 
 
-def _landmarks(now: Landmarks) -> dict[str, Primitive]:
-    seen, new = now.seen[-len(now.rims) :], slice(len(now.true) - len(now.rims), None)
-    ends = now.landmarks[now.true[new]]
-    wrong = now.euclid[new] != now.true[new]
-    missed = now.mahalanobis[new] != now.true[new]
+def _landmarks(sights: Landmarks) -> dict[str, Primitive]:
+    seen, new = sights.seen[-len(sights.rims) :], slice(len(sights.true) - len(sights.rims), None)
+    ends = sights.landmarks[sights.true[new]]
+    wrong = sights.euclid[new] != sights.true[new]
+    missed = sights.mahalanobis[new] != sights.true[new]
 
     def show(p: np.ndarray, height: float = 0.0) -> np.ndarray:
         return at_height(p + AHEAD - [0.0, 1.0], height)
 
     return {
-        "nodes": Points(show(now.landmarks), "target", 0.02, name="landmarks"),
+        "nodes": Points(show(sights.landmarks), "target", 0.02, name="landmarks"),
         "seen": Points(show(seen, 0.01), "source", 0.012, name="measured"),
         "camera": Label("↓ 4 m to the camera", np.array([0.0, -1.25, 0.0]), "neutral"),
         "rims": Segments(
-            show(np.stack([now.rims[:, :-1], now.rims[:, 1:]], axis=2).reshape(-1, 2, 2)),
+            show(np.stack([sights.rims[:, :-1], sights.rims[:, 1:]], axis=2).reshape(-1, 2, 2)),
             "correspondence",
             1.0,
             opacity=0.6,
@@ -210,13 +218,13 @@ def _landmarks(now: Landmarks) -> dict[str, Primitive]:
         ),
         "right": Segments(show(between(seen, ends)), "truth", 2.0, name="to the true landmark"),
         "euclid": Segments(
-            show(between(seen, now.landmarks[now.euclid[new]])[wrong]),
+            show(between(seen, sights.landmarks[sights.euclid[new]])[wrong]),
             "wrong",
             3.0,
             name="wrong, by Euclid's distance",
         ),
         "missed": Segments(
-            show(between(seen, now.landmarks[now.mahalanobis[new]])[missed], 0.005),
+            show(between(seen, sights.landmarks[sights.mahalanobis[new]])[missed], 0.005),
             "highlight",
             3.0,
             name="wrong, by Mahalanobis'",

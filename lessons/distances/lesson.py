@@ -33,8 +33,8 @@ def run(
         shortest_distances=shortest_distances,
         eikonal_update=eikonal_update,
     )
-    for subject, now in STAGES[params.stage](params, functions):
-        yield State(params=params, subject=subject, now=now)
+    for subject, result in STAGES[params.stage](params, functions):
+        yield State(params=params, subject=subject, now=result)
 
 
 lesson = Lesson(

@@ -43,8 +43,8 @@ def covariance_of(params: Params) -> np.ndarray:
 def distance_in(params: Params, metric: Metric) -> Distance:
     """Return a distance of the plane as the params have it, y in their unit."""
     units = np.array([1.0, float(params.stretch)])
-    found = metrics.distance_of(metric, order=params.p, covariance=covariance_of(params))
-    return lambda a, b: found(a * units, b * units)
+    distance = metrics.distance_of(metric, order=params.p, covariance=covariance_of(params))
+    return lambda a, b: distance(a * units, b * units)
 
 
 def balls(params: Params, _: Functions) -> Steps:
@@ -189,28 +189,31 @@ def rounded(
     variances, axes = np.linalg.eigh(C)
     rim = mean + limit * circle() * np.sqrt(variances) @ axes.T
     outlier = np.arange(len(p)) >= params.points
-    now = Scatter(phase="points", p=p, outlier=outlier, d=d, limit=limit, rim=rim)
-    yield now
-    yield replace(now, phase="centred", p=p - mean, rim=rim - mean)
+    scatter = Scatter(phase="points", p=p, outlier=outlier, d=d, limit=limit, rim=rim)
+    yield scatter
+    yield replace(scatter, phase="centred", p=p - mean, rim=rim - mean)
     turned = (p - mean) @ axes, (rim - mean) @ axes
-    yield replace(now, phase="turned", p=turned[0], rim=turned[1])
+    yield replace(scatter, phase="turned", p=turned[0], rim=turned[1])
     yield replace(
-        now, phase="scaled", p=turned[0] / np.sqrt(variances), rim=turned[1] / np.sqrt(variances)
+        scatter,
+        phase="scaled",
+        p=turned[0] / np.sqrt(variances),
+        rim=turned[1] / np.sqrt(variances),
     )
-    yield replace(now, phase="told")
+    yield replace(scatter, phase="told")
 
 
 def _finite(d: np.ndarray) -> np.ndarray:
-    found = np.asarray(d, float)
-    if not np.isfinite(found).all():
+    values = np.asarray(d, float)
+    if not np.isfinite(values).all():
         raise InputError("mahalanobis returned values that are not finite")
-    return found
+    return values
 
 
 def stereo(params: Params, functions: Functions) -> Steps:
     """Yield measurements of landmarks by a stereo camera, and for which landmark each is taken."""
-    for now in sighted(np.random.default_rng(params.seed), functions.mahalanobis):
-        yield None, now
+    for sights in sighted(np.random.default_rng(params.seed), functions.mahalanobis):
+        yield None, sights
 
 
 @traced

@@ -239,8 +239,8 @@ def scatter(states: Sequence[State], step: int = -1) -> Scatter:
 
 def broken(states: Sequence[State]) -> float:
     """Return the share of all triples that broke the triangle inequality."""
-    now = as_a(Trials, states[-1].now)
-    return now.broken / now.tried
+    trials = as_a(Trials, states[-1].now)
+    return trials.broken / trials.tried
 
 
 def within_two(states: Sequence[State]) -> float:
@@ -263,8 +263,8 @@ def late(states: Sequence[State]) -> float:
 
 def to_goal(states: Sequence[State]) -> tuple[float, float]:
     """Return how long the way to the goal is, as found and in truth."""
-    now, subject = found(states), sure(states[-1].subject)
-    return float(now.d[subject.goal]), float(now.truth[subject.goal])
+    distances, subject = found(states), sure(states[-1].subject)
+    return float(distances.d[subject.goal]), float(distances.truth[subject.goal])
 
 
 def _why_shortcut(states: Sequence[State]) -> str:

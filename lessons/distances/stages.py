@@ -45,11 +45,11 @@ def grid(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
         for front in spread(edges, lengths, d):
             yield subject, front
         path = _path(subject, edges, lengths, d)
-    found = _found(subject, d, path)
+    distances = _found(subject, d, path)
     if params.neighbours == "march":
-        found = replace(found, eight=_by_eight(params, subject))
-    yield subject, found
-    yield subject, replace(found, study=finer_grids())
+        distances = replace(distances, eight=_by_eight(params, subject))
+    yield subject, distances
+    yield subject, replace(distances, study=finer_grids())
 
 
 def _by_eight(params: Params, subject: Subject) -> float:
@@ -66,14 +66,16 @@ def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now
         shown = corners(subject.p, subject.faces)
         measured = intrinsic_delaunay(subject.p, subject.faces) if params.delaunay else shown
         time, d = 10.0**params.time * subject.h**2, np.empty(0)
-        for now in heat_method(measured, subject.source, time):
-            d = now.d
-            yield subject, replace(now, X=directions_of(shown, now.u)) if len(now.X) else now
-        found = replace(_found(subject, d, np.empty(0, int)), negative=negative_weights(measured))
-        yield subject, found
+        for heat in heat_method(measured, subject.source, time):
+            d = heat.d
+            yield subject, replace(heat, X=directions_of(shown, heat.u)) if len(heat.X) else heat
+        distances = replace(
+            _found(subject, d, np.empty(0, int)), negative=negative_weights(measured)
+        )
+        yield subject, distances
         asymmetry, broken = _as_a_metric(HeatMethod(measured, time))
-        found = replace(
-            found, asymmetry=asymmetry, broken=broken, times=_over_time(subject, measured)
+        distances = replace(
+            distances, asymmetry=asymmetry, broken=broken, times=_over_time(subject, measured)
         )
     else:
         nodes, edges, lengths = geodesics.with_points_on_edges(
@@ -82,19 +84,19 @@ def surface(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now
         d = distances_by(functions, edges, lengths, len(nodes), subject.source)
         for front in spread(edges, lengths, d, len(subject.p)):
             yield subject, front
-        found = _found(subject, d[: len(subject.p)], np.empty(0, int))
+        distances = _found(subject, d[: len(subject.p)], np.empty(0, int))
         goal = (
-            int(np.nanargmax(np.abs(found.error)))
-            if np.isfinite(found.error).any()
+            int(np.nanargmax(np.abs(distances.error)))
+            if np.isfinite(distances.error).any()
             else subject.source
         )
         way = geodesics.shortest_path(edges, lengths, d, goal=goal)
-        found = replace(found, path=nodes[way])
-        yield subject, found
+        distances = replace(distances, path=nodes[way])
+        yield subject, distances
     if params.shape == "sphere" and subject.is_sphere:
-        found = replace(found, study=finer_spheres(params.jitter))
-    if found.study or found.times is not None:
-        yield subject, found
+        distances = replace(distances, study=finer_spheres(params.jitter))
+    if distances.study or distances.times is not None:
+        yield subject, distances
 
 
 def roll(params: Params, functions: Functions) -> Iterator[tuple[Subject, Now]]:
@@ -131,9 +133,9 @@ def spread(
     for reach in np.linspace(0.0, farthest, BANDS + 1) if farthest > 0 else (0.0,):
         accepted = d <= reach + 1e-12 * farthest
         tentative = np.where(accepted, d, np.inf)
-        for here, there in (edges.T, edges.T[::-1]):
-            leaves = accepted[here] & ~accepted[there]
-            np.minimum.at(tentative, there[leaves], d[here[leaves]] + lengths[leaves])
+        for here, neighbours in (edges.T, edges.T[::-1]):
+            leaves = accepted[here] & ~accepted[neighbours]
+            np.minimum.at(tentative, neighbours[leaves], d[here[leaves]] + lengths[leaves])
         yield Front(d=tentative[:shown], accepted=accepted[:shown], reach=float(reach))
 
 
@@ -148,10 +150,10 @@ def _marched(params: Params, subject: Subject, update: Update) -> Iterator[Front
     start[~subject.free] = np.inf
     start[subject.source] = 0.0
     band = float(subject.truth[subject.free].max()) / BANDS
-    for now in march(
+    for front in march(
         start.reshape(shape), subject.free.reshape(shape), subject.h, band=band, update=update
     ):
-        yield Front(d=now.d.ravel(), accepted=now.accepted.ravel(), reach=now.reach)
+        yield Front(d=front.d.ravel(), accepted=front.accepted.ravel(), reach=front.reach)
 
 
 def _path(subject: Subject, edges: np.ndarray, lengths: np.ndarray, d: np.ndarray) -> np.ndarray:

@@ -19,11 +19,11 @@ FLAT = 1e-9  # of the singular value before: what is left of one that was droppe
 
 def caption(state: State) -> Caption:
     """Return the caption of a step."""
-    now = state.now
-    if isinstance(now, Followed):
-        return Caption(_followed(state, now))
-    if now.stage == "rectified":
-        return _rectified(state, now)
+    result = state.now
+    if isinstance(result, Followed):
+        return Caption(_followed(state, result))
+    if result.stage == "rectified":
+        return _rectified(state, result)
     return Caption(
         {
             "equations": _equations,
@@ -34,7 +34,7 @@ def caption(state: State) -> Caption:
             "pose": _pose,
             "points": _points,
             "refined": _refined,
-        }[now.stage](state, now)
+        }[result.stage](state, result)
     )
 
 
@@ -55,14 +55,14 @@ def off(state: State) -> str:
     return f"the rotation is {angle(state.turn_error)} off"
 
 
-def _followed(state: State, now: Followed) -> str:
+def _followed(state: State, ray: Followed) -> str:
     pixel = f"Pixel {coordinates(state.uv_first, 0)}"
-    if now.stage == "plane":
+    if ray.stage == "plane":
         return (
             f"{pixel}, its ray and the second camera's centre span a plane. It cuts the second"
             " picture in a line: whatever the depth, the partner is on it."
         )
-    if now.stage == "pencil":
+    if ray.stage == "pencil":
         F = fundamental_from_cameras(state.views.K_first, state.views.K_second, sure(state.T_true))
         u, v, w = epipoles(F)[1]
         far = abs(w) * 1e6 < max(abs(u), abs(v))
@@ -72,7 +72,7 @@ def _followed(state: State, now: Followed) -> str:
             f" one point, the epipole {where}, where the line between both centres meets the"
             " picture."
         )
-    z, uv = float(now.depths[-1]), now.uv_second[-1]
+    z, uv = float(ray.depths[-1]), ray.uv_second[-1]
     where = "Infinitely far along its ray" if np.isinf(z) else f"{length(z)} deep along its ray"
     if np.isnan(uv).any():
         return f"{pixel}: {where} a point lies behind the second camera, which does not see it."
@@ -87,22 +87,22 @@ def _followed(state: State, now: Followed) -> str:
     )
 
 
-def _equations(state: State, now: Related) -> str:
-    n, values = len(state.views.matches), now.singular_values
+def _equations(state: State, estimate: Related) -> str:
+    n, values = len(state.views.matches), estimate.singular_values
     text = f"{counted(n, 'match', 'matches')}, as many equations for the nine numbers of F"
     text += (
         ", in coordinates about 0 and of size 1." if state.params.normalise else ", in raw pixels."
     )
     ratio = values[7] / values[0]
-    said = percent(ratio) if ratio > 1e-4 else f"{brief(1e6 * ratio)} millionths"
+    share = percent(ratio) if ratio > 1e-4 else f"{brief(1e6 * ratio)} millionths"
     return (
-        f"{text} The eighth singular value is {said} of the first: the smaller, the more answers"
+        f"{text} The eighth singular value is {share} of the first: the smaller, the more answers"
         " fit nearly as well."
     )
 
 
-def _rank_three(state: State, now: Related) -> str:
-    s = np.linalg.svd(now.F)[1]
+def _rank_three(state: State, estimate: Related) -> str:
+    s = np.linalg.svd(estimate.F)[1]
     if s[2] < FLAT * s[1]:
         return (
             "F has rank two already: without noise the equations need no more. The"
@@ -114,49 +114,53 @@ def _rank_three(state: State, now: Related) -> str:
     )
 
 
-def _rank_two(state: State, now: Related) -> str:
-    s = np.linalg.svd(now.F)[1]
+def _rank_two(state: State, estimate: Related) -> str:
+    s = np.linalg.svd(estimate.F)[1]
     if not s[2] < FLAT * s[1]:
         return f"F still has rank three, and no epipole; {to_lines(state)}."
     return f"The smallest singular value of F is dropped, all lines meet: {to_lines(state)}."
 
 
-def _refined(state: State, now: Related) -> str:
-    what = "the seven numbers of F" if now.stage == "refined F" else "the five numbers of a motion"
-    text = f"Round {now.rounds} over {what}: {to_lines(state)}"
+def _refined(state: State, estimate: Related) -> str:
+    unknowns = (
+        "the seven numbers of F"
+        if estimate.stage == "refined F"
+        else "the five numbers of a motion"
+    )
+    text = f"Round {estimate.rounds} over {unknowns}: {to_lines(state)}"
     return text + ("." if np.isnan(state.turn_error) else f"; {off(state)}.")
 
 
-def _essential(state: State, now: Related) -> str:
-    first, second = sure(now.E_values)[:2]
+def _essential(state: State, estimate: Related) -> str:
+    first, second = sure(estimate.E_values)[:2]
     return (
         f"With K it is E = K′ᵀ F K. Its second singular value is {percent(second / first)} of its"
         " first; of a motion they are equal, so both become their mean."
     )
 
 
-def _pose(state: State, now: Related) -> str:
-    k, n = len(now.tested), len(state.views.matches)
-    turn = angle(float(np.degrees(rotation_angle(now.tested[-1][:3, :3]))))
+def _pose(state: State, estimate: Related) -> str:
+    k, n = len(estimate.tested), len(state.views.matches)
+    turn = angle(float(np.degrees(rotation_angle(estimate.tested[-1][:3, :3]))))
     return (
-        f"Motion {k} of 4 that E allows, turned by {turn}: it puts {now.in_front[-1]:,} of {n:,}"
-        " points in front of both cameras."
+        f"Motion {k} of 4 that E allows, turned by {turn}: it puts {estimate.in_front[-1]:,} of"
+        f" {n:,} points in front of both cameras."
     )
 
 
-def _points(state: State, now: Related) -> str:
+def _points(state: State, estimate: Related) -> str:
     n = len(state.views.matches)
-    text = f"The motion with the most points in front is kept, {max(now.in_front):,} of {n:,}"
-    if state.views.p_first is None or now.p_first is None or not state.moved:
+    text = f"The motion with the most points in front is kept, {max(estimate.in_front):,} of {n:,}"
+    if state.views.p_first is None or estimate.p_first is None or not state.moved:
         return f"{text}. The length of its baseline is made up: no picture tells it."
-    miss = np.median(np.abs(state.length * now.p_first[:, 2] - state.views.p_first[:, 2]))
+    miss = np.median(np.abs(state.length * estimate.p_first[:, 2] - state.views.p_first[:, 2]))
     medians = f"parallax is {pixels(state.parallax)}, depths are {length(float(miss))} off"
     text = f"{text}: {off(state)}. In the median {medians} with the baseline's true length"
     return f"{text}. Noise is {pixels(state.params.noise)}."
 
 
-def _rectified(state: State, now: Related) -> Caption:
-    text = _rows(state, now)
+def _rectified(state: State, estimate: Related) -> Caption:
+    text = _rows(state, estimate)
     if state.right is None:
         return Caption(text)
     if not state.moved:
@@ -172,14 +176,14 @@ def _rectified(state: State, now: Related) -> Caption:
     )
 
 
-def _rows(state: State, now: Related) -> str:
-    found, sizes = now.rectification, state.views.sizes
-    if found is None:
+def _rows(state: State, estimate: Related) -> str:
+    rectification, sizes = estimate.rectification, state.views.sizes
+    if rectification is None:
         return (
             "The baseline runs along the optical axes: no turn of the cameras makes rows"
             " correspond."
         )
-    Hs = found.H_first, found.H_second
+    Hs = rectification.H_first, rectification.H_second
     if any(torn(H, size) for H, size in zip(Hs, sizes, strict=True)):
         return (
             "Turned to the baseline, a picture would be torn: a part of it would look backwards. No"
@@ -192,9 +196,9 @@ def _rows(state: State, now: Related) -> str:
     times = max(growth(H, size) for H, size in zip(Hs, sizes, strict=True))
     if times > 3:
         text += f", in pictures {brief(times, 2)} times as large"
-    if rotation_angle(found.R_rectified_first) > np.pi / 2:
+    if rotation_angle(rectification.R_rectified_first) > np.pi / 2:
         text += (
             "; they are upside down, turned by"
-            f" {angle(float(np.degrees(rotation_angle(found.R_rectified_first))))}"
+            f" {angle(float(np.degrees(rotation_angle(rectification.R_rectified_first))))}"
         )
     return f"{text}."

@@ -22,15 +22,15 @@ FLOOR = 1e-12  # of what is drawn by its logarithm
 
 def beside(state: State) -> dict[str, Primitive]:
     """Return the charts and tables of a step."""
-    now = state.now
-    if isinstance(now, Followed):
-        rows = zip(now.depths, now.uv_second, strict=True)
-        said = tuple(
+    result = state.now
+    if isinstance(result, Followed):
+        rows = zip(result.depths, result.uv_second, strict=True)
+        cells = tuple(
             ("∞" if np.isinf(z) else fixed(float(z), 0), coordinates(uv, 1)) for z, uv in rows
         )
         return {
             "pictures of the ray": Table(
-                "Pictures of the ray", ("depth (m)", "pixel (u′, v′)"), said
+                "Pictures of the ray", ("depth (m)", "pixel (u′, v′)"), cells
             )
         }
     matched, clean = state.to_lines(state.views.matches), state.to_lines(state.views.clean)
@@ -44,13 +44,13 @@ def beside(state: State) -> dict[str, Primitive]:
         scene["direction"] = POSE.scalar(
             state.direction_error, "direction of the translation", "other", log=True
         )
-    values = np.maximum(now.singular_values / now.singular_values[0], FLOOR)
+    values = np.maximum(result.singular_values / result.singular_values[0], FLOOR)
     scene["values"] = VALUES.dots(np.arange(1.0, 10.0), np.log10(values), "over the largest")
-    scene["matrices"] = _matrices(now)
-    if len(now.in_front):
-        scene["motions"] = _motions(now)
-    if now.p_first is not None and state.views.p_first is not None:
-        scene |= _depths(state, now)
+    scene["matrices"] = _matrices(result)
+    if len(result.in_front):
+        scene["motions"] = _motions(result)
+    if result.p_first is not None and state.views.p_first is not None:
+        scene |= _depths(state, result)
     if state.disparities is not None:
         off = state.disparities[:, 1]
         edge = max(float(np.percentile(np.abs(off), 98)), 1e-3)
@@ -58,10 +58,10 @@ def beside(state: State) -> dict[str, Primitive]:
     return scene
 
 
-def _matrices(now: Related) -> Table:
-    rows = [("F", np.linalg.svd(now.F)[1])]
-    if now.E_values is not None:
-        rows.append(("E before", now.E_values))
+def _matrices(estimate: Related) -> Table:
+    rows = [("F", np.linalg.svd(estimate.F)[1])]
+    if estimate.E_values is not None:
+        rows.append(("E before", estimate.E_values))
     return Table(
         "Singular values, the first as 1",
         ("", "1st", "2nd", "3rd"),
@@ -75,20 +75,20 @@ def _value(value: float) -> str:
     return brief(value) if value >= 1e-3 else f"{brief(1e6 * value)} millionths"
 
 
-def _motions(now: Related) -> Table:
+def _motions(estimate: Related) -> Table:
     rows = []
-    for T, count in zip(now.tested, now.in_front, strict=True):
+    for T, count in zip(estimate.tested, estimate.in_front, strict=True):
         turn = angle(float(np.degrees(rotation_angle(T[:3, :3]))))
         rows.append((turn, coordinates(camera_center(T), 2), f"{count:,}"))
     return Table("Motions tried", ("turn", "second centre", "in front of both"), tuple(rows))
 
 
-def _depths(state: State, now: Related) -> dict[str, Primitive]:
+def _depths(state: State, estimate: Related) -> dict[str, Primitive]:
     """Return how far the depths of the points are off, and how far noise alone would put them."""
     true = sure(state.views.p_first)
-    assert now.p_first is not None
+    assert estimate.p_first is not None
     order = np.argsort(true[:, 2])
-    z, off = true[order, 2], (state.length * now.p_first[:, 2] - true[:, 2])[order]
+    z, off = true[order, 2], (state.length * estimate.p_first[:, 2] - true[:, 2])[order]
     top = 2.0 * z[-1]  # what is farther off is drawn there
     scene: dict[str, Primitive] = {
         "depth errors": DEPTH.dots(z, np.minimum(np.abs(off), top), "points", "source")

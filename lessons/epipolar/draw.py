@@ -90,12 +90,14 @@ def _rectifying(state: State) -> tuple[np.ndarray, np.ndarray] | None:
     """Return what takes pixels to the rectified pictures as they are shown; None where they are
     not, or cannot be.
     """
-    found = None if isinstance(state.now, Followed) else state.now.rectification
-    if found is None:
+    rectification = None if isinstance(state.now, Followed) else state.now.rectification
+    if rectification is None:
         return None
     views = state.views
     try:
-        return fitted(found.H_first, found.H_second, *views.sizes, size=_shown_size(views, 0))
+        return fitted(
+            rectification.H_first, rectification.H_second, *views.sizes, size=_shown_size(views, 0)
+        )
     except ValueError:
         return None
 
@@ -126,7 +128,7 @@ def _pictures(state: State) -> dict[str, Primitive]:
     """Return both pictures with matches, the followed pixel, its line, and the lines of some
     matches.
     """
-    now, views, sides = state.now, state.views, _sides(state)
+    result, views, sides = state.now, state.views, _sides(state)
     scene: dict[str, Primitive] = {}
     kind = (
         "picture" if _rectifying(state) is None else "rectified"
@@ -141,19 +143,21 @@ def _pictures(state: State) -> dict[str, Primitive]:
         )
     uv = state.uv_first[None]
     scene["first/pixel"] = Points(sides[0].places(uv, 3), "highlight", 0.13, name="followed pixel")
-    if isinstance(now, Followed):
-        seen = sides[1].inside(now.uv_second)
-        scene["second/pixels"] = Points(sides[1].places(now.uv_second[seen], 3), "highlight", 0.1)
-        if now.stage == "ray":
+    if isinstance(result, Followed):
+        seen = sides[1].inside(result.uv_second)
+        scene["second/pixels"] = Points(
+            sides[1].places(result.uv_second[seen], 3), "highlight", 0.1
+        )
+        if result.stage == "ray":
             return scene
     F_true = None
     if state.T_true is not None and state.moved:
         F_true = fundamental_from_cameras(views.K_first, views.K_second, state.T_true)
-    F = F_true if isinstance(now, Followed) else now.F
+    F = F_true if isinstance(result, Followed) else result.F
     assert F is not None
     rows = evenly(len(views.matches), SHOWN_LINES)
     first, second = views.matches[:, :2], views.matches[:, 2:]
-    if not isinstance(now, Followed) or now.stage == "pencil":
+    if not isinstance(result, Followed) or result.stage == "pencil":
         for k, (word, points) in enumerate((("first", first), ("second", second))):
             scene[f"{word}/matches"] = Points(
                 sides[k].places(points), "target", 0.06, name="matches" if k else ""
@@ -174,7 +178,7 @@ def _pictures(state: State) -> dict[str, Primitive]:
     scene["second/line"] = Segments(
         sides[1].lines(epipolar_lines(F, uv)), "highlight", 4, name="its line"
     )
-    if F_true is not None and not isinstance(now, Followed):
+    if F_true is not None and not isinstance(result, Followed):
         scene["second/true line"] = Segments(
             sides[1].lines(epipolar_lines(F_true, uv), 3), "truth", 2, name="its true line"
         )
@@ -185,7 +189,7 @@ def _space(state: State) -> dict[str, Primitive]:
     """Return the cameras, the followed ray and plane, and the points, all as large as they are
     drawn.
     """
-    views, now = state.views, state.now
+    views, result = state.views, state.now
     T_world_first = inverse(views.T_first_world)
     w, h = views.sizes[0]
     scene: dict[str, Primitive] = {
@@ -211,18 +215,18 @@ def _space(state: State) -> dict[str, Primitive]:
             scene[f"direction/{path}"] = Segments(
                 pointer, role, 5, T_world_first, name=f"way to the {name}"
             )
-    if isinstance(now, Followed):
+    if isinstance(result, Followed):
         assert state.T_true is not None
         return scene | _followed(
-            now, camera_center(state.T_true) / views.model, T_world_first, views.model
+            result, camera_center(state.T_true) / views.model, T_world_first, views.model
         )
     shown = evenly(len(views.matches), SHOWN_POINTS)
     p_true = None if views.p_first is None else views.p_first[shown] / views.model
     if p_true is not None:
         scene["true points"] = Points(p_true, "truth", 0.06, T_world_first)
-    if now.p_first is None:
+    if result.p_first is None:
         return scene
-    p = state.length / views.model * now.p_first[shown]
+    p = state.length / views.model * result.p_first[shown]
     near = np.linalg.norm(np.nan_to_num(p, nan=np.inf), axis=1) < REACH
     scene["points"] = Points(p[near], "source", 0.07, T_world_first, name="estimated points")
     if p_true is not None:
@@ -230,7 +234,7 @@ def _space(state: State) -> dict[str, Primitive]:
         scene["misses"] = Segments(
             ends, "wrong", 1, T_world_first, opacity=0.5, name="their errors"
         )
-    if now.stage == "points":
+    if result.stage == "points":
         scene["uncertainty"] = _ellipsoids(
             state, p[near][every(int(near.sum()), SHOWN_ELLIPSOIDS)], T_world_first
         )
@@ -243,14 +247,14 @@ def _drawn(T: np.ndarray | None, model: float) -> np.ndarray | None:
 
 
 def _followed(
-    now: Followed, p_center: np.ndarray, T_world_first: np.ndarray, model: float
+    ray: Followed, p_center: np.ndarray, T_world_first: np.ndarray, model: float
 ) -> dict[str, Primitive]:
     """Return the ray of the followed pixel with marks, the rays that the second camera sees them
     by, and the plane.
     """
-    near = now.depths <= DEEP * model
-    p = now.p_first[near] / model
-    end = now.p_first[-1] * min(1.0 / model, DEEP / now.p_first[-1, 2])
+    near = ray.depths <= DEEP * model
+    p = ray.p_first[near] / model
+    end = ray.p_first[-1] * min(1.0 / model, DEEP / ray.p_first[-1, 2])
     scene: dict[str, Primitive] = {
         "ray": Segments(
             between(np.zeros(3), end), "highlight", 3, T_world_first, name="ray of the pixel"
@@ -258,11 +262,11 @@ def _followed(
         "marks": Points(p, "highlight", 0.14, T_world_first),
         "rays": Segments(between(p_center, p), "correspondence", 1, T_world_first),
     }
-    for depth, place in zip(now.depths[near][::2], p[::2], strict=True):
+    for depth, place in zip(ray.depths[near][::2], p[::2], strict=True):
         scene[f"mark/{depth:g}"] = Label(
             length(float(depth)), place + np.array([0.0, -0.35, 0.0]), "highlight", T_world_first
         )
-    if now.stage != "ray":
+    if ray.stage != "ray":
         corners = np.stack([np.zeros(3), end, p_center])
         scene["plane"] = Mesh(
             corners,
@@ -297,13 +301,13 @@ def _ellipsoids(state: State, p: np.ndarray, T_world_first: np.ndarray) -> Segme
 
 
 @functools.cache
-def _scenery(what: What | None) -> dict[str, Primitive]:
+def _scenery(subject: What | None) -> dict[str, Primitive]:
     """Return the outlines of what was photographed, as large as it is drawn; none of a person's
     scene.
     """
-    if what is None:
+    if subject is None:
         return {}
-    if what == "far":
+    if subject == "far":
         model = Segments(EYE + (skyline().edges - EYE) / MODEL, "neutral", 1, opacity=0.5)
         return {"street": model, "scale": Label(f"drawn 1 : {MODEL:.0f}", SCALE_AT, "neutral")}
     scene = street()

@@ -68,14 +68,14 @@ def run(
         "T_true": T,
     }
     if T is not None:
-        for now in follow_ray(
+        for result in follow_ray(
             known["uv_first"],
             views.model * DEPTHS,
             T,
             K_first=views.K_first,
             K_second=views.K_second,
         ):
-            yield State(**known, now=now)
+            yield State(**known, now=result)
 
     uv_first, uv_second = views.matches[:, :2], views.matches[:, 2:]
     scales = (
@@ -87,7 +87,7 @@ def run(
     if not (params.normalise and params.rank_two):
         F = linear.F_rank_two if params.rank_two else linear.F
         eight_point = lambda *_: F  # noqa: E731
-    for now in relate(
+    for result in relate(
         uv_first,
         uv_second,
         known["K_first"],
@@ -99,7 +99,7 @@ def run(
         route=params.route,
         keep_upright=params.keep_upright,
     ):
-        yield State(**known, now=now, last=now.stage == "rectified")
+        yield State(**known, now=result, last=result.stage == "rectified")
 
 
 def views_of(params: Params) -> TwoViews:

@@ -156,8 +156,8 @@ def depth_sigma(state: State) -> float:
 
 def in_front(states: Sequence[State]) -> tuple[int, ...]:
     """Return how many points each of the four motions puts in front of both cameras."""
-    now = as_a(Related, states[-1].now)
-    return now.in_front
+    estimate = as_a(Related, states[-1].now)
+    return estimate.in_front
 
 
 def lines_fit(states: Sequence[State]) -> float:

@@ -191,10 +191,10 @@ class State:
     @cached_property
     def disparities(self) -> np.ndarray | None:
         """The matches' differences (u - u', v - v') after rectification, pixels; None before."""
-        found = self.now.rectification if isinstance(self.now, Related) else None
-        if found is None:
+        rectification = self.now.rectification if isinstance(self.now, Related) else None
+        if rectification is None:
             return None
         uv = self.views.matches
-        return transform_pixels(found.H_first, uv[:, :2]) - transform_pixels(
-            found.H_second, uv[:, 2:]
+        return transform_pixels(rectification.H_first, uv[:, :2]) - transform_pixels(
+            rectification.H_second, uv[:, 2:]
         )

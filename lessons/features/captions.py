@@ -25,12 +25,12 @@ FILTERS = {
 def caption(state: State) -> Caption:
     """Return the caption of a step."""
     match state.now:
-        case Scanned() as now:
-            return _scanned(state, now)
-        case Pictured() as now:
-            return _pictured(state, now)
-        case Outlined() as now:
-            return _outlined(state, now)
+        case Scanned() as step:
+            return _scanned(state, step)
+        case Pictured() as step:
+            return _pictured(state, step)
+        case Outlined() as step:
+            return _outlined(state, step)
 
 
 def _share(state: State) -> str:
@@ -38,9 +38,9 @@ def _share(state: State) -> str:
     return "" if np.isnan(share) else f" {percent(share, 0)} of them are right."
 
 
-def _scanned(state: State, now: Scanned) -> Caption:
-    params, scans = state.params, now.scans
-    match now.phase:
+def _scanned(state: State, step: Scanned) -> Caption:
+    params, scans = state.params, step.scans
+    match step.phase:
         case "scans":
             text = f"Two scans, {len(scans.p_target):,} and {len(scans.p_source):,} points."
             text += " Nobody says how they lie to each other."
@@ -56,9 +56,9 @@ def _scanned(state: State, now: Scanned) -> Caption:
             }[params.normals]
             return Caption(f"Each point gets a normal from its 16 nearest points; {side}.")
         case "pairs":
-            return Caption(_pair_text(state, now))
+            return Caption(_pair_text(state, step))
         case "histogram":
-            return Caption(_histogram_text(now))
+            return Caption(_histogram_text(step))
         case "similar":
             return Caption(
                 "The descriptor of the picked point against that of every target point: dark is"
@@ -72,99 +72,100 @@ def _scanned(state: State, now: Scanned) -> Caption:
             )
             return Caption(f"Every {which} with the nearest descriptor.{_share(state)}")
         case "kept":
-            kept = f"{len(sure(now.pairs)):,} of {len(sure(now.asked)):,}"
+            kept = f"{len(sure(step.pairs)):,} of {len(sure(step.asked)):,}"
             return Caption(f"Keep {FILTERS[params.keep]}: {kept} stay.{_share(state)}")
         case "sample":
             return Caption(
-                f"Sample {now.iteration:,} of three matches gives the best motion so far:"
-                f" {_votes(now)}.{_off(now)}"
+                f"Sample {step.iteration:,} of three matches gives the best motion so far:"
+                f" {_votes(step)}.{_off(step)}"
             )
         case "refit":
             return Caption(
-                f"The motion is fitted again to all that agree: {_votes(now)}.{_off(now)}"
+                f"The motion is fitted again to all that agree: {_votes(step)}.{_off(step)}"
             )
         case "icp":
             return Caption(
-                f"Fit {now.iteration} of ICP starts from there and needs no descriptor.{_off(now)}"
+                f"Fit {step.iteration} of ICP starts from there and needs no"
+                f" descriptor.{_off(step)}"
             )
         case "end":
-            return _end(now)
+            return _end(step)
 
 
-def _pair_text(state: State, now: Scanned) -> str:
-    count = len(sure(now.around))
+def _pair_text(state: State, step: Scanned) -> str:
+    count = len(sure(step.around))
     if not count:
         return (
             f"No other point lies within {length(state.params.radius)} of the picked one: it has no"
             " pairs."
         )
     text = f"{counted(count, 'pair')} within {length(state.params.radius)} of the picked point."
-    theta, alpha, phi = sure(now.angles)[0]
+    theta, alpha, phi = sure(step.angles)[0]
     return (
         f"{text} Of each three angles are kept: the first has (θ, α, φ) ="
         f" ({fixed_row((theta, alpha, phi), 2)})."
     )
 
 
-def _histogram_text(now: Scanned) -> str:
-    off = np.linalg.norm(sure(now.f_target) - sure(now.f_source)[now.picked], axis=1)
+def _histogram_text(step: Scanned) -> str:
+    off = np.linalg.norm(sure(step.f_target) - sure(step.f_source)[step.picked], axis=1)
     text = "33 bars: three histograms of the point's own pairs, and its neighbours' mixed in."
-    if now.scans.T_truth is None:
+    if step.scans.T_truth is None:
         return f"{text} Beside it the most alike of the target."
-    nearer = int(np.count_nonzero(off < off[now.there]))
+    nearer = int(np.count_nonzero(off < off[step.there]))
     return (
         f"{text} {counted(nearer, 'target point is', 'target points are')} more alike than the true"
         " one."
     )
 
 
-def _votes(now: Scanned) -> str:
-    inliers = sure(now.inliers)
+def _votes(step: Scanned) -> str:
+    inliers = sure(step.inliers)
     return f"{np.count_nonzero(inliers):,} of {len(inliers):,} matches agree"
 
 
-def _off(now: Scanned) -> str:
-    if now.scans.T_truth is None:
+def _off(step: Scanned) -> str:
+    if step.scans.T_truth is None:
         return ""
     return (
-        f" It is {angle(now.error.rotation)} and {length(now.error.displacement)} (RMS) from the"
+        f" It is {angle(step.error.rotation)} and {length(step.error.displacement)} (RMS) from the"
         " truth."
     )
 
 
-def _end(now: Scanned) -> Caption:
-    if now.T_target_source is None:
-        some = 0 if now.inliers is None else int(now.inliers.sum())
+def _end(step: Scanned) -> Caption:
+    if step.T_target_source is None:
+        some = 0 if step.inliers is None else int(step.inliers.sum())
         text = (
             f"{some or 'No'} matches agree on a motion, and any three agree on some: nothing is"
             " found."
         )
-        return Caption(text, "info" if now.scans.T_truth is None else "wrong")
-    text = f"ICP ends after {counted(now.iteration, 'fit', 'fits')}."
-    if now.T_before is not None and now.scans.T_truth is not None:
-        before = now.scans.error(now.T_before).rotation
+        return Caption(text, "info" if step.scans.T_truth is None else "wrong")
+    text = f"ICP ends after {counted(step.iteration, 'fit', 'fits')}."
+    if step.T_before is not None and step.scans.T_truth is not None:
+        before = step.scans.error(step.T_before).rotation
         text = (
-            f"ICP ends after {counted(now.iteration, 'fit', 'fits')}: {angle(before)} →"
-            f" {angle(now.error.rotation)}."
+            f"ICP ends after {counted(step.iteration, 'fit', 'fits')}: {angle(before)} →"
+            f" {angle(step.error.rotation)}."
         )
-        text += f" Points are {length(now.error.displacement)} (RMS) from the truth."
-    if now.scans.T_truth is None:
-        found = scipy.spatial.KDTree(now.scans.p_target).query(
-            apply(now.T_target_source, now.scans.p_source)
+        text += f" Points are {length(step.error.displacement)} (RMS) from the truth."
+    if step.scans.T_truth is None:
+        distances = scipy.spatial.KDTree(step.scans.p_target).query(
+            apply(step.T_target_source, step.scans.p_source)
         )[0]
-        near = percent(float(np.mean(found < INLIER)), 0)
+        near = percent(float(np.mean(distances < INLIER)), 0)
         text += f" Now {near} of the source's points have a target point within {length(INLIER)}."
         return Caption(
             f"{text} Only their known pose could say whether it is right; none is given."
         )
-    return Caption.verdict(text + (" It has come home." if now.home else ""), right=now.home)
+    return Caption.verdict(text + (" It has come home." if step.home else ""), right=step.home)
 
 
-def _pictured(state: State, now: Pictured) -> Caption:
+def _pictured(state: State, step: Pictured) -> Caption:
     params = state.params
-    match now.phase:
+    match step.phase:
         case "pictures":
-            h, w = now.first.shape
+            h, w = step.first.shape
             turned = f", the right one turned by {angle(params.turn)}" if params.turn else ""
             return Caption(f"Two pictures of {w} × {h} pixels, taken from two places{turned}.")
         case "gradient":
@@ -178,16 +179,16 @@ def _pictured(state: State, now: Pictured) -> Caption:
                 " zero only where two directions are steep."
             )
         case "corners":
-            left, right = len(sure(now.uv_first)), len(sure(now.uv_second))
+            left, right = len(sure(step.uv_first)), len(sure(step.uv_second))
             count = f"{left} left and {right} right."
             text = f"The strongest local maxima are corners: {count}"
-            if now.sifts:
+            if step.sifts:
                 text = f"{SIFT} {count} A circle is its size, the line in it its main direction."
             if min(left, right) < 2:
                 return Caption(f"{text} That is too few to match.")
             return Caption(text)
         case "patch":
-            if now.sifts:
+            if step.sifts:
                 return Caption(
                     "A keypoint is described by 128 numbers: how steep the grey levels are in 8"
                     " directions, in 4 × 4 cells, counted from its own direction. These two are the"
@@ -198,27 +199,27 @@ def _pictured(state: State, now: Pictured) -> Caption:
                 " less their mean and of length 1. These two are the clearest match."
             )
         case "nearest":
-            which = ("keypoint", "descriptor") if now.sifts else ("corner", "patch")
+            which = ("keypoint", "descriptor") if step.sifts else ("corner", "patch")
             return Caption(
                 f"Every left {which[0]} takes the right one with the nearest"
-                f" {which[1]}.{_known(state, now)}"
+                f" {which[1]}.{_known(state, step)}"
             )
         case "kept":
-            return _kept_pictures(state, now)
+            return _kept_pictures(state, step)
 
 
-def _known(state: State, now: Pictured) -> str:
-    if now.known is None:
+def _known(state: State, step: Pictured) -> str:
+    if step.known is None:
         return ""
-    if not now.known.any():
+    if not step.known.any():
         return " Of none is the truth known."
     return f" {percent(state.right_share, 0)} lie within {PIXELS:.0f} px of the truth."
 
 
-def _kept_pictures(state: State, now: Pictured) -> Caption:
-    kept = f"{len(sure(now.pairs))} of {len(sure(now.uv_first))}"
-    text = f"Keep {FILTERS[state.params.keep]}: {kept} stay.{_known(state, now)}"
-    if now.known is None or not now.known.any():
+def _kept_pictures(state: State, step: Pictured) -> Caption:
+    kept = f"{len(sure(step.pairs))} of {len(sure(step.uv_first))}"
+    text = f"Keep {FILTERS[state.params.keep]}: {kept} stay.{_known(state, step)}"
+    if step.known is None or not step.known.any():
         return Caption(text)
     right = state.right_share > HALF
     return (
@@ -228,12 +229,12 @@ def _kept_pictures(state: State, now: Pictured) -> Caption:
     )
 
 
-def _outlined(state: State, now: Outlined) -> Caption:
+def _outlined(state: State, step: Outlined) -> Caption:
     params = state.params
-    match now.phase:
+    match step.phase:
         case "outlines":
             return Caption(
-                f"A horse's outline in {len(now.first)} points, and the same one larger and turned"
+                f"A horse's outline in {len(step.first)} points, and the same one larger and turned"
                 f" by {angle(params.turn)}."
             )
         case "bins":
@@ -250,7 +251,7 @@ def _outlined(state: State, now: Outlined) -> Caption:
             return Caption(
                 "How different every two histograms are: rows are points of the first outline,"
                 " columns of the second. The true partners cost"
-                f" {np.diag(sure(now.costs)).mean():.2f} on average."
+                f" {np.diag(sure(step.costs)).mean():.2f} on average."
             )
         case "matched":
             text = f"One to one, at the least total cost.{_share(state)}"

@@ -19,92 +19,92 @@ NAMES = "first", "second"
 BARS = Chart("Shape context", "bin: 5 rings of 12 sectors", "%")
 
 
-def pictured(now: Pictured) -> dict[str, Primitive]:
+def pictured(step: Pictured) -> dict[str, Primitive]:
     """Return two pictures, their corners, and lines between matches."""
-    shown = [_picture(now, k) for k in range(2)]
+    shown = [_picture(step, k) for k in range(2)]
     scene: dict[str, Primitive] = dict(zip(NAMES, shown, strict=True))
-    if now.uv_first is not None and now.uv_second is not None:
-        for name, picture, uv in zip(NAMES, shown, (now.uv_first, now.uv_second), strict=True):
-            if len(uv) and not now.sifts:
+    if step.uv_first is not None and step.uv_second is not None:
+        for name, picture, uv in zip(NAMES, shown, (step.uv_first, step.uv_second), strict=True):
+            if len(uv) and not step.sifts:
                 p = picture.places(uv.astype(float), NEARER)
                 scene[f"{name} corners"] = Points(p, "highlight", SIZE, name="corners")
-        if now.pairs is not None and len(now.pairs):
-            a = shown[0].places(now.uv_first[now.pairs[:, 0]].astype(float), 2 * NEARER)
-            b = shown[1].places(now.uv_second[now.pairs[:, 1]].astype(float), 2 * NEARER)
-            scene |= lines_between(a, b, now.right, now.known)
-    if now.sifts and now.phase in ("corners", "patch"):
-        for k, (name, picture, found) in enumerate(zip(NAMES, shown, now.sifts, strict=True)):
+        if step.pairs is not None and len(step.pairs):
+            a = shown[0].places(step.uv_first[step.pairs[:, 0]].astype(float), 2 * NEARER)
+            b = shown[1].places(step.uv_second[step.pairs[:, 1]].astype(float), 2 * NEARER)
+            scene |= lines_between(a, b, step.right, step.known)
+    if step.sifts and step.phase in ("corners", "patch"):
+        for k, (name, picture, sift) in enumerate(zip(NAMES, shown, step.sifts, strict=True)):
             ends = picture.places(
-                _marks(found, slice(None) if now.pairs is None else now.pairs[:, k]), NEARER
+                _marks(sift, slice(None) if step.pairs is None else step.pairs[:, k]), NEARER
             )
             scene[f"{name} keypoints"] = Segments(
                 ends, "highlight", 1.5, name="keypoints: size and direction"
             )
-    if now.phase == "patch" and now.windows is not None:
-        scene["patches"] = Picture(now.windows, "Two patches that match")
+    if step.phase == "patch" and step.windows is not None:
+        scene["patches"] = Picture(step.windows, "Two patches that match")
     return scene
 
 
-def _picture(now: Pictured, k: int) -> Picture:
-    image = (now.first, now.second)[k]
+def _picture(step: Pictured, k: int) -> Picture:
+    image = (step.first, step.second)[k]
     shown: np.ndarray | Field = np.clip(np.rint(image), 0, 255).astype(np.uint8)
-    if now.phase == "gradient" and now.strength is not None:
-        top = max(float(np.percentile(now.strength[0], 99)), 1e-6)
-        shown = Field(now.strength[k], 0.0, top, "gradient", "grey levels/px")
-    elif now.phase == "response" and now.response is not None:
-        root = np.sign(now.response[k]) * np.sqrt(np.abs(now.response[k]))
-        top = max(float(np.percentile(np.sqrt(np.abs(now.response[0])), 99.5)), 1e-6)
+    if step.phase == "gradient" and step.strength is not None:
+        top = max(float(np.percentile(step.strength[0], 99)), 1e-6)
+        shown = Field(step.strength[k], 0.0, top, "gradient", "grey levels/px")
+    elif step.phase == "response" and step.response is not None:
+        root = np.sign(step.response[k]) * np.sqrt(np.abs(step.response[k]))
+        top = max(float(np.percentile(np.sqrt(np.abs(step.response[0])), 99.5)), 1e-6)
         shown = Field(root, -top, top, "signed root of the response", map="diverging")
-    width = WIDTH * image.shape[1] / max(now.first.shape[1], now.second.shape[1])
+    width = WIDTH * image.shape[1] / max(step.first.shape[1], step.second.shape[1])
     return Picture(shown, NAMES[k], width, motion(R_ROWS_DOWN, PLACES[k]))
 
 
-def _marks(found: Sift, some: slice | np.ndarray) -> np.ndarray:
+def _marks(sift: Sift, some: slice | np.ndarray) -> np.ndarray:
     """Return circles as wide as some keypoints and lines along their directions, pixels, (k, 2,
     2).
     """
-    uv, angle, radius = found.uv[some], found.angle[some], ROUND * found.sigma[some, None]
+    uv, angle, radius = sift.uv[some], sift.angle[some], ROUND * sift.sigma[some, None]
     rims = uv[:, None] + radius[:, None] * circle(24)
     tips = uv + radius * np.column_stack([np.cos(angle), np.sin(angle)])
     return np.concatenate([*(segments(rim, closed=True) for rim in rims), between(uv, tips)])
 
 
-def outlined(state: State, now: Outlined) -> dict[str, Primitive]:
+def outlined(state: State, step: Outlined) -> dict[str, Primitive]:
     """Return two outlines, the bins of a point, its histograms, and lines between matches."""
     first, second = (
-        at_height(p) + place for p, place in zip((now.first, now.second), PLACES, strict=True)
+        at_height(p) + place for p, place in zip((step.first, step.second), PLACES, strict=True)
     )
     scene: dict[str, Primitive] = {
         "first": Segments(segments(first, closed=True), "target", 3, name="first outline"),
         "second": Segments(segments(second, closed=True), "source", 3, name="second outline"),
-        "picked": Points(first[[now.picked]], "highlight", 3 * SIZE, name="picked point"),
+        "picked": Points(first[[step.picked]], "highlight", 3 * SIZE, name="picked point"),
     }
-    if now.phase in ("bins", "histogram"):
+    if step.phase in ("bins", "histogram"):
         scene["bins"] = Segments(
-            _bins(state, now) + PLACES[0], "neutral", 1.5, opacity=0.7, name="bins"
+            _bins(state, step) + PLACES[0], "neutral", 1.5, opacity=0.7, name="bins"
         )
-    if now.phase != "outlines":
-        scene["there"] = Points(second[[now.picked]], "truth", 3 * SIZE, name="its true partner")
-    if now.phase == "histogram" and now.f_first is not None and now.f_second is not None:
-        x = np.arange(float(now.f_first.shape[1]))
-        scene["bars"] = BARS.curve(x, 100 * now.f_first[now.picked], "picked point", "highlight")
+    if step.phase != "outlines":
+        scene["there"] = Points(second[[step.picked]], "truth", 3 * SIZE, name="its true partner")
+    if step.phase == "histogram" and step.f_first is not None and step.f_second is not None:
+        x = np.arange(float(step.f_first.shape[1]))
+        scene["bars"] = BARS.curve(x, 100 * step.f_first[step.picked], "picked point", "highlight")
         scene["bars there"] = BARS.curve(
-            x, 100 * now.f_second[now.picked], "its true partner", "truth"
+            x, 100 * step.f_second[step.picked], "its true partner", "truth"
         )
-    if now.costs is not None:
-        scene["costs"] = Picture(Field(now.costs, 0.0, 1.0, "cost"), "Cost of every pair")
-    if now.pairs is not None:
-        scene |= lines_between(first[now.pairs[:, 0]], second[now.pairs[:, 1]], now.right)
+    if step.costs is not None:
+        scene["costs"] = Picture(Field(step.costs, 0.0, 1.0, "cost"), "Cost of every pair")
+    if step.pairs is not None:
+        scene |= lines_between(first[step.pairs[:, 0]], second[step.pairs[:, 1]], step.right)
     return scene
 
 
-def _bins(state: State, now: Outlined) -> np.ndarray:
+def _bins(state: State, step: Outlined) -> np.ndarray:
     """Return the rings and sectors around the picked point, (k, 2, 3)."""
-    p, n = now.first[now.picked], len(now.first)
-    apart = np.linalg.norm(now.first[:, None] - now.first, axis=2)
+    p, n = step.first[step.picked], len(step.first)
+    apart = np.linalg.norm(step.first[:, None] - step.first, axis=2)
     unit = apart.sum() / (n * (n - 1))
     start = (
-        float(tangent_angles(now.first)[now.picked])
+        float(tangent_angles(step.first)[step.picked])
         if state.params.angles == "along the outline"
         else 0.0
     )

@@ -33,8 +33,8 @@ def run(
         steps = picture_steps(params, harris_response, mutual_matches)
     else:
         steps = outline_steps(params)
-    for now in steps:
-        yield State(params=params, now=now)
+    for step in steps:
+        yield State(params=params, now=step)
 
 
 lesson = Lesson(

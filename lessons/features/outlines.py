@@ -20,17 +20,17 @@ def outline_steps(params: Params) -> Iterator[Outlined]:
     c, s = np.cos(np.radians(params.turn)), np.sin(np.radians(params.turn))
     second = LARGER * first @ np.array([[c, s], [-s, c]])
     second = second + NOISE * np.random.default_rng(params.seed).standard_normal(second.shape)
-    now = Outlined(phase="outlines", first=first, second=second, picked=PICKED)
-    yield now
-    yield replace(now, phase="bins")
+    step = Outlined(phase="outlines", first=first, second=second, picked=PICKED)
+    yield step
+    yield replace(step, phase="bins")
     along = params.angles == "along the outline"
     f_first, f_second = (shape_contexts(p, along_tangent=along) for p in (first, second))
-    now = replace(now, phase="histogram", f_first=f_first, f_second=f_second)
-    yield now
+    step = replace(step, phase="histogram", f_first=f_first, f_second=f_second)
+    yield step
     costs = context_costs(f_first, f_second)
-    now = replace(now, phase="costs", costs=costs)
-    yield now
+    step = replace(step, phase="costs", costs=costs)
+    yield step
     rows, columns = best_assignment(costs)
     pairs = np.column_stack([rows, columns])
     apart = np.abs((rows - columns + COUNT // 2) % COUNT - COUNT // 2)
-    yield replace(now, phase="matched", pairs=pairs, right=apart <= STEPS_ALONG)
+    yield replace(step, phase="matched", pairs=pairs, right=apart <= STEPS_ALONG)

@@ -38,52 +38,54 @@ def picture_steps(
 ) -> Iterator[Pictured]:
     """Yield the steps from two pictures to their matches."""
     first, second, disparity = pictures_of(params)
-    now = Pictured(phase="pictures", first=first, second=second)
-    yield now
+    step = Pictured(phase="pictures", first=first, second=second)
+    yield step
     if params.describe == "SIFT":
         sifts = _sift(first.tobytes(), first.shape), _sift(second.tobytes(), second.shape)
-        uv_first, uv_second = (found.uv for found in sifts)
-        now = replace(now, sifts=sifts)
+        uv_first, uv_second = (sift.uv for sift in sifts)
+        step = replace(step, sifts=sifts)
     else:
         strength = np.hypot(*gradient(first)), np.hypot(*gradient(second))
-        yield replace(now, phase="gradient", strength=strength)
+        yield replace(step, phase="gradient", strength=strength)
         response = checked(harris_response, first), checked(harris_response, second)
-        yield replace(now, phase="response", response=response)
+        yield replace(step, phase="response", response=response)
         uv_first, uv_second = (strongest(r, params.corners, border=BORDER) for r in response)
-    now = replace(now, phase="corners", uv_first=uv_first, uv_second=uv_second)
+    step = replace(step, phase="corners", uv_first=uv_first, uv_second=uv_second)
     if len(uv_first) < 2 or len(uv_second) < 2:
-        yield now
+        yield step
         return
     if disparity is not None:
-        now = replace(now, uv_truth=places_in_turned(uv_first, disparity, np.radians(params.turn)))
-    yield now
-    if now.sifts:
-        a, b = (found.descriptors for found in now.sifts)
+        step = replace(
+            step, uv_truth=places_in_turned(uv_first, disparity, np.radians(params.turn))
+        )
+    yield step
+    if step.sifts:
+        a, b = (sift.descriptors for sift in step.sifts)
     else:
         a, b = (
             patches(image, uv, params.patch)
             for image, uv in ((first, uv_first), (second, uv_second))
         )
-    found = nearest_both_ways(a, b)
-    pairs = np.column_stack([np.arange(len(a)), found.index])
-    best = int(np.argmin(found.distance / np.maximum(found.second, 1e-12)))
-    if now.sifts:
+    nearest = nearest_both_ways(a, b)
+    pairs = np.column_stack([np.arange(len(a)), nearest.index])
+    best = int(np.argmin(nearest.distance / np.maximum(nearest.second, 1e-12)))
+    if step.sifts:
         seen = [
             _turned(image, by, k)
-            for image, by, k in zip((first, second), now.sifts, pairs[best], strict=True)
+            for image, by, k in zip((first, second), step.sifts, pairs[best], strict=True)
         ]
     else:
         seen = [
             _shown(of[k].reshape(params.patch, params.patch))
             for of, k in zip((a, b), pairs[best], strict=True)
         ]
-    now = replace(
-        now, windows=np.hstack([seen[0], np.full((len(seen[0]), 2), 255, np.uint8), seen[1]])
+    step = replace(
+        step, windows=np.hstack([seen[0], np.full((len(seen[0]), 2), 255, np.uint8), seen[1]])
     )
-    yield replace(now, phase="patch", **judged(now, pairs[[best]]))
-    yield replace(now, phase="nearest", **judged(now, pairs))
-    pairs = chosen(params, found, a, b, mutual_matches)
-    yield replace(now, phase="kept", **judged(now, pairs))
+    yield replace(step, phase="patch", **judged(step, pairs[[best]]))
+    yield replace(step, phase="nearest", **judged(step, pairs))
+    pairs = chosen(params, nearest, a, b, mutual_matches)
+    yield replace(step, phase="kept", **judged(step, pairs))
 
 
 @functools.lru_cache(maxsize=8)
@@ -99,22 +101,22 @@ def _turned(image: np.ndarray, by: Sift, k: int) -> np.ndarray:
     return _shown(patch - patch.mean())
 
 
-def judged(now: Pictured, pairs: np.ndarray) -> dict[str, np.ndarray | None]:
+def judged(step: Pictured, pairs: np.ndarray) -> dict[str, np.ndarray | None]:
     """Return matches, which of them are right, and of which that is known, as fields of a step."""
-    if now.uv_truth is None or now.uv_second is None:
+    if step.uv_truth is None or step.uv_second is None:
         return {"pairs": pairs, "right": None, "known": None}
-    off = np.linalg.norm(now.uv_truth[pairs[:, 0]] - now.uv_second[pairs[:, 1]], axis=1)
+    off = np.linalg.norm(step.uv_truth[pairs[:, 0]] - step.uv_second[pairs[:, 1]], axis=1)
     return {"pairs": pairs, "right": off < PIXELS, "known": np.isfinite(off)}
 
 
 def checked(harris_response: Response, image: np.ndarray) -> np.ndarray:
     """Return the response, which must have the picture's size."""
-    found = np.asarray(harris_response(image), float)
-    if found.shape != image.shape:
+    response = np.asarray(harris_response(image), float)
+    if response.shape != image.shape:
         raise InputError(
-            f"harris_response returned {found.shape} numbers for a picture of {image.shape}"
+            f"harris_response returned {response.shape} numbers for a picture of {image.shape}"
         )
-    return np.nan_to_num(found)
+    return np.nan_to_num(response)
 
 
 def pictures_of(params: Params) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:

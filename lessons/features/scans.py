@@ -44,48 +44,48 @@ def scan_steps(
 ) -> Iterator[Scanned]:
     """Yield the steps from two scans to the motion between them."""
     scans = scans_of(params)
-    now = Scanned(phase="scans", scans=scans, picked=picked_of(params, scans))
-    yield now
+    step = Scanned(phase="scans", scans=scans, picked=picked_of(params, scans))
+    yield step
     n_target, n_source = normals_of(params, scans)
-    now = replace(now, phase="normals", n_target=n_target, n_source=n_source)
-    yield now
+    step = replace(step, phase="normals", n_target=n_target, n_source=n_source)
+    yield step
 
-    p, k = scans.p_source, now.picked
+    p, k = scans.p_source, step.picked
     distances = np.linalg.norm(p - p[k], axis=1)
     around = np.flatnonzero((distances <= params.radius) & (distances > 0))
     first = np.full(len(around), k)
     angles = np.asarray(pair_angles(p[first], n_source[first], p[around], n_source[around]), float)
-    now = replace(now, phase="pairs", angles=angles, around=around)
-    yield now
+    step = replace(step, phase="pairs", angles=angles, around=around)
+    yield step
 
     f_source = compared(params, fpfh(p, n_source, params.radius, pair_angles))
     f_target = compared(params, fpfh(scans.p_target, n_target, params.radius, pair_angles))
     alike = np.linalg.norm(f_target - f_source[k], axis=1)
-    there = int(alike.argmin())
+    partner = int(alike.argmin())
     if scans.T_truth is not None:
-        there = int(np.linalg.norm(scans.p_target - apply(scans.T_truth, p[k]), axis=1).argmin())
-    now = replace(now, phase="histogram", f_source=f_source, f_target=f_target, there=there)
-    yield now
-    yield replace(now, phase="similar")
+        partner = int(np.linalg.norm(scans.p_target - apply(scans.T_truth, p[k]), axis=1).argmin())
+    step = replace(step, phase="histogram", f_source=f_source, f_target=f_target, there=partner)
+    yield step
+    yield replace(step, phase="similar")
 
     asked, offered = matched_points(params, p), matched_points(params, scans.p_target)
     a, b = f_source[asked], f_target[offered]
-    found = nearest_both_ways(a, b)
-    now = replace(now, asked=asked)
-    pairs = np.column_stack([asked, offered[found.index]])
-    yield replace(now, phase="nearest", pairs=pairs, right=scans.right(pairs, RIGHT))
-    rows = chosen(params, found, a, b, mutual_matches)
+    nearest = nearest_both_ways(a, b)
+    step = replace(step, asked=asked)
+    pairs = np.column_stack([asked, offered[nearest.index]])
+    yield replace(step, phase="nearest", pairs=pairs, right=scans.right(pairs, RIGHT))
+    rows = chosen(params, nearest, a, b, mutual_matches)
     pairs = np.column_stack([asked[rows[:, 0]], offered[rows[:, 1]]])
-    now = replace(now, phase="kept", pairs=pairs, right=scans.right(pairs, RIGHT))
-    yield now
-    yield from _moved(params, now)
+    step = replace(step, phase="kept", pairs=pairs, right=scans.right(pairs, RIGHT))
+    yield step
+    yield from _moved(params, step)
 
 
-def _moved(params: Params, now: Scanned) -> Iterator[Scanned]:
+def _moved(params: Params, step: Scanned) -> Iterator[Scanned]:
     """Yield every best sample of RANSAC and its refits, then fits of ICP."""
-    scans, pairs = now.scans, sure(now.pairs)
+    scans, pairs = step.scans, sure(step.pairs)
     if len(pairs) < RIGID.sample_size:
-        yield replace(now, phase="end")
+        yield replace(step, phase="end")
         return
     rows = np.hstack([scans.p_source[pairs[:, 0]], scans.p_target[pairs[:, 1]]])
     tries = ransac(
@@ -99,19 +99,19 @@ def _moved(params: Params, now: Scanned) -> Iterator[Scanned]:
     for tried in tries:
         if tried.phase in ("best", "refit") and tried.best is not None:
             phase = "refit" if tried.phase == "refit" else "sample"
-            now = replace(
-                now,
+            step = replace(
+                step,
                 phase=phase,
                 T_target_source=tried.best.estimate,
                 iteration=tried.iteration,
                 inliers=tried.best.inliers,
             )
-            yield now
-    if now.T_target_source is None or now.inliers is None or now.inliers.sum() < FEWEST_AGREE:
-        yield replace(now, phase="end", T_target_source=None)
+            yield step
+    if step.T_target_source is None or step.inliers is None or step.inliers.sum() < FEWEST_AGREE:
+        yield replace(step, phase="end", T_target_source=None)
         return
-    T_before = now.T_target_source
-    now = replace(now, phase="icp", T_before=T_before)
+    T_before = step.T_target_source
+    step = replace(step, phase="icp", T_before=T_before)
     fits = [
         fit
         for fit in icp(
@@ -125,9 +125,9 @@ def _moved(params: Params, now: Scanned) -> Iterator[Scanned]:
         if fit.phase == "fit" or fit.stop
     ]
     for fit in fits[: SHOWN_FITS - 1]:
-        yield replace(now, T_target_source=fit.T_target_source, iteration=fit.iteration)
+        yield replace(step, T_target_source=fit.T_target_source, iteration=fit.iteration)
     yield replace(
-        now, phase="end", T_target_source=fits[-1].T_target_source, iteration=fits[-1].iteration
+        step, phase="end", T_target_source=fits[-1].T_target_source, iteration=fits[-1].iteration
     )
 
 
@@ -139,17 +139,21 @@ def matched_points(params: Params, p: np.ndarray) -> np.ndarray:
     """
     if params.where == "every point":
         return np.arange(len(p))
-    found = iss_keypoints(p, SALIENT * params.radius, SALIENT * params.radius / 2)
-    if len(found) < RIGID.sample_size:
+    keypoints = iss_keypoints(p, SALIENT * params.radius, SALIENT * params.radius / 2)
+    if len(keypoints) < RIGID.sample_size:
         raise InputError(
-            f"{len(found)} ISS keypoints in {len(p):,} points: match every point, or change the"
+            f"{len(keypoints)} ISS keypoints in {len(p):,} points: match every point, or change the"
             " radius"
         )
-    return found
+    return keypoints
 
 
 def chosen(
-    params: Params, found: NearestDescriptors, a: np.ndarray, b: np.ndarray, mutual_matches: Matcher
+    params: Params,
+    nearest: NearestDescriptors,
+    a: np.ndarray,
+    b: np.ndarray,
+    mutual_matches: Matcher,
 ) -> np.ndarray:
     """Return the matches that the params keep; both filters together are the function that was
     given.
@@ -159,7 +163,7 @@ def chosen(
     """
     mutual = mutual_matches(a, b, params.ratio) if params.keep == "both" else None
     try:
-        return filtered(found, params.keep, params.ratio, mutual)
+        return filtered(nearest, params.keep, params.ratio, mutual)
     except ValueError as error:
         raise InputError(str(error)) from error
 

@@ -24,8 +24,8 @@ def keypoints(image: Image) -> Sift:
     Raises:
         InputError: If neither can be.
     """
-    found = _stored().get(_name(image))
-    return sift(image) if found is None else found
+    stored = _stored().get(_name(image))
+    return sift(image) if stored is None else stored
 
 
 def files() -> dict[str, bytes]:
@@ -34,9 +34,11 @@ def files() -> dict[str, bytes]:
     pictures = [left, *(turned(right, np.radians(turn)) for turn in TURNS)]
     arrays = {}
     for image in pictures:
-        found = sift(image)
-        arrays[f"{_name(image)} places"] = np.column_stack([found.uv, found.sigma, found.angle])
-        arrays[f"{_name(image)} descriptors"] = found.descriptors.astype(np.uint8)
+        features = sift(image)
+        arrays[f"{_name(image)} places"] = np.column_stack(
+            [features.uv, features.sigma, features.angle]
+        )
+        arrays[f"{_name(image)} descriptors"] = features.descriptors.astype(np.uint8)
     file = io.BytesIO()
     np.savez(file, **arrays)
     return {STORED.name: file.getvalue()}

@@ -41,72 +41,75 @@ def square(cost: float, scale: float = 1.0) -> str:
 
 
 def _walked(state: State, walked: Walked) -> Caption:
-    now = walked.now
-    cost, scale = square(now.cost, state.subject.scale), state.subject.scale
-    if now.stop is not None:
-        return _stopped(state, now)
-    if now.phase == "start":
-        rms = length(scale * float(np.sqrt(now.cost / len(now.residuals))))
+    descent = walked.now
+    cost, scale = square(descent.cost, state.subject.scale), state.subject.scale
+    if descent.stop is not None:
+        return _stopped(state, descent)
+    if descent.phase == "start":
+        rms = length(scale * float(np.sqrt(descent.cost / len(descent.residuals))))
         return Caption(
-            f"The start: R = {radius_of(state, now.unknown)}. The distances of"
-            f" {counted(len(now.residuals), 'point')} have the sum of squares {cost}, {rms} RMS."
+            f"The start: R = {radius_of(state, descent.unknown)}. The distances of"
+            f" {counted(len(descent.residuals), 'point')} have the sum of squares {cost}, {rms}"
+            " RMS."
         )
-    if now.phase == "linearised":
+    if descent.phase == "linearised":
         shape = state.subject.kind.name if state.subject.kind else ""
         return Caption(
-            f"Iteration {now.iteration}: the {shape} is replaced by its tangents at the places"
+            f"Iteration {descent.iteration}: the {shape} is replaced by its tangents at the places"
             " nearest to the points. Against them each distance is linear in the"
-            f" {now.jacobian.shape[1]} unknowns."
+            f" {descent.jacobian.shape[1]} unknowns."
         )
-    if now.phase == "tried":
-        promise = square(max(now.cost - now.predicted, 0.0), scale)
-        gain = f", {percent(now.gain)} of the promised change" if now.gain > 0.0 else ""
+    if descent.phase == "tried":
+        promise = square(max(descent.cost - descent.predicted, 0.0), scale)
+        gain = f", {percent(descent.gain)} of the promised change" if descent.gain > 0.0 else ""
         return Caption(
             f"The solution of the linear problem, tried out (dashed). It promised {promise} for"
-            f" {cost}; the sum of squares is {square(now.trial_cost, scale)}{gain}."
+            f" {cost}; the sum of squares is {square(descent.trial_cost, scale)}{gain}."
         )
-    if now.phase == "accepted":
+    if descent.phase == "accepted":
         rose = (
-            f", up from {square(now.before, scale)}: Gauss-Newton takes every step"
-            if now.cost > now.before
+            f", up from {square(descent.before, scale)}: Gauss-Newton takes every step"
+            if descent.cost > descent.before
             else ""
         )
-        damped = f" The damping falls to {damping_in_words(now.damping)}." if now.damping else ""
+        damped = (
+            f" The damping falls to {damping_in_words(descent.damping)}." if descent.damping else ""
+        )
         return Caption(
-            f"Iteration {now.iteration}: the step is kept. R = {radius_of(state, now.unknown)}, sum"
-            f" of squares {cost}{rose}.{damped}"
+            f"Iteration {descent.iteration}: the step is kept. R ="
+            f" {radius_of(state, descent.unknown)}, sum of squares {cost}{rose}.{damped}"
         )
     return Caption(
-        f"Iteration {now.iteration}: the step is taken back, for it would raise the sum from {cost}"
-        f" to {square(now.trial_cost, scale)}. The damping rises to"
-        f" {damping_in_words(now.damping)}: the next one is shorter."
+        f"Iteration {descent.iteration}: the step is taken back, for it would raise the sum"
+        f" from {cost} to {square(descent.trial_cost, scale)}. The damping rises to"
+        f" {damping_in_words(descent.damping)}: the next one is shorter."
     )
 
 
-def _stopped(state: State, now: Descent) -> Caption:
-    assert now.stop is not None
+def _stopped(state: State, descent: Descent) -> Caption:
+    assert descent.stop is not None
     scale, least, straight = (
         state.subject.scale,
         state.subject.least_cost,
         state.subject.straight_cost,
     )
-    after = counted(now.iteration, "iteration")
-    if now.stop in (Stop.SINGULAR, Stop.DIVERGED):
-        found = radius_of(state, now.unknown)
+    after = counted(descent.iteration, "iteration")
+    if descent.stop in (Stop.SINGULAR, Stop.DIVERGED):
+        radius = radius_of(state, descent.unknown)
         return Caption(
-            f"Stop after {after}, with R = {found}: {now.stop.message}. It is wrong.", "wrong"
+            f"Stop after {after}, with R = {radius}: {descent.stop.message}. It is wrong.", "wrong"
         )
     rests = (
         "rests at"
-        if now.stop is Stop.CONVERGED
+        if descent.stop is Stop.CONVERGED
         else "is not at rest, and no more are allowed; it is"
     )
     text = (
-        f"After {after} the sum of squares {rests} {square(now.cost, scale)}, R ="
-        f" {radius_of(state, now.unknown)}"
+        f"After {after} the sum of squares {rests} {square(descent.cost, scale)}, R ="
+        f" {radius_of(state, descent.unknown)}"
     )
-    is_least = now.cost <= (1.0 + LEAST) * least + 1e-12
-    if abs(now.unknown[-1]) > AWAY and now.cost < 1.5 * straight:
+    is_least = descent.cost <= (1.0 + LEAST) * least + 1e-12
+    if abs(descent.unknown[-1]) > AWAY and descent.cost < 1.5 * straight:
         text += (
             f": the best straight line has {square(straight, scale)} as well, and that is what this"
             " circle is."
@@ -117,7 +120,7 @@ def _stopped(state: State, now: Descent) -> Caption:
     if np.isnan(least):
         return Caption(f"{text}.")
     if not is_least:
-        settled = now.stop is Stop.CONVERGED
+        settled = descent.stop is Stop.CONVERGED
         return Caption.verdict(
             f"{text}; the least is {square(least, scale)}.", right=False, settled=settled
         )
@@ -125,30 +128,32 @@ def _stopped(state: State, now: Descent) -> Caption:
     off = (
         ""
         if truth is None
-        else f" R is {length(abs(abs(float(now.unknown[-1])) - float(truth[-1])))} off the truth."
+        else f" R is {length(abs(abs(float(descent.unknown[-1])) - float(truth[-1])))} off the"
+        " truth."
     )
     return Caption(f"{text}: the least there is, right.{off}", "good")
 
 
-def _spread(state: State, now: Spread) -> Caption:
+def _spread(state: State, spread: Spread) -> Caption:
     scale = state.subject.scale
-    if not len(now.radii):
-        sd = length(now.radius_deviation * scale)
+    if not len(spread.radii):
+        sd = length(spread.radius_deviation * scale)
         return Caption(
-            f"The covariance s² (JᵀJ)⁻¹ says R = {radius_of(state, now.unknown)} ± {sd}. It takes"
-            " the errors as independent and the problem as straight. The errors seem to have s ="
-            f" {length(now.sigma * scale)}, the condition number of JᵀJ is {brief(now.condition)}."
+            f"The covariance s² (JᵀJ)⁻¹ says R = {radius_of(state, spread.unknown)} ± {sd}. It"
+            " takes the errors as independent and the problem as straight. The errors seem to have"
+            f" s = {length(spread.sigma * scale)}, the condition number of JᵀJ is"
+            f" {brief(spread.condition)}."
         )
-    low, high = (length(x * scale) for x in now.predicted)
-    found = tuple(length(x * scale) for x in now.repeated)
+    low, high = (length(x * scale) for x in spread.predicted)
+    repeated = tuple(length(x * scale) for x in spread.repeated)
     how = "measured anew" if state.subject.p_true is not None else "drawn anew from the points"
     text = (
-        f"{counted(len(now.radii), 'time')} {how} and fitted again: the middle 90 % of radii reach"
-        f" from {found[0]} to {found[1]}. The covariance said {low} to {high}"
+        f"{counted(len(spread.radii), 'time')} {how} and fitted again: the middle 90 % of radii"
+        f" reach from {repeated[0]} to {repeated[1]}. The covariance said {low} to {high}"
     )
-    if len(now.radii) < 100:
+    if len(spread.radii) < 100:
         return Caption(f"{text}.")
-    times, is_possible = now.wider, now.predicted[0] >= 0.0
+    times, is_possible = spread.wider, spread.predicted[0] >= 0.0
     agrees = 1 / AGREE <= times <= AGREE
     if agrees and is_possible:
         return Caption(f"{text}: about right.", "good")
@@ -162,23 +167,23 @@ def _spread(state: State, now: Spread) -> Caption:
     return Caption(f"{text}{off}{nonsense}. It is wrong.", "wrong")
 
 
-def _basin(state: State, now: Basin) -> Caption:
-    if now.now.iteration == 0:
+def _basin(state: State, basin: Basin) -> Caption:
+    if basin.now.iteration == 0:
         r = length(state.params.start_radius * state.subject.scale)
-        text = f"{len(now.starts)} starts: a grid of centres, all with R = {r}."
+        text = f"{len(basin.starts)} starts: a grid of centres, all with R = {r}."
         return Caption(f"{text} {state.params.method} goes down from each.")
-    share, under_way = now.share("comes home"), now.share("under way")
-    after = counted(now.now.iteration, "iteration")
+    share, under_way = basin.share("comes home"), basin.share("under way")
+    after = counted(basin.now.iteration, "iteration")
     text = f"After {after} {percent(share)} of the starts are within 1 cm of the best circle"
     if under_way:
         return Caption(f"{text}, {percent(under_way)} are under way.")
     return Caption(f"{text}. The others ended elsewhere." if share < 1.0 else f"{text}: every one.")
 
 
-def _rivals(state: State, now: Rivals) -> Caption:
-    name, circle = list(now.circles.items())[-1]
+def _rivals(state: State, rivals: Rivals) -> Caption:
+    name, circle = list(rivals.circles.items())[-1]
     coin = state.subject.rim is not None
-    if not now.arcs:
+    if not rivals.arcs:
         r = (
             fixed(float(abs(circle[2])), 2) + " of the whole rim's"
             if coin
@@ -189,14 +194,14 @@ def _rivals(state: State, now: Rivals) -> Caption:
             if state.subject.truth is None or coin
             else f", the truth is {length(float(state.subject.truth[2]))}"
         )
-        what = FITS[name]
-        return Caption(f"{what} R = {r}{known}.")
-    medians = dict(zip(now.circles, now.medians[-1], strict=True))
-    said = ", ".join(f"{name} {fixed(r, 3)}" for name, r in medians.items())
-    where = f"{now.draws} {'windows round the coin' if coin else 'draws'}"
+        fit = FITS[name]
+        return Caption(f"{fit} R = {r}{known}.")
+    medians = dict(zip(rivals.circles, rivals.medians[-1], strict=True))
+    shares = ", ".join(f"{name} {fixed(r, 3)}" for name, r in medians.items())
+    where = f"{rivals.draws} {'windows round the coin' if coin else 'draws'}"
     of = "the whole rim's radius" if coin else "the true radius"
     return Caption(
-        f"Arcs of {angle(now.arcs[-1])}, {where}: the median R is, as a share of {of}, {said}."
+        f"Arcs of {angle(rivals.arcs[-1])}, {where}: the median R is, as a share of {of}, {shares}."
     )
 
 
@@ -214,43 +219,43 @@ FITS = {
 }
 
 
-def _lines(state: State, now: Lines) -> Caption:
+def _lines(state: State, fits: Lines) -> Caption:
     slope = angle(state.params.slope)
-    if not now.lines:
+    if not fits.lines:
         return Caption(
             f"{counted(len(state.subject.p), 'point')} of a line at {slope}, with errors in x and"
             " in y. Which distance shall be squared?"
         )
-    if now.angles:
-        means = ", ".join(f"{name} {angle(float(np.median(a)))}" for name, a in now.angles.items())
+    if fits.angles:
+        means = ", ".join(f"{name} {angle(float(np.median(a)))}" for name, a in fits.angles.items())
         return Caption(
-            f"{len(now.angles['upright'])} times measured anew, median angles: {means}. The truth"
+            f"{len(fits.angles['upright'])} times measured anew, median angles: {means}. The truth"
             f" is {slope}."
         )
-    name, line = list(now.lines.items())[-1]
-    found = angle(float(np.degrees(line_angle(line))))
+    name, line = list(fits.lines.items())[-1]
+    tilt = angle(float(np.degrees(line_angle(line))))
     why = {
         "upright": "regression of y on x, which takes x as exact",
         "level": "regression of x on y, which takes y as exact",
         "perpendicular": "the same however the axes are turned",
     }[name]
-    return Caption(f"Least squares of the {name} distances, {why}: {found}. The truth is {slope}.")
+    return Caption(f"Least squares of the {name} distances, {why}: {tilt}. The truth is {slope}.")
 
 
-def _trusted(state: State, now: Trusted) -> Caption:
-    fit, (error, squares_error) = now.now, state.plane_errors
+def _trusted(state: State, trusted: Trusted) -> Caption:
+    fit, (error, squares_error) = trusted.now, state.plane_errors
     off = "" if np.isnan(error) else f" RMS error to the truth {length(error)}"
     if fit.iteration == 0:
         text = f"Least squares: all {len(fit.weights)} points pull in proportion to their distance."
-    elif now.loss.name == "squares":
+    elif trusted.loss.name == "squares":
         text = "All points weigh 1 again: the plane stays, and there is nothing to repeat."
     else:
         text = (
-            f"{now.loss.name}, round {fit.iteration}:"
+            f"{trusted.loss.name}, round {fit.iteration}:"
             f" {counted(int(np.count_nonzero(fit.weights < 0.5)), 'point')} of {len(fit.weights)}"
-            f" weigh less than half, by a corner of {length(now.corner * state.subject.scale)}."
+            f" weigh less than half, by a corner of {length(trusted.corner * state.subject.scale)}."
         )
-    if not now.last or not off:
+    if not trusted.last or not off:
         return Caption(f"{text}{off}." if off else text)
     text = f"{text}{off}, of least squares {length(squares_error)}."
     return Caption.verdict(text, right=state.plane_is_right, settled=fit.stop is Settled.CONVERGED)

@@ -25,7 +25,7 @@ def on_contours(p: np.ndarray, walked: Walked) -> dict[str, Primitive]:
     """Return the level lines of the sum of squares over the centre of a circle, and centres kept,
     tried and taken back.
     """
-    now, kept = walked.now, walked.kept[:, :2]
+    descent, kept = walked.now, walked.kept[:, :2]
     scene: dict[str, Primitive] = {
         "valley": _contours(p.tobytes()),
         "way/centres": Points(_near(kept), "source", DOT),
@@ -38,12 +38,14 @@ def on_contours(p: np.ndarray, walked: Walked) -> dict[str, Primitive]:
         scene["way/taken back"] = Points(
             _near(walked.taken_back[:, :2]), "wrong", DOT, name="taken back"
         )
-    if now.trial is not None and now.phase in ("tried", "rejected"):
-        step = _cut(between(now.unknown[:2], now.trial[:2]))
-        scene["way/step"] = Segments(step, "highlight" if now.phase == "tried" else "wrong", 3.0)
-        if now.phase == "tried":
+    if descent.trial is not None and descent.phase in ("tried", "rejected"):
+        step = _cut(between(descent.unknown[:2], descent.trial[:2]))
+        scene["way/step"] = Segments(
+            step, "highlight" if descent.phase == "tried" else "wrong", 3.0
+        )
+        if descent.phase == "tried":
             scene["way/trial"] = Points(
-                _near(now.trial[None, :2]), "highlight", 1.4 * DOT, name="centre tried"
+                _near(descent.trial[None, :2]), "highlight", 1.4 * DOT, name="centre tried"
             )
     return scene
 

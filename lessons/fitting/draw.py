@@ -87,47 +87,47 @@ def _distances(p: np.ndarray, at: np.ndarray) -> Segments:
 
 
 def _walked(state: State, walked: Walked) -> dict[str, Primitive]:
-    subject, now, kind = state.subject, walked.now, sure(state.subject.kind)
-    scene = _points(subject) | _estimate(kind, now.unknown)
-    if np.isfinite(now.unknown).all() and now.phase != "tried":
-        scene["distances"] = _distances(subject.p, feet(kind, now.unknown, subject.p))
-    if now.phase == "linearised" and subject.p.shape[1] == 2:
+    subject, descent, kind = state.subject, walked.now, sure(state.subject.kind)
+    scene = _points(subject) | _estimate(kind, descent.unknown)
+    if np.isfinite(descent.unknown).all() and descent.phase != "tried":
+        scene["distances"] = _distances(subject.p, feet(kind, descent.unknown, subject.p))
+    if descent.phase == "linearised" and subject.p.shape[1] == 2:
         some = every(len(subject.p), 9)
-        n, at = now.jacobian[some, :2], feet(kind, now.unknown, subject.p)[some]
+        n, at = descent.jacobian[some, :2], feet(kind, descent.unknown, subject.p)[some]
         along = 0.25 * np.column_stack([-n[:, 1], n[:, 0]])
         ends = _near(between(at_height(at - along, 0.01), at_height(at + along, 0.01)))
         scene["tangents"] = Segments(ends, "highlight", 3.0, name="tangents")
-    if now.trial is not None and now.phase in ("tried", "rejected"):
-        dashed, tried = outline(kind, now.trial, REACH)[::2], now.phase == "tried"
+    if descent.trial is not None and descent.phase in ("tried", "rejected"):
+        dashed, tried = outline(kind, descent.trial, REACH)[::2], descent.phase == "tried"
         scene["trial"] = Segments(
             dashed, "highlight" if tried else "wrong", 3.0, name="trial" if tried else "taken back"
         )
-    if now.stop and subject.straight is not None and abs(now.unknown[-1]) > AWAY:
+    if descent.stop and subject.straight is not None and abs(descent.unknown[-1]) > AWAY:
         scene["straight"] = Segments(
             _line(subject.straight, REACH), "neutral", 2.0, name="best straight line"
         )
     if kind is CIRCLE:
         scene |= on_contours(subject.p, walked)
-    return scene | _walked_beside(subject, walked, now)
+    return scene | _walked_beside(subject, walked, descent)
 
 
-def _walked_beside(subject: Subject, walked: Walked, now: Descent) -> dict[str, Primitive]:
-    scene: dict[str, Primitive] = {"cost": COST.scalar(now.cost, "estimate", log=True)}
+def _walked_beside(subject: Subject, walked: Walked, descent: Descent) -> dict[str, Primitive]:
+    scene: dict[str, Primitive] = {"cost": COST.scalar(descent.cost, "estimate", log=True)}
     if subject.straight is not None:
         scene["straight cost"] = COST.scalar(
             subject.straight_cost, "best straight line", "neutral", log=True
         )
-    if subject.truth is not None and np.isfinite(now.unknown).all():
+    if subject.truth is not None and np.isfinite(descent.unknown).all():
         scene["radius error"] = ERROR.scalar(
-            abs(abs(now.unknown[-1]) - subject.truth[-1]), "of the radius", log=True
+            abs(abs(descent.unknown[-1]) - subject.truth[-1]), "of the radius", log=True
         )
-    off = subject.off_best(now.unknown)
+    off = subject.off_best(descent.unknown)
     if np.isfinite(off) and subject.truth is not None and subject.kind is not CYLINDER:
         scene["off"] = OFF.scalar(max(off, 1e-9), "estimate", log=True)
-    if now.damping:
-        scene["damping"] = DAMPING.scalar(now.damping, "λ", "other", log=True)
+    if descent.damping:
+        scene["damping"] = DAMPING.scalar(descent.damping, "λ", "other", log=True)
     if walked.along is not None:
-        shares, kept = walked.along.shares, np.minimum(walked.along.costs, 4.0 * now.cost)
+        shares, kept = walked.along.shares, np.minimum(walked.along.costs, 4.0 * descent.cost)
         scene["true costs"] = ALONG.curve(shares, kept, "true", marks=(1.0,))
         scene["promised costs"] = ALONG.curve(
             shares, walked.along.promised, "linear problem", "highlight"
@@ -139,38 +139,38 @@ def _estimate(kind: RoundShape, unknown: np.ndarray) -> dict[str, Primitive]:
     return {"estimate": Segments(outline(kind, unknown, REACH), "source", 4.0, name="estimate")}
 
 
-def _spread(state: State, now: Spread) -> dict[str, Primitive]:
+def _spread(state: State, spread: Spread) -> dict[str, Primitive]:
     subject, kind, unknown, d = (
         state.subject,
         sure(state.subject.kind),
-        now.unknown,
+        spread.unknown,
         state.subject.p.shape[1],
     )
     scene = _points(subject) | _estimate(kind, unknown)
     axes = np.stack(across(unknown[3:6])) if kind is CYLINDER else np.eye(3)[:2]
-    values, vectors = np.linalg.eigh(now.covariance[:2, :2])
+    values, vectors = np.linalg.eigh(spread.covariance[:2, :2])
     ellipse = 2.448 * (circle() * np.sqrt(np.maximum(values, 0.0))) @ vectors.T @ axes + at_height(
         unknown[:d]
     )
     scene["ellipse"] = Segments(
         segments(ellipse), "highlight", 4.0, name="95 % of centres, by the covariance"
     )
-    if len(now.radii):
-        near = np.abs(now.centers).max(axis=1) < REACH
+    if len(spread.radii):
+        near = np.abs(spread.centers).max(axis=1) < REACH
         scene["centers"] = Points(
-            at_height(now.centers[near]), "other", 0.0035, name="centres, measured anew"
+            at_height(spread.centers[near]), "other", 0.0035, name="centres, measured anew"
         )
-        low, high = now.predicted
+        low, high = spread.predicted
         edges = np.linspace(max(2 * low - high, 0.0), max(2 * high - low, 1e-6), 40)
-        kept = np.clip(now.radii, edges[0], edges[-1])
+        kept = np.clip(spread.radii, edges[0], edges[-1])
         scene["radii"] = AGAIN.histogram(
             kept * subject.scale, edges * subject.scale, "repetition", "other"
         )
-        x, width, sd = (edges[1:] + edges[:-1]) / 2, edges[1] - edges[0], now.radius_deviation
+        x, width, sd = (edges[1:] + edges[:-1]) / 2, edges[1] - edges[0], spread.radius_deviation
         expected = (
-            len(now.radii)
+            len(spread.radii)
             * width
-            * np.exp(-0.5 * ((x - now.radius) / sd) ** 2)
+            * np.exp(-0.5 * ((x - spread.radius) / sd) ** 2)
             / (sd * np.sqrt(2 * np.pi))
         )
         scene["bell"] = AGAIN.curve(x * subject.scale, expected, "covariance", "highlight")
@@ -181,22 +181,24 @@ def _spread(state: State, now: Spread) -> dict[str, Primitive]:
             if name.startswith("tilt")
             else f"{brief(float(sd * subject.scale))} m",
         )
-        for name, sd in zip(kind.names, np.sqrt(np.diag(now.covariance)), strict=True)
+        for name, sd in zip(kind.names, np.sqrt(np.diag(spread.covariance)), strict=True)
     ]
     scene["table"] = Table("Standard deviations by the covariance", ("", "±"), tuple(rows))
     return scene
 
 
-def _basin(state: State, now: Basin) -> dict[str, Primitive]:
-    fates = Classes(now.fates, ("truth", "wrong", "neutral"), FATES)
+def _basin(state: State, basin: Basin) -> dict[str, Primitive]:
+    fates = Classes(basin.fates, ("truth", "wrong", "neutral"), FATES)
     return _points(state.subject, 0.12, 0.05) | {
-        "starts": Points(at_height(now.starts[:, :2], -0.02), fates, 0.13, name="starts: centres"),
-        "share": HOME.scalar(100.0 * now.share("comes home"), "home", "truth"),
-        "lost": HOME.scalar(100.0 * now.share("away or lost"), "away or lost", "wrong"),
+        "starts": Points(
+            at_height(basin.starts[:, :2], -0.02), fates, 0.13, name="starts: centres"
+        ),
+        "share": HOME.scalar(100.0 * basin.share("comes home"), "home", "truth"),
+        "lost": HOME.scalar(100.0 * basin.share("away or lost"), "away or lost", "wrong"),
     }
 
 
-def _rivals(state: State, now: Rivals) -> dict[str, Primitive]:
+def _rivals(state: State, rivals: Rivals) -> dict[str, Primitive]:
     subject = state.subject
     scene = _points(subject)
     if subject.rim is not None:
@@ -204,20 +206,20 @@ def _rivals(state: State, now: Rivals) -> dict[str, Primitive]:
         scene["rim"] = Points(
             at_height(subject.rim.p), "correspondence", 0.008, name="all of the rim"
         )
-    names = list(now.circles)
-    for name in names if now.arcs else names[-1:]:
-        lines = outline(CIRCLE, now.circles[name], REACH)
+    names = list(rivals.circles)
+    for name in names if rivals.arcs else names[-1:]:
+        lines = outline(CIRCLE, rivals.circles[name], REACH)
         scene[f"circle/{name}"] = Segments(
             lines, COLORS[name], 3.0, name=f"{name}'s" if name in ALGEBRAIC else name
         )
-    rows = tuple((name, fixed(c[2] * subject.scale, 3)) for name, c in now.circles.items())
+    rows = tuple((name, fixed(c[2] * subject.scale, 3)) for name, c in rivals.circles.items())
     scene["table"] = Table(
         "Radius of these points (m)" if subject.rim is None else "Radius (of the rim's)",
         ("fit", "R"),
         rows,
     )
-    if len(now.arcs) > 1:
-        x, medians = np.array(now.arcs), np.array(now.medians)
+    if len(rivals.arcs) > 1:
+        x, medians = np.array(rivals.arcs), np.array(rivals.medians)
         for k, name in enumerate(names):
             scene[f"median {name}"] = MEDIANS.curve(x, medians[:, k], name, COLORS[name])
     return scene
@@ -231,27 +233,27 @@ def _photograph(rim: Rim) -> Picture:
     return Picture(rim.photograph, "Coins", w / rim.radius, T_world_picture)
 
 
-def _lines(state: State, now: Lines) -> dict[str, Primitive]:
+def _lines(state: State, fits: Lines) -> dict[str, Primitive]:
     subject, truth = state.subject, sure(state.subject.truth)
     scene = _points(subject) | {"true line": Segments(_line(truth), "truth", 3.0, name="truth")}
-    names = list(now.lines)
+    names = list(fits.lines)
     for name in names:
         scene[f"line/{name}"] = Segments(
-            _line(now.lines[name]), COLORS[name], 3.0, name=f"{name} distances"
+            _line(fits.lines[name]), COLORS[name], 3.0, name=f"{name} distances"
         )
-    if names and not now.angles:
-        a, b, c = now.lines[names[-1]]
+    if names and not fits.angles:
+        a, b, c = fits.lines[names[-1]]
         off = subject.p @ np.array([a, b]) + c
         way = {"upright": np.array([0.0, 1.0 / b]), "level": np.array([1.0 / a, 0.0])}.get(
             names[-1], np.array([a, b])
         )
         scene["distances"] = _distances(subject.p, subject.p - np.outer(off, way))
     if names:
-        told = (now.lines | {"truth": truth}).items()
+        told = (fits.lines | {"truth": truth}).items()
         rows = tuple((name, angle(float(np.degrees(line_angle(line))))) for name, line in told)
         scene["table"] = Table("Angles of these points", ("distances", "angle"), rows)
-    for name, angles in now.angles.items():
-        both = np.percentile(np.concatenate(list(now.angles.values())), [0.5, 99.5])
+    for name, angles in fits.angles.items():
+        both = np.percentile(np.concatenate(list(fits.angles.values())), [0.5, 99.5])
         edges = np.linspace(both[0], both[1] + 1e-6, 50)
         scene[f"angles {name}"] = ANGLES.histogram(angles, edges, name, COLORS[name])
     return scene
@@ -262,13 +264,13 @@ def _line(line: np.ndarray, half: float = 1.6) -> np.ndarray:
     return at_height(np.stack([middle - way, middle + way]))[None]
 
 
-def _trusted(state: State, now: Trusted) -> dict[str, Primitive]:
+def _trusted(state: State, trusted: Trusted) -> dict[str, Primitive]:
     subject, scale = state.subject, 1e3 * state.subject.scale
     low = np.minimum(subject.p.min(axis=0), -1.0) - 0.01
     high = np.maximum(subject.p.max(axis=0), 1.0) + 0.01
-    trust = Field(now.now.weights, 0.0, 1.0, "weight")
+    trust = Field(trusted.now.weights, 0.0, 1.0, "weight")
     scene: dict[str, Primitive] = {"points": Points(subject.p, trust, 0.018, name="points")}
-    planes: list[tuple[str, np.ndarray, Role]] = [("estimate", now.now.estimate, "source")]
+    planes: list[tuple[str, np.ndarray, Role]] = [("estimate", trusted.now.estimate, "source")]
     if subject.truth is not None:
         planes.append(("truth", subject.truth, "truth"))
     for name, plane, color in planes:
@@ -278,11 +280,11 @@ def _trusted(state: State, now: Trusted) -> dict[str, Primitive]:
             scene[f"{name}/surface"] = Mesh(
                 corners, fan(len(corners)), color, opacity=0.25, flat=True
             )
-    weights, off = LOSSES[now.loss.name].weights, now.now.distances
+    weights, off = LOSSES[trusted.loss.name].weights, trusted.now.distances
     x = np.linspace(-1.0, 1.0, 161) * float(np.clip(np.abs(off).max(), 3e-3, 1.0))
-    scene["pull"] = PULL.curve(scale * x, scale * x * weights(x, now.corner), now.loss.name)
+    scene["pull"] = PULL.curve(scale * x, scale * x * weights(x, trusted.corner), trusted.loss.name)
     scene["pulls"] = PULL.dots(
-        scale * off, scale * off * weights(off, now.corner), "points", "target"
+        scale * off, scale * off * weights(off, trusted.corner), "points", "target"
     )
     error, squares_error = state.plane_errors
     if np.isfinite(error):
@@ -290,7 +292,9 @@ def _trusted(state: State, now: Trusted) -> dict[str, Primitive]:
         scene["squares"] = PLANE_ERROR.scalar(
             1e3 * squares_error, "least squares", "neutral", log=True
         )
-    scene["loss"] = Chart("Sum of the losses").scalar(now.now.cost / now.corner**2, now.loss.name)
+    scene["loss"] = Chart("Sum of the losses").scalar(
+        trusted.now.cost / trusted.corner**2, trusted.loss.name
+    )
     return scene
 
 

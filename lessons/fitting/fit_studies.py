@@ -91,13 +91,13 @@ def repeat_fit(
     Reference: Efron and Tibshirani, An introduction to the bootstrap, 1993, chapter 6 (repetition
     as the measure).
     """
-    found = covariance(end.residuals, end.jacobian)
-    if not np.isfinite(found).all():
+    C = covariance(end.residuals, end.jacobian)
+    if not np.isfinite(C).all():
         return
     d, (n, k) = p_anew.shape[-1], end.jacobian.shape
     spread = Spread(
         unknown=end.unknown,
-        covariance=found,
+        covariance=C,
         sigma=float(np.sqrt(end.cost / (n - k))),
         condition=float(np.linalg.cond(end.jacobian / np.linalg.norm(end.jacobian, axis=0)) ** 2),
         centers=np.empty((0, d)),
@@ -154,14 +154,14 @@ def try_starts(
 
     Reference: as `descend`.
     """
-    now = None
-    for now in descend_many(
+    descents = None
+    for descents in descend_many(
         lambda c: CIRCLE.linearise(c, p), np.add, starts, damping, iterations=shown[-1]
     ):
-        if now.iteration in shown:
-            yield Basin(starts, best, now)
-    if now is not None and now.iteration not in shown:
-        yield Basin(starts, best, now)
+        if descents.iteration in shown:
+            yield Basin(starts, best, descents)
+    if descents is not None and descents.iteration not in shown:
+        yield Basin(starts, best, descents)
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,15 +194,17 @@ def compare_circles(
         circles = circles | {kind: fit_algebraic(p, kind)}
         yield Rivals(circles)
     circles = circles | {"geometric": fit_round(CIRCLE, p[None], fit_algebraic(p)[None])[0]}
-    now = Rivals(circles)
-    yield now
+    rivals = Rivals(circles)
+    yield rivals
     for arc, sets in drawn:
         fits = [fit_algebraic(sets, kind) for kind in ALGEBRAIC] + [
             fit_round(CIRCLE, sets, fit_algebraic(sets))
         ]
         medians = tuple(float(np.median(np.abs(fit[:, 2]))) for fit in fits)
-        now = replace(now, draws=len(sets), arcs=(*now.arcs, arc), medians=(*now.medians, medians))
-        yield now
+        rivals = replace(
+            rivals, draws=len(sets), arcs=(*rivals.arcs, arc), medians=(*rivals.medians, medians)
+        )
+        yield rivals
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,13 +232,13 @@ def compare_lines(
 
     Reference: Fuller, Measurement error models, 1987, section 1.1 (why regression is too flat).
     """
-    now = Lines()
-    yield now
+    fits = Lines()
+    yield fits
     for name, fit in LINE_FITS.items():
-        now = replace(now, lines=now.lines | {name: fit(p)})
-        yield now
+        fits = replace(fits, lines=fits.lines | {name: fit(p)})
+        yield fits
     angles = {
         name: np.array([np.degrees(line_angle(fit(q))) for q in p_anew])
         for name, fit in LINE_FITS.items()
     }
-    yield replace(now, angles=angles)
+    yield replace(fits, angles=angles)

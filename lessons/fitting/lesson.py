@@ -34,10 +34,10 @@ def run(
     """Yield the steps of one stage."""
     rng = np.random.default_rng(params.seed)
     subject = subject_of(params, rng)
-    found: Iterator[Now]
+    moments: Iterator[Now]
     if params.stage == "descent":
         kind = sure(subject.kind)
-        found = walk(
+        moments = walk(
             params,
             subject,
             rng,
@@ -45,15 +45,15 @@ def run(
             damped_step,
         )
     elif params.stage == "basin":
-        found = basin(params, subject)
+        moments = basin(params, subject)
     elif params.stage in ("algebraic", "coin"):
-        found = rivals(params, subject, rng)
+        moments = rivals(params, subject, rng)
     elif params.stage == "line":
-        found = lines(params, subject, rng)
+        moments = lines(params, subject, rng)
     else:
-        found = trust(params, subject, huber_weights)
-    for now in found:
-        yield State(params, subject, now)
+        moments = trust(params, subject, huber_weights)
+    for moment in moments:
+        yield State(params, subject, moment)
 
 
 lesson = Lesson(

@@ -244,7 +244,7 @@ def wrong_end(states: Sequence[State]) -> float:
 def iterations_to(states: Sequence[State], metres: float) -> int:
     """Return the first iteration whose circle is so near to the best one."""
     moments = [state.now.now for state in states if isinstance(state.now, Walked)]
-    return min(now.iteration for now in moments if states[0].subject.off_best(now.unknown) < metres)
+    return min(m.iteration for m in moments if states[0].subject.off_best(m.unknown) < metres)
 
 
 def against_squares(states: Sequence[State]) -> float:

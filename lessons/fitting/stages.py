@@ -72,7 +72,7 @@ def walk(
     """Yield the moments of a descent, and what its end is worth: made points get other errors, own
     points are drawn anew.
     """
-    kind, p, now = sure(subject.kind), subject.p, None
+    kind, p, last = sure(subject.kind), subject.p, None
     moments = descend(
         lambda unknown: linearise(unknown, p),
         kind.retract,
@@ -90,16 +90,16 @@ def walk(
     for walked in with_its_way(
         shown, lambda c: kind.linearise(c, p), kind.retract, shares=np.linspace(0.0, 1.5, 31)
     ):
-        now = walked.now
+        last = walked.now
         yield walked
-    assert now is not None
-    if now.stop is not Stop.CONVERGED or abs(now.unknown[-1]) > LARGEST:
+    assert last is not None
+    if last.stop is not Stop.CONVERGED or abs(last.unknown[-1]) > LARGEST:
         return
     if subject.p_true is None:
         p_anew = p[rng.integers(0, len(p), (REPEATS[-1], len(p)))]
     else:
         p_anew = subject.p_true + errors(rng, (REPEATS[-1], *p.shape), params.noise, params.errors)
-    yield from repeat_fit(kind, now, p_anew, REPEATS)
+    yield from repeat_fit(kind, last, p_anew, REPEATS)
 
 
 def basin(params: Params, subject: Subject) -> Iterator[Basin]:
@@ -153,9 +153,9 @@ def trust(params: Params, subject: Subject, huber_weights: Weights) -> Iterator[
         list(zip(losses, corners, strict=True)),
     )
     try:
-        for now in cascade(subject.p, model, by, max_iterations=ROUNDS, tolerance=CALM):
-            k = now.now.iteration
-            if k <= FIRST_ROUNDS or k % EVERY == 0 or now.now.stop is not None:
-                yield now
+        for trusted in cascade(subject.p, model, by, max_iterations=ROUNDS, tolerance=CALM):
+            k = trusted.now.iteration
+            if k <= FIRST_ROUNDS or k % EVERY == 0 or trusted.now.stop is not None:
+                yield trusted
     except ValueError as reason:
         raise InputError(f"nothing is left to fit: {reason}") from None

@@ -28,54 +28,56 @@ def caption(state: State) -> Caption:
 
 
 def _text(state: State) -> str:
-    now = state.now
-    match now:
+    result = state.now
+    match result:
         case Grown():
-            return _grown(state, now)
+            return _grown(state, result)
         case Matrix():
-            return _matrix(state, now)
+            return _matrix(state, result)
         case Mode():
-            return _mode(state, now)
+            return _mode(state, result)
         case Cut():
-            return _cut(state, now)
+            return _cut(state, result)
         case Heat():
-            return _heat(state, now)
+            return _heat(state, result)
         case Smoothed():
-            return _smoothed(state, now)
+            return _smoothed(state, result)
         case Layer():
-            return _layer(state, now)
+            return _layer(state, result)
         case Trained():
-            return _trained(state, now)
+            return _trained(state, result)
 
 
-def _grown(state: State, now: Grown) -> str:
-    edges = counted(len(edges_of(now.adjacency)), "edge")
-    pieces = counted(now.count, "component")
-    if not now.k:
+def _grown(state: State, grown: Grown) -> str:
+    edges = counted(len(edges_of(grown.adjacency)), "edge")
+    pieces = counted(grown.count, "component")
+    if not grown.k:
         text = (
             f"{state.subject.name[0].upper()}{state.subject.name[1:]}:"
             f" {counted(len(state.subject.p), 'node')}, {edges}"
         )
         return f"{text}, {pieces}." + (
-            "" if now.count == 1 else " An edge joins two components, or closes a cycle."
+            "" if grown.count == 1 else " An edge joins two components, or closes a cycle."
         )
-    named = "its nearest neighbour" if now.k == 1 else f"its {now.k} nearest neighbours"
-    text = f"Every point names {named}; {percent(now.one_way, 0)} of the namings are not returned."
+    named = "its nearest neighbour" if grown.k == 1 else f"its {grown.k} nearest neighbours"
+    text = (
+        f"Every point names {named}; {percent(grown.one_way, 0)} of the namings are not returned."
+    )
     kept = {
         "union": "if either end names the other",
         "mutual": "only if both ends do",
         "directed": "one way",
     }
-    largest = int(np.count_nonzero(now.parts == 0))
-    sizes = "" if now.count == 1 else f", the largest of {counted(largest, 'node')}"
+    largest = int(np.count_nonzero(grown.parts == 0))
+    sizes = "" if grown.count == 1 else f", the largest of {counted(largest, 'node')}"
     return f"{text} An edge is kept {kept[state.params.join]}: {edges}, {pieces}{sizes}."
 
 
-def _matrix(state: State, now: Matrix) -> str:
-    L, v = now.laplacian.matrix, state.vertex
+def _matrix(state: State, matrix: Matrix) -> str:
+    L, v = matrix.laplacian.matrix, state.vertex
     called, d = state.subject.called(v), brief(float(L[[v], [v]].sum()))
     entries = counted(len(edges_of(state.adjacency)), "edge")
-    if now.part == "adjacency":
+    if matrix.part == "adjacency":
         filled = state.adjacency.nnz / state.adjacency.shape[0] ** 2
         kind = (
             "the cotangent weight of its edge"
@@ -86,24 +88,24 @@ def _matrix(state: State, now: Matrix) -> str:
             f"A: the entry of two nodes is {kind}, else 0. {entries} fill {percent(filled, 1)} of"
             " the matrix."
         )
-    if now.part == "degrees":
+    if matrix.part == "degrees":
         return (
             f"D: on the diagonal the sum of each row of A, the degree. That of node {called} is"
             f" {d}."
         )
-    if now.part == "laplacian":
+    if matrix.part == "laplacian":
         sums = float(np.abs(L @ np.ones(L.shape[0])).max())
         row = f"row {called} holds {d} on the diagonal, and minus its weights"
         return f"L = D − A: {row}. Every row adds up to {brief(round(sums, 9))}."
     x = state.subject.p[:, 0]
-    if now.part == "applied":
+    if matrix.part == "applied":
         return (
             f"L x adds up by how much a node is above its neighbours: {brief(float((L @ x)[v]))} at"
             f" node {called}. Over all nodes xᵀ L x = {brief(float(x @ (L @ x)))} is the sum of the"
             " edges' squared differences."
         )
     a, b = edges_of(state.adjacency).T
-    places = np.arange(len(now.order)), np.argsort(now.order)
+    places = np.arange(len(matrix.order)), np.argsort(matrix.order)
     before, after = (brief(float(np.abs(place[a] - place[b]).mean()), 2) for place in places)
     return (
         "The same matrix with its nodes in the order of the second eigenvector of L: joined nodes"
@@ -111,37 +113,37 @@ def _matrix(state: State, now: Matrix) -> str:
     )
 
 
-def _mode(state: State, now: Mode) -> str:
-    if now.spectra:
+def _mode(state: State, mode: Mode) -> str:
+    if mode.spectra:
         told = " and ".join(
-            f"of {name} {_both([each[k] for each in now.spectra])}"
+            f"of {name} {_both([each[k] for each in mode.spectra])}"
             for k, name in enumerate(("A", "L = D − A"))
         )
         return (
-            f"Two graphs of {counted(len(now.spectra[0][0]), 'node')} each. Eigenvalues {told}."
-            f" Drawn: eigenvector {now.index + 1} of the two taken as one graph, λ ="
-            f" {brief(now.values[now.index])}."
+            f"Two graphs of {counted(len(mode.spectra[0][0]), 'node')} each. Eigenvalues {told}."
+            f" Drawn: eigenvector {mode.index + 1} of the two taken as one graph, λ ="
+            f" {brief(mode.values[mode.index])}."
         )
-    value, number = float(now.values[now.index]), now.index + 1
+    value, number = float(mode.values[mode.index]), mode.index + 1
     text = f"Eigenvector {number}: λ = {brief(value)}"
     true = state.subject.eigenvalues
     if (
-        len(true) > now.index
+        len(true) > mode.index
         and state.params.laplacian != "normalised"
         and (state.subject.of_surface or state.params.laplacian == "plain")
     ):
-        text += f", the truth is {brief(float(true[now.index]))}"
+        text += f", the truth is {brief(float(true[mode.index]))}"
     zeros = int(
-        np.count_nonzero(np.abs(now.values) < 1e-9 * max(1.0, float(np.abs(now.values).max())))
+        np.count_nonzero(np.abs(mode.values) < 1e-9 * max(1.0, float(np.abs(mode.values).max())))
     )
-    if now.index < zeros:
+    if mode.index < zeros:
         why = (
             "it is constant"
             if zeros == 1
             else f"{zeros} components give {zeros} zeros, in any mixture of their constants"
         )
         return f"{text}: {why}."
-    changes = _sign_changes(state, now)
+    changes = _sign_changes(state, mode)
     return (
         f"{text}. Slow first: {changes} of the {counted(len(edges_of(state.adjacency)), 'edge')}"
         " join two signs."
@@ -160,25 +162,25 @@ def _both(spectra: list[np.ndarray]) -> str:
     )
 
 
-def _sign_changes(state: State, now: Mode) -> int:
-    above = now.functions[:, now.index] > 0
+def _sign_changes(state: State, mode: Mode) -> int:
+    above = mode.functions[:, mode.index] > 0
     a, b = edges_of(state.adjacency).T
     return int(np.count_nonzero(above[a] != above[b]))
 
 
-def _cut(state: State, now: Cut) -> str:
+def _cut(state: State, cut: Cut) -> str:
     n = len(state.subject.p)
-    if now.phase == "graph":
+    if cut.phase == "graph":
         return (
-            f"The graph: {counted(n, 'node')}, {counted(len(edges_of(now.adjacency)), 'edge')}."
+            f"The graph: {counted(n, 'node')}, {counted(len(edges_of(cut.adjacency)), 'edge')}."
             " Where is it thin?"
         )
-    if now.phase == "fiedler":
+    if cut.phase == "fiedler":
         zeros = int(
-            np.count_nonzero(now.eigenvalues < 1e-9 * max(float(degrees(now.adjacency).max()), 1.0))
+            np.count_nonzero(cut.eigenvalues < 1e-9 * max(float(degrees(cut.adjacency).max()), 1.0))
         )
         if zeros < 2:
-            rest = f"λ₂ = {brief(float(now.eigenvalues[1]))}. It changes little along edges."
+            rest = f"λ₂ = {brief(float(cut.eigenvalues[1]))}. It changes little along edges."
             return f"The second eigenvector of L, after the constant one: {rest}"
         pieces = (
             "0 twice: the graph has no path from one part to another"
@@ -190,34 +192,34 @@ def _cut(state: State, now: Cut) -> str:
             f"The smallest eigenvalue of L is {pieces}. A solver returns any mixture of the parts'"
             f" constants; with the constant of all nodes taken out, what is left is {left}."
         )
-    sizes = f"{counted(int(now.side.sum()), 'node')} against {n - int(now.side.sum()):,}"
-    cost = f"{brief(now.cut)} {'edge is' if now.cut == 1 else 'edges are'} cut"
+    sizes = f"{counted(int(cut.side.sum()), 'node')} against {n - int(cut.side.sum()):,}"
+    cost = f"{brief(cut.cut)} {'edge is' if cut.cut == 1 else 'edges are'} cut"
     if state.params.weighted and state.params.graph == "karate":
-        cost = f"edges of weight {brief(now.cut)} are cut"
+        cost = f"edges of weight {brief(cut.cut)} are cut"
     share = (
-        f"conductance {brief(now.conductance, 2)}"
-        if np.isfinite(now.conductance)
+        f"conductance {brief(cut.conductance, 2)}"
+        if np.isfinite(cut.conductance)
         else "conductance 0/0"
     )
     text = f"{sizes}, {cost}, {share}."
-    if now.phase == "sign":
+    if cut.phase == "sign":
         return f"Cut by sign: {text}{_sides(state)}"
-    if now.phase == "sweep":
-        return f"One of the {n - 1:,} cuts along the vector, after node {now.k + 1:,}: {text}"
+    if cut.phase == "sweep":
+        return f"One of the {n - 1:,} cuts along the vector, after node {cut.k + 1:,}: {text}"
     return (
         "The cut of least conductance along the vector:"
-        f" {text}{_sides(state)}{_by_sign(state, now)}"
+        f" {text}{_sides(state)}{_by_sign(state, cut)}"
     )
 
 
-def _by_sign(state: State, now: Cut) -> str:
+def _by_sign(state: State, cut: Cut) -> str:
     """Return how many the sign had right, where that were more."""
     if not len(state.subject.classes):
         return ""
     before = int(
-        np.count_nonzero(two_sides(now.fiedler > 0, state.subject.classes) == state.subject.classes)
+        np.count_nonzero(two_sides(cut.fiedler > 0, state.subject.classes) == state.subject.classes)
     )
-    edges = brief(cut_weight(now.adjacency, now.fiedler > 0))
+    edges = brief(cut_weight(cut.adjacency, cut.fiedler > 0))
     if before <= sure(right(state)):
         return ""
     return (
@@ -239,26 +241,26 @@ def _sides(state: State) -> str:
     return f" {correct:,} of {n:,} nodes are on their true side{named}."
 
 
-def _heat(state: State, now: Heat) -> str:
-    if now.step == 0:
+def _heat(state: State, heat: Heat) -> str:
+    if heat.step == 0:
         dt = f"{state.params.step_size:g} / λmax"
         return (
             f"All heat is at node {state.subject.called(state.vertex)}. A step is u ← u − dt L u"
             f" with dt = {dt}."
         )
-    hottest, touched = float(np.abs(now.u).max()), int(np.count_nonzero(now.u))
+    hottest, touched = float(np.abs(heat.u).max()), int(np.count_nonzero(heat.u))
     if hottest > 1.0 + 1e-9:
         return (
-            f"Step {now.step}: the largest heat is {_size(hottest)}, where 1 was put in. dt is"
+            f"Step {heat.step}: the largest heat is {_size(hottest)}, where 1 was put in. dt is"
             " above 2 / λmax: the fastest eigenvector grows at every step and changes its sign."
         )
-    n = len(now.u)
+    n = len(heat.u)
     where = (
         f"{touched:,} of {counted(n, 'node')} have some" if touched < n else "all nodes have some"
     )
     return (
-        f"Step {now.step}: largest heat {_size(hottest)}, {where}; off the exact heat by"
-        f" {_size(now.error)} at most."
+        f"Step {heat.step}: largest heat {_size(hottest)}, {where}; off the exact heat by"
+        f" {_size(heat.error)} at most."
     )
 
 
@@ -272,10 +274,10 @@ def _size(value: float) -> str:
     )
 
 
-def _smoothed(state: State, now: Smoothed) -> str:
-    share, off = volume_share(state), from_clean(state, now.p)
+def _smoothed(state: State, smoothed: Smoothed) -> str:
+    share, off = volume_share(state), from_clean(state, smoothed.p)
     volume = f", {percent(share, 0)} of the volume" if np.isfinite(share) else ""
-    if now.step == 0:
+    if smoothed.step == 0:
         return (
             f"The nodes with noise: {brief(off, 2)} mean edges (RMS) from where they should"
             f" be{volume}."
@@ -288,81 +290,81 @@ def _smoothed(state: State, now: Smoothed) -> str:
         before = from_clean(state, state.first.p)
         way += "" if off <= before else f"; the noise alone was {brief(before, 2)}"
     return (
-        f"Round {now.step}: every node went {way}. {brief(off, 2)} mean edges (RMS) from the clean"
-        f" places{volume}."
+        f"Round {smoothed.step}: every node went {way}. {brief(off, 2)} mean edges (RMS) from the"
+        f" clean places{volume}."
     )
 
 
-def _layer(state: State, now: Layer) -> str:
+def _layer(state: State, layer: Layer) -> str:
     n, v = len(state.subject.p), state.vertex
     called = state.subject.called(v)
-    if now.features.shape[1] != 2:
-        return _readout(state, now)
-    if now.part == "input":
-        one, other = (state.subject.called(i) for i in state.subject.labelled)
+    if layer.features.shape[1] != 2:
+        return _readout(state, layer)
+    if layer.part == "input":
+        first, other = (state.subject.called(i) for i in state.subject.labelled)
         return (
-            f"Only two nodes have a label: node {one} says (1, 0), node {other} says (0, 1). All"
+            f"Only two nodes have a label: node {first} says (1, 0), node {other} says (0, 1). All"
             " others say (0, 0)."
         )
-    if now.part == "loops":
-        count = int(np.count_nonzero(now.matrix[v]))
+    if layer.part == "loops":
+        count = int(np.count_nonzero(layer.matrix[v]))
         return (
             f"A + I: every node also hears itself. Node {called} gathers from"
             f" {counted(count, 'node')}."
         )
-    if now.part == "normalised":
+    if layer.part == "normalised":
         return (
             f"Each entry over the roots of both degrees, loops counted: node {called} counts itself"
-            f" {brief(now.matrix[v, v])}; its weights add up to {brief(now.matrix[v].sum())}."
+            f" {brief(layer.matrix[v, v])}; its weights add up to {brief(layer.matrix[v].sum())}."
         )
-    if now.part == "gathered":
-        said = ", ".join(brief(x, 2) for x in now.features[v])
+    if layer.part == "gathered":
+        features = ", ".join(brief(x, 2) for x in layer.features[v])
         return (
-            f"Gathered: node {called} has ({said}). W is the identity here and nothing is negative,"
-            " so ReLU leaves it."
+            f"Gathered: node {called} has ({features}). W is the identity here and nothing is"
+            " negative, so ReLU leaves it."
         )
     heard, correct = int(np.count_nonzero(reached(state))), right(state)
     text = (
-        f"Layer {now.layer}: the labels have reached {'all' if heard == n else f'{heard:,} of'}"
+        f"Layer {layer.layer}: the labels have reached {'all' if heard == n else f'{heard:,} of'}"
         f" {n:,} nodes"
     )
     text += "" if correct is None else f"; {correct:,} are right"
     return f"{text}. {percent(apart(state))} of the features still tell nodes apart."
 
 
-def _readout(state: State, now: Layer) -> str:
+def _readout(state: State, layer: Layer) -> str:
     classes = state.subject.classes
-    sums = [now.features[classes == which].sum(axis=0) for which in (0, 1)]
+    sums = [layer.features[classes == which].sum(axis=0) for which in (0, 1)]
     gap, size = float(np.abs(sums[0] - sums[1]).max()), float(np.abs(sums).max())
-    if now.layer == 0:
+    if layer.layer == 0:
         return (
             "Two graphs, and every node begins with the same four features, all 1. Does any layer"
             " tell the graphs apart?"
         )
-    if now.part != "layer":
-        return f"{_part(now)} Both graphs' features are summed up in the table."
+    if layer.part != "layer":
+        return f"{_part(layer)} Both graphs' features are summed up in the table."
     same = gap <= 1e-9 * max(size, 1.0)
     told = (
         "are the same: these messages cannot tell the graphs apart"
         if same
         else f"differ by up to {brief(gap, 2)}"
     )
-    return f"Layer {now.layer}, with weights by chance: the sums over the two graphs {told}."
+    return f"Layer {layer.layer}, with weights by chance: the sums over the two graphs {told}."
 
 
-def _part(now: Layer) -> str:
+def _part(layer: Layer) -> str:
     return {
         "loops": "A + I: every node also hears itself.",
         "normalised": "Each entry over the roots of both degrees.",
         "gathered": "Every node has gathered from its neighbours.",
-    }[now.part]
+    }[layer.part]
 
 
-def _trained(state: State, now: Trained) -> str:
+def _trained(state: State, trained: Trained) -> str:
     correct, n = right(state), len(state.subject.p)
     layers = counted(max(state.params.layers, 1), "layer")
     text = (
-        f"Iteration {now.iteration} of a network of {layers}: loss {brief(max(now.loss, 0.0), 2)}"
-        " on the two labels"
+        f"Iteration {trained.iteration} of a network of {layers}: loss"
+        f" {brief(max(trained.loss, 0.0), 2)} on the two labels"
     )
     return f"{text}." if correct is None else f"{text}, {correct:,} of {n:,} nodes right."

@@ -33,50 +33,50 @@ OFF, VOLUME = Chart("Error to the truth", unit="edges"), Chart("Volume", unit="%
 
 def beside(state: State) -> dict[str, Primitive]:
     """Return the charts, pictures and tables of a step."""
-    now = state.now
-    match now:
+    result = state.now
+    match result:
         case Grown():
-            return _grown(now)
+            return _grown(result)
         case Matrix():
-            return {"matrix": _picture(now), "node table": _node_table(state, now)}
+            return {"matrix": _picture(result), "node table": _node_table(state, result)}
         case Mode():
-            return _spectrum(state, now)
+            return _spectrum(state, result)
         case Cut():
-            return _cut(state, now)
+            return _cut(state, result)
         case Heat():
             return {
                 "error": HEAT.scalar(
-                    max(now.error, FLOOR), "error to the exact heat", "truth", log=True
+                    max(result.error, FLOOR), "error to the exact heat", "truth", log=True
                 ),
                 "hottest": HEAT.scalar(
-                    max(float(np.abs(now.u).max()), FLOOR), "largest heat", log=True
+                    max(float(np.abs(result.u).max()), FLOOR), "largest heat", log=True
                 ),
             }
         case Smoothed():
-            return _smoothed(state, now)
+            return _smoothed(state, result)
         case Layer():
-            return _layer(state, now)
+            return _layer(state, result)
         case Trained():
-            return _right(state) | {"loss": LOSS.scalar(now.loss, "loss of the two labels")}
+            return _right(state) | {"loss": LOSS.scalar(result.loss, "loss of the two labels")}
 
 
-def _grown(now: Grown) -> dict[str, Primitive]:
-    d = degrees(now.adjacency.astype(bool).astype(float))
+def _grown(grown: Grown) -> dict[str, Primitive]:
+    d = degrees(grown.adjacency.astype(bool).astype(float))
     counts = np.bincount(d.astype(int))
     scene: dict[str, Primitive] = {
-        "components": COMPONENTS.scalar(float(now.count), "components", "wrong", log=True),
+        "components": COMPONENTS.scalar(float(grown.count), "components", "wrong", log=True),
         "degrees": DEGREES.bars(
             np.arange(len(counts), dtype=float), counts.astype(float), "nodes", "target"
         ),
     }
-    if now.k:
-        scene["one-way"] = ONE_WAY.scalar(100 * now.one_way, "neighbours not returned")
+    if grown.k:
+        scene["one-way"] = ONE_WAY.scalar(100 * grown.one_way, "neighbours not returned")
     return scene
 
 
-def _picture(now: Matrix) -> Picture:
+def _picture(matrix: Matrix) -> Picture:
     """Return a matrix as a picture, of a large one the entry of largest size in every block."""
-    values = _blocks(now.shown)
+    values = _blocks(matrix.shown)
     reach = max(float(np.abs(values).max()), 1e-9)
     title = {
         "adjacency": "A",
@@ -85,7 +85,7 @@ def _picture(now: Matrix) -> Picture:
         "applied": "L = D − A",
         "ordered": "L, reordered",
     }
-    return Picture(Field(values, -reach, reach, "entries", map="diverging"), title[now.part])
+    return Picture(Field(values, -reach, reach, "entries", map="diverging"), title[matrix.part])
 
 
 def _blocks(matrix: Sparse) -> np.ndarray:
@@ -100,10 +100,10 @@ def _blocks(matrix: Sparse) -> np.ndarray:
     return values.reshape(side, side)
 
 
-def _node_table(state: State, now: Matrix) -> Table:
+def _node_table(state: State, matrix: Matrix) -> Table:
     """Return the row of L of the node that is looked at, applied to the places along x."""
     node, x = state.vertex, state.subject.p[:, 0]
-    row = now.laplacian.matrix[[node]].tocoo()
+    row = matrix.laplacian.matrix[[node]].tocoo()
     others = [
         (int(j), -float(w)) for j, w in zip(row.col, row.data, strict=True) if j != node and w != 0
     ]
@@ -118,7 +118,7 @@ def _node_table(state: State, now: Matrix) -> Table:
     ]
     if len(others) > ROWS:
         rows.append((f"and {len(others) - ROWS} more", "", "", ""))
-    total = float((now.laplacian.matrix @ x)[node])
+    total = float((matrix.laplacian.matrix @ x)[node])
     rows.append(("sum", brief(sum(w for _, w in others)), "", brief(total)))
     return Table(
         f"Row {state.subject.called(node)} of L x",
@@ -127,20 +127,20 @@ def _node_table(state: State, now: Matrix) -> Table:
     )
 
 
-def _spectrum(state: State, now: Mode) -> dict[str, Primitive]:
+def _spectrum(state: State, mode: Mode) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {}
-    if now.spectra:
+    if mode.spectra:
         for k, chart in enumerate((OF_A, OF_L)):
             for which, (spectrum, role) in enumerate(
-                zip(now.spectra, ("target", "source"), strict=True)
+                zip(mode.spectra, ("target", "source"), strict=True)
             ):
                 values = np.round(spectrum[k], 9) + 0.0
                 x = np.arange(len(values)) + 1.0 + 0.15 * which
                 name = f"{'left' if which == 0 else 'right'} graph"
                 scene[f"{chart.title} {name}"] = chart.dots(x, values, name, role)
         return scene
-    number, count = np.arange(len(now.values)) + 1.0, len(now.values)
-    values, mark = np.round(now.values, 9) + 0.0, now.index + 1.0
+    number, count = np.arange(len(mode.values)) + 1.0, len(mode.values)
+    values, mark = np.round(mode.values, 9) + 0.0, mode.index + 1.0
     scene["eigenvalues"] = EIGENVALUES.dots(number, values, "of the graph", marks=(mark,))
     true = state.subject.eigenvalues[:count]
     if len(true) == count and state.params.laplacian in (
@@ -150,28 +150,28 @@ def _spectrum(state: State, now: Mode) -> dict[str, Primitive]:
         scene["true eigenvalues"] = EIGENVALUES.curve(
             number, np.round(true, 9) + 0.0, name, "truth"
         )
-        here = float(true[now.index])
-        error = 100 * abs(now.values[now.index] - here) / here if here > 1e-9 else np.nan
+        here = float(true[mode.index])
+        error = 100 * abs(mode.values[mode.index] - here) / here if here > 1e-9 else np.nan
         scene["error"] = ERROR.scalar(round(float(error), 6), "error of this eigenvalue", "truth")
     return scene
 
 
-def _cut(state: State, now: Cut) -> dict[str, Primitive]:
+def _cut(state: State, cut: Cut) -> dict[str, Primitive]:
     scene = _right(state)
-    if np.isfinite(now.conductance):
-        scene["conductance"] = CONDUCTANCE.scalar(now.conductance, "conductance")
-    if len(now.fiedler):
-        values = np.sort(now.fiedler)
+    if np.isfinite(cut.conductance):
+        scene["conductance"] = CONDUCTANCE.scalar(cut.conductance, "conductance")
+    if len(cut.fiedler):
+        values = np.sort(cut.fiedler)
         x = np.arange(len(values)) + 1.0
         zero = float(np.count_nonzero(values <= 0)) + 0.5
         scene["sorted"] = SORTED.curve(
             x, np.round(values, 9) + 0.0, "Fiedler vector", "highlight", marks=(zero,)
         )
-    if len(now.conductances):
-        x = np.arange(len(now.conductances)) + 1.0
-        mark = () if now.k < 0 else (now.k + 1.0,)
+    if len(cut.conductances):
+        x = np.arange(len(cut.conductances)) + 1.0
+        mark = () if cut.k < 0 else (cut.k + 1.0,)
         scene["cuts"] = CUTS.curve(
-            x, now.conductances, "cut edges over the smaller side's degrees", marks=mark
+            x, cut.conductances, "cut edges over the smaller side's degrees", marks=mark
         )
     return scene
 
@@ -187,8 +187,8 @@ def _right(state: State) -> dict[str, Primitive]:
     }
 
 
-def _smoothed(state: State, now: Smoothed) -> dict[str, Primitive]:
-    off, share = from_clean(state, now.p), volume_share(state)
+def _smoothed(state: State, smoothed: Smoothed) -> dict[str, Primitive]:
+    off, share = from_clean(state, smoothed.p), volume_share(state)
     scene: dict[str, Primitive] = {
         "error": OFF.scalar(off, "RMS distance to the clean places", "truth")
     }
@@ -197,9 +197,9 @@ def _smoothed(state: State, now: Smoothed) -> dict[str, Primitive]:
     return scene
 
 
-def _layer(state: State, now: Layer) -> dict[str, Primitive]:
+def _layer(state: State, layer: Layer) -> dict[str, Primitive]:
     scene = _right(state)
-    if now.features.shape[1] == 2:
+    if layer.features.shape[1] == 2:
         share = 100 * np.mean(reached(state))
         scene["reached"] = RIGHT.scalar(
             float(share), "nodes that a label has reached", "correspondence"
@@ -207,33 +207,33 @@ def _layer(state: State, now: Layer) -> dict[str, Primitive]:
     scene["apart"] = SMOOTHED.scalar(
         100 * apart(state), "what still differs between nodes", "highlight"
     )
-    if len(state.subject.classes) and now.features.shape[1] != 2:
-        sums = [now.features[state.subject.classes == which].sum(axis=0) for which in (0, 1)]
+    if len(state.subject.classes) and layer.features.shape[1] != 2:
+        sums = [layer.features[state.subject.classes == which].sum(axis=0) for which in (0, 1)]
         rows = tuple(
             (f"feature {k + 1}", brief(a), brief(b))
             for k, (a, b) in enumerate(zip(*sums, strict=True))
         )
         scene["readout"] = Table("Sum over the nodes", ("", "left graph", "right graph"), rows)
     else:
-        scene["sum table"] = _sum_table(state, now)
+        scene["sum table"] = _sum_table(state, layer)
     return scene
 
 
-def _sum_table(state: State, now: Layer) -> Table:
+def _sum_table(state: State, layer: Layer) -> Table:
     """Return what a node gathers in the first layer, or what it has after a later one."""
-    node, row = state.vertex, now.matrix[state.vertex]
+    node, row = state.vertex, layer.matrix[state.vertex]
     near = np.flatnonzero(row)
     header = ("from", "weight", "feature 1", "feature 2")
-    if now.layer <= 1 and now.part != "layer":
-        source = state.first.features if isinstance(state.first, Layer) else now.features
+    if layer.layer <= 1 and layer.part != "layer":
+        source = state.first.features if isinstance(state.first, Layer) else layer.features
         rows = [
             (f"node {state.subject.called(j)}", brief(row[j]), *(brief(v) for v in source[j]))
             for j in near[:ROWS]
         ]
         if len(near) > ROWS:
             rows.append((f"and {len(near) - ROWS} more", "", "", ""))
-        if now.part == "gathered":
-            rows.append(("sum", "", *(brief(v) for v in now.features[node])))
+        if layer.part == "gathered":
+            rows.append(("sum", "", *(brief(v) for v in layer.features[node])))
         return Table(f"What node {state.subject.called(node)} gathers", header, tuple(rows))
-    rows = [(f"node {state.subject.called(node)}", "", *(brief(v) for v in now.features[node]))]
+    rows = [(f"node {state.subject.called(node)}", "", *(brief(v) for v in layer.features[node]))]
     return Table(f"What node {state.subject.called(node)} gathers", header, tuple(rows))

@@ -29,12 +29,12 @@ TOLD: tuple[tuple[Role, ...], tuple[str, ...]] = (
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    subject, now = state.subject, state.now
-    p = now.p if isinstance(now, Smoothed) else subject.p
+    subject, result = state.subject, state.now
+    p = result.p if isinstance(result, Smoothed) else subject.p
     color = _color(state)
     scene: dict[str, Primitive] = {"caption": caption(state)}
     if not (
-        len(subject.faces) and isinstance(now, Smoothed)
+        len(subject.faces) and isinstance(result, Smoothed)
     ):  # a surface that moves is enough to send
         scene["nodes"] = Points(p, color, subject.radius, name="nodes")
     if len(subject.faces):
@@ -44,32 +44,32 @@ def draw(state: State) -> Scene:
 
 
 def _color(state: State) -> Color:
-    now = state.now
-    match now:
+    result = state.now
+    match result:
         case Grown():
-            return Classes(np.minimum(now.parts, 3), *PARTS)
+            return Classes(np.minimum(result.parts, 3), *PARTS)
         case Matrix():
-            return _matrix_color(state, now)
+            return _matrix_color(state, result)
         case Mode():
-            return _signed(now.functions[:, now.index], f"eigenvector {now.index + 1}")
+            return _signed(result.functions[:, result.index], f"eigenvector {result.index + 1}")
         case Heat():
-            largest = max(float(np.abs(now.u).max()), 1e-300)
-            return Field(now.u / largest, -1.0, 1.0, "heat over the largest", map="diverging")
+            largest = max(float(np.abs(result.u).max()), 1e-300)
+            return Field(result.u / largest, -1.0, 1.0, "heat over the largest", map="diverging")
         case Smoothed():
-            off = np.linalg.norm(now.p - state.subject.p, axis=1)
+            off = np.linalg.norm(result.p - state.subject.p, axis=1)
             return Field(
                 1000 * off, 0.0, float(1000 * off.max()) or 1.0, "distance to the clean place", "mm"
             )
         case Cut():
-            if now.phase == "graph":
+            if result.phase == "graph":
                 return "target"
             return (
-                _signed(now.fiedler, "Fiedler vector")
-                if now.phase == "fiedler"
+                _signed(result.fiedler, "Fiedler vector")
+                if result.phase == "fiedler"
                 else Classes(predicted(state), *SIDES)
             )
-        case Layer() if now.features.shape[1] != 2:
-            total = np.round(now.features.sum(axis=1), 9)
+        case Layer() if result.features.shape[1] != 2:
+            total = np.round(result.features.sum(axis=1), 9)
             return Field(total, 0.0, float(total.max()) or 1.0, "sum of a node's features")
         case Layer() | Trained():
             told = predicted(state)
@@ -81,26 +81,28 @@ def _signed(values: np.ndarray, title: str) -> Field:
     return Field(values, -reach, reach, title, map="diverging")
 
 
-def _matrix_color(state: State, now: Matrix) -> Color:
-    if now.part == "applied":
-        return _signed(now.laplacian(state.subject.p[:, 0]), "L applied to x")
-    if now.part == "ordered":
-        place = np.argsort(now.order).astype(float)
+def _matrix_color(state: State, matrix: Matrix) -> Color:
+    if matrix.part == "applied":
+        return _signed(matrix.laplacian(state.subject.p[:, 0]), "L applied to x")
+    if matrix.part == "ordered":
+        place = np.argsort(matrix.order).astype(float)
         return Field(place, 0.0, max(len(place) - 1.0, 1.0), "place in the new order")
-    if now.part == "degrees":
-        d = now.laplacian.matrix.diagonal()
+    if matrix.part == "degrees":
+        d = matrix.laplacian.matrix.diagonal()
         return Field(d, 0.0, max(float(d.max()), 1e-9), "degree")
     return "target"
 
 
 def _edges(state: State, p: np.ndarray) -> dict[str, Primitive]:
     """Draw the edges: one-way ones of a growing graph apart, and those that a cut goes through."""
-    now, edges = state.now, edges_of(state.adjacency)
+    result, edges = state.now, edges_of(state.adjacency)
     p = p + below(state)
-    if len(edges) > MOST_EDGES or (len(state.subject.faces) and not isinstance(now, Cut | Grown)):
+    if len(edges) > MOST_EDGES or (
+        len(state.subject.faces) and not isinstance(result, Cut | Grown)
+    ):
         return {}
-    if isinstance(now, Grown) and now.k:
-        mutual = now.directed.minimum(now.directed.T).tocsr()
+    if isinstance(result, Grown) and result.k:
+        mutual = result.directed.minimum(result.directed.T).tocsr()
         both = np.isin(edges @ [len(p), 1], edges_of(mutual) @ [len(p), 1])
         return {
             "edges": Segments(
@@ -108,8 +110,8 @@ def _edges(state: State, p: np.ndarray) -> dict[str, Primitive]:
             ),
             "one-way edges": Segments(p[edges[~both]], "source", 1.5, name="named from one end"),
         }
-    if isinstance(now, Cut) and len(now.side):
-        through = now.side[edges[:, 0]] != now.side[edges[:, 1]]
+    if isinstance(result, Cut) and len(result.side):
+        through = result.side[edges[:, 0]] != result.side[edges[:, 1]]
         return {
             "edges": Segments(p[edges[~through]], "correspondence", 1.2, opacity=0.6, name="edges"),
             "cut edges": Segments(p[edges[through]], "wrong", 4.0, name="edges that are cut"),
@@ -121,9 +123,9 @@ def _marks(state: State, p: np.ndarray) -> dict[str, Primitive]:
     """Draw rims: of the node that is looked at, of labelled nodes, and of nodes that are told
     wrongly.
     """
-    now, subject, scene = state.now, state.subject, dict[str, Primitive]()
+    result, subject, scene = state.now, state.subject, dict[str, Primitive]()
     under = below(state)
-    if isinstance(now, Matrix | Heat | Layer):
+    if isinstance(result, Matrix | Heat | Layer):
         node = state.vertex
         scene["vertex"] = Points(
             p[[node]] + under,
@@ -132,18 +134,18 @@ def _marks(state: State, p: np.ndarray) -> dict[str, Primitive]:
             name=f"node {subject.called(node)}",
         )
         near = state.adjacency[[node]].indices
-        if isinstance(now, Matrix | Layer) and len(near):
+        if isinstance(result, Matrix | Layer) and len(near):
             scene["its edges"] = Segments(
                 between(p[node], p[near]) + 2 * under, "highlight", 3.0, name="its edges"
             )
     told, classes = predicted(state), subject.classes
-    if len(told) and len(classes) and not isinstance(now, Cut):
+    if len(told) and len(classes) and not isinstance(result, Cut):
         misses = (told != classes) & (told >= 0) & reached(state)
         if misses.any():
             scene["misses"] = Points(
                 p[misses] + under, "wrong", 1.5 * subject.radius, name="told wrongly"
             )
-    if isinstance(now, Trained) or (isinstance(now, Layer) and now.features.shape[1] == 2):
+    if isinstance(result, Trained) or (isinstance(result, Layer) and result.features.shape[1] == 2):
         ends = list(subject.labelled)
         scene["labelled"] = Points(
             p[ends] + 2 * under, "truth", 1.9 * subject.radius, name="nodes with a label"

@@ -20,15 +20,15 @@ def predicted(state: State) -> np.ndarray:
     """Return the class that a step gives each node, 0 or 1, and -1 where it gives none; none at all
     before it tells.
     """
-    now = state.now
-    if isinstance(now, Cut) and len(now.side):
-        return two_sides(now.side, state.subject.classes)
-    if isinstance(now, Layer) and now.features.shape[1] == 2:
-        difference = now.features[:, 1] - now.features[:, 0]
-        known = np.abs(difference) > 1e-9 * np.abs(now.features).max(initial=0.0)
+    result = state.now
+    if isinstance(result, Cut) and len(result.side):
+        return two_sides(result.side, state.subject.classes)
+    if isinstance(result, Layer) and result.features.shape[1] == 2:
+        difference = result.features[:, 1] - result.features[:, 0]
+        known = np.abs(difference) > 1e-9 * np.abs(result.features).max(initial=0.0)
         return np.where(known, (difference > 0).astype(int), -1)
-    if isinstance(now, Trained):
-        return now.scores.argmax(axis=1)
+    if isinstance(result, Trained):
+        return result.scores.argmax(axis=1)
     return np.empty(0, int)
 
 
@@ -36,10 +36,10 @@ def two_sides(side: np.ndarray, classes: np.ndarray) -> np.ndarray:
     """Return a cut as classes: a cut does not say which side is which, so the better way round is
     taken.
     """
-    found = side.astype(int)
-    if len(classes) and np.mean(found == classes) < 0.5:
-        return 1 - found
-    return found
+    sides = side.astype(int)
+    if len(classes) and np.mean(sides == classes) < 0.5:
+        return 1 - sides
+    return sides
 
 
 def reached(state: State) -> np.ndarray:
@@ -55,8 +55,8 @@ def right(state: State) -> int | None:
     """Return how many nodes a step puts where they truly belong; None where nobody knows or nothing
     was said.
     """
-    found, classes = predicted(state), state.subject.classes
-    return int(np.count_nonzero(found == classes)) if len(found) and len(classes) else None
+    told, classes = predicted(state), state.subject.classes
+    return int(np.count_nonzero(told == classes)) if len(told) and len(classes) else None
 
 
 def apart(state: State) -> float:
@@ -98,18 +98,18 @@ def from_clean(state: State, p: np.ndarray) -> float:
 
 def tone(state: State) -> Tone:
     """Return whether a step is right or wrong about what is known to be true, or claims nothing."""
-    now = state.now
-    if isinstance(now, Heat):
-        if np.abs(now.u).max() > 1.0 + 1e-9:
+    result = state.now
+    if isinstance(result, Heat):
+        if np.abs(result.u).max() > 1.0 + 1e-9:
             return "wrong"
-        return "good" if state.last and now.error < 0.01 else "info"
-    if isinstance(now, Smoothed):
+        return "good" if state.last and result.error < 0.01 else "info"
+    if isinstance(result, Smoothed):
         if not state.last:
             return "info"
         assert isinstance(state.first, Smoothed)
-        start, end = from_clean(state, state.first.p), from_clean(state, now.p)
+        start, end = from_clean(state, state.first.p), from_clean(state, result.p)
         return "wrong" if end > start else "good" if end < 0.9 * start else "info"
     correct, n = right(state), len(state.subject.p)
-    if correct is None or not (state.last or (isinstance(now, Cut) and now.phase == "sign")):
+    if correct is None or not (state.last or (isinstance(result, Cut) and result.phase == "sign")):
         return "info"
     return "good" if correct >= WELL * n else "wrong" if correct < BADLY * n else "info"

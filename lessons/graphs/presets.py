@@ -206,13 +206,13 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 
 def _components(states: Sequence[State]) -> int:
-    now = as_a(Grown, states[-1].now)
-    return now.count
+    grown = as_a(Grown, states[-1].now)
+    return grown.count
 
 
 def _hottest(states: Sequence[State]) -> float:
-    now = as_a(Heat, states[-1].now)
-    return float(np.abs(now.u).max())
+    heat = as_a(Heat, states[-1].now)
+    return float(np.abs(heat.u).max())
 
 
 def _right(states: Sequence[State], step: int = -1) -> int:

@@ -261,7 +261,7 @@ def training_steps(
         iterations=ITERATIONS,
         gcn_layer=functions.gcn_layer,
     )
-    return (now for now in steps if now.iteration % EVERY == 0)
+    return (trained for trained in steps if trained.iteration % EVERY == 0)
 
 
 def _labels(subject: Subject) -> np.ndarray:
@@ -293,10 +293,10 @@ def states(params: Params, subject: Subject, functions: Functions) -> Iterator[S
     else:
         whole = adjacency_of(params, subject, functions)
         steps = STAGES[params.stage](params, subject, whole, functions)
-    for now in steps:
-        first = now if first is None else first
-        graph = as_a(Grown, now).adjacency if whole is None else whole
-        yield State(params=params, subject=subject, adjacency=graph, now=now, first=first)
+    for step in steps:
+        first = step if first is None else first
+        graph = as_a(Grown, step).adjacency if whole is None else whole
+        yield State(params=params, subject=subject, adjacency=graph, now=step, first=first)
 
 
 STAGES: dict[str, Callable[[Params, Subject, Sparse, Functions], Iterator[Now]]] = {

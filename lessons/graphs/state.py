@@ -270,23 +270,23 @@ class State:
     @property
     def last(self) -> bool:
         """Whether the run ends here."""
-        now, params = self.now, self.params
-        match now:
+        result, params = self.now, self.params
+        match result:
             case Grown():
                 return (
-                    now.k == params.k
-                    if now.k
-                    else now.adjacency.sum() >= 2 * self.subject.weights.sum() - 1e-9
+                    result.k == params.k
+                    if result.k
+                    else result.adjacency.sum() >= 2 * self.subject.weights.sum() - 1e-9
                 )
             case Matrix():
-                return now.part == "ordered"
+                return result.part == "ordered"
             case Mode():
-                return now.index == len(now.values) - 1
+                return result.index == len(result.values) - 1
             case Cut():
-                return now.phase == "best"
+                return result.phase == "best"
             case Heat() | Smoothed():
-                return now.step == params.steps
+                return result.step == params.steps
             case Layer():
-                return now.layer == params.layers and now.part in ("layer", "input")
+                return result.layer == params.layers and result.part in ("layer", "input")
             case Trained():
-                return now.iteration == ITERATIONS
+                return result.iteration == ITERATIONS

@@ -19,58 +19,58 @@ SpaceLook = Look[Input, Scans, icp.State | Try]
 
 def caption(look: SpaceLook) -> Caption:
     """Return the caption of a step."""
-    now = look.now
-    if isinstance(now, Try):
-        return _of_try(look, now)
-    return _of_match(look, now) if now.phase == "match" else _of_fit(look, now)
+    state = look.now
+    if isinstance(state, Try):
+        return _of_try(look, state)
+    return _of_match(look, state) if state.phase == "match" else _of_fit(look, state)
 
 
-def turned(look: SpaceLook, now: icp.State) -> float:
+def turned(look: SpaceLook, state: icp.State) -> float:
     """Return by how much the last fit turned the source, degrees."""
     before = look.before
     T = look.subject.T_start if not isinstance(before, icp.State) else before.T_target_source
-    return degrees_between(now.T_target_source, T)
+    return degrees_between(state.T_target_source, T)
 
 
 def tries_of(look: SpaceLook) -> tuple[Try, ...]:
     """Return the tries so far, this one included."""
-    return tuple(one for one in (*look.past, look.now) if isinstance(one, Try))
+    return tuple(state for state in (*look.past, look.now) if isinstance(state, Try))
 
 
-def _of_match(look: SpaceLook, now: icp.State) -> Caption:
-    kept, n = int(np.count_nonzero(now.kept)), len(now.kept)
+def _of_match(look: SpaceLook, state: icp.State) -> Caption:
+    kept, n = int(np.count_nonzero(state.kept)), len(state.kept)
     words = "Match {n}: every orange point takes the nearest blue one."
     values = {}
     if kept < n:
         words = "Match {n}: of {points} the closest {kept} are kept."
         values = {"points": counted(n, "match", "matches"), "kept": kept}
-    if now.stop is not None:
-        return _stopped(look, now, words, {"n": now.iteration, **values})
-    words += _at_start(look, now) if now.iteration == 1 else ""
-    return say(words, n=now.iteration, **values, place="match")
+    if state.stop is not None:
+        return _stopped(look, state, words, {"n": state.iteration, **values})
+    words += _at_start(look, state) if state.iteration == 1 else ""
+    return say(words, n=state.iteration, **values, place="match")
 
 
-def _of_fit(look: SpaceLook, now: icp.State) -> Caption:
-    scans, by = look.subject, degrees(turned(look, now))
-    if now.stop is not None:
-        return _stopped(look, now, "", {})
+def _of_fit(look: SpaceLook, state: icp.State) -> Caption:
+    scans, by = look.subject, degrees(turned(look, state))
+    if state.stop is not None:
+        return _stopped(look, state, "", {})
     if not scans.known:
         words = "Fit {n} turns orange by {turned}: RMSE {rmse}."
-        return say(words, n=now.iteration, turned=by, rmse=metres(now.rmse), place="fit")
-    off = degrees(scans.error(now.T_target_source).rotation)
+        return say(words, n=state.iteration, turned=by, rmse=metres(state.rmse), place="fit")
+    off = degrees(scans.error(state.T_target_source).rotation)
     words = "Fit {n} turns orange by {turned}; {off} are left."
-    return say(words, n=now.iteration, turned=by, off=off, place="fit")
+    return say(words, n=state.iteration, turned=by, off=off, place="fit")
 
 
-def _stopped(look: SpaceLook, now: icp.State, words: str, values: dict) -> Caption:
+def _stopped(look: SpaceLook, state: icp.State, words: str, values: dict) -> Caption:
     scans = look.subject
-    assert now.stop is not None
-    reason = f"{words} Stop after {{rounds}}: {now.stop.message}.".strip()
-    values = {**values, "rounds": counted(now.iteration, "round")}
+    assert state.stop is not None
+    reason = f"{words} Stop after {{rounds}}: {state.stop.message}.".strip()
+    values = {**values, "rounds": counted(state.iteration, "round")}
     if not scans.known:
         return say(reason, **values, place="fit")
-    error = scans.error(now.T_target_source)
-    if now.stop is icp.Stop.CONVERGED:  # the usual end needs no reason
+    error = scans.error(state.T_target_source)
+    if state.stop is icp.Stop.CONVERGED:  # the usual end needs no reason
         reason = "It comes to rest after {rounds}"
         reason += ", {off} and {away} from the truth."
     else:
@@ -78,7 +78,7 @@ def _stopped(look: SpaceLook, now: icp.State, words: str, values: dict) -> Capti
     return say(
         reason,
         right=scans.at_home(error),
-        settled=now.stop in SETTLED,
+        settled=state.stop in SETTLED,
         off=degrees(error.rotation),
         away=metres(error.translation),
         place="fit",
@@ -86,21 +86,23 @@ def _stopped(look: SpaceLook, now: icp.State, words: str, values: dict) -> Capti
     )
 
 
-def _of_try(look: SpaceLook, now: Try) -> Caption:
-    scans, home = look.subject, look.subject.at_home(now.error)
+def _of_try(look: SpaceLook, attempt: Try) -> Caption:
+    scans, home = look.subject, look.subject.at_home(attempt.error)
     n = len(scans.p_source)
     few = len(range(n)[every(n, TRIED)])
     fewer = f" (with {few:,} of its points)" if few < n else ""
-    ended = ", at an RMSE of {rmse}" if np.isfinite(now.rmse) else ", without a match that is kept"
+    ended = (
+        ", at an RMSE of {rmse}" if np.isfinite(attempt.rmse) else ", without a match that is kept"
+    )
     words = "From {start} away ICP {what}, {off} off" + ended + fewer + "."
     values = {
-        "start": degrees(now.start_angle),
+        "start": degrees(attempt.start_angle),
         "what": "comes home" if home else "ends elsewhere",
-        "off": degrees(now.error.rotation),
+        "off": degrees(attempt.error.rotation),
     }
-    if np.isfinite(now.rmse):
-        values["rmse"] = metres(now.rmse)
-    if now.start_angle < 180:
+    if np.isfinite(attempt.rmse):
+        values["rmse"] = metres(attempt.rmse)
+    if attempt.start_angle < 180:
         return say(words, place="other starts", **values)
     last = edge(tries_of(look), scans)
     if last is None:
@@ -109,13 +111,13 @@ def _of_try(look: SpaceLook, now: Try) -> Caption:
     return say(words, edge=degrees(last), place="other starts", **values)
 
 
-def _at_start(look: SpaceLook, now: icp.State) -> str:
+def _at_start(look: SpaceLook, state: icp.State) -> str:
     """Say what has no effect on own scans, and where scans that start far apart need a guess."""
     text, idle = "", [name.replace("_", " ") for name in look.params.changed]
     if idle:
         has = "has" if len(idle) == 1 else "have"
         text += f" Your own scans are open: {', '.join(idle)} {has} no effect on them."
-    gap, width = float(now.distances.min()), WIDTH / look.subject.frame.scale
+    gap, width = float(state.distances.min()), WIDTH / look.subject.frame.scale
     if gap > width:
         text += (
             f" The scans start {length(gap)} apart, and the target is {length(width)} wide: bring"

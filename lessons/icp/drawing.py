@@ -56,7 +56,7 @@ HALF = np.radians(0.42 * (ANGLES[1] - ANGLES[0]))  # of a start's arc on the dia
 
 def draw(look: SpaceLook) -> Scene:
     """Return the picture of one step."""
-    scans, now = look.subject, look.now
+    scans, state = look.subject, look.now
     radius = _radius(len(scans.p_target))
     scene: dict[str, Primitive] = {
         "target": Points(scans.p_target_shown, "target", radius, opacity=0.6, name="target"),
@@ -69,36 +69,36 @@ def draw(look: SpaceLook) -> Scene:
     if scans.T_truth is not None:
         pose = _arrow_pose(scans, scans.T_truth)
         scene["true arrow"] = Segments(ARROW, "truth", 2.5, pose, 0.8, name="where it belongs")
-    if isinstance(now, Try):
-        return scene | _from_another_start(look, now)
-    return scene | _of_the_run(look.params, scans, now)
+    if isinstance(state, Try):
+        return scene | _from_another_start(look, state)
+    return scene | _of_the_run(look.params, scans, state)
 
 
-def _of_the_run(params: Input, scans: Scans, now: icp.State) -> dict[str, Primitive]:
-    T_target_source = now.T_target_source
+def _of_the_run(params: Input, scans: Scans, state: icp.State) -> dict[str, Primitive]:
+    T_target_source = state.T_target_source
     T_world_source = scans.frame.shown_motion(T_target_source)
     p, radius = scans.p_source_shown, _radius(len(scans.p_source))
     error = scans.error(T_target_source) if scans.known else None
     return {
         "source": Points(p, _source_color(scans), radius, T_world_source, name="source"),
         **_arrow("source", scans, T_target_source, "source", error),
-        **_matches(scans, now, T_world_source),
-        **_curves(params, scans, now),
-        **_landscape(params, scans, now),
+        **_matches(scans, state, T_world_source),
+        **_curves(params, scans, state),
+        **_landscape(params, scans, state),
     }
 
 
-def _from_another_start(look: SpaceLook, now: Try) -> dict[str, Primitive]:
+def _from_another_start(look: SpaceLook, attempt: Try) -> dict[str, Primitive]:
     scans = look.subject
     assert scans.T_truth is not None
-    T_target_source = now.T_target_truth @ scans.T_truth
+    T_target_source = attempt.T_target_truth @ scans.T_truth
     T_world_try = scans.frame.shown_motion(T_target_source)
     p, radius = scans.p_source_shown, _radius(len(scans.p_source))
     color = _source_color(scans)
-    name = f"end from {now.start_angle:.0f}° away"
+    name = f"end from {attempt.start_angle:.0f}° away"
     return {
         "source": Points(p, color, radius, T_world_try, name=name),
-        **_arrow("source", scans, T_target_source, "source", now.error),
+        **_arrow("source", scans, T_target_source, "source", attempt.error),
         **_dial(scans, tries_of(look)),
         **_basin(look),
     }
@@ -122,8 +122,8 @@ def _dial(scans: Scans, tries: tuple[Try, ...]) -> dict[str, Primitive]:
     """Return the starts around the target, each an arc where its arrow starts, green where it
     led home.
     """
-    home = np.array([scans.at_home(one.error) for one in tries])
-    starts = -np.radians([one.start_angle for one in tries])[:, None]
+    home = np.array([scans.at_home(attempt.error) for attempt in tries])
+    starts = -np.radians([attempt.start_angle for attempt in tries])[:, None]
     height = float(scans.grid[0, 0, 2])
 
     def at(turn: np.ndarray, radius: float) -> np.ndarray:
@@ -146,39 +146,44 @@ def _dial(scans: Scans, tries: tuple[Try, ...]) -> dict[str, Primitive]:
     }
 
 
-def _curves(params: Input, scans: Scans, now: icp.State) -> dict[str, Primitive]:
+def _curves(params: Input, scans: Scans, state: icp.State) -> dict[str, Primitive]:
     curves: dict[str, Primitive] = {
-        "rmse": RMSE.scalar(now.rmse, "RMSE of kept matches"),
-        "round": ROUND.scalar(now.iteration, "round"),
+        "rmse": RMSE.scalar(state.rmse, "RMSE of kept matches"),
+        "round": ROUND.scalar(state.iteration, "round"),
     }
     if params.fit == "point-to-plane":
-        curves["residual"] = RMSE.scalar(now.residual, "to tangent planes", "other")
+        curves["residual"] = RMSE.scalar(state.residual, "to tangent planes", "other")
     if scans.known:  # the truth stands beside what is minimised
-        error = scans.error(now.T_target_source)
+        error = scans.error(state.T_target_source)
         curves["rotation error"] = TURN.scalar(error.rotation, "rotation error", "truth")
         curves["translation error"] = SHIFT.scalar(error.translation, "translation error", "truth")
-    curves["kept"] = OVERLAP.scalar(100 * now.overlap, "kept")
+    curves["kept"] = OVERLAP.scalar(100 * state.overlap, "kept")
     if scans.known:
-        right = 100 * scans.right_share(now.indices, now.kept)
+        right = 100 * scans.right_share(state.indices, state.kept)
         curves["right"] = OVERLAP.scalar(right, "right among them", "truth")
     return curves
 
 
-def _landscape(params: Input, scans: Scans, now: icp.State) -> dict[str, Primitive]:
+def _landscape(params: Input, scans: Scans, state: icp.State) -> dict[str, Primitive]:
     """Return what is told of outliers at the end, and of a vase at every step: the whole curve."""
     if params.target is not None:
         return {}
     if params.shape == "vase":
-        curves, x = landscapes(params), _about_vertical(scans, now.T_target_source)
+        curves, x = landscapes(params), _about_vertical(scans, state.T_target_source)
         y = float(np.interp(x, TURNS, MM * curves["vase"]))
         return {
             "turning/vase": TURNS_COST.whole(TURNS, MM * curves["vase"], "vase"),
             "turning/rabbit": TURNS_COST.whole(TURNS, MM * curves["rabbit"], "rabbit", "neutral"),
             "turning/ball": TURNS_COST.mark(x, y, "here", knob="start_angle"),
         }
-    if params.outliers and params.gate == "trimmed" and params.fit == "point-to-point" and now.stop:
+    if (
+        params.outliers
+        and params.gate == "trimmed"
+        and params.fit == "point-to-point"
+        and state.stop
+    ):
         errors = errors_by_share(params)
-        y = scans.error(now.T_target_source).rotation
+        y = scans.error(state.T_target_source).rotation
         return {
             "share/curve": ENDS.whole(np.array(SHARES), errors, "final rotation error", "truth"),
             "share/here": ENDS.mark(params.keep, y, "here", "truth", knob="keep"),
@@ -195,30 +200,32 @@ def _about_vertical(scans: Scans, T_target_source: np.ndarray) -> float:
 
 def _basin(look: SpaceLook) -> dict[str, Primitive]:
     tries = tries_of(look)
-    angles = np.array([one.start_angle for one in tries], float)
+    angles = np.array([attempt.start_angle for attempt in tries], float)
     marks = (tries[-1].start_angle,)
 
     def curve(chart: Chart, values: list[float], name: str, color: Role) -> Curve:
         return chart.curve(angles, np.array(values), name, color, marks=marks)
 
     turns, distances = (
-        [getattr(one.error, name) for one in tries] for name in ("rotation", "displacement")
+        [getattr(attempt.error, name) for attempt in tries] for name in ("rotation", "displacement")
     )
     return {
         "basin": curve(BASIN_TURNS, turns, "final error", "truth"),
-        "basin rmse": curve(BASIN_METRES, [one.rmse for one in tries], "final RMSE", "source"),
+        "basin rmse": curve(
+            BASIN_METRES, [attempt.rmse for attempt in tries], "final RMSE", "source"
+        ),
         "basin distance": curve(BASIN_METRES, distances, "RMS distance from the truth", "truth"),
     }
 
 
-def _matches(scans: Scans, now: icp.State, T_world_source: np.ndarray) -> dict[str, Primitive]:
+def _matches(scans: Scans, state: icp.State, T_world_source: np.ndarray) -> dict[str, Primitive]:
     """Return some of the matches, those of outliers and those that are refused (as stubs) apart."""
-    rows = every(len(now.indices), MOST_LINES)
+    rows = every(len(state.indices), MOST_LINES)
     p, q = (
         apply(T_world_source, scans.p_source_shown[rows]),
-        scans.p_target_shown[now.indices[rows]],
+        scans.p_target_shown[state.indices[rows]],
     )
-    kept, out = now.kept[rows], scans.is_outlier[rows]
+    kept, out = state.kept[rows], scans.is_outlier[rows]
     reach = np.where(kept, 1.0, STUB)[:, None]
     color: Color = Classes(
         np.where(kept, np.where(out, 1, 0), 2).astype(np.uint8),

@@ -122,13 +122,13 @@ def run(params: Input, subject: Outlines) -> Iterator[State]:
 
 def draw(look: Look[Input, Outlines, State]) -> Scene:
     """Return both outlines, each partner, the dial, and the cost over the angle."""
-    lines, now = look.subject, look.now
-    T_turn = upright_turn(now.angle)
-    shown = within_half(now.angle)
-    p_moved, q = turned(lines.p_source, now.angle), lines.p_target[now.partners]
+    lines, state = look.subject, look.now
+    T_turn = upright_turn(state.angle)
+    shown = within_half(state.angle)
+    p_moved, q = turned(lines.p_source, state.angle), lines.p_target[state.partners]
     tick = np.array([[0.0, DIAL - MARK], [0.0, DIAL + MARK]])
-    asked = now.iteration == 1 and now.phase == "match"  # a question asks how many are right
-    good = lines.right(now.partners) & (not asked)
+    asked = state.iteration == 1 and state.phase == "match"  # a question asks how many are right
+    good = lines.right(state.partners) & (not asked)
     color = Classes.marking(good, "truth", "right partner", others=("correspondence", "partner"))
     scene: dict[str, Primitive] = {
         "dial": Segments(dial_arc(-180.0, 180.0, DIAL), "neutral", 1.0, opacity=0.35),
@@ -148,15 +148,15 @@ def draw(look: Look[Input, Outlines, State]) -> Scene:
             between(upright(p_moved, -0.004), upright(q, -0.004)), color, 2.5, opacity=0.8
         ),
         "caption": caption(look),
-        "angle": ANGLE.scalar(now.angle, "angle"),
-        "rmse": RMSE.scalar(now.rmse, "RMSE of the partners"),
+        "angle": ANGLE.scalar(state.angle, "angle"),
+        "rmse": RMSE.scalar(state.rmse, "RMSE of the partners"),
     }
-    if now.iteration:
+    if state.iteration:
         low, high = lines.basin
-        swing = abs(now.turned) if now.phase == "fit" else np.nan
+        swing = abs(state.turned) if state.phase == "fit" else np.nan
         scene |= {
             "turned": SWING.scalar(swing, "swing"),
-            "round": ROUND.scalar(now.iteration, "round"),
+            "round": ROUND.scalar(state.iteration, "round"),
             "basin/from": BASIN.scalar(low, "from", "truth"),
             "basin/to": BASIN.scalar(high, "to", "truth"),
         }
@@ -167,19 +167,19 @@ def draw(look: Look[Input, Outlines, State]) -> Scene:
 
 def _landscape(look: Look[Input, Outlines, State], shown: float) -> dict[str, Primitive]:
     """Return the cost over the angle, where we stand in it, and what the frozen partners say."""
-    lines, now = look.subject, look.now
+    lines, state = look.subject, look.now
     parts: dict[str, Primitive] = {"cost/curve": COST.whole(FINE, MM * lines.rmse, "true cost")}
-    if now.iteration == 0:
-        ball = COST.mark(shown, MM * now.rmse, "ball", steps="angle")
+    if state.iteration == 0:
+        ball = COST.mark(shown, MM * state.rmse, "ball", steps="angle")
         return parts | {"cost/ball": ball}
-    q = lines.p_target[now.partners]
+    q = lines.p_target[state.partners]
     x = np.union1d(
         HAND, best_turn(q, lines.p_source)
     )  # its lowest point is computed, not looked up
     frozen = cost_of_pairs(q, lines.p_source, x)
     return parts | {
         "cost/frozen": COST.second(x, MM * frozen, "partners frozen"),
-        "cost/ball": COST.mark(shown, MM * now.rmse, "ball", knob="start_angle"),
+        "cost/ball": COST.mark(shown, MM * state.rmse, "ball", knob="start_angle"),
         "cost/basin": COST.band(*lines.basin, "comes home from here"),
     }
 
@@ -187,8 +187,8 @@ def _landscape(look: Look[Input, Outlines, State], shown: float) -> dict[str, Pr
 def _ring(p_moved: np.ndarray, q: np.ndarray) -> dict[str, Primitive]:
     """Return a circle around the point whose partner is farthest: nothing blue lies inside it."""
     gaps = np.linalg.norm(p_moved - q, axis=1)
-    one = int(gaps.argmax())
-    p_one, radius = p_moved[one], float(gaps[one])
+    farthest = int(gaps.argmax())
+    p_one, radius = p_moved[farthest], float(gaps[farthest])
     circle = p_one + on_dial(np.linspace(0.0, 360.0, 73), radius)
     name = on_dial(np.array([180.0]), 0.86 * DIAL)  # below both outlines
     return {
@@ -204,33 +204,33 @@ def millimetres(metres: float) -> Quantity:
 
 def caption(look: Look[Input, Outlines, State]) -> Caption:
     """Return what just happened, with the number that changed."""
-    lines, now = look.subject, look.now
-    if now.iteration == 0:
+    lines, state = look.subject, look.now
+    if state.iteration == 0:
         return say(
             "Turned by {angle}, the lines have an RMSE of {rmse}.",
-            angle=degrees(within_half(now.angle)),
-            rmse=millimetres(now.rmse),
+            angle=degrees(within_half(state.angle)),
+            rmse=millimetres(state.rmse),
         )
-    if now.phase == "match" and now.iteration == 1:
+    if state.phase == "match" and state.iteration == 1:
         return say("Match {n}: every orange point takes the nearest blue one.", n=1, place="match")
-    if now.phase == "match":
+    if state.phase == "match":
         return say(
             "Match {n}: {good} of {points} partners are right.",
-            n=now.iteration,
-            good=int(lines.right(now.partners).sum()),
+            n=state.iteration,
+            good=int(lines.right(state.partners).sum()),
             points=len(lines.p_source),
             place="match",
         )
-    if now.stop is None:
+    if state.stop is None:
         words = "Fit {n} turns the rabbit by {turned}."
-        return say(words, n=now.iteration, turned=degrees(abs(now.turned)), place="fit")
-    at = within_half(now.angle)
+        return say(words, n=state.iteration, turned=degrees(abs(state.turned)), place="fit")
+    at = within_half(state.angle)
     return say(
         "It comes to rest at {at} after {n} rounds, with an RMSE of {rmse}.",
         right=abs(at) <= HOME,
         settled=True,
         at=degrees(at),
-        n=now.iteration,
-        rmse=millimetres(now.rmse),
+        n=state.iteration,
+        rmse=millimetres(state.rmse),
         place="fit",
     )

@@ -34,27 +34,27 @@ def caption(state: State) -> Caption:
 
 def _told(state: State) -> tuple[str, float, float, float]:
     """Return the sentence, and a number with where it is right and where it is wrong."""
-    now, params, about = state.now, state.params, state.about
-    done = "Untrained" if now.updates == 0 else f"After {counted(now.updates, 'update')}"
-    match now, about:
+    fit, params, about = state.now, state.params, state.about
+    done = "Untrained" if fit.updates == 0 else f"After {counted(fit.updates, 'update')}"
+    match fit, about:
         case Regressed(), Turns():
-            return f"{done}: {_of_turns(params, about, now)}", float(now.errors.max()), NEAR, FAR
+            return f"{done}: {_of_turns(params, about, fit)}", float(fit.errors.max()), NEAR, FAR
         case SetLearned(), _:
-            radii = np.linalg.norm(now.p, axis=1)
+            radii = np.linalg.norm(fit.p, axis=1)
             text = (
-                f"{done}: {params.set_loss} loss {fixed(now.loss, 3)} m². The {len(now.p)} points"
+                f"{done}: {params.set_loss} loss {fixed(fit.loss, 3)} m². The {len(fit.p)} points"
                 f" have radii from {fixed(radii.min(), 2)} to {fixed(radii.max(), 2)} m,"
                 f" {fixed(radii.mean(), 2)} on average, with a spread of {fixed(radii.std(), 3)} m."
             )
             return text, float(radii.std()), ROUND, SMEARED
         case MeshFitted(), Target():
             text = (
-                f"{done}: {length(float(np.sqrt(now.to_given)))} from the given points of"
-                f" {about.name}, {length(float(np.sqrt(now.to_truth)))} from its true surface"
-                f" (roots of Chamfer). The farthest part of that surface is {length(now.farthest)}"
-                f" from the mesh. Folded by over 90°: {percent(now.folded)} of the edges."
+                f"{done}: {length(float(np.sqrt(fit.to_given)))} from the given points of"
+                f" {about.name}, {length(float(np.sqrt(fit.to_truth)))} from its true surface"
+                f" (roots of Chamfer). The farthest part of that surface is {length(fit.farthest)}"
+                f" from the mesh. Folded by over 90°: {percent(fit.folded)} of the edges."
             )
-            if about.euler != 2 and now.updates == 0:
+            if about.euler != 2 and fit.updates == 0:
                 kind = f"{about.name} is not like a sphere (V − E + F = {about.euler}, not 2)"
                 text = (
                     f"{done}, a sphere: it has one piece, no hole and no border, and keeps that."
@@ -62,21 +62,21 @@ def _told(state: State) -> tuple[str, float, float, float]:
                 )
             return (
                 text,
-                now.folded,
-                SMOOTH if now.farthest <= WHOLE else -1.0,
+                fit.folded,
+                SMOOTH if fit.farthest <= WHOLE else -1.0,
                 CRUMPLED,
             )  # never good without its ears
         case Classified(), Clouds():
-            plain, changed = shares_right(now, about)
-            if now.updates == 0:
+            plain, changed = shares_right(fit, about)
+            if fit.updates == 0:
                 return (
-                    f"{done}: loss {fixed(now.loss, 2)}. Of {len(NAMES)} shapes it guesses one.",
+                    f"{done}: loss {fixed(fit.loss, 2)}. Of {len(NAMES)} shapes it guesses one.",
                     changed,
                     KNOWN,
                     LOST,
                 )
             text = (
-                f"{done}: loss {fixed(now.loss, 2)}; {percent(plain, 0)} of {len(about.of)} new"
+                f"{done}: loss {fixed(fit.loss, 2)}; {percent(plain, 0)} of {len(about.of)} new"
                 " clouds are named rightly"
             )
             if changes := changes_of(params):
@@ -92,23 +92,24 @@ def _told(state: State) -> tuple[str, float, float, float]:
     raise AssertionError
 
 
-def _of_turns(params: Params, about: Turns, now: Regressed) -> str:
-    k, worst = params.picked % len(now.errors), int(now.errors.argmax())
-    mean = f"loss {brief(now.loss, 2)}; wrong by {angle(float(now.errors.mean()))} on average"
-    if now.updates == 0:
+def _of_turns(params: Params, about: Turns, fit: Regressed) -> str:
+    k, worst = params.picked % len(fit.errors), int(fit.errors.argmax())
+    mean = f"loss {brief(fit.loss, 2)}; wrong by {angle(float(fit.errors.mean()))} on average"
+    if fit.updates == 0:
         return f"{mean}."
     of = "a turn of" if params.task == "angle" else "a rotation by"
     return (
-        f"{mean}, at most by {angle(float(now.errors[worst]))}, for {of}"
+        f"{mean}, at most by {angle(float(fit.errors[worst]))}, for {of}"
         f" {fixed(float(about.degrees[worst]), 0)}°. For the picked one,"
-        f" {fixed(float(about.degrees[k]), 0)}°: {angle(float(now.errors[k]))}."
+        f" {fixed(float(about.degrees[k]), 0)}°: {angle(float(fit.errors[k]))}."
     )
 
 
-def shares_right(now: Classified, about: Clouds) -> tuple[float, float]:
+def shares_right(classified: Classified, about: Clouds) -> tuple[float, float]:
     """Return which shares of the test clouds are named rightly: as in training, and changed."""
     plain, changed = (
-        float((now.scores[name].argmax(axis=1) == about.of).mean()) for name in ("plain", "changed")
+        float((classified.scores[name].argmax(axis=1) == about.of).mean())
+        for name in ("plain", "changed")
     )
     return plain, changed
 
@@ -125,6 +126,6 @@ def changes_of(params: Params) -> str:
     return f"The same {', '.join(done)}" if done else ""
 
 
-def said(now: Classified, k: int) -> str:
+def said(classified: Classified, k: int) -> str:
     """Return which shape the network takes a changed test cloud for."""
-    return NAMES[int(now.scores["changed"][k].argmax())]
+    return NAMES[int(classified.scores["changed"][k].argmax())]

@@ -55,48 +55,48 @@ UNIT = at_height(circle())
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    now, about, params = state.now, state.about, state.params
+    fit, about, params = state.now, state.about, state.params
     scene: dict[str, Primitive] = {
         "caption": caption(state),
-        "loss": LOSS.scalar(now.loss, "training loss", log=True),
+        "loss": LOSS.scalar(fit.loss, "training loss", log=True),
     }
-    match now, about:
+    match fit, about:
         case Regressed(), Turns():
             return scene | (
-                _angle(params, about, now)
+                _angle(params, about, fit)
                 if params.task == "angle"
-                else _rotation(params, about, now)
+                else _rotation(params, about, fit)
             )
         case SetLearned(), _:
-            return scene | _set(now)
+            return scene | _set(fit)
         case MeshFitted(), Target():
-            return scene | _mesh(now, about)
+            return scene | _mesh(fit, about)
         case Classified(), Clouds():
-            return scene | _clouds(params, now, about)
+            return scene | _clouds(params, fit, about)
         case Reconstructed(), Looks():
-            return scene | _field(now, about)
+            return scene | _field(fit, about)
     raise AssertionError
 
 
-def _errors(now: Regressed) -> dict[str, Primitive]:
+def _errors(fit: Regressed) -> dict[str, Primitive]:
     return {
-        "mean": ERROR.scalar(float(now.errors.mean()), "mean", "truth"),
-        "worst": ERROR.scalar(float(now.errors.max()), "worst", "wrong"),
+        "mean": ERROR.scalar(float(fit.errors.mean()), "mean", "truth"),
+        "worst": ERROR.scalar(float(fit.errors.max()), "worst", "wrong"),
     }
 
 
-def _angle(params: Params, about: Turns, now: Regressed) -> dict[str, Primitive]:
-    a = np.arctan2(now.R[:, 1, 0], now.R[:, 0, 0])
+def _angle(params: Params, about: Turns, fit: Regressed) -> dict[str, Primitive]:
+    a = np.arctan2(fit.R[:, 1, 0], fit.R[:, 0, 0])
     put = 1.12 * np.column_stack([np.cos(a), np.sin(a), 0 * a])
     k = params.picked % len(put)
     nearest = (
         about.degrees + (np.degrees(a) - about.degrees + 180) % 360 - 180
     )  # of all angles that mean the same
-    told = np.degrees(now.outputs[:, 0]) if params.angle == "one number" else nearest
-    return _errors(now) | {
+    told = np.degrees(fit.outputs[:, 0]) if params.angle == "one number" else nearest
+    return _errors(fit) | {
         "circle": Segments(segments(UNIT), "neutral", 1.0),
         "inputs": Points(
-            about.places, Field(now.errors, 0.0, 45.0, "error", "°"), 0.022, name="inputs"
+            about.places, Field(fit.errors, 0.0, 45.0, "error", "°"), 0.022, name="inputs"
         ),
         "outputs": Points(put, "source", 0.014, name="outputs"),
         "to": Segments(
@@ -113,9 +113,9 @@ def _angle(params: Params, about: Turns, now: Regressed) -> dict[str, Primitive]
     }
 
 
-def _rotation(params: Params, about: Turns, now: Regressed) -> dict[str, Primitive]:
+def _rotation(params: Params, about: Turns, fit: Regressed) -> dict[str, Primitive]:
     k = params.picked % len(about.places)
-    return _errors(now) | {
+    return _errors(fit) | {
         "ball": Segments(
             sphere_rings(np.zeros(3), params.largest / 180),
             "neutral",
@@ -123,17 +123,17 @@ def _rotation(params: Params, about: Turns, now: Regressed) -> dict[str, Primiti
             name="the largest turns",
         ),
         "inputs": Points(
-            about.places, Field(now.errors, 0.0, 45.0, "error", "°"), 0.025, name="rotation vectors"
+            about.places, Field(fit.errors, 0.0, 45.0, "error", "°"), 0.025, name="rotation vectors"
         ),
         "picked": Points(about.places[[k]], "highlight", 0.045, name="picked"),
-        "by turn": BY_TURN.dots(about.degrees, now.errors, "test rotations", "truth"),
+        "by turn": BY_TURN.dots(about.degrees, fit.errors, "test rotations", "truth"),
     }
 
 
-def _set(now: SetLearned) -> dict[str, Primitive]:
-    radii = np.linalg.norm(now.p, axis=1)
-    shown = now.targets if len(now.targets) else np.zeros((1, 2, 3))
-    lines = np.concatenate([segments(one, closed=True) for one in shown])
+def _set(learned: SetLearned) -> dict[str, Primitive]:
+    radii = np.linalg.norm(learned.p, axis=1)
+    shown = learned.targets if len(learned.targets) else np.zeros((1, 2, 3))
+    lines = np.concatenate([segments(target, closed=True) for target in shown])
     return {
         "band": Segments(
             np.concatenate([segments(radius * UNIT) for radius in RADII]),
@@ -143,7 +143,7 @@ def _set(now: SetLearned) -> dict[str, Primitive]:
         ),
         "targets": Segments(lines, "target", 1.5, opacity=0.7, name="targets of this update"),
         "mean": Segments(segments(UNIT), "truth", 2.0, name="circle of the mean radius"),
-        "points": Points(now.p, "source", 0.03, name="the set"),
+        "points": Points(learned.p, "source", 0.03, name="the set"),
         "spread": SPREAD.scalar(float(radii.std()), "standard deviation", "truth"),
     }
 
@@ -152,17 +152,17 @@ def _set(now: SetLearned) -> dict[str, Primitive]:
 def _pairs(about: Target) -> tuple[np.ndarray, np.ndarray]:
     """Return pairs of faces and the two vertices that they share."""
     pairs = face_pairs(about.faces)
-    one, other = about.faces[pairs[:, 0]], about.faces[pairs[:, 1]]
-    return pairs, one[(one[:, :, None] == other[:, None]).any(axis=2)].reshape(-1, 2)
+    first, other = about.faces[pairs[:, 0]], about.faces[pairs[:, 1]]
+    return pairs, first[(first[:, :, None] == other[:, None]).any(axis=2)].reshape(-1, 2)
 
 
-def _mesh(now: MeshFitted, about: Target) -> dict[str, Primitive]:
+def _mesh(fitted: MeshFitted, about: Target) -> dict[str, Primitive]:
     pairs, shared = _pairs(about)
-    folded = fold_angles(now.p, about.faces, pairs) > np.pi / 2
+    folded = fold_angles(fitted.p, about.faces, pairs) > np.pi / 2
     return {
         "given": Points(about.given, "target", 0.01, name="given points"),
-        "mesh": Mesh(now.p, about.faces, "source", flat=True, name="fitted mesh"),
-        "folded": Segments(now.p[shared[folded]], "wrong", 3.0, name="edges folded by over 90°"),
+        "mesh": Mesh(fitted.p, about.faces, "source", flat=True, name="fitted mesh"),
+        "folded": Segments(fitted.p[shared[folded]], "wrong", 3.0, name="edges folded by over 90°"),
         "true": Mesh(
             about.p_true,
             about.faces_true,
@@ -171,22 +171,24 @@ def _mesh(now: MeshFitted, about: Target) -> dict[str, Primitive]:
             T_world_object=BESIDE,
             name="true surface",
         ),
-        "to given": DISTANCE.scalar(float(np.sqrt(now.to_given)), "to the given points", log=True),
-        "to truth": DISTANCE.scalar(
-            float(np.sqrt(now.to_truth)), "to the true surface", "truth", log=True
+        "to given": DISTANCE.scalar(
+            float(np.sqrt(fitted.to_given)), "to the given points", log=True
         ),
-        "folds": FOLDS.scalar(100 * now.folded, "folded by over 90°", "wrong"),
+        "to truth": DISTANCE.scalar(
+            float(np.sqrt(fitted.to_truth)), "to the true surface", "truth", log=True
+        ),
+        "folds": FOLDS.scalar(100 * fitted.folded, "folded by over 90°", "wrong"),
     }
 
 
-def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primitive]:
+def _clouds(params: Params, classified: Classified, about: Clouds) -> dict[str, Primitive]:
     count = len(NAMES)
-    plain, changed = shares_right(now, about)
+    plain, changed = shares_right(classified, about)
     scene: dict[str, Primitive] = {"plain": RIGHT.scalar(100 * plain, "as in training")}
     if changes_of(params):
         scene["changed"] = RIGHT.scalar(100 * changed, "changed", "wrong")
     critical = (
-        now.network.critical(about.changed[:count])
+        classified.network.critical(about.changed[:count])
         if params.pool == "max"
         else [np.empty(0, int)] * count
     )
@@ -194,7 +196,7 @@ def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primiti
         p, x = about.changed[k], GAP * (k - (count - 1) / 2)
         decides = np.isin(np.arange(len(p)), critical[k])
         color = Classes.marking(decides, "highlight", "critical", others=("target", "points"))
-        right = said(now, k) == name
+        right = said(classified, k) == name
         scene[f"clouds/{name}"] = Points(
             p + np.array([x, 0.0, 0.0]), color, 0.065, name="points" if k == 0 else ""
         )
@@ -202,7 +204,7 @@ def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primiti
             [x, 0.0, 1.5 + 0.65 * (k % 2)]
         )  # in two rows: on a phone they would lie on each other
         scene[f"said/{name}"] = Label(
-            name if right else f"{name} → {said(now, k)}", at, "truth" if right else "wrong"
+            name if right else f"{name} → {said(classified, k)}", at, "truth" if right else "wrong"
         )
     rows = []
     for k, name in enumerate(NAMES):
@@ -211,8 +213,8 @@ def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primiti
             (
                 name,
                 *(
-                    percent(float((now.scores[t][of].argmax(axis=1) == k).mean()), 0)
-                    for t in now.scores
+                    percent(float((classified.scores[t][of].argmax(axis=1) == k).mean()), 0)
+                    for t in classified.scores
                 ),
             )
         )
@@ -223,8 +225,8 @@ def _clouds(params: Params, now: Classified, about: Clouds) -> dict[str, Primiti
     }
 
 
-def _field(now: Reconstructed, about: Looks) -> dict[str, Primitive]:
-    field = now.field
+def _field(rebuilt: Reconstructed, about: Looks) -> dict[str, Primitive]:
+    field = rebuilt.field
     cover = (1 - np.exp(-field.density / 15))[:, :, None]
     image = (255 * (cover * field.color + 1 - cover)).astype(np.uint8).swapaxes(0, 1)[::-1]
     places = np.column_stack(

@@ -226,19 +226,19 @@ PRESETS: tuple[Preset[Params], ...] = (
 
 def regressed(states: Sequence[State]) -> tuple[Turns, Regressed]:
     """Return the last state of a run on turns."""
-    about, now = as_a(Turns, states[-1].about), as_a(Regressed, states[-1].now)
-    return about, now
+    about, fit = as_a(Turns, states[-1].about), as_a(Regressed, states[-1].now)
+    return about, fit
 
 
 def _worst_at(states: Sequence[State]) -> float:
-    about, now = regressed(states)
-    return abs(float(about.degrees[now.errors.argmax()]))
+    about, fit = regressed(states)
+    return abs(float(about.degrees[fit.errors.argmax()]))
 
 
 def _cut_why(states: Sequence[State]) -> str:
-    _, now = regressed(states)
+    _, fit = regressed(states)
     return (
-        f"At {fixed(_worst_at(states), 0)}°, by {angle(float(now.errors.max()))} after"
+        f"At {fixed(_worst_at(states), 0)}°, by {angle(float(fit.errors.max()))} after"
         f" {_updates(states)}: a step to either side of half a turn the numbers asked for are +180"
         " and −180. A smooth function runs through all that lies between."
     )
@@ -250,14 +250,14 @@ def _updates(states: Sequence[State]) -> str:
 
 
 def _radius(states: Sequence[State]) -> tuple[float, float]:
-    now = as_a(SetLearned, states[-1].now)
-    radii = np.linalg.norm(now.p, axis=1)
+    learned = as_a(SetLearned, states[-1].now)
+    radii = np.linalg.norm(learned.p, axis=1)
     return float(radii.mean()), float(radii.std())
 
 
 def _named(states: Sequence[State]) -> tuple[float, float]:
-    now, about = as_a(Classified, states[-1].now), as_a(Clouds, states[-1].about)
-    return shares_right(now, about)
+    classified, about = as_a(Classified, states[-1].now), as_a(Clouds, states[-1].about)
+    return shares_right(classified, about)
 
 
 def _signals(states: Sequence[State]) -> Looks:

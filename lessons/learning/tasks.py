@@ -74,8 +74,8 @@ def steps(params: Params, functions: Functions) -> Iterator[State]:
     """Yield the steps of the task."""
     rng = np.random.default_rng(params.seed)
     end = counts_of(params)[-1]
-    for about, now in TASKS[params.task](params, functions, rng):
-        yield State(params=params, about=about, now=now, last=now.updates == end)
+    for about, fit in TASKS[params.task](params, functions, rng):
+        yield State(params=params, about=about, now=fit, last=fit.updates == end)
 
 
 def _turns(
@@ -96,7 +96,7 @@ def _turns(
         )
         about = Turns(w / np.pi, np.degrees(np.linalg.norm(w, axis=1)))
     width, rate = NETWORKS[params.task]
-    for now in regress(
+    for fit in regress(
         representation,
         R_test,
         largest=largest,
@@ -106,7 +106,7 @@ def _turns(
         counts=counts_of(params),
         rng=rng,
     ):
-        yield about, now
+        yield about, fit
 
 
 def circle_of(radius: float, turn: float) -> np.ndarray:
@@ -119,14 +119,14 @@ def _sets(
     params: Params, functions: Functions, rng: np.random.Generator
 ) -> Iterator[tuple[None, Now]]:
     start = circle_of(1.0, 0.0) * (1 + 0.1 * rng.normal(size=(SET, 1)))
-    for now in learn_set(
+    for learned in learn_set(
         start,
         lambda: circle_of(rng.uniform(*RADII), rng.uniform(0, 2 * np.pi)),
         set_loss=params.set_loss,
         counts=counts_of(params),
         chamfer_gradient=functions.chamfer_gradient,
     ):
-        yield None, now
+        yield None, learned
 
 
 def _mesh(
@@ -144,7 +144,7 @@ def _mesh(
         "normal": params.normal,
         "edge": params.edge,
     }
-    for now in fit_mesh(
+    for fitted in fit_mesh(
         START * ball.p,
         ball.faces,
         given,
@@ -154,7 +154,7 @@ def _mesh(
         rng=rng,
         chamfer_gradient=functions.chamfer_gradient,
     ):
-        yield target, now
+        yield target, fitted
 
 
 @functools.lru_cache(maxsize=4)
@@ -192,13 +192,13 @@ def _classify(
     if any(params.stray):
         changed[:, 0] = params.stray
     if params.shuffled:
-        changed = np.stack([one[chance.permutation(CLOUD)] for one in changed])
+        changed = np.stack([cloud[chance.permutation(CLOUD)] for cloud in changed])
     tests = {"plain": plain, "changed": changed}
     about = Clouds(plain, changed, of)
-    for now in train_classifier(
+    for classified in train_classifier(
         params.pool, draw, tests, classes=len(NAMES), counts=counts_of(params), rng=rng
     ):
-        yield about, now
+        yield about, classified
 
 
 def _field(
@@ -207,7 +207,7 @@ def _field(
     angles = np.linspace(0, 2 * np.pi, params.views, endpoint=False)
     p, d, colors = photographs(angles)
     new = np.linspace(0, 2 * np.pi, NEW_VIEWS, endpoint=False) + NEW_VIEW
-    for now in reconstruct(
+    for rebuilt in reconstruct(
         p,
         d,
         colors,
@@ -216,7 +216,7 @@ def _field(
         rng=rng,
         ray_weights=functions.ray_weights,
     ):
-        yield _looks(params, functions, now.field, (p, d, colors), angles, new), now
+        yield _looks(params, functions, rebuilt.field, (p, d, colors), angles, new), rebuilt
 
 
 def photographs(angles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -239,7 +239,7 @@ def _looks(
     new: np.ndarray,
 ) -> Looks:
     p, d, colors = photographs(new)
-    _, found = field.along(p, d, functions.ray_weights)
+    _, rendered = field.along(p, d, functions.ray_weights)
     own = field.along(trained[0], trained[1], functions.ray_weights)[1]
     k = params.picked % PIXELS
     weights = field.along(p[[k]], d[[k]], functions.ray_weights)[0][0]
@@ -250,9 +250,9 @@ def _looks(
     dense = field.density > DENSE
     return Looks(
         trained=signal(own, trained[2]),
-        unseen=signal(found, colors),
+        unseen=signal(rendered, colors),
         overlap=float((dense & full).sum() / (dense | full).sum()),
-        image=found[:PIXELS],
+        image=rendered[:PIXELS],
         truth=colors[:PIXELS],
         angles=np.append(angles, NEW_VIEW),
         ray=np.stack([q[0, 0], q[0, -1]]),

@@ -21,16 +21,16 @@ def caption(state: State) -> Caption:
     """Return the caption of a step."""
     if state.study is not None:
         return _finer(state)
-    now = state.now
-    if isinstance(now, Sums):
-        return _faces(state, now)
-    if isinstance(now, Cells):
-        return _cells(state, now)
-    if isinstance(now, Throws):
-        return _throws(state, now)
-    if isinstance(now, Lines):
-        return _lines(state, now)
-    return _samples(state, now) if isinstance(now, Sampled) else _balls(now)
+    result = state.now
+    if isinstance(result, Sums):
+        return _faces(state, result)
+    if isinstance(result, Cells):
+        return _cells(state, result)
+    if isinstance(result, Throws):
+        return _throws(state, result)
+    if isinstance(result, Lines):
+        return _lines(state, result)
+    return _samples(state, result) if isinstance(result, Sampled) else _balls(result)
 
 
 def volume(subject: Subject, value: float) -> str:
@@ -63,11 +63,11 @@ def _number(value: float) -> str:
     return fixed_or_power(value, 0) if abs(value) >= 1e6 else brief(value, 4)
 
 
-def _faces(state: State, now: Sums) -> Caption:
+def _faces(state: State, sums: Sums) -> Caption:
     subject = state.subject
-    if not np.isfinite(subject.volume) and now.count < len(subject.faces):
-        return _area_alone(subject, now)
-    if now.count == 0:
+    if not np.isfinite(subject.volume) and sums.count < len(subject.faces):
+        return _area_alone(subject, sums)
+    if sums.count == 0:
         gone = len(subject.whole) - len(subject.faces)
         hole = f" {counted(gone, 'triangle')} cut out." if gone else ""
         return Caption(
@@ -75,11 +75,11 @@ def _faces(state: State, now: Sums) -> Caption:
             f" triangles.{hole}{subject.note} Each triangle makes a tetrahedron with the origin,"
             " the purple dot."
         )
-    if now.count == len(subject.faces):
-        return _all_faces(state, now)
-    if now.count == 1:
-        k = now.order[0]
-        part = float(now.parts[k])
+    if sums.count == len(subject.faces):
+        return _all_faces(state, sums)
+    if sums.count == 1:
+        k = sums.order[0]
+        part = float(sums.parts[k])
         side = (
             "minus, for the origin is in front of it"
             if part < 0
@@ -87,40 +87,40 @@ def _faces(state: State, now: Sums) -> Caption:
         )
         return Caption(
             "The triangle nearest to the origin: half the length of (b − a) × (c − a) is its area,"
-            f" {area(subject, float(now.areas[k]))}; a · (b × c) / 6 is its tetrahedron,"
+            f" {area(subject, float(sums.areas[k]))}; a · (b × c) / 6 is its tetrahedron,"
             f" {volume(subject, part)}: {side}."
         )
-    new = now.order[now.count - now.new : now.count]
-    minus = int(np.count_nonzero(now.parts[new] < 0))
+    new = sums.order[sums.count - sums.new : sums.count]
+    minus = int(np.count_nonzero(sums.parts[new] < 0))
     return Caption(
-        f"{now.count:,} of {len(subject.faces):,} triangles, near ones first:"
-        f" {volume(subject, now.volume)} so far. New ones that count plus: {now.new - minus:,};"
+        f"{sums.count:,} of {len(subject.faces):,} triangles, near ones first:"
+        f" {volume(subject, sums.volume)} so far. New ones that count plus: {sums.new - minus:,};"
         f" that count minus: {minus:,}."
     )
 
 
-def _area_alone(subject: Subject, now: Sums) -> Caption:
-    if now.count == 0:
+def _area_alone(subject: Subject, sums: Sums) -> Caption:
+    if sums.count == 0:
         return Caption(
             f"{_capital(subject.name)}: {len(subject.p):,} vertices, {len(subject.faces):,}"
             f" triangles.{subject.note} Its area is added up, triangle by triangle."
         )
     return Caption(
-        f"{now.count:,} of {len(subject.faces):,} triangles, near ones first: area"
-        f" {area(subject, now.area)} so far."
+        f"{sums.count:,} of {len(subject.faces):,} triangles, near ones first: area"
+        f" {area(subject, sums.area)} so far."
     )
 
 
-def _all_faces(state: State, now: Sums) -> Caption:
+def _all_faces(state: State, sums: Sums) -> Caption:
     subject = state.subject
     text = (
-        f"All {len(subject.faces):,} triangles: area {area(subject, now.area)}"
+        f"All {len(subject.faces):,} triangles: area {area(subject, sums.area)}"
         f" ({off(state.area_error)})"
     )
     if not np.isfinite(subject.volume):
         return Caption(f"{text}. It encloses nothing, so no volume is its own.")
     text += (
-        f", volume {volume(subject, now.volume)} ({off(state.volume_error)}). {_origin(subject)}"
+        f", volume {volume(subject, sums.volume)} ({off(state.volume_error)}). {_origin(subject)}"
     )
     return Caption(text, "good" if right(state) else "wrong")
 
@@ -129,8 +129,8 @@ def right(state: State) -> bool:
     """Tell whether all faces were added up, and their volume is that of the mesh or, but for its
     facets, of its shape.
     """
-    now = state.now
-    if not isinstance(now, Sums) or not encloses(state.subject.faces):
+    result = state.now
+    if not isinstance(result, Sums) or not encloses(state.subject.faces):
         return False
     most = 0.75 if state.params.subdivisions < 1 else 0.4 if state.params.subdivisions < 2 else 0.15
     return -(most if state.subject.smooth else EXACT) < state.volume_error < 1e-6
@@ -142,34 +142,34 @@ def _origin(subject: Subject) -> str:
     return "Edges lack a partner: another origin gives another volume."
 
 
-def _cells(state: State, now: Cells) -> Caption:
-    subject, n = state.subject, now.across[-1]
-    full = int(np.count_nonzero(now.bits))
+def _cells(state: State, cells: Cells) -> Caption:
+    subject, n = state.subject, cells.across[-1]
+    full = int(np.count_nonzero(cells.bits))
     whole = (
         "the true area"
         if state.params.voxels is None
         else "the area by marching through all voxels"
     )
     text = (
-        f"{n} cells across, {full:,} full: volume {volume(subject, now.volumes[-1])}"
+        f"{n} cells across, {full:,} full: volume {volume(subject, cells.volumes[-1])}"
         f" ({off(state.volume_error)})."
     )
-    text += f" The walls between full and empty: {area(subject, now.areas[-1])}"
-    text += f", {fixed(now.areas[-1] / subject.area, 2)} times {whole}"
-    if np.isfinite(now.marched[-1]):
-        text += f"; marching cubes: {fixed(now.marched[-1] / subject.area, 2)} times"
-    return Caption(f"{text}.{subject.note if len(now.across) == 1 else ''}")
+    text += f" The walls between full and empty: {area(subject, cells.areas[-1])}"
+    text += f", {fixed(cells.areas[-1] / subject.area, 2)} times {whole}"
+    if np.isfinite(cells.marched[-1]):
+        text += f"; marching cubes: {fixed(cells.marched[-1] / subject.area, 2)} times"
+    return Caption(f"{text}.{subject.note if len(cells.across) == 1 else ''}")
 
 
-def _throws(state: State, now: Throws) -> Caption:
-    subject, n = state.subject, now.estimates.counts[-1]
-    value, error = now.estimates.values[-1], now.estimates.errors[-1]
-    text = f"{n:,} throws, {now.hits:,} hits: {_interval(value, error)} {subject.unit}³"
+def _throws(state: State, throws: Throws) -> Caption:
+    subject, n = state.subject, throws.estimates.counts[-1]
+    value, error = throws.estimates.values[-1], throws.estimates.errors[-1]
+    text = f"{n:,} throws, {throws.hits:,} hits: {_interval(value, error)} {subject.unit}³"
     text += f"; truth {volume(subject, subject.volume)}, {off(state.volume_error)}."
-    if now.hits in (0, n):
+    if throws.hits in (0, n):
         return Caption(
-            f"{text} Without a {'hit' if now.hits == 0 else 'miss'} the interval is empty: it knows"
-            " nothing."
+            f"{text} Without a {'hit' if throws.hits == 0 else 'miss'} the interval is empty: it"
+            " knows nothing."
         )
     held = abs(value - subject.volume) <= SURE * error
     text += f" The interval (95 %) {'holds' if held else 'misses'} the truth."
@@ -181,56 +181,56 @@ def _throws(state: State, now: Throws) -> Caption:
         )
         wide = ": too wide here" if n >= ENOUGH else ""
         return Caption(f"{text} It is that of random throws{wide}.{anew}")
-    return Caption(text + _peeked(state, len(now.estimates.counts)))
+    return Caption(text + _peeked(state, len(throws.estimates.counts)))
 
 
 def _peeked(state: State, looks: int) -> str:
     if state.peeked is None:
         return ""
-    now, ever = state.peeked
+    here, ever = state.peeked
     return (
-        f" Of {RUNS:,} such runs {percent(now, 0)} miss it at this step, and {percent(ever, 0)}"
+        f" Of {RUNS:,} such runs {percent(here, 0)} miss it at this step, and {percent(ever, 0)}"
         f" missed it at one or more of the {looks} looks."
     )
 
 
-def _lines(state: State, now: Lines) -> Caption:
-    subject, n = state.subject, now.estimates.counts[-1]
-    value, error = now.estimates.values[-1], now.estimates.errors[-1]
+def _lines(state: State, lines: Lines) -> Caption:
+    subject, n = state.subject, lines.estimates.counts[-1]
+    value, error = lines.estimates.values[-1], lines.estimates.errors[-1]
     return Caption(
-        f"{n:,} lines through the ball around it cross the surface {now.total:,} times,"
-        f" {fixed(now.total / n, 2)} each; times 2πR² that is {_interval(value, error)}"
+        f"{n:,} lines through the ball around it cross the surface {lines.total:,} times,"
+        f" {fixed(lines.total / n, 2)} each; times 2πR² that is {_interval(value, error)}"
         f" {subject.unit}²; truth {area(subject, subject.area)}, {off(state.area_error)}."
     )
 
 
-def _samples(state: State, now: Sampled) -> Caption:
+def _samples(state: State, sampled: Sampled) -> Caption:
     if state.in_triangle:
         shares = ", ".join(percent(share, 0) for share in state.quarters[:3])
         return Caption(
-            f"{len(now.q):,} points in one triangle. Its four quarters are of one size; the corners"
-            f" got {shares}, the middle {percent(state.quarters[3], 0)}."
+            f"{len(sampled.q):,} points in one triangle. Its four quarters are of one size; the"
+            f" corners got {shares}, the middle {percent(state.quarters[3], 0)}."
         )
     subject = state.subject
-    gap = float(np.linalg.norm(now.mean - state.middle)) / subject.diagonal
+    gap = float(np.linalg.norm(sampled.mean - state.middle)) / subject.diagonal
     return Caption(
-        f"{len(now.q):,} points on {subject.name}: {percent(state.half_hits, 0)} of them on the"
+        f"{len(sampled.q):,} points on {subject.name}: {percent(state.half_hits, 0)} of them on the"
         f" half whose faces were cut in four, which has {percent(state.half_share, 0)} of the area."
         f" Their mean is {percent(gap)} of the diagonal away from the surface's middle."
     )
 
 
-def _balls(now: Balls) -> Caption:
-    d, hits, share = now.dimensions[-1], now.hits[-1], now.shares[-1]
+def _balls(balls: Balls) -> Caption:
+    d, hits, share = balls.dimensions[-1], balls.hits[-1], balls.shares[-1]
     text = (
-        f"{d} dimensions: {now.throws:,} throws, {counted(hits, 'hit')}; the ball fills"
+        f"{d} dimensions: {balls.throws:,} throws, {counted(hits, 'hit')}; the ball fills"
         f" {_share(share)} of its cube"
     )
     if hits == 0:
         return Caption(f"{text}. The estimate is 0, and its interval too.")
     return Caption(
-        f"{text}. The volume is known to ±{percent(SURE * np.sqrt((1 - hits / now.throws) / hits))}"
-        " (95 %)."
+        f"{text}. The volume is known to"
+        f" ±{percent(SURE * np.sqrt((1 - hits / balls.throws) / hits))} (95 %)."
     )
 
 

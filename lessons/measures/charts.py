@@ -22,18 +22,18 @@ HITS = Chart("Hits by dimension", "dimensions", "log₁₀ hits")
 
 def beside(state: State) -> dict[str, Primitive]:
     """Return the charts and tables of a step."""
-    now, subject = state.now, state.subject
+    result, subject = state.now, state.subject
     if state.study is not None:
         return _finer(state.study, lantern=state.params.shape == "lantern") | _sums(state)
-    if isinstance(now, Sums):
-        return _running(state, now.volume, now.area) | _sums(state)
-    if isinstance(now, Cells):
-        return _running(state, now.volumes[-1], now.areas[-1]) | _cells(state, now)
-    if isinstance(now, Throws):
-        return _by_chance(now.estimates, subject.volume, "Volume", f"{subject.unit}³", "throws")
-    if isinstance(now, Lines):
-        return _by_chance(now.estimates, subject.area, "Area", f"{subject.unit}²", "lines")
-    return _samples(state, now) if isinstance(now, Sampled) else _balls(now)
+    if isinstance(result, Sums):
+        return _running(state, result.volume, result.area) | _sums(state)
+    if isinstance(result, Cells):
+        return _running(state, result.volumes[-1], result.areas[-1]) | _cells(state, result)
+    if isinstance(result, Throws):
+        return _by_chance(result.estimates, subject.volume, "Volume", f"{subject.unit}³", "throws")
+    if isinstance(result, Lines):
+        return _by_chance(result.estimates, subject.area, "Area", f"{subject.unit}²", "lines")
+    return _samples(state, result) if isinstance(result, Sampled) else _balls(result)
 
 
 def _running(state: State, volume: float, area: float) -> dict[str, Primitive]:
@@ -53,16 +53,16 @@ def _running(state: State, volume: float, area: float) -> dict[str, Primitive]:
 
 
 def _sums(state: State) -> dict[str, Primitive]:
-    now, subject = state.now, state.subject
-    if not isinstance(now, Sums) or now.count < len(subject.faces):
+    sums, subject = state.now, state.subject
+    if not isinstance(sums, Sums) or sums.count < len(subject.faces):
         return {}
-    rows = [("area", area(subject, now.area), area(subject, subject.area), off(state.area_error))]
+    rows = [("area", area(subject, sums.area), area(subject, subject.area), off(state.area_error))]
     if np.isfinite(subject.volume):
         true = volume(subject, subject.volume)
-        rows.append(("volume", volume(subject, now.volume), true, off(state.volume_error)))
-        plus = float(now.parts[now.parts > 0].sum())
+        rows.append(("volume", volume(subject, sums.volume), true, off(state.volume_error)))
+        plus = float(sums.parts[sums.parts > 0].sum())
         rows.append(("plus alone", volume(subject, plus), "", ""))
-        rows.append(("minus alone", volume(subject, float(now.parts.sum()) - plus), "", ""))
+        rows.append(("minus alone", volume(subject, float(sums.parts.sum()) - plus), "", ""))
     return {"sums": Table("All faces", ("", "sum", "truth", "error"), tuple(rows))}
 
 
@@ -78,15 +78,15 @@ def _finer(study: Study, lantern: bool) -> dict[str, Primitive]:
     return scene
 
 
-def _cells(state: State, now: Cells) -> dict[str, Primitive]:
-    subject, x = state.subject, np.log2(now.across)
+def _cells(state: State, cells: Cells) -> dict[str, Primitive]:
+    subject, x = state.subject, np.log2(cells.across)
     return {
         "volume errors": CELLS.dots(
-            x, _log(np.abs(np.array(now.volumes) / subject.volume - 1)), "volume"
+            x, _log(np.abs(np.array(cells.volumes) / subject.volume - 1)), "volume"
         ),
-        "wall areas": AREAS.curve(x, np.array(now.areas) / subject.area, "walls of cells"),
+        "wall areas": AREAS.curve(x, np.array(cells.areas) / subject.area, "walls of cells"),
         "marched areas": AREAS.curve(
-            x, np.array(now.marched) / subject.area, "marching cubes", "other"
+            x, np.array(cells.marched) / subject.area, "marching cubes", "other"
         ),
         "true areas": AREAS.curve(x, np.ones(len(x)), "truth", "truth"),
     }
@@ -97,9 +97,9 @@ def _log(error: np.ndarray) -> np.ndarray:
 
 
 def _by_chance(
-    estimates: Estimates, true: float, what: str, unit: str, drawn: str
+    estimates: Estimates, true: float, quantity: str, unit: str, drawn: str
 ) -> dict[str, Primitive]:
-    sums = Chart(f"{what} by {drawn}", f"log₁₀ {drawn}", unit)
+    sums = Chart(f"{quantity} by {drawn}", f"log₁₀ {drawn}", unit)
     off_by = Chart(f"Error by {drawn}", f"log₁₀ {drawn}", "log₁₀ error (%)")
     x, values, errors = (
         np.log10(estimates.counts),
@@ -117,7 +117,7 @@ def _by_chance(
     }
 
 
-def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
+def _samples(state: State, sampled: Sampled) -> dict[str, Primitive]:
     if state.in_triangle:
         names = ("corner a", "corner b", "corner c", "middle")
         rows = tuple(
@@ -127,7 +127,7 @@ def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
         return {
             "quarters table": Table("Points in the quarters", ("", "share", "of the area"), rows)
         }
-    gap = 100 * float(np.linalg.norm(now.mean - state.middle)) / state.subject.diagonal
+    gap = 100 * float(np.linalg.norm(sampled.mean - state.middle)) / state.subject.diagonal
     return {
         "gap": GAP.scalar(gap, "mean of the points", "wrong"),
         "half": HALF.scalar(100 * state.half_hits, "points"),
@@ -135,11 +135,11 @@ def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
     }
 
 
-def _balls(now: Balls) -> dict[str, Primitive]:
-    x, hits = np.array(now.dimensions, float), np.array(now.hits, float)
+def _balls(balls: Balls) -> dict[str, Primitive]:
+    x, hits = np.array(balls.dimensions, float), np.array(balls.hits, float)
     return {
         "expected hits": HITS.curve(
-            x, np.log10(now.throws * np.array(now.shares)), "expected", "truth"
+            x, np.log10(balls.throws * np.array(balls.shares)), "expected", "truth"
         ),
         "hits": HITS.dots(x, np.log10(np.where(hits > 0, hits, np.nan)), "hits"),
     }

@@ -25,20 +25,20 @@ RIMS = CUBE[[[a, b] for a in range(8) for b in range(a) if np.abs(CUBE[a] - CUBE
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    now = state.now
+    result = state.now
     scene: dict[str, Primitive] = {"caption": caption(state)}
-    if isinstance(now, Sums):
-        scene |= _faces(state, now)
-    elif isinstance(now, Cells):
-        scene |= _cells(state, now)
-    elif isinstance(now, Throws):
-        scene |= _throws(state, now)
-    elif isinstance(now, Lines):
-        scene |= _lines(state, now)
-    elif isinstance(now, Sampled):
-        scene |= _triangle(now) if state.in_triangle else _samples(state, now)
+    if isinstance(result, Sums):
+        scene |= _faces(state, result)
+    elif isinstance(result, Cells):
+        scene |= _cells(state, result)
+    elif isinstance(result, Throws):
+        scene |= _throws(state, result)
+    elif isinstance(result, Lines):
+        scene |= _lines(state, result)
+    elif isinstance(result, Sampled):
+        scene |= _triangle(result) if state.in_triangle else _samples(state, result)
     else:
-        scene |= _ball(now)
+        scene |= _ball(result)
     return scene | beside(state)
 
 
@@ -58,12 +58,12 @@ def _faint(subject: Subject, opacity: float = 0.25) -> Mesh:
     return Mesh(_shown(subject), subject.faces, "target", opacity=opacity, name=subject.name)
 
 
-def _faces(state: State, now: Sums) -> dict[str, Primitive]:
+def _faces(state: State, sums: Sums) -> dict[str, Primitive]:
     subject, origin = state.subject, np.array(state.params.origin)
     p, faces = _apart(subject)
     added = np.zeros(len(faces), dtype=np.uint8)
-    done = now.order[: now.count]
-    added[done] = np.where(now.parts[done] < 0, 2, 1)
+    done = sums.order[: sums.count]
+    added[done] = np.where(sums.parts[done] < 0, 2, 1)
     color = Classes(
         np.repeat(added, 3),
         ("neutral", "target", "wrong"),
@@ -77,8 +77,8 @@ def _faces(state: State, now: Sums) -> dict[str, Primitive]:
         scene["edges"] = Segments(_edges(subject), "neutral", 1, opacity=0.5, name="edges")
     if len(subject.faces) < len(subject.whole):
         scene["border"] = Segments(_rim(subject), "highlight", 4, name="border of the hole")
-    new = now.order[now.count - now.new : now.count]
-    if len(new) and now.count < len(faces):
+    new = sums.order[sums.count - sums.new : sums.count]
+    if len(new) and sums.count < len(faces):
         few = new[every(3 * len(new), MOST_RAYS)]
         corners = p.reshape(-1, 3, 3)[few].reshape(-1, 3)
         sign = Classes(
@@ -101,9 +101,9 @@ def _rim(subject: Subject) -> np.ndarray:
     return _shown(subject)[np.unique(np.sort(boundary_edges(subject.faces), axis=1), axis=0)]
 
 
-def _cells(state: State, now: Cells) -> dict[str, Primitive]:
+def _cells(state: State, cells: Cells) -> dict[str, Primitive]:
     subject = state.subject
-    bits, grid = now.bits, now.grid
+    bits, grid = cells.bits, cells.grid
     step = -(-max(bits.shape) // MOST_SHOWN)
     if step > 1:
         bits = bits[step // 2 :: step, step // 2 :: step, step // 2 :: step]
@@ -115,13 +115,13 @@ def _cells(state: State, now: Cells) -> dict[str, Primitive]:
     return scene
 
 
-def _throws(state: State, now: Throws) -> dict[str, Primitive]:
+def _throws(state: State, throws: Throws) -> dict[str, Primitive]:
     subject = state.subject
     low, high = subject.scale * subject.low, subject.scale * subject.high
     return {
         "surface": _faint(subject),
         "box": Segments(low + (high - low) * RIMS, "neutral", 2, name="box"),
-        "throws": _thrown(subject.scale * now.q, now.inside),
+        "throws": _thrown(subject.scale * throws.q, throws.inside),
     }
 
 
@@ -135,10 +135,10 @@ def _thrown(q: np.ndarray, inside: np.ndarray) -> Points:
     )
 
 
-def _lines(state: State, now: Lines) -> dict[str, Primitive]:
+def _lines(state: State, lines: Lines) -> dict[str, Primitive]:
     subject = state.subject
-    few = now.ends[:MOST_LINES]
-    met = subject.scale * now.crossings
+    few = lines.ends[:MOST_LINES]
+    met = subject.scale * lines.crossings
     scene: dict[str, Primitive] = {
         "surface": _faint(subject, 0.5),
         "lines": Segments(subject.scale * few, "correspondence", 1.5, name="the last lines"),
@@ -148,9 +148,9 @@ def _lines(state: State, now: Lines) -> dict[str, Primitive]:
     return scene
 
 
-def _triangle(now: Sampled) -> dict[str, Primitive]:
+def _triangle(sampled: Sampled) -> dict[str, Primitive]:
     a, b, c = TRIANGLE
-    inner, corner = np.array([a + b, b + c, c + a]) / 2, at_corners(now.q)
+    inner, corner = np.array([a + b, b + c, c + a]) / 2, at_corners(sampled.q)
     which = np.where(corner.any(axis=1), corner.argmax(axis=1), 3).astype(np.uint8)
     color = Classes(
         which,
@@ -170,23 +170,23 @@ def _triangle(now: Sampled) -> dict[str, Primitive]:
             np.stack([inner, np.roll(inner, 1, axis=0)], axis=1), "target", 2, name="its quarters"
         ),
         "points": Points(
-            now.q,
+            sampled.q,
             color,
-            0.035 if len(now.q) < 300 else 0.02 if len(now.q) < 1000 else 0.011,
+            0.035 if len(sampled.q) < 300 else 0.02 if len(sampled.q) < 1000 else 0.011,
             name="points",
         ),
     }
 
 
-def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
+def _samples(state: State, sampled: Sampled) -> dict[str, Primitive]:
     subject = state.subject
-    q = now.q[-MOST_POINTS:]
+    q = sampled.q[-MOST_POINTS:]
     half = Classes(
         (subject.p[:, 0] > 0).astype(np.uint8),
         ("neutral", "other"),
         ("faces as they are", "faces cut in four"),
     )
-    two = subject.scale * np.stack([now.mean, state.middle])
+    two = subject.scale * np.stack([sampled.mean, state.middle])
     return {
         "surface": Mesh(_shown(subject), subject.faces, half, opacity=0.3, name=subject.name),
         "points": Points(
@@ -198,8 +198,8 @@ def _samples(state: State, now: Sampled) -> dict[str, Primitive]:
     }
 
 
-def _ball(now: Balls) -> dict[str, Primitive]:
+def _ball(balls: Balls) -> dict[str, Primitive]:
     return {
         "box": Segments(2.0 * RIMS - 1.0, "neutral", 2, name="the cube's first three sides"),
-        "throws": _thrown(now.q, now.inside),
+        "throws": _thrown(balls.q, balls.inside),
     }

@@ -53,7 +53,7 @@ def run(
     if params.method == "faces":
         origin = np.array(params.origin) / subject.scale
         away = np.linalg.norm(subject.p[subject.faces].mean(axis=1) - origin, axis=1)
-        found = sum_faces(
+        results = sum_faces(
             subject.p,
             subject.faces,
             origin,
@@ -63,10 +63,10 @@ def run(
         )
     elif params.method == "voxels":
         assert subject.full is not None
-        found = count_cells(subject.grids, subject.full)
+        results = count_cells(subject.grids, subject.full)
     elif params.method == "chance":
         assert subject.inside is not None
-        found = throw_points(
+        results = throw_points(
             subject.inside,
             subject.low,
             subject.high,
@@ -76,7 +76,7 @@ def run(
             volume_by_chance=volume_by_chance,
         )
     elif params.method == "lines":
-        found = shoot_lines(
+        results = shoot_lines(
             subject.p,
             subject.faces,
             _ball(subject),
@@ -84,14 +84,14 @@ def run(
             rng=rng,
         )
     else:
-        found = raise_dimension(params.dimension, params.throws, rng)
+        results = raise_dimension(params.dimension, params.throws, rng)
     state = None
-    for now in found:
-        state = State(params=params, subject=subject, now=now)
+    for result in results:
+        state = State(params=params, subject=subject, now=result)
         if (
-            isinstance(now, Throws)
+            isinstance(result, Throws)
             and params.draw == "random"
-            and now.estimates.counts[-1] == counts[-1]
+            and result.estimates.counts[-1] == counts[-1]
         ):
             state = replace(
                 state,

@@ -91,18 +91,18 @@ def two_spheres(subdivisions: int) -> Measurable:
     """Return two meshes of balls of radius 1 that overlap, their middles 1 m apart; area and volume
     are of the union.
     """
-    one, shift = sphere(subdivisions), np.array([APART / 2, 0.0, 0.0])
+    ball, shift = sphere(subdivisions), np.array([APART / 2, 0.0, 0.0])
     cap = RADIUS - APART / 2
     lens = np.pi * (4 * RADIUS + APART) * (2 * RADIUS - APART) ** 2 / 12
-    within = one.inside
+    within = ball.inside
     assert within is not None
     return Measurable(
-        p=np.concatenate([one.p - shift, one.p + shift]),
-        faces=np.concatenate([one.faces, one.faces + len(one.p)]),
-        low=one.low - shift,
-        high=one.high + shift,
-        area=2 * (one.area - 2 * np.pi * RADIUS * cap),
-        volume=2 * one.volume - lens,
+        p=np.concatenate([ball.p - shift, ball.p + shift]),
+        faces=np.concatenate([ball.faces, ball.faces + len(ball.p)]),
+        low=ball.low - shift,
+        high=ball.high + shift,
+        area=2 * (ball.area - 2 * np.pi * RADIUS * cap),
+        volume=2 * ball.volume - lens,
         inside=lambda q: within(q - shift) | within(q + shift),
     )
 

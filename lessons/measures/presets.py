@@ -186,8 +186,8 @@ def sums_of(states: Sequence[State]) -> Sums:
 
 def _walls(states: Sequence[State]) -> list[float]:
     """Return the area of the walls over the true area, grid by grid."""
-    now = as_a(Cells, states[-1].now)
-    return [area / states[-1].subject.area for area in now.areas]
+    cells = as_a(Cells, states[-1].now)
+    return [area / states[-1].subject.area for area in cells.areas]
 
 
 def _walls_answer(states: Sequence[State]) -> float:
@@ -206,19 +206,19 @@ def _walls_why(states: Sequence[State]) -> str:
 
 def _tenth(states: Sequence[State]) -> float:
     """Return how many times as many throws divide the standard error of a thousand by ten."""
-    now = as_a(Throws, states[-1].now)
-    counts, errors = np.array(now.estimates.counts), np.array(now.estimates.errors)
+    throws = as_a(Throws, states[-1].now)
+    counts, errors = np.array(throws.estimates.counts), np.array(throws.estimates.errors)
     start = int(np.argmin(np.abs(counts - 1000)))
     end = int(np.argmin(np.abs(errors - errors[start] / 10)))
     return float(counts[end] / counts[start])
 
 
 def _tenth_why(states: Sequence[State]) -> str:
-    now = as_a(Throws, states[-1].now)
+    throws = as_a(Throws, states[-1].now)
     share = dict(
         zip(
-            now.estimates.counts,
-            np.array(now.estimates.errors) / states[-1].subject.volume,
+            throws.estimates.counts,
+            np.array(throws.estimates.errors) / states[-1].subject.volume,
             strict=True,
         )
     )
@@ -230,8 +230,8 @@ def _tenth_why(states: Sequence[State]) -> str:
 
 
 def _hits(states: Sequence[State]) -> int:
-    now = as_a(Balls, states[-1].now)
-    return now.hits[-1]
+    balls = as_a(Balls, states[-1].now)
+    return balls.hits[-1]
 
 
 def _shrinks(states: Sequence[State]) -> tuple[float, float]:

@@ -21,13 +21,17 @@ def samples(
     params: Params, subject: Subject, rng: np.random.Generator, points_on_faces: OnFaces
 ) -> Iterator[State]:
     """Yield points in a triangle, then points on the surface."""
-    one = np.array([[0, 1, 2]])
+    face = np.array([[0, 1, 2]])
     numbers = numbers_of(params, np.ones(1), rng)
-    for now in sample_faces(
-        TRIANGLE, one, IN_TRIANGLE, numbers=numbers, points_on_faces=points_on_faces
+    for sampled in sample_faces(
+        TRIANGLE, face, IN_TRIANGLE, numbers=numbers, points_on_faces=points_on_faces
     ):
         yield State(
-            params=params, subject=subject, now=now, in_triangle=True, quarters=quarters(now.q)
+            params=params,
+            subject=subject,
+            now=sampled,
+            in_triangle=True,
+            quarters=quarters(sampled.q),
         )
     p, faces = with_small_half(subject.p, subject.faces)
     areas, small = face_areas(p, faces), p[faces].mean(axis=1)[:, 0] > 0
@@ -36,14 +40,14 @@ def samples(
         *[n for n in (30, 100, 300, 1000, 3000, 10_000, 30_000) if n < params.throws],
         params.throws,
     )
-    for now in sample_faces(p, faces, counts, numbers=numbers, points_on_faces=points_on_faces):
+    for sampled in sample_faces(p, faces, counts, numbers=numbers, points_on_faces=points_on_faces):
         yield State(
             params=params,
             subject=subject,
-            now=now,
+            now=sampled,
             half_share=float(areas[small].sum() / areas.sum()),
             middle=middle,
-            half_hits=float(np.mean(now.q[:, 0] > 0)),
+            half_hits=float(np.mean(sampled.q[:, 0] > 0)),
         )
 
 

@@ -207,19 +207,27 @@ class State:
         """The relative error of a volume that was just measured; NaN where none was or the truth is
         not known.
         """
-        now, true = self.now, self.subject.volume
-        if isinstance(now, Sums):
-            return now.volume / true - 1 if now.count == len(self.subject.faces) else float("nan")
-        if isinstance(now, Cells):
-            return now.volumes[-1] / true - 1
-        return now.estimates.values[-1] / true - 1 if isinstance(now, Throws) else float("nan")
+        result, true = self.now, self.subject.volume
+        if isinstance(result, Sums):
+            return (
+                result.volume / true - 1
+                if result.count == len(self.subject.faces)
+                else float("nan")
+            )
+        if isinstance(result, Cells):
+            return result.volumes[-1] / true - 1
+        return (
+            result.estimates.values[-1] / true - 1 if isinstance(result, Throws) else float("nan")
+        )
 
     @property
     def area_error(self) -> float:
         """The relative error of an area that was just measured; NaN where none was."""
-        now, true = self.now, self.subject.area
-        if isinstance(now, Sums):
-            return now.area / true - 1 if now.count == len(self.subject.faces) else float("nan")
-        if isinstance(now, Cells):
-            return now.areas[-1] / true - 1
-        return now.estimates.values[-1] / true - 1 if isinstance(now, Lines) else float("nan")
+        result, true = self.now, self.subject.area
+        if isinstance(result, Sums):
+            return (
+                result.area / true - 1 if result.count == len(self.subject.faces) else float("nan")
+            )
+        if isinstance(result, Cells):
+            return result.areas[-1] / true - 1
+        return result.estimates.values[-1] / true - 1 if isinstance(result, Lines) else float("nan")

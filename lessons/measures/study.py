@@ -44,9 +44,9 @@ def peeked(share: float, counts: tuple[int, ...]) -> tuple[float, float]:
 @functools.lru_cache(maxsize=2)
 def _halved(shape: str) -> Study:
     meshes = [built_in(shape, subdivisions, 4, 4) for subdivisions in range(6)]
-    area = [abs(surface_area(one.p, one.faces) / one.area - 1) for one in meshes]
-    volume = [abs(signed_volume(one.p, one.faces) / one.volume - 1) for one in meshes]
-    counts = np.array([len(one.faces) for one in meshes], dtype=float)
+    area = [abs(surface_area(mesh.p, mesh.faces) / mesh.area - 1) for mesh in meshes]
+    volume = [abs(signed_volume(mesh.p, mesh.faces) / mesh.volume - 1) for mesh in meshes]
+    counts = np.array([len(mesh.faces) for mesh in meshes], dtype=float)
     return Study(faces=counts, errors={"area": np.array(area), "volume": np.array(volume)})
 
 
@@ -55,5 +55,5 @@ def _lanterns() -> Study:
     shares = {}
     for name, power in POWERS.items():
         made = [built_in("lantern", 0, sectors, sectors**power) for sectors in SECTORS]
-        shares[name] = np.array([surface_area(one.p, one.faces) / one.area for one in made])
+        shares[name] = np.array([surface_area(mesh.p, mesh.faces) / mesh.area for mesh in made])
     return Study(faces=np.array(SECTORS, dtype=float), errors=shares)

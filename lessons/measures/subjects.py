@@ -143,8 +143,8 @@ def _spoilt(subject: Subject, params: Params) -> np.ndarray:
     turned = rng.random(len(faces)) < params.flipped
     faces = np.where(turned[:, None], faces[:, ::-1], faces)
     middles = subject.p[faces].mean(axis=1)
-    there = middles[np.argmax(middles @ HOLE)]
-    away = np.linalg.norm(middles - there, axis=1)
+    center = middles[np.argmax(middles @ HOLE)]
+    away = np.linalg.norm(middles - center, axis=1)
     return faces[np.sort(np.argsort(away, kind="stable")[round(params.hole * len(faces)) :])]
 
 
@@ -209,8 +209,8 @@ def _voxels(
 
 
 def _used(any_full: np.ndarray) -> np.ndarray:
-    found = np.flatnonzero(any_full)
-    return np.arange(found[0], found[-1] + 1)
+    indices = np.flatnonzero(any_full)
+    return np.arange(indices[0], indices[-1] + 1)
 
 
 def _every(bits: np.ndarray, low: np.ndarray, edges: np.ndarray, n: int) -> tuple[np.ndarray, Grid]:

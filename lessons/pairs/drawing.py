@@ -42,19 +42,19 @@ PLACES = {"pairs": "pairs", "centre": "middles", "cross": "matrix", "flip": "mir
 
 def draw(look: Look[Input, Scans, State]) -> Scene:
     """Return the picture of one step."""
-    scans, now = look.subject, look.now.now
-    T = np.eye(4) if now.stage == "pairs" else scans.T_world_target @ now.T_target_source
-    mirrored = bool(np.linalg.det(now.T_target_source[:3, :3]) < 0)
+    scans, fit = look.subject, look.now.now
+    T = np.eye(4) if fit.stage == "pairs" else scans.T_world_target @ fit.T_target_source
+    mirrored = bool(np.linalg.det(fit.T_target_source[:3, :3]) < 0)
     scene = _clouds(scans, T, mirrored) | _bands(scans, T)
-    if now.U is not None and now.V is not None and now.D is not None:
-        reach = REACH * np.sqrt(np.maximum(now.D, 1e-4))
+    if fit.U is not None and fit.V is not None and fit.D is not None:
+        reach = REACH * np.sqrt(np.maximum(fit.D, 1e-4))
         middle = scans.p_source.mean(axis=0)
-        scene |= _lines("directions", middle, now.V * reach, T, now.D)
-        if now.stage in ("cross", "in"):  # later they lie on each other
-            there = scans.p_target.mean(axis=0)
+        scene |= _lines("directions", middle, fit.V * reach, T, fit.D)
+        if fit.stage in ("cross", "in"):  # later they lie on each other
+            target_middle = scans.p_target.mean(axis=0)
             T_target = scans.T_world_target
-            scene |= _lines("target directions", there, now.U * reach, T_target, None)
-    if now.stage in ("flip", "scale"):
+            scene |= _lines("target directions", target_middle, fit.U * reach, T_target, None)
+    if fit.stage in ("flip", "scale"):
         scene |= _missed(scans, look.now, T)
     return scene | _charts(look) | {"caption": caption(look)}
 
@@ -123,33 +123,33 @@ def _missed(scans: Scans, state: State, T: np.ndarray) -> dict[str, Primitive]:
 
 def _charts(look: Look[Input, Scans, State]) -> dict[str, Primitive]:
     scans, state, params = look.subject, look.now, look.params
-    now, begun = state.now, state.now.stage != "pairs"
-    off = scans.degrees_off(now.T_target_source) if begun else np.nan
+    fit, begun = state.now, state.now.stage != "pairs"
+    off = scans.degrees_off(fit.T_target_source) if begun else np.nan
     scene: dict[str, Primitive] = {
-        "rmse": RMSE.scalar(now.rmse if begun else np.nan, "RMSE of the pairs"),
+        "rmse": RMSE.scalar(fit.rmse if begun else np.nan, "RMSE of the pairs"),
         "rotation error": TURN.scalar(off, "rotation error", "truth"),
     }
     if scans.scales:
-        scene["scale"] = FOUND.scalar(np.nan if now.scale is None else now.scale, "scale")
-    if now.D is not None:
+        scene["scale"] = FOUND.scalar(np.nan if fit.scale is None else fit.scale, "scale")
+    if fit.D is not None:
         three = np.arange(1.0, 4.0)
-        scene["strength"] = OF_H.bars(three, CM2 * now.D, "singular value of H")
+        scene["strength"] = OF_H.bars(three, CM2 * fit.D, "singular value of H")
         if scans.mirrored:
-            scene["price"] = PRICE.bars(three, 4.0 * CM2 * now.D, "4 × its singular value", "wrong")
+            scene["price"] = PRICE.bars(three, 4.0 * CM2 * fit.D, "4 × its singular value", "wrong")
     if scans.scales:
-        there, back = scans.scales["there"], scans.scales["back"]
+        forth, back = scans.scales["there"], scans.scales["back"]
         at = params.noise
         scene |= {
-            "scale/there": SCALE.whole(SIGMAS, there, "orange to blue", "source"),
+            "scale/there": SCALE.whole(SIGMAS, forth, "orange to blue", "source"),
             "scale/back": SCALE.whole(SIGMAS, 1.0 / back, "1 over blue to orange", "target"),
             "scale/truth": SCALE.second(
                 SIGMAS, np.full(len(SIGMAS), params.scale), "truth", "truth"
             ),
             "scale/mark": SCALE.mark(
-                at, float(np.interp(at, SIGMAS, there)), "here", "source", knob="noise"
+                at, float(np.interp(at, SIGMAS, forth)), "here", "source", knob="noise"
             ),
         }
-    if scans.off and now.stage in ("flip", "scale"):
+    if scans.off and fit.stage in ("flip", "scale"):
         at = params.wrong
         chosen = scans.off[params.mistakes if at else "shuffled"]
         scene |= {
@@ -166,21 +166,21 @@ def _charts(look: Look[Input, Scans, State]) -> dict[str, Primitive]:
 
 def caption(look: Look[Input, Scans, State]) -> Caption:
     """Return what just happened, with the number that changed."""
-    scans, state, now = look.subject, look.now, look.now.now
-    place = PLACES.get(now.stage, now.stage)
-    rmse = metres(now.rmse)
-    if now.stage == "pairs":
+    scans, state, fit = look.subject, look.now, look.now.now
+    place = PLACES.get(fit.stage, fit.stage)
+    rmse = metres(fit.rmse)
+    if fit.stage == "pairs":
         n = counted(len(scans.p_source), "pair")
         if not scans.is_wrong.any():
             return say("{n}: each point knows its partner.", n=n, place=place)
         wrong = int(np.count_nonzero(scans.is_wrong))
         return say("{n}, {wrong} of them wrong.", n=n, wrong=wrong, place=place)
-    if now.stage == "centre":
+    if fit.stage == "centre":
         return say("Middle on middle: RMSE {rmse}.", rmse=rmse, place=place)
-    if now.D is None or now.V is None:
-        raise AssertionError(now.stage)
-    if now.stage == "cross":
-        a, b, c = (number(CM2 * value) for value in now.D)
+    if fit.D is None or fit.V is None:
+        raise AssertionError(fit.stage)
+    if fit.stage == "cross":
+        a, b, c = (number(CM2 * value) for value in fit.D)
         return say(
             "Three directions in each scan, held with {a}, {b} and {c} cm².",
             a=a,
@@ -188,24 +188,24 @@ def caption(look: Look[Input, Scans, State]) -> Caption:
             c=c,
             place=place,
         )
-    if now.stage == "in":
-        turn = degrees(np.degrees(rotation_angle(now.V.T)))
+    if fit.stage == "in":
+        turn = degrees(np.degrees(rotation_angle(fit.V.T)))
         words = "Vᵀ turns orange by {turn}, its directions onto x, y and z: RMSE {rmse}."
         return say(words, turn=turn, rmse=rmse, place=place)
-    if now.stage == "out":
-        off = scans.degrees_off(now.T_target_source)
-        if now.mirror:
+    if fit.stage == "out":
+        off = scans.degrees_off(fit.T_target_source)
+        if fit.mirror:
             words = "The RMSE is {rmse}, but the determinant is −1: a mirror image."
             return say(words, rmse=rmse, place=place)
         words = "U turns on to the directions of blue: RMSE {rmse}"
         if not np.isfinite(off):
             return say(f"{words}.", rmse=rmse, place=place)
         return say(f"{words}, the turn {{off}} off.", rmse=rmse, off=degrees(off, 2), place=place)
-    off = scans.degrees_off(now.T_target_source)
-    if now.stage == "flip" and np.isfinite(off):
+    off = scans.degrees_off(fit.T_target_source)
+    if fit.stage == "flip" and np.isfinite(off):
         words = "The determinant is +1. The turn is {off} off, RMSE {rmse}."
         return say(words, off=degrees(off), rmse=rmse, place=place)
-    if now.stage == "flip":
+    if fit.stage == "flip":
         return say(_of_flip(look), rmse=rmse, place=place)
     return _of_scale(scans, state)
 
@@ -222,19 +222,19 @@ def _of_flip(look: Look[Input, Scans, State]) -> str:
 
 
 def _of_scale(scans: Scans, state: State) -> Caption:
-    now = state.now
-    assert now.scale is not None
-    there, rmse = decimals(now.scale, 3), metres(now.rmse)
-    off = scans.degrees_off(now.T_target_source)
+    fit = state.now
+    assert fit.scale is not None
+    scale, rmse = decimals(fit.scale, 3), metres(fit.rmse)
+    off = scans.degrees_off(fit.T_target_source)
     if not np.isfinite(off):
         return say(
-            "Scale {there} by least squares, RMSE {rmse}.", there=there, rmse=rmse, place="scale"
+            "Scale {there} by least squares, RMSE {rmse}.", there=scale, rmse=rmse, place="scale"
         )
     words, tone = "The scale is {there}, and the turn is {off} off.", "wrong"
-    if scans.at_home(now.T_target_source, now.scale):
+    if scans.at_home(fit.T_target_source, fit.scale):
         tone = "good"
     elif off < HOME_DEGREES:
         words = "The scale is {there} instead of {true}."
-    values = {"there": there, "true": number(scans.true_scale), "off": degrees(off, 2)}
+    values = {"there": scale, "true": number(scans.true_scale), "off": degrees(off, 2)}
     values = {name: value for name, value in values.items() if f"{{{name}}}" in words}
     return say(words, tone=tone, **values, place="scale")

@@ -85,10 +85,10 @@ def hand(bands: Bands) -> Iterator[Held]:
 
 def draw(look: Look[Params, Bands, Held]) -> Scene:
     """Return both outlines, their bands, the dial, and the pull over the angle."""
-    bands, now = look.subject, look.now
-    T_turn = upright_turn(now.angle)
-    shown = within_half(now.angle)
-    moved = turned(bands.p_source, now.angle)
+    bands, held = look.subject, look.now
+    T_turn = upright_turn(held.angle)
+    shown = within_half(held.angle)
+    moved = turned(bands.p_source, held.angle)
     tick = np.array([[0.0, DIAL - MARK], [0.0, DIAL + MARK]])
     return {
         "dial": Segments(dial_arc(-180.0, 180.0, DIAL), "neutral", 1.0, opacity=0.35),
@@ -116,9 +116,9 @@ def draw(look: Look[Params, Bands, Held]) -> Scene:
         "caption": say(
             "Turned by {angle}, the bands have an RMSE of {rmse}.",
             angle=degrees(shown),
-            rmse=metres(now.rmse),
+            rmse=metres(held.rmse),
         ),
-        "angle": ANGLE.scalar(now.angle, "angle"),
+        "angle": ANGLE.scalar(held.angle, "angle"),
         "pull/curve": PULL.whole(FINE, bands.rmse, "RMSE of the bands", "source"),
-        "pull/ball": PULL.mark(now.angle, now.rmse, "your hand", "source", steps="angle"),
+        "pull/ball": PULL.mark(held.angle, held.rmse, "your hand", "source", steps="angle"),
     }

@@ -200,5 +200,5 @@ def fit(
     p, q = scans.p_target, scans.p_source
     H = (p - p.mean(axis=0)).T @ (q - q.mean(axis=0))
     flip = params.flip if np.linalg.det(H) < 0 else "least"  # only a mirror image has to flip
-    for now in procrustes.procrustes(p, q, scale, flip):
-        yield State(now=now, back=scale(q, p) if now.stage == "scale" else float("nan"))
+    for state in procrustes.procrustes(p, q, scale, flip):
+        yield State(now=state, back=scale(q, p) if state.stage == "scale" else float("nan"))

@@ -60,10 +60,10 @@ def blame(look: PinholeLook) -> Told:
     """Return what is wrong at this stage, with its size; nothing while all is right."""
     params = look.params
     state = look.now
-    now = look.now.now
+    calculated = look.now.now
     back = back_error(look)
-    true = apply(look.subject.T_camera_world, now.p_world)
-    moved = now.stage == "camera" and not np.allclose(now.p_camera, true)
+    true = apply(look.subject.T_camera_world, calculated.p_world)
+    moved = calculated.stage == "camera" and not np.allclose(calculated.p_camera, true)
     if not (moved or state.error > VISIBLE or state.missed + state.false or back > MISPLACED):
         return "", {}
     why = "The calculation differs from the true camera."
@@ -108,10 +108,10 @@ def _slid(shot: Shot) -> np.ndarray:
 
 def back_error(look: PinholeLook) -> float:
     """Return the median distance of points that came back from where they are; 0 before that."""
-    now = look.now.now
-    if not now.reached("back"):
+    state = look.now.now
+    if not state.reached("back"):
         return 0.0
-    miss = np.linalg.norm(now.p_back - now.p_world, axis=1)
+    miss = np.linalg.norm(state.p_back - state.p_world, axis=1)
     return float(np.median(miss[np.isfinite(miss)])) if np.isfinite(miss).any() else 0.0
 
 
@@ -145,23 +145,23 @@ def _camera(look: PinholeLook) -> Told:
 
 def _divide(look: PinholeLook) -> Told:
     k = look.subject.k
-    now = look.now.now
-    z = float(now.p_camera[k, 2])
-    if not np.isfinite(now.xy[k]).all():
+    state = look.now.now
+    z = float(state.p_camera[k, 2])
+    if not np.isfinite(state.xy[k]).all():
         where = "not in front of" if z <= 0 else "in front of"
         return f"Z = {{z}}: it is {where} the camera, and gets no place on the pane.", {
             "z": _metres(z)
         }
-    x, y = (fixed(value, 3) for value in now.xy[k])
+    x, y = (fixed(value, 3) for value in state.xy[k])
     words = f"Divided by its depth Z, {look.subject.name} has x = {{x}}, y = {{y}}."
     return words, {"x": x, "y": y}
 
 
 def _distort(look: PinholeLook) -> Told:
     k = look.subject.k
-    now = look.now.now
+    state = look.now.now
     shot = look.subject
-    moved = shot.K[0, 0] * np.linalg.norm(now.xy_bent - now.xy, axis=1)
+    moved = shot.K[0, 0] * np.linalg.norm(state.xy_bent - state.xy, axis=1)
     if not any(shot.lens) and not (moved > VISIBLE).any():
         return "This lens bends nothing: x′ = x and y′ = y.", {}
     if not np.isfinite(moved).any():
@@ -171,7 +171,7 @@ def _distort(look: PinholeLook) -> Told:
         return "The followed point has no place behind the lens; the farthest moves {most}.", {
             "most": most
         }
-    inward = np.linalg.norm(now.xy_bent[k]) < np.linalg.norm(now.xy[k])
+    inward = np.linalg.norm(state.xy_bent[k]) < np.linalg.norm(state.xy[k])
     where = "" if moved[k] < 0.05 else " inwards" if inward else " outwards"
     words = f"The lens moves {shot.name} by {{moved}}{where}."
     return words, {"moved": pixels(float(moved[k]))}
@@ -188,13 +188,13 @@ def _pixels(look: PinholeLook) -> Told:
 
 def _back(look: PinholeLook) -> Told:
     k = look.subject.k
-    now = look.now.now
-    if not np.isfinite(now.p_back[k]).all():
+    state = look.now.now
+    if not np.isfinite(state.p_back[k]).all():
         return "The followed point has no pixel, so nothing leads back to it.", {}
-    z = float(now.p_camera[k, 2])
+    z = float(state.p_camera[k, 2])
     if look.params.mistake == "ray length for depth":
-        z = float(np.linalg.norm(now.p_camera[k]))
-    miss = float(np.linalg.norm(now.p_back[k] - now.p_world[k]))
+        z = float(np.linalg.norm(state.p_camera[k]))
+    miss = float(np.linalg.norm(state.p_back[k] - state.p_world[k]))
     words = "The pixel gives a ray, but no depth. With {z} we come out "
     if miss < SAME:
         return words + "where we began.", {"z": _metres(z)}

@@ -81,26 +81,26 @@ def _lens(look: PinholeLook) -> dict[str, Primitive]:
 
 def tables(look: PinholeLook) -> dict[str, Primitive]:
     """Return the followed point's journey so far, and what can be measured of the camera."""
-    shot, now, k = look.subject, look.now.now, look.subject.k
-    rows = [("in the world", f"{coordinates(now.p_world[k], 2)} m")]
-    if now.reached("camera"):
-        p = now.p_camera[k]
+    shot, state, k = look.subject, look.now.now, look.subject.k
+    rows = [("in the world", f"{coordinates(state.p_world[k], 2)} m")]
+    if state.reached("camera"):
+        p = state.p_camera[k]
         rows += [
             ("in the camera frame", f"{coordinates(p, 2)} m"),
             ("depth Z · ray length", f"{depth(p[2])} · {depth(float(np.linalg.norm(p)))}"),
         ]
-    if now.reached("divide"):
-        rows.append(("x, y = X/Z, Y/Z", coordinates(now.xy[k], 4)))
-    if now.reached("distort"):
-        rows.append(("after the lens", coordinates(now.xy_bent[k], 4)))
-    if now.reached("pixels"):
+    if state.reached("divide"):
+        rows.append(("x, y = X/Z, Y/Z", coordinates(state.xy[k], 4)))
+    if state.reached("distort"):
+        rows.append(("after the lens", coordinates(state.xy_bent[k], 4)))
+    if state.reached("pixels"):
         rows += [
-            ("pixel (u, v)", coordinates(now.uv[k], 1)),
+            ("pixel (u, v)", coordinates(state.uv[k], 1)),
             ("true pixel", coordinates(shot.uv[k], 1)),
         ]
-    if now.reached("back"):
-        metres = " m" * bool(np.isfinite(now.p_back[k]).all())
-        rows.append(("back in the world", coordinates(now.p_back[k], 2) + metres))
+    if state.reached("back"):
+        metres = " m" * bool(np.isfinite(state.p_back[k]).all())
+        rows.append(("back in the world", coordinates(state.p_back[k], 2) + metres))
     measured = (
         ("camera centre C = −Rᵀt", f"{coordinates(camera_center(shot.T_camera_world), 2)} m"),
         ("t of T_camera_world", f"{coordinates(shot.T_camera_world[:3, 3], 2)} m"),

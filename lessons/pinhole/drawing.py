@@ -39,17 +39,17 @@ GROUND = 0.4  # opacity, so that the floor is dark where the page is
 
 def draw(look: PinholeLook) -> Scene:
     """Return the picture of one stage."""
-    shot, now, k = look.subject, look.now.now, look.subject.k
+    shot, state, k = look.subject, look.now.now, look.subject.k
     T_world_camera = inverse(shot.T_camera_world)
     glass = pane.standing(look)
     w, h = glass.size
     away = look.params.pane * look.params.dolly
-    p = now.p_world[k]
+    p = state.p_world[k]
     scene: dict[str, Primitive] = {
         **scenery(),
         "camera": Camera(shot.K, w, h, T_world_camera, away, color="neutral", name="camera"),
         "picture": glass,
-        "points": Points(now.p_world, _point_color(look), 0.07, name="points of the street"),
+        "points": Points(state.p_world, _point_color(look), 0.07, name="points of the street"),
         "followed": Points(p[None], "highlight", 0.14, name="followed point"),
         "followed/name": Label(shot.name, p + 0.4 * UP, "highlight"),
         **_followed_ray(look),
@@ -59,15 +59,15 @@ def draw(look: PinholeLook) -> Scene:
     }
     if look.params.heights:
         scene |= _triangles(look, glass)
-    if now.stage == "camera":
+    if state.stage == "camera":
         scene |= _legs(look, T_world_camera) | _origin(look, T_world_camera)
-    if now.stage in ("divide", "distort", "pixels"):
+    if state.stage in ("divide", "distort", "pixels"):
         scene |= _rays(look) | pane.landed(look, glass)
-    if now.stage == "distort":
+    if state.stage == "distort":
         scene |= pane.bent_grid(look, glass)
-    if now.stage == "pixels":
+    if state.stage == "pixels":
         scene |= pane.measured(look, glass) | pane.vanishing(look, glass)
-    if now.stage == "back":
+    if state.stage == "back":
         scene |= _back(look)
     return scene
 
@@ -80,8 +80,8 @@ def scenery() -> dict[str, Primitive]:
     others = [name for name in scene.solids if name != "ground"]
     for path, names in {"ground": ["ground"], "street": others}.items():
         solids = [scene.solids[name] for name in names]
-        p = np.concatenate([one.p_world[one.faces].reshape(-1, 3) for one in solids])
-        colors = np.concatenate([np.repeat(one.colors, 3, axis=0) for one in solids])
+        p = np.concatenate([solid.p_world[solid.faces].reshape(-1, 3) for solid in solids])
+        colors = np.concatenate([np.repeat(solid.colors, 3, axis=0) for solid in solids])
         faces = np.arange(len(p), dtype=np.intp).reshape(-1, 3)
         opacity = GROUND if path == "ground" else 1.0
         meshes[path] = Mesh(p, faces, colors, opacity=opacity, flat=True, name=path)
@@ -100,20 +100,20 @@ def _followed_ray(look: PinholeLook) -> dict[str, Primitive]:
     """Return the ray of the followed point, and where it pierces the pane while that is only
     seen.
     """
-    shot, now, k = look.subject, look.now.now, look.subject.k
-    p, C = now.p_world[k], camera_center(shot.T_camera_world)
+    shot, state, k = look.subject, look.now.now, look.subject.k
+    p, C = state.p_world[k], camera_center(shot.T_camera_world)
     z = float(apply(shot.T_camera_world, p)[2])
     v = (p - C) / z if z else p - C  # one metre of depth
-    through = now.stage in ("world", "camera") or np.isfinite(now.xy[k]).all()
+    through = state.stage in ("world", "camera") or np.isfinite(state.xy[k]).all()
     away = look.params.pane * look.params.dolly
-    start = C + away * v if z < 0 and through and now.stage != "world" else C
+    start = C + away * v if z < 0 and through and state.stage != "world" else C
     parts: dict[str, Primitive] = {
         "ray": Segments(between(start, p), "highlight", 4, name="its ray")
     }
     if look.params.z and z > 0:
         beyond = np.stack([p, C + max(FAR, 1.2 * z) * v])
         parts["ray/beyond"] = dashed(beyond, "highlight", dash=0.25, width=2.0, opacity=0.7)
-    if now.stage in ("world", "camera") and z > 0 and np.isfinite(shot.uv[k]).all():
+    if state.stage in ("world", "camera") and z > 0 and np.isfinite(shot.uv[k]).all():
         glass = pane.standing(look)
         parts |= pane.dot(glass, shot.uv[k], ringed=bool(look.params.z))
     return parts
@@ -198,33 +198,33 @@ def _triangles(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
 
 def _back(look: PinholeLook) -> dict[str, Primitive]:
     """Return the ray of the followed pixel, and where pixels with depths come from."""
-    now, k = look.now.now, look.subject.k
+    state, k = look.now.now, look.subject.k
     parts: dict[str, Primitive] = {
-        "center": Points(now.p_center[None], "source", 0.16),
-        "center/name": Label("C", now.p_center + 0.3 * UP, "source"),
+        "center": Points(state.p_center[None], "source", 0.16),
+        "center/name": Label("C", state.p_center + 0.3 * UP, "source"),
     }
-    found = np.linalg.norm(np.nan_to_num(now.p_back, nan=np.inf), axis=1) < 1e4
-    if found.any():
-        parts["back"] = Points(now.p_back[found], "source", 0.09, name="from pixel and depth")
-        wrong = np.linalg.norm(now.p_back - now.p_world, axis=1) > 1e-6
-        if (found & wrong).any():
-            ends = between(now.p_world, now.p_back)[found & wrong]
+    returned = np.linalg.norm(np.nan_to_num(state.p_back, nan=np.inf), axis=1) < 1e4
+    if returned.any():
+        parts["back"] = Points(state.p_back[returned], "source", 0.09, name="from pixel and depth")
+        wrong = np.linalg.norm(state.p_back - state.p_world, axis=1) > 1e-6
+        if (returned & wrong).any():
+            ends = between(state.p_world, state.p_back)[returned & wrong]
             parts["back errors"] = Segments(ends, "wrong", 2, name="error")
-    if not found[k]:
+    if not returned[k]:
         return parts
-    z = float(now.p_camera[k, 2])
-    v = (now.p_back[k] - now.p_center) / z  # one metre of depth
+    z = float(state.p_camera[k, 2])
+    v = (state.p_back[k] - state.p_center) / z  # one metre of depth
     reach = max(FAR, 1.2 * z)
-    ahead = now.p_center, now.p_center + reach * v
+    ahead = state.p_center, state.p_center + reach * v
     parts["ray"] = Segments(between(*ahead), "highlight", 4, name="the pixel's ray")
-    behind = np.stack([now.p_center, now.p_center - 0.5 * FAR * v])
+    behind = np.stack([state.p_center, state.p_center - 0.5 * FAR * v])
     parts["ray/behind"] = dashed(behind, "highlight", dash=0.25, width=2.0, opacity=0.7)
-    marks = now.p_center + CANDIDATES[:, None] * v
+    marks = state.p_center + CANDIDATES[:, None] * v
     parts["candidates"] = Points(marks, "other", 0.13, name="other depths")
     for i, mark in enumerate(marks):
         if abs(CANDIDATES[i] / z - 1) < 0.1:  # the followed point's name stands there
             continue
         parts[f"candidates/{i}"] = Label(f"{CANDIDATES[i]:g} m", mark + 0.25 * UP, "other")
-    if np.isfinite(now.uv[k]).all():
-        parts |= pane.dot(pane.standing(look), now.uv[k], ringed=True)
+    if np.isfinite(state.uv[k]).all():
+        parts |= pane.dot(pane.standing(look), state.uv[k], ringed=True)
     return parts

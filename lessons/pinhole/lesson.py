@@ -30,8 +30,8 @@ def run(
     """Yield the stages of the street's points through the calculated camera."""
     model = model_of(params, shot, project, distort, camera_center)
     overlaid = overlays(shot, model)
-    for now in model(shot.p_world):
-        yield compared(shot, now, overlaid(now.stage))
+    for state in model(shot.p_world):
+        yield compared(shot, state, overlaid(state.stage))
 
 
 lesson = Lesson(

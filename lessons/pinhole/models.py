@@ -51,26 +51,26 @@ class State:
     false: int
 
 
-def compared(shot: Shot, now: pinhole.State, picture: np.ndarray) -> State:
+def compared(shot: Shot, state: pinhole.State, picture: np.ndarray) -> State:
     """Return a stage beside the true shot.
 
     Before pixels are reached, both sides are scaled with the true K, so that all stages speak of
     pixels.
     """
-    if not now.reached("divide"):
-        return State(now=now, picture=picture, error=float("nan"), found=0, missed=0, false=0)
-    true = shot.uv if now.reached("distort") else onto_pixels(shot.xy, shot.K)
-    got = now.seen(shot.K)
+    if not state.reached("divide"):
+        return State(now=state, picture=picture, error=float("nan"), found=0, missed=0, false=0)
+    true = shot.uv if state.reached("distort") else onto_pixels(shot.xy, shot.K)
+    got = state.seen(shot.K)
     seen = np.isfinite(true).all(axis=1)
-    found = np.isfinite(got).all(axis=1)
-    off = np.linalg.norm(got - true, axis=1)[seen & found]
+    projected = np.isfinite(got).all(axis=1)
+    off = np.linalg.norm(got - true, axis=1)[seen & projected]
     return State(
-        now=now,
+        now=state,
         picture=picture,
         error=float(np.median(off)) if len(off) else float("nan"),
-        found=int(found.sum()),
-        missed=int((seen & ~found).sum()),
-        false=int((found & ~seen).sum()),
+        found=int(projected.sum()),
+        missed=int((seen & ~projected).sum()),
+        false=int((projected & ~seen).sum()),
     )
 
 
@@ -128,7 +128,7 @@ def overlays(shot: Shot, model: Model) -> Callable[[Stage], np.ndarray]:
     @cache
     def calculated(p_world: bytes) -> dict[Stage, pinhole.State]:
         p = np.frombuffer(p_world).reshape(-1, 3).copy()
-        return {now.stage: now for now in islice(model(p), len(STAGES) - 1)}
+        return {state.stage: state for state in islice(model(p), len(STAGES) - 1)}
 
     @cache
     def laid_over(stage: Stage) -> np.ndarray:

@@ -71,22 +71,22 @@ def seen_at(glass: Picture, shot: Shot, p: np.ndarray) -> np.ndarray:
 
 def landed(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     """Return the dots of all points on the pane, the followed one larger."""
-    shot, now, k = look.subject, look.now.now, look.subject.k
-    uv = now.seen(shot.K)
+    shot, state, k = look.subject, look.now.now, look.subject.k
+    uv = state.seen(shot.K)
     near = _near(glass, uv)
     if not near.any():
         return {}
     assert glass.width is not None
     spots = Points(places(glass, uv[near]), "source", SPOT * glass.width, name="calculated")
     parts: dict[str, Primitive] = {"plane": spots}
-    if now.stage == "pixels":
+    if state.stage == "pixels":
         outside = ~_near(glass, uv[near], 0.0)
         inside = ("source", "in the picture")
         color = Classes.marking(outside, "correspondence", "outside it", others=inside)
         parts["plane"] = replace(spots, color=color, name=None)
     if near[k]:
         parts |= dot(glass, uv[k], ringed=bool(look.params.z))
-    if now.stage == "pixels" and near[k]:
+    if state.stage == "pixels" and near[k]:
         words = f"(u, v) = {coordinates(uv[k], 0)}"
         at = places(glass, uv[k] - [0.0, 0.04 * glass.size[1]], 2)
         parts["pixel"] = Label(words, at, "highlight")
@@ -95,7 +95,7 @@ def landed(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
 
 def bent_grid(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
     """Return a straight grid, the same as the lens bends it, and how far it moves the points."""
-    shot, now = look.subject, look.now.now
+    shot, state = look.subject, look.now.now
     w, h = glass.size
     across, down = (np.linspace(-0.5, size - 0.5, 9) for size in (w, h))
     t = np.linspace(0.0, 1.0, 25)
@@ -109,7 +109,7 @@ def bent_grid(look: PinholeLook, glass: Picture) -> dict[str, Primitive]:
         "grid": Segments(places(glass, straight), "neutral", 1.0, name="straight grid"),
         "bent": Segments(places(glass, bent[whole], 1.5), "source", 2.0, name="bent by the lens"),
     }
-    ideal, moved = (onto_pixels(one, shot.K) for one in (now.xy, now.xy_bent))
+    ideal, moved = (onto_pixels(points, shot.K) for points in (state.xy, state.xy_bent))
     both = _near(glass, ideal) & _near(glass, moved)
     if both.any():
         ends = places(glass, between(ideal[both], moved[both]), 2)

@@ -32,14 +32,14 @@ def towers(states: Run) -> tuple[float, float]:
 
 
 def _which_dolly(states: Run) -> float:
-    before, now = towers(states)
-    return 0.0 if now > 1.05 * before else 2.0 if now < 0.95 * before else 1.0
+    before, after = towers(states)
+    return 0.0 if after > 1.05 * before else 2.0 if after < 0.95 * before else 1.0
 
 
 def _why_dolly(states: Run) -> str:
-    before, now = towers(states)
+    before, after = towers(states)
     return (
-        f"It grows from {before:.0f} to {now:.0f} px. Heights go with f / Z: f is three times as"
+        f"It grows from {before:.0f} to {after:.0f} px. Heights go with f / Z: f is three times as"
         " long, and the tower's Z, which was larger to begin with, did not grow three times."
     )
 
@@ -87,10 +87,10 @@ def moved_aside(states: Run) -> tuple[float, float]:
     near = states[-1].now.p_world[3:4]
     d = np.array([[0.0, 1.0, 0.0]])
     first = pinhole_of(RAILS, 1.0).T_camera_world
-    now = states.subject.T_camera_world
+    last = states.subject.T_camera_world
     K = states.subject.K
-    far = vanishing_points(d, now, K) - vanishing_points(d, first, K)
-    return float(far[0, 0]), float((project(near, now, K) - project(near, first, K))[0, 0])
+    far = vanishing_points(d, last, K) - vanishing_points(d, first, K)
+    return float(far[0, 0]), float((project(near, last, K) - project(near, first, K))[0, 0])
 
 
 def _which_rails(states: Run) -> float:

@@ -29,26 +29,28 @@ def caption(state: State) -> Caption:
             return Caption(_given(state))
         case Repeated():
             return _repeated(state, state.now)
-        case Searched(phase="stop") as now:
-            assert now.stop is not None
-            text = f"Stop after {counted(now.steps, 'step')}: {now.stop.message}."
+        case Searched(phase="stop") as search:
+            assert search.stop is not None
+            text = f"Stop after {counted(search.steps, 'step')}: {search.stop.message}."
             if state.T is None:
                 return Caption(
                     f"{text} It is wrong: without a pose there is nothing to refine.", "wrong"
                 )
             return _end(state, f"{text} RMS error in the picture {_px(state.rms)}.{_off(state)}")
-        case Searched(phase="choose" | "solved" | "step") as now:
-            text = {"choose": _choose, "solved": _solved, "step": _step}[now.phase](
-                state, now
+        case Searched(phase="choose" | "solved" | "step") as search:
+            text = {"choose": _choose, "solved": _solved, "step": _step}[search.phase](
+                state, search
             ) + _off(state)
             return (
-                Caption(text) if now.phase == "step" or state.params.refine else _end(state, text)
+                Caption(text)
+                if search.phase == "step" or state.params.refine
+                else _end(state, text)
             )
-        case Searched() as now:
-            tone = "wrong" if now.phase == "root" and state.T is None else "info"
+        case Searched() as search:
+            tone = "wrong" if search.phase == "root" and state.T is None else "info"
             return Caption(
-                {"rays": _rays, "quartic": _quartic, "root": _root, "both": _both}[now.phase](
-                    state, now
+                {"rays": _rays, "quartic": _quartic, "root": _root, "both": _both}[search.phase](
+                    state, search
                 ),
                 tone,
             )
@@ -92,7 +94,7 @@ def _given(state: State) -> str:
     )
 
 
-def _rays(state: State, now: Searched) -> str:
+def _rays(state: State, search: Searched) -> str:
     p, n = state.subject.given.p_world, unit_rays(state.subject.xy[:3])
     sides = ", ".join(length(float(np.linalg.norm(p[i] - p[j]))) for i, j in SIDES)
     angles = ", ".join(angle(float(np.degrees(angle_between(n[i], n[j])))) for i, j in SIDES)
@@ -102,8 +104,8 @@ def _rays(state: State, now: Searched) -> str:
     )
 
 
-def _quartic(state: State, now: Searched) -> str:
-    v = np.sort(now.lengths[:, 2] / now.lengths[:, 0])
+def _quartic(state: State, search: Searched) -> str:
+    v = np.sort(search.lengths[:, 2] / search.lengths[:, 0])
     listed = f": v = {', '.join(fixed(value, 3) for value in v)}" if len(v) else ""
     return (
         "Three laws of cosines in three lengths come down to one quartic in v, the third length"
@@ -112,12 +114,12 @@ def _quartic(state: State, now: Searched) -> str:
     )
 
 
-def _root(state: State, now: Searched) -> str:
-    k, subject = len(now.candidates), state.subject
+def _root(state: State, search: Searched) -> str:
+    k, subject = len(search.candidates), state.subject
     if state.T is None:
         return (
-            f"Solution {k} of {len(now.lengths)}: its pose holds numbers that are not finite. It is"
-            " wrong."
+            f"Solution {k} of {len(search.lengths)}: its pose holds numbers that are not finite. It"
+            " is wrong."
         )
     miss = rms(subject.pixel_errors(state.T)[:3])
     sees = (
@@ -125,35 +127,35 @@ def _root(state: State, now: Searched) -> str:
         if miss < SEES_EXACTLY
         else f"{_px(miss)} from where they were seen"
     )
-    rays = ", ".join(length(s) for s in now.lengths[k - 1])
+    rays = ", ".join(length(s) for s in search.lengths[k - 1])
     where = coordinates(subject.frame.shown(camera_center(state.T)), 2)
     return (
-        f"Solution {k} of {len(now.lengths)}: rays of {rays} put the triangle's corners as far"
+        f"Solution {k} of {len(search.lengths)}: rays of {rays} put the triangle's corners as far"
         f" apart as they are. The camera at {where} sees the three points {sees}."
     )
 
 
-def _both(state: State, now: Searched) -> str:
+def _both(state: State, search: Searched) -> str:
     return (
-        f"A plane, so there are two poses, {angle(degrees_between(*now.candidates))} apart, that"
+        f"A plane, so there are two poses, {angle(degrees_between(*search.candidates))} apart, that"
         " give the same picture to first order about its middle. Perspective tells them apart:"
-        f" they miss the points by {_misses(state, now)}."
+        f" they miss the points by {_misses(state, search)}."
     )
 
 
-def _choose(state: State, now: Searched) -> str:
+def _choose(state: State, search: Searched) -> str:
     if state.params.method == "IPPE":
         return (
-            f"Both refined: they miss the points by {_misses(state, now)}, root mean square. The"
+            f"Both refined: they miss the points by {_misses(state, search)}, root mean square. The"
             " better one is taken."
         )
-    if len(now.candidates) == 1:
-        return f"The fourth point agrees with the only solution to {_misses(state, now)}."
-    cameras = f"{COUNTS[len(now.candidates)]} cameras"
-    return f"A fourth point chooses: the {cameras} see it {_misses(state, now)} from its pixel."
+    if len(search.candidates) == 1:
+        return f"The fourth point agrees with the only solution to {_misses(state, search)}."
+    cameras = f"{COUNTS[len(search.candidates)]} cameras"
+    return f"A fourth point chooses: the {cameras} see it {_misses(state, search)} from its pixel."
 
 
-def _solved(state: State, now: Searched) -> str:
+def _solved(state: State, search: Searched) -> str:
     n, controls = (
         len(state.subject.p_shown),
         "three" if is_flat(state.subject.given.p_world) else "four",
@@ -175,32 +177,32 @@ def _solved(state: State, now: Searched) -> str:
     return f"{text}. RMS error in the picture {_px(state.rms)}."
 
 
-def _step(state: State, now: Searched) -> str:
+def _step(state: State, search: Searched) -> str:
     part = (
-        f", of which {fixed(now.share, 4).rstrip('0')} is taken, as more would raise the error"
-        * (now.share < 1.0)
+        f", of which {fixed(search.share, 4).rstrip('0')} is taken, as more would raise the error"
+        * (search.share < 1.0)
     )
-    return f"Gauss-Newton step {now.steps}{part}: RMS error in the picture {_px(state.rms)}."
+    return f"Gauss-Newton step {search.steps}{part}: RMS error in the picture {_px(state.rms)}."
 
 
-def _sampled(state: State, now: ransac.State) -> Caption:
+def _sampled(state: State, step: ransac.State) -> Caption:
     known, limit = state.subject.T_true is not None, pixels(state.params.inlier_pixels)
-    fit, sample, off = now.trial or now.best, f"Sample {now.iteration}", _off(state)
+    fit, sample, off = step.trial or step.best, f"Sample {step.iteration}", _off(state)
     within = f"{fit.count if fit else 0} of {len(state.subject.p_shown)} points"
-    if now.phase == "stop":
-        assert now.stop is not None
-        text = f"Stop after {counted(now.iteration, 'sample')}: {now.stop.message}."
+    if step.phase == "stop":
+        assert step.stop is not None
+        text = f"Stop after {counted(step.iteration, 'sample')}: {step.stop.message}."
         return (
             _end(state, f"{text} {within} are within {limit}.{off}")
             if fit
             else Caption(f"{text} It is wrong.", "wrong")
         )
-    wrong = int(state.subject.given.is_outlier[now.sample].sum())
+    wrong = int(state.subject.given.is_outlier[step.sample].sum())
     truth = (
         f" In truth {COUNTS[wrong]} of them {'is an outlier' if wrong == 1 else 'are outliers'}."
         * known
     )
-    needed = counted(int(min(now.needed, 500)), "sample")
+    needed = counted(int(min(step.needed, 500)), "sample")
     return Caption(
         {
             "sample": f"{sample}: three points by chance.{truth}",
@@ -214,38 +216,43 @@ def _sampled(state: State, now: ransac.State) -> Caption:
                 f"Refit on the inliers, by least squares: now {within} are within {limit}.{off}"
             ),
             "best": (
-                f"New best after {counted(now.iteration, 'sample')}: {within} within {limit}. If"
+                f"New best after {counted(step.iteration, 'sample')}: {within} within {limit}. If"
                 f" that is the share of inliers, {needed} give 99 % confidence.{off}"
             ),
-        }[now.phase]
+        }[step.phase]
     )
 
 
-def _repeated(state: State, now: Repeated) -> Caption:
-    n, right = now.pictures, int(np.count_nonzero(state.subject.near(now.degrees, now.metres)))
-    if not len(now.Ts):
+def _repeated(state: State, trials: Repeated) -> Caption:
+    n, right = (
+        trials.pictures,
+        int(np.count_nonzero(state.subject.near(trials.degrees, trials.metres))),
+    )
+    if not len(trials.Ts):
         return Caption(
             f"In none of {n} other pictures, with other noise, is there a solution: all are wrong.",
             "wrong",
         )
-    turn, centre = angle(float(np.median(now.degrees))), length(float(np.median(now.metres)))
+    turn, centre = angle(float(np.median(trials.degrees))), length(float(np.median(trials.metres)))
     text = (
         f"The same in {n} other pictures, with other noise: half of the rotations are within"
         f" {turn}, half of the"
     )
     text += f" centres within {centre}."
-    if now.swapped:
-        text += f" In {percent(now.swapped / n, 0)} the wrong one of the two poses fitted better."
-    if now.counts is not None:
+    if trials.swapped:
+        text += (
+            f" In {percent(trials.swapped / n, 0)} the wrong one of the two poses fitted better."
+        )
+    if trials.counts is not None:
         shares = ", ".join(
             f"{percent(k / TRIPLES, 1)} {word}"
-            for k, word in zip(now.counts, COUNTS, strict=True)
+            for k, word in zip(trials.counts, COUNTS, strict=True)
             if k
         )
         text += f" Of {TRIPLES:,} random triples have so many solutions: {shares}."
     text += f" {right} of {n} are right." if right < n else f" All {n} are right."
-    if now.anew is not None:
-        far = [percent(share, 0) for share in now.far]
+    if trials.anew is not None:
+        far = [percent(share, 0) for share in trials.far]
         text += (
             f" Apart from these, of {ANEW} random cameras with as many random points our EPnP is"
             " over"
@@ -265,10 +272,10 @@ def _px(error: float) -> str:
     return pixels(error) if np.isfinite(error) else "without bound, as a point is behind it"
 
 
-def _misses(state: State, now: Searched) -> str:
+def _misses(state: State, search: Searched) -> str:
     """Say how far each candidate sees the points that judge, or the fourth one, from their
     pixels.
     """
-    errors: Sequence[float] = [state.judged(T) for T in now.candidates]
+    errors: Sequence[float] = [state.judged(T) for T in search.candidates]
     words = [pixels(error) if np.isfinite(error) else "from behind" for error in errors]
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

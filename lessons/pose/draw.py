@@ -76,26 +76,28 @@ SOLUTIONS = Chart("Solutions of random triples", "how many", "triples")
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    subject, now = state.subject, state.now
+    subject, step = state.subject, state.now
     scene: dict[str, Primitive] = {"caption": caption(state), **_still(subject)}
     photograph = as_a(Picture, scene["picture"])
     scene |= _pixels(state, photograph)
     if subject.T_true is not None:
         scene["truth"] = _camera(subject, subject.T_true, "truth", "true camera")
-    if isinstance(now, Searched):
-        scene |= _three(state, now) | _candidates(state, now)
-    elif isinstance(now, ransac.State) and len(now.sample) and now.phase not in ("refit", "stop"):
+    if isinstance(step, Searched):
+        scene |= _three(state, step) | _candidates(state, step)
+    elif (
+        isinstance(step, ransac.State) and len(step.sample) and step.phase not in ("refit", "stop")
+    ):
         scene["sample"] = Points(
-            subject.p_shown[now.sample],
+            subject.p_shown[step.sample],
             "highlight",
             2.0 * LOOKS[subject.kind].radius,
             name="sample",
         )
-    if isinstance(now, Repeated):
-        return scene | _repeated(subject, now)
+    if isinstance(step, Repeated):
+        return scene | _repeated(subject, step)
     if state.T is not None and is_rigid(state.T):
         scene["estimate"] = _camera(subject, state.T, "source", "estimate")
-        root = isinstance(now, Searched) and now.phase == "root"
+        root = isinstance(step, Searched) and step.phase == "root"
         if not root and subject.T_true is not None and subject.body is not None:
             seen = _as_seen(subject, state.T)
             scene["seen"] = Segments(seen, "source", 2.5, name="target, if the camera stood still")
@@ -131,9 +133,9 @@ def _on(photograph: Picture, subject: Subject, uv: np.ndarray) -> np.ndarray:
 
 def _pixels(state: State, photograph: Picture) -> dict[str, Primitive]:
     """Return where points were seen, and where the pose in question sees them."""
-    subject, T, now = state.subject, state.T, state.now
+    subject, T, step = state.subject, state.T, state.now
     assert photograph.width is not None
-    radius, color = 0.012 * photograph.width, _votes(now)
+    radius, color = 0.012 * photograph.width, _votes(step)
     scene: dict[str, Primitive] = {
         "picture/seen": Points(_on(photograph, subject, subject.given.uv), color, radius)
     }
@@ -157,8 +159,8 @@ def _pixels(state: State, photograph: Picture) -> dict[str, Primitive]:
     return scene
 
 
-def _votes(now: object) -> Color:
-    fit = (now.trial or now.best) if isinstance(now, ransac.State) else None
+def _votes(step: object) -> Color:
+    fit = (step.trial or step.best) if isinstance(step, ransac.State) else None
     return (
         "target"
         if fit is None
@@ -171,39 +173,39 @@ def _camera(subject: Subject, T: np.ndarray, color: Role, name: str) -> Camera:
     return Camera(subject.K, 640, 480, subject.frame.shown_camera(T), depth, color=color, name=name)
 
 
-def _three(state: State, now: Searched) -> dict[str, Primitive]:
+def _three(state: State, search: Searched) -> dict[str, Primitive]:
     """Return the three points and their rays, from the true camera; then the quartic."""
     subject = state.subject
-    if state.params.method != "P3P" or now.phase in ("step", "stop"):
+    if state.params.method != "P3P" or search.phase in ("step", "stop"):
         return {}
     scene: dict[str, Primitive] = {
         "three": Points(
             subject.p_shown[:3], "highlight", 1.6 * LOOKS[subject.kind].radius, name="three points"
         ),
     }
-    if now.phase == "choose":
+    if search.phase == "choose":
         scene["fourth"] = Points(
             subject.p_shown[3:4], "other", 1.6 * LOOKS[subject.kind].radius, name="the fourth point"
         )
-    if subject.T_true is not None and now.phase in ("rays", "quartic"):
+    if subject.T_true is not None and search.phase in ("rays", "quartic"):
         eye = subject.frame.shown(camera_center(subject.T_true))
         scene["rays"] = Segments(
             between(eye, subject.p_shown[:3]), "highlight", 2.0, name="three rays"
         )
-    if len(now.quartic):
-        scene |= _curve(now)
+    if len(search.quartic):
+        scene |= _curve(search)
     return scene
 
 
-def _curve(now: Searched) -> dict[str, Primitive]:
-    roots = now.lengths[:, 2] / now.lengths[:, 0]
+def _curve(search: Searched) -> dict[str, Primitive]:
+    roots = search.lengths[:, 2] / search.lengths[:, 0]
     low, high = (roots.min(), roots.max()) if len(roots) else (0.8, 1.2)
     pad = max(0.35 * (high - low), 0.02)
     v = np.linspace(max(low - pad, 0.0), high + pad, 121)
-    y = np.polyval(now.quartic, v)
+    y = np.polyval(search.quartic, v)
     y = y / max(float(np.abs(y).max()), 1e-300)
-    k = len(now.candidates)
-    marks = tuple(float(root) for root in roots[k - 1 : k]) if now.phase == "root" else ()
+    k = len(search.candidates)
+    marks = tuple(float(root) for root in roots[k - 1 : k]) if search.phase == "root" else ()
     scene: dict[str, Primitive] = {
         "quartic": QUARTIC.curve(v, y, "quartic", "target", marks=marks),
         "quartic/zero": QUARTIC.curve(v[[0, -1]], np.zeros(2), "zero", "correspondence"),
@@ -213,20 +215,20 @@ def _curve(now: Searched) -> dict[str, Primitive]:
     return scene
 
 
-def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
+def _candidates(state: State, search: Searched) -> dict[str, Primitive]:
     """Return the motions to choose from, as cameras with the rays to their points, and for planes
     as planes.
     """
     subject, scene = state.subject, dict[str, Primitive]()
-    if now.phase not in ("root", "both", "choose"):
+    if search.phase not in ("root", "both", "choose"):
         return scene
     rows = []
-    for k, T in enumerate(now.candidates, 1):
+    for k, T in enumerate(search.candidates, 1):
         if not (np.isfinite(T).all() and is_rigid(T)):
             continue
         if state.T is None or np.abs(T - state.T).max() > 1e-9:
             scene[f"candidates/{k}"] = _camera(subject, T, "other", "possible camera")
-        if now.phase == "both" and subject.T_true is not None and subject.body is not None:
+        if search.phase == "both" and subject.T_true is not None and subject.body is not None:
             seen = _as_seen(subject, T)
             scene[f"candidates/{k}/seen"] = Segments(
                 seen, "other", 2.5, name="what it would see" if k == 1 else ""
@@ -234,7 +236,7 @@ def _candidates(state: State, now: Searched) -> dict[str, Primitive]:
         elif state.params.method == "P3P":
             eye, last = (
                 subject.frame.shown(camera_center(T)),
-                k == len(now.candidates) and now.phase == "root",
+                k == len(search.candidates) and search.phase == "root",
             )
             ends = between(eye, subject.p_shown[:3])
             scene[f"candidates/{k}/rays"] = Segments(
@@ -266,16 +268,18 @@ def _as_seen(subject: Subject, T: np.ndarray) -> np.ndarray:
     return subject.frame.shown(apply(inverse(subject.T_true) @ T, ends)).reshape(-1, 2, 3)
 
 
-def _repeated(subject: Subject, now: Repeated) -> dict[str, Primitive]:
+def _repeated(subject: Subject, trials: Repeated) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {}
-    if not len(now.Ts):
+    if not len(trials.Ts):
         return scene
-    right = subject.near(now.degrees, now.metres)
+    right = subject.near(trials.degrees, trials.metres)
     color = Classes.marking(~right, "wrong", "wrong", others=("source", "right"))
-    centres = np.stack([subject.frame.shown(camera_center(T)) for T in now.Ts])
+    centres = np.stack([subject.frame.shown(camera_center(T)) for T in trials.Ts])
     if subject.kind == "marker":
         assert subject.T_true is not None
-        tips = np.stack([(inverse(subject.T_true) @ T)[:3, :3] @ [0.0, 0.0, 0.12] for T in now.Ts])
+        tips = np.stack(
+            [(inverse(subject.T_true) @ T)[:3, :3] @ [0.0, 0.0, 0.12] for T in trials.Ts]
+        )
         scene["normals"] = Segments(
             between(np.zeros(3), tips), color, 1.5, name="normals of the marker"
         )
@@ -286,18 +290,18 @@ def _repeated(subject: Subject, now: Repeated) -> dict[str, Primitive]:
             scene["centres"] = Points(
                 centres[near], kept, 1.5 * LOOKS[subject.kind].radius, name="cameras found"
             )
-    scene["turns"] = TURNS.histogram(now.degrees, 30, "pictures", "source")
-    if now.anew is not None:
+    scene["turns"] = TURNS.histogram(trials.degrees, 30, "pictures", "source")
+    if trials.anew is not None:
         x = np.linspace(0.0, 30.0, 121)
         for name, color, degrees in zip(
-            ("EPnP", "SQPnP"), ("source", "target"), now.anew, strict=True
+            ("EPnP", "SQPnP"), ("source", "target"), trials.anew, strict=True
         ):
             scene[f"anew/{name}"] = ANEW.curve(
                 x, 100.0 * (degrees <= x[:, None]).mean(axis=1), name, color
             )
-    if now.counts is not None:
+    if trials.counts is not None:
         scene["solutions"] = SOLUTIONS.histogram(
-            np.repeat(np.arange(5), now.counts), np.arange(6) - 0.5, "triples", "target"
+            np.repeat(np.arange(5), trials.counts), np.arange(6) - 0.5, "triples", "target"
         )
     return scene
 

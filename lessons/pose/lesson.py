@@ -59,12 +59,12 @@ def run(
             yield State(params=params, subject=subject, now=drawn)
         return
     p, xy, T = subject.given.p_world, subject.xy, None
-    for now in first_pose(params, subject, pose_from_distances, choose_pose):
-        T = now.T if now.phase in ("choose", "solved") else None
-        yield State(params=params, subject=subject, now=now)
+    for step in first_pose(params, subject, pose_from_distances, choose_pose):
+        T = step.T if step.phase in ("choose", "solved") else None
+        yield State(params=params, subject=subject, now=step)
     if params.refine:
-        for now in downhill(T, p, xy, pose_step=pose_step):
-            yield State(params=params, subject=subject, now=now)
+        for step in downhill(T, p, xy, pose_step=pose_step):
+            yield State(params=params, subject=subject, now=step)
     if subject.T_true is not None:
         yield State(params=params, subject=subject, now=repeated(params, subject))
 
@@ -106,9 +106,9 @@ def sampled(params: Params, subject: Subject) -> Iterator[Sampled]:
     rows = np.column_stack([subject.given.p_world, subject.given.uv])
     judge = Judge(rows, model, params.inlier_pixels)
     samples = uniform_samples(len(rows), model.sample_size, np.random.default_rng([params.seed, 3]))
-    for now in ransac(rows, model, samples, judge, max_iterations=MOST_SAMPLES):
-        if now.iteration == 1 or now.phase in ("best", "refit", "stop"):
-            yield now
+    for step in ransac(rows, model, samples, judge, max_iterations=MOST_SAMPLES):
+        if step.iteration == 1 or step.phase in ("best", "refit", "stop"):
+            yield step
 
 
 lesson = Lesson(

@@ -157,8 +157,8 @@ def most_frequent(states: Sequence[State]) -> int:
 
 def swapped(states: Sequence[State]) -> float:
     """Return in which per cent of the pictures the wrong one of a plane's poses fitted better."""
-    found = others(states)
-    return 100.0 * (found.swapped or 0) / found.pictures
+    trials = others(states)
+    return 100.0 * (trials.swapped or 0) / trials.pictures
 
 
 def needed(states: Sequence[State], size: int) -> float:
@@ -168,11 +168,11 @@ def needed(states: Sequence[State], size: int) -> float:
 
 
 def _most_why(states: Sequence[State]) -> str:
-    found, most = others(states), most_frequent(states)
-    assert found.counts is not None
+    trials, most = others(states), most_frequent(states)
+    assert trials.counts is not None
     return (
-        f"{percent(found.counts[most] / TRIPLES, 0)} of {TRIPLES:,} random triples have {most}. A"
-        f" quartic has up to four real roots, and {percent(found.counts[4] / TRIPLES, 1)} of the"
+        f"{percent(trials.counts[most] / TRIPLES, 0)} of {TRIPLES:,} random triples have {most}. A"
+        f" quartic has up to four real roots, and {percent(trials.counts[4] / TRIPLES, 1)} of the"
         " triples use them all; what you saw here is one of these."
     )
 

@@ -136,7 +136,7 @@ def _mapped(
     camera sees them.
     """
     order = rng.permutation(MAPPED)
-    p, n = (one[order] for one in street_map())
+    p, n = (rows[order] for rows in street_map())
     ahead = ((camera_center(T) - p) * n).sum(axis=1) > 0.0
     p = p[ahead & in_sight(p, T, _windowed(K, WHOLE), depth=photograph.depth)][:most]
     if len(p) < 4:
@@ -184,9 +184,9 @@ def _lit(body: Solid, shade: tuple[int, int, int]) -> Sequence[Item]:
 def _own(params: Params) -> Subject:
     assert params.sightings is not None
     given = read_sightings(params.sightings)
-    for what, at in (("points", given.p_world), ("pixels", given.uv)):
+    for noun, at in (("points", given.p_world), ("pixels", given.uv)):
         if not np.ptp(at, axis=0).max() > 0:
-            raise InputError(f"{params.sightings.name}: all its {what} lie at one place")
+            raise InputError(f"{params.sightings.name}: all its {noun} lie at one place")
     blank = np.full((PHOTOGRAPH[1], PHOTOGRAPH[0], 3), 248, np.uint8)
     return Subject(
         given=given,

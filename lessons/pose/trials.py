@@ -29,7 +29,7 @@ def repeated(params: Params, subject: Subject) -> Repeated:
     if params.method == "P3P":
         Ts, of_picture = by_fourth_points(p, xy)
     elif params.method == "DLT":
-        Ts = np.stack([dlt_motion(p, one, centred=params.centred) for one in xy])
+        Ts = np.stack([dlt_motion(p, view, centred=params.centred) for view in xy])
     elif params.method == "EPnP":
         Ts = epnp(np.broadcast_to(p, (n, *p.shape)), xy)
     elif params.method == "SQPnP":
@@ -43,8 +43,8 @@ def repeated(params: Params, subject: Subject) -> Repeated:
         Ts = pairs[:, 0]
     if params.refine and params.method == "DLT":  # the way down matters where it begins far off
         ends = [
-            list(downhill(T, p, one, pose_step=gauss_newton_step))[-1].T
-            for T, one in zip(Ts, xy, strict=True)
+            list(downhill(T, p, view, pose_step=gauss_newton_step))[-1].T
+            for T, view in zip(Ts, xy, strict=True)
         ]
         Ts = np.stack([T for T in ends if T is not None])
     elif params.refine and params.method != "IPPE":
@@ -67,9 +67,9 @@ def drawn_anew(n: int, sigma: float, seed: int) -> np.ndarray:
     rng = np.random.default_rng([seed, 4])
     R_true, p, xy = random_views(ANEW, n, rng)
     xy = xy + sigma * rng.standard_normal(xy.shape)
-    found = epnp(p, xy), sqpnp(p, xy)
+    motions = epnp(p, xy), sqpnp(p, xy)
     return np.array(
-        [[degrees_between(T[:3, :3], R) for T, R in zip(Ts, R_true, strict=True)] for Ts in found]
+        [[degrees_between(T[:3, :3], R) for T, R in zip(Ts, R_true, strict=True)] for Ts in motions]
     )
 
 

@@ -32,11 +32,11 @@ def caption(look: SearchLook) -> Caption:
     }[look.now.phase](look)
 
 
-def is_right(params: Input, subject: Subject, now: State) -> bool:
+def is_right(params: Input, subject: Subject, state: State) -> bool:
     """Tell whether the best is nearer to the truth than the noise lets single rows be."""
     in_pixels = subject.model.unit == "px"
     sigma = max(params.noise_pixels, 0.5) if in_pixels else max(params.noise, 0.005)
-    return bool(subject.error(now.best.estimate if now.best else None) < sigma)
+    return bool(subject.error(state.best.estimate if state.best else None) < sigma)
 
 
 def distance(subject: Subject, value: float) -> Quantity:
@@ -47,12 +47,12 @@ def distance(subject: Subject, value: float) -> Quantity:
 
 
 def _sample(look: SearchLook) -> Caption:
-    params, now, noun = look.params, look.now, look.subject.noun
+    params, state, noun = look.params, look.now, look.subject.noun
     how = "drawn by chance" if params.sampler == "uniform" else "drawn by trust"
-    if now.iteration == 1 and chosen_sample(params, look.subject):
+    if state.iteration == 1 and chosen_sample(params, look.subject):
         how = "you picked"
-    words = f"Sample {{n}}: {COUNTS[len(now.sample)]} {noun}, {how}."
-    return say(words + _proportion(look, first=True), n=now.iteration, place="draw")
+    words = f"Sample {{n}}: {COUNTS[len(state.sample)]} {noun}, {how}."
+    return say(words + _proportion(look, first=True), n=state.iteration, place="draw")
 
 
 def _degenerate(look: SearchLook) -> Caption:
@@ -69,13 +69,13 @@ def _model(look: SearchLook) -> Caption:
 
 
 def _votes(look: SearchLook) -> Caption:
-    now, trial = look.now, sure(look.now.trial)
+    state, trial = look.now, sure(look.now.trial)
     words = f"Sample {{n}} gets {{votes}} votes of {{all}} {look.subject.noun}{_score(look)}"
-    values: dict = {"n": now.iteration, "votes": trial.count, "all": len(trial.inliers)}
+    values: dict = {"n": state.iteration, "votes": trial.count, "all": len(trial.inliers)}
     if look.params.score != "count":
         values["score"] = Quantity(trial.score, brief(trial.score))
-    if now.best is not None and trial.score <= now.best.score:
-        return say(f"{words}. The best has {{best}}: it stays.", best=now.best.count, **values)
+    if state.best is not None and trial.score <= state.best.score:
+        return say(f"{words}. The best has {{best}}: it stays.", best=state.best.count, **values)
     return say(words + ".", **values)
 
 
@@ -85,8 +85,8 @@ def _score(look: SearchLook) -> str:
 
 
 def _best(look: SearchLook) -> Caption:
-    params, now, best = look.params, look.now, sure(look.now.best)
-    values: dict = {"n": counted(now.iteration, "sample"), "votes": counted(best.count, "vote")}
+    params, state, best = look.params, look.now, sure(look.now.best)
+    values: dict = {"n": counted(state.iteration, "sample"), "votes": counted(best.count, "vote")}
     words = "New best after {n}: {votes}."
     if params.sampler == "PROSAC":
         length, part = look.subject.trusted(best)
@@ -94,10 +94,10 @@ def _best(look: SearchLook) -> Caption:
             return say(words + BY_CHANCE, place="new best", **values)
         words += " Of the {trusted} most trusted {part} vote for it."
         values |= {"trusted": length, "part": share(part, 0)}
-    too_few = now.needed >= params.most_samples
+    too_few = state.needed >= params.most_samples
     words += " At that share the {needed} allowed are too few." if too_few else ""
     words += "" if too_few else " At that share {needed} are enough."
-    needed = counted(round(min(now.needed, params.most_samples)), "sample")
+    needed = counted(round(min(state.needed, params.most_samples)), "sample")
     return say(words, needed=needed, place="new best", **values)
 
 
@@ -116,10 +116,10 @@ def _refit(look: SearchLook) -> Caption:
 
 
 def _stop(look: SearchLook) -> Caption:
-    subject, now, best = look.subject, look.now, look.now.best
-    settled = now.stop is Stop.ENOUGH
-    reason = sure(now.stop).message
-    values: dict = {"n": counted(now.iteration, "sample")}
+    subject, state, best = look.subject, look.now, look.now.best
+    settled = state.stop is Stop.ENOUGH
+    reason = sure(state.stop).message
+    values: dict = {"n": counted(state.iteration, "sample")}
     if best is None:
         words = "It stops after {n}" + ("" if settled else f": {reason}")
         return say(f"{words}. {_why_none(look)}", tone="wrong", place="compare", **values)
@@ -138,7 +138,7 @@ def _stop(look: SearchLook) -> Caption:
     else:
         words += " and is {error} off."
         values["error"] = distance(subject, error)
-    right = is_right(look.params, subject, now)
+    right = is_right(look.params, subject, state)
     return say(words, right=right, settled=settled, place="compare", **values)
 
 
@@ -154,7 +154,7 @@ def voters_of(subject: Subject, fit: Fit) -> dict[str, int]:
 
 def _why_none(look: SearchLook) -> str:
     model, noun = look.subject.model, look.subject.noun
-    if all(one.phase != "inliers" for one in look.past):
+    if all(state.phase != "inliers" for state in look.past):
         return (
             f"Every sample was degenerate ({model.degenerate_when}): such {noun} determine no"
             f" {model.name}."

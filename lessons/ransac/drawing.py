@@ -55,9 +55,9 @@ def draw(look: SearchLook) -> Scene:
 
 def _rows(look: SearchLook) -> dict[str, Primitive]:
     """Draw all rows, coloured by their votes on the fit in question: the trial, or the best."""
-    subject, now = look.subject, look.now
-    fit = now.trial if now.phase in ("inliers", "best", "refit") else None
-    fit = now.best if now.phase == "stop" else fit
+    subject, state = look.subject, look.now
+    fit = state.trial if state.phase in ("inliers", "best", "refit") else None
+    fit = state.best if state.phase == "stop" else fit
     color: Color = "neutral" if fit is None else marked(fit.inliers)
     scene: dict[str, Primitive] = {}
     for k, p in enumerate(subject.shown):
@@ -83,10 +83,10 @@ def _radius(subject: Subject) -> float:
 
 
 def _sample(look: SearchLook) -> dict[str, Primitive]:
-    subject, now = look.subject, look.now
-    if now.phase in ("refit", "stop") or not len(now.sample):
+    subject, state = look.subject, look.now
+    if state.phase in ("refit", "stop") or not len(state.sample):
         return {}
-    p = [shown[now.sample] for shown in subject.shown]
+    p = [shown[state.sample] for shown in subject.shown]
     dots = Points(np.concatenate(p), "highlight", 2.2 * _radius(subject), name="the sample")
     if len(p) == 1:
         return {"sample": dots}
@@ -96,8 +96,8 @@ def _sample(look: SearchLook) -> dict[str, Primitive]:
 
 def _models(look: SearchLook) -> dict[str, Primitive]:
     """Draw the model under test or the best so far with its band, and at the end the others."""
-    subject, now = look.subject, look.now
-    over = now.phase in ("refit", "stop")
+    subject, state = look.subject, look.now
+    over = state.phase in ("refit", "stop")
     scene: dict[str, Primitive] = {}
     if subject.truth is not None and (over or look.params.who_is_right):
         scene["truth"] = Segments(outline(subject, subject.truth), "truth", 3.0, name="truth")
@@ -108,20 +108,20 @@ def _models(look: SearchLook) -> dict[str, Primitive]:
             if len(ends):  # by its highest end
                 top = ends.reshape(-1, 3)[ends.reshape(-1, 3)[:, 2].argmax()]
                 scene[f"rival/{name}/name"] = Label(name, top + UP, COLORS[name])
-    tested = now.estimate if now.phase in ("model", "inliers") else None
-    if now.best is not None:
-        ends = outline(subject, now.best.estimate)
+    tested = state.estimate if state.phase in ("model", "inliers") else None
+    if state.best is not None:
+        ends = outline(subject, state.best.estimate)
         scene["best"] = Segments(ends, "source", 3.0, name="best so far")
     if tested is not None:
         name = f"{subject.model.name} of the sample"
         scene["trial"] = Segments(outline(subject, tested), "highlight", 2.5, name=name)
         scene |= band(subject, tested, "highlight", reach=subject.limit)
         return scene | _surface(subject, "trial", tested, "highlight", opacity=0.3)
-    if now.best is None:
+    if state.best is None:
         return scene
-    scene |= band(subject, now.best.estimate, "source", reach=subject.limit)
-    opacity = 0.35 if over or now.phase == "best" else 0.15
-    return scene | _surface(subject, "best", now.best.estimate, "source", opacity=opacity)
+    scene |= band(subject, state.best.estimate, "source", reach=subject.limit)
+    opacity = 0.35 if over or state.phase == "best" else 0.15
+    return scene | _surface(subject, "best", state.best.estimate, "source", opacity=opacity)
 
 
 def _surface(
@@ -180,33 +180,33 @@ def _photograph(image: np.ndarray, place) -> Picture:
 
 
 def _curves(look: SearchLook) -> dict[str, Primitive]:
-    params, subject, now = look.params, look.subject, look.now
-    unit, drawn = subject.model.unit, float(now.iteration)
+    params, subject, state = look.params, look.subject, look.now
+    unit, drawn = subject.model.unit, float(state.iteration)
     votes = Chart("Votes" if params.score == "count" else "Score")
     samples = Chart("Samples")
-    left = float(max(now.needed - drawn, 0.0))
+    left = float(max(state.needed - drawn, 0.0))
     scene: dict[str, Primitive] = {
-        "best score": votes.scalar(now.best.score if now.best else 0.0, "best"),
+        "best score": votes.scalar(state.best.score if state.best else 0.0, "best"),
         "needed": samples.scalar(left, "needed", "other"),
         "drawn": samples.scalar(drawn, "drawn", "neutral"),
     }
-    if now.trial is not None and now.phase == "inliers":
-        scene["trial score"] = votes.scalar(now.trial.score, "this", "highlight")
+    if state.trial is not None and state.phase == "inliers":
+        scene["trial score"] = votes.scalar(state.trial.score, "this", "highlight")
     error = Chart("Error to the truth", unit=unit)
-    best = subject.error(now.best.estimate if now.best else None)
+    best = subject.error(state.best.estimate if state.best else None)
     if np.isfinite(best):
         scene["best error"] = error.scalar(best, "best", log=True)
     for name, estimate in (subject.rivals or {}).items() if len(subject.p_true) else ():
         off = subject.error(estimate)
         scene[f"error {name}"] = error.scalar(off, name, COLORS[name], log=True)
-    fit = now.trial if now.trial is not None else now.best
+    fit = state.trial if state.trial is not None else state.best
     if fit is not None:
         scene["distances"] = _histogram(subject, fit.distances)
     if subject.is_inlier is not None:
         w = float(subject.is_inlier.mean())
-        scene |= chances(w, subject.model.sample_size, now.iteration, sizes=tuple(SIZES))
+        scene |= chances(w, subject.model.sample_size, state.iteration, sizes=tuple(SIZES))
     if params.model == "plane" and params.table == "alone" and params.cloud is None:
-        scene |= _by_share(look, best) if now.phase == "stop" else {}
+        scene |= _by_share(look, best) if state.phase == "stop" else {}
     return scene
 
 

@@ -139,14 +139,14 @@ def draws(params: Input) -> tuple[Draw, ...]:
     """Return all draws of two points."""
     subject = scattered(params)
     samples = uniform_samples(len(subject.p), 2, np.random.default_rng(params.seed))
-    found = []
+    pairs = []
     for n in range(1, min(params.most_samples, MOST_DRAWS) + 1):
         chosen = chosen_sample(params, subject) if n == 1 else []
         sample = chosen[0] if chosen else next(samples)
         line = LINE.solve(subject.p[sample][None])[0]
         votes = LINE.distances(line, subject.p) <= params.inlier_distance
-        found.append(Draw(n, sample, line, votes, bool(sure(subject.is_inlier)[sample].all())))
-    return tuple(found)
+        pairs.append(Draw(n, sample, line, votes, bool(sure(subject.is_inlier)[sample].all())))
+    return tuple(pairs)
 
 
 def fan(params: Input, subject: Subject, apart: float) -> Fan:
@@ -176,7 +176,7 @@ def errors_by_width(params: Input) -> np.ndarray:
         scenes = [_scene(params, seed) for seed in seeds]
         p, p_true = (np.stack([getattr(made, name) for made in scenes]) for name in ("p", "p_true"))
         p_h = np.concatenate([p, np.ones((*p.shape[:2], 1))], axis=-1).swapaxes(-1, -2)
-        lines = np.stack([_most_votes(*one) for one in zip(_drawn(p, seeds), p_h, strict=True)])
+        lines = np.stack([_most_votes(*scene) for scene in zip(_drawn(p, seeds), p_h, strict=True)])
         for _ in range(5):
             np.abs(np.matmul(lines, p_h, out=off), out=off)
             lines = fit_hyperplanes(p, np.less_equal(off, STUDIED[:, None], out=off))
@@ -188,7 +188,7 @@ def _drawn(p: np.ndarray, seeds: range) -> np.ndarray:
     """Return two hundred lines of each scene, through two of its points."""
     rngs = [np.random.default_rng(seed) for seed in seeds]
     rows = [draw_samples(p.shape[1], 2, 200, rng=rng) for rng in rngs]
-    pairs = [one[pair] for one, pair in zip(p, rows, strict=True)]
+    pairs = [points[pair] for points, pair in zip(p, rows, strict=True)]
     return LINE.solve(np.concatenate(pairs)).reshape(len(p), -1, 3)
 
 
@@ -245,8 +245,8 @@ def chances(share: float, size: int, drawn: int, *, sizes: tuple[int, ...]) -> d
 
 def draw(look: FlatLook) -> Scene:
     """Return the points, who votes, and what this stage is about."""
-    subject, now = look.subject, look.now
-    votes = None if isinstance(now, Fan) else now.votes
+    subject, state = look.subject, look.now
+    votes = None if isinstance(state, Fan) else state.votes
     scene: dict[str, Primitive] = {
         "frame": Segments(frames(subject), "neutral", 1.0, opacity=0.5),
         "points": Points(
@@ -257,43 +257,43 @@ def draw(look: FlatLook) -> Scene:
         ring = 2.0 * DOT * circle(24)
         around = [segments(stand_up(p + ring, 0.012)) for p in subject.p[sure(subject.is_inlier)]]
         scene["rings"] = Segments(np.concatenate(around), "truth", 1.5, name="who is right")
-    if isinstance(now, Draw):
-        return scene | _of_draw(look, now)
-    return scene | (_of_width(look, now) if isinstance(now, Width) else _of_fan(look, now))
+    if isinstance(state, Draw):
+        return scene | _of_draw(look, state)
+    return scene | (_of_width(look, state) if isinstance(state, Width) else _of_fan(look, state))
 
 
 def _head(words: str, x: float, color: Role) -> Label:
     return Label(words, np.array([x, 0.0, 1.88]), color)
 
 
-def _of_draw(look: FlatLook, now: Draw) -> dict[str, Primitive]:
+def _of_draw(look: FlatLook, state: Draw) -> dict[str, Primitive]:
     params, subject = look.params, look.subject
-    votes = int(now.votes.sum())
-    line = outline(subject, now.line)
-    pair = stand_up(subject.p[now.sample], 0.01)
+    votes = int(state.votes.sum())
+    line = outline(subject, state.line)
+    pair = stand_up(subject.p[state.sample], 0.01)
     tally = params.who_is_right
     scene: dict[str, Primitive] = {
         "line": Segments(line, "highlight", 3.0, name="line through the two"),
-        **band(subject, now.line, "highlight", reach=params.inlier_distance, named=not tally),
+        **band(subject, state.line, "highlight", reach=params.inlier_distance, named=not tally),
         "sample": Points(pair, "highlight", 1.6 * DOT, name="the sample"),
         "count": _head(f"{votes} votes of {len(subject.p)}", 0.0, "target"),
-        "draw": Chart("Draw").scalar(now.n, "draw"),
+        "draw": Chart("Draw").scalar(state.n, "draw"),
         "votes": Chart("Votes").scalar(votes, "votes", "target"),
     }
-    past = draws(params)[: now.n]
-    return scene | (_tally(look, now, past) if tally else _beside_squares(look, now, past))
+    past = draws(params)[: state.n]
+    return scene | (_tally(look, state, past) if tally else _beside_squares(look, state, past))
 
 
-def _beside_squares(look: FlatLook, now: Draw, past: tuple[Draw, ...]) -> dict[str, Primitive]:
+def _beside_squares(look: FlatLook, state: Draw, past: tuple[Draw, ...]) -> dict[str, Primitive]:
     """Return the votes of all draws so far, one stroke each, and least squares over all points."""
     subject = look.subject
-    votes = np.array([one.votes.sum() for one in past], float)
-    gap = np.full(now.n, np.nan)
-    strokes = np.column_stack([np.zeros(now.n), votes, gap]).ravel()
+    votes = np.array([drawn.votes.sum() for drawn in past], float)
+    gap = np.full(state.n, np.nan)
+    strokes = np.column_stack([np.zeros(state.n), votes, gap]).ravel()
     squares = sure(subject.rivals)["least squares"]
     line = outline(subject, squares)
     left = line.reshape(-1, 3)[np.argmin(line[..., 0])]
-    at = np.repeat(np.arange(1.0, now.n + 1.0), 3)
+    at = np.repeat(np.arange(1.0, state.n + 1.0), 3)
     chart = replace(VOTES, x_range=(0.0, min(look.params.most_samples, MOST_DRAWS)))
     words = "Draw {n}: {votes} of {all} points vote for this line. The best of {draws} has {best}."
     return {
@@ -303,13 +303,13 @@ def _beside_squares(look: FlatLook, now: Draw, past: tuple[Draw, ...]) -> dict[s
             turned(sure(subject.truth), squares), "least squares off", "other"
         ),
         "votes/whole": chart.whole(at, strokes, "votes", "target"),
-        "votes/mark": chart.mark(now.n, votes[-1], "this draw", "target", steps="draw"),
+        "votes/mark": chart.mark(state.n, votes[-1], "this draw", "target", steps="draw"),
         "caption": say(
             words,
-            n=now.n,
+            n=state.n,
             votes=int(votes[-1]),
-            all=len(now.votes),
-            draws=counted(now.n, "draw"),
+            all=len(state.votes),
+            draws=counted(state.n, "draw"),
             best=int(votes.max()),
         ),
     }
@@ -320,50 +320,50 @@ def turned(line: np.ndarray, other: np.ndarray) -> float:
     return float(np.degrees(np.arccos(min(1.0, abs(line[:2] @ other[:2])))))
 
 
-def _tally(look: FlatLook, now: Draw, past: tuple[Draw, ...]) -> dict[str, Primitive]:
+def _tally(look: FlatLook, state: Draw, past: tuple[Draw, ...]) -> dict[str, Primitive]:
     """Return a strip with one dot for each sample, and the chance that all are spoilt."""
-    spoiled = np.array([not one.clean for one in past])
+    spoiled = np.array([not drawn.clean for drawn in past])
     clean = int((~spoiled).sum())
-    column, row = np.divmod(np.arange(now.n), 20)
+    column, row = np.divmod(np.arange(state.n), 20)
     dots = stand_up(np.column_stack([1.28 + 0.11 * column, 1.05 - 0.11 * row]))
     color = Classes.marking(spoiled, "neutral", "spoilt", others=("truth", "clean sample"))
     return {
         "strip": Points(dots, color, 0.035, name="samples so far"),
-        "strip/count": _head(f"{clean} of {now.n} are clean", 1.5, "truth"),
+        "strip/count": _head(f"{clean} of {state.n} are clean", 1.5, "truth"),
         "clean": Chart("Clean samples").scalar(clean, "clean", "truth"),
-        **chances(1.0 - look.params.outliers, 2, now.n, sizes=(2,)),
+        **chances(1.0 - look.params.outliers, 2, state.n, sizes=(2,)),
         "caption": say(
             "Draw {n} is {what}: {clean} of {n} so far are clean.",
-            n=now.n,
-            what="clean" if now.clean else "spoilt",
+            n=state.n,
+            what="clean" if state.clean else "spoilt",
             clean=clean,
-            place="clean" if now.clean else "",
+            place="clean" if state.clean else "",
         ),
     }
 
 
-def _of_width(look: FlatLook, now: Width) -> dict[str, Primitive]:
+def _of_width(look: FlatLook, state: Width) -> dict[str, Primitive]:
     subject = look.subject
     truth = sure(subject.truth)
     true = sure(subject.is_inlier)
     near = LINE.distances(truth, subject.p) <= WIDTHS[:, None]
-    at = MM * now.width
+    at = MM * state.width
     scene: dict[str, Primitive] = {
         "truth": Segments(outline(subject, truth), "truth", 3.0, name="true line"),
-        **band(subject, truth, "target", reach=now.width),
+        **band(subject, truth, "target", reach=state.width),
         "width": Chart("Width", unit="mm").scalar(at, "width"),
     }
     inside = {}
     for name, rows in (("ringed", true), ("others", ~true)):
         role: Role = "truth" if name == "ringed" else "neutral"
-        inside[name] = int(now.votes[rows].sum())
+        inside[name] = int(state.votes[rows].sum())
         noun = "ringed points" if name == "ringed" else name
         scene[f"{name}/whole"] = COUNTS.whole(MM * WIDTHS, near[:, rows].sum(axis=1), noun, role)
         scene[f"{name}/mark"] = COUNTS.mark(at, inside[name], noun, role, steps="width")
     ringed, others = inside["ringed"], inside["others"]
     scene["counts"] = _head(f"{ringed} ringed, {others} other votes", 0.0, "target")
     errors = MM * errors_by_width(look.params)
-    here = float(np.interp(now.width, STUDIED, errors))
+    here = float(np.interp(state.width, STUDIED, errors))
     drawn = f"median error of {studies(look.params)} scenes"
     words = "Within {width} of the true line: {ringed} of its {points} points, and {others}."
     return scene | {
@@ -371,7 +371,7 @@ def _of_width(look: FlatLook, now: Width) -> dict[str, Primitive]:
         "error/mark": WIDTH.mark(at, here, "this band", "source", steps="width"),
         "caption": say(
             words,
-            width=Quantity(now.width, f"{brief(at)} mm"),
+            width=Quantity(state.width, f"{brief(at)} mm"),
             points=int(true.sum()),
             ringed=ringed,
             others=counted(others, "other"),
@@ -379,26 +379,26 @@ def _of_width(look: FlatLook, now: Width) -> dict[str, Primitive]:
     }
 
 
-def _of_fan(look: FlatLook, now: Fan) -> dict[str, Primitive]:
+def _of_fan(look: FlatLook, state: Fan) -> dict[str, Primitive]:
     subject = look.subject
-    middle = float(np.median(now.votes))
-    ends = stand_up(clip_lines(now.lines, subject.low, subject.high).reshape(-1, 2))
+    middle = float(np.median(state.votes))
+    ends = stand_up(clip_lines(state.lines, subject.low, subject.high).reshape(-1, 2))
     median = votes_by_distance(look.params)
     return {
         "fan": Segments(
             ends.reshape(-1, 2, 3), "highlight", 1.0, opacity=0.6, name="lines through noisy pairs"
         ),
-        "pair": Points(stand_up(now.p_pair, 0.01), "highlight", 1.6 * DOT, name="the two points"),
+        "pair": Points(stand_up(state.p_pair, 0.01), "highlight", 1.6 * DOT, name="the two points"),
         "count": _head(f"{brief(middle)} votes in the median", 0.0, "target"),
-        "apart": Chart("Distance of the two", unit="m").scalar(now.apart, "apart"),
+        "apart": Chart("Distance of the two", unit="m").scalar(state.apart, "apart"),
         "votes-median": Chart("Votes in the median").scalar(
             middle, "votes in the median", "target"
         ),
         "apart/whole": APART.whole(APARTS, median, "median votes", "target"),
-        "apart/mark": APART.mark(now.apart, middle, "these two", "target", steps="apart"),
+        "apart/mark": APART.mark(state.apart, middle, "these two", "target", steps="apart"),
         "caption": say(
             "Two points {apart} apart: their thirty lines get {votes} votes in the median.",
-            apart=Quantity(now.apart, f"{brief(now.apart)} m"),
+            apart=Quantity(state.apart, f"{brief(state.apart)} m"),
             votes=middle,
         ),
     }

@@ -170,13 +170,13 @@ def _own_cloud(params: Input, model: Model) -> Subject:
 
 def _own_matches(params: Input, model: Model) -> Subject:
     assert params.matches is not None
-    found = read_matches(params.matches, fewest=model.sample_size)
-    p, quality = found.p, found.quality
+    matches = read_matches(params.matches, fewest=model.sample_size)
+    p, quality = matches.p, matches.quality
     if len(p) > MOST_POINTS:
         rng = np.random.default_rng(params.scene_seed)
         rows = rng.choice(len(p), MOST_POINTS, replace=False)
         p, quality = p[rows], None if quality is None else quality[rows]
-    truth = found.H if model.name == "homography" else found.F
+    truth = matches.H if model.name == "homography" else matches.F
     near = np.zeros(len(p), bool)
     if truth is not None:
         near = model.distances(truth, p) <= params.inlier_pixels

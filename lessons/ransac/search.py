@@ -62,13 +62,13 @@ def winner(params: Input, subject: Subject) -> Fit | None:
 @cached
 def errors_by_outliers(params: Input) -> np.ndarray:
     """Return the RMS error to the truth at each of SHARES, one row per method of METHODS."""
-    found = []
+    errors = []
     for share in SHARES:
         rows = with_limit(params, built_in(params, float(share)))
         best = winner(params, rows)
         fits = {"RANSAC": best.estimate if best else None, **rivals_of(rows)}
-        found.append([rows.error(fits[name]) for name in METHODS])
-    return np.array(found).T
+        errors.append([rows.error(fits[name]) for name in METHODS])
+    return np.array(errors).T
 
 
 def search(
@@ -87,7 +87,7 @@ def search(
         model = replace(PLANE, solve=from_points(_checked(plane_from_points)))
         judge = _counting(judge, count_inliers, decides=params.score == "count")
     tries = _tries(params, subject, model, judge=judge, needed_for=iterations_needed)
-    yield from (now for now in tries if _shown(params, now))
+    yield from (state for state in tries if _shown(params, state))
 
 
 def _tries(
@@ -130,16 +130,16 @@ def rivals_of(subject: Subject) -> dict[str, np.ndarray]:
         first, *_, last = reweighted_fit(
             subject.p, subject.model, HUBER, corner=subject.limit, max_iterations=30
         )
-    found = {"least squares": first.estimate, "Huber": last.estimate}
-    return {name: one for name, one in found.items() if np.isfinite(one).all()}
+    fits = {"least squares": first.estimate, "Huber": last.estimate}
+    return {name: estimate for name, estimate in fits.items() if np.isfinite(estimate).all()}
 
 
-def _shown(params: Input, now: State) -> bool:
+def _shown(params: Input, state: State) -> bool:
     """Tell whether a part of a sample becomes a step."""
-    if now.iteration <= SHOWN_IN_PARTS or now.phase in ("best", "refit", "stop"):
+    if state.iteration <= SHOWN_IN_PARTS or state.phase in ("best", "refit", "stop"):
         return True
     if params.steps == "every sample":
-        return now.phase in ("inliers", "degenerate")
+        return state.phase in ("inliers", "degenerate")
     return params.steps == "every part"
 
 
@@ -163,13 +163,13 @@ def _checked(plane_from_points: Slot) -> Callable[[np.ndarray], np.ndarray]:
     """Return the function, made to say so when it does not give a plane."""
 
     def plane(p: np.ndarray) -> np.ndarray:
-        found = np.asarray(plane_from_points(p), dtype=float)
-        if found.shape != (4,):
+        numbers = np.asarray(plane_from_points(p), dtype=float)
+        if numbers.shape != (4,):
             raise InputError(
-                f"plane_from_points returned {found.shape} numbers; a plane is 4 numbers: a, b,"
+                f"plane_from_points returned {numbers.shape} numbers; a plane is 4 numbers: a, b,"
                 " c, d"
             )
-        return found
+        return numbers
 
     return plane
 

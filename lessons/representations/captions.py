@@ -27,32 +27,32 @@ MOSTLY = 0.6  # of the area: where less came back, parts are missing, and not th
 
 def caption(state: State) -> Caption:
     """Return the caption of a step."""
-    now, surface = state.now, state.surface
+    form, surface = state.now, state.surface
     if state.growth is not None:
         return _growth(state.growth)
     if state.others:
         return _others(state)
-    if isinstance(now, Cloud):
+    if isinstance(form, Cloud):
         surface = "The surface is" if state.params.cloud is None else "The points of the file are"
         return Caption(
-            f"{len(now.p):,} points, {size(state.bytes)}. {surface} {length(now.mean, 2)} from the"
-            f" nearest of them on average, {length(now.worst, 2)} in the largest hole. What lies"
-            " between points, nobody knows."
+            f"{len(form.p):,} points, {size(state.bytes)}. {surface} {length(form.mean, 2)} from"
+            f" the nearest of them on average, {length(form.worst, 2)} in the largest hole. What"
+            " lies between points, nobody knows."
         )
-    if isinstance(now, Joined):
-        return _joined(state, now)
-    if isinstance(now, Cells):
-        return _cells(state, now) if surface is None else Caption(_came_back(state, surface))
-    if isinstance(now, Level):
-        return _level(now)
-    if isinstance(now, Built):
-        return _built(now)
-    if isinstance(now, Searched):
-        return _searched(now)
-    if isinstance(now, Patches):
-        return _patches(state, now)
-    if isinstance(now, Fitted):
-        return _fitted(state, now)
+    if isinstance(form, Joined):
+        return _joined(state, form)
+    if isinstance(form, Cells):
+        return _cells(state, form) if surface is None else Caption(_came_back(state, surface))
+    if isinstance(form, Level):
+        return _level(form)
+    if isinstance(form, Built):
+        return _built(form)
+    if isinstance(form, Searched):
+        return _searched(form)
+    if isinstance(form, Patches):
+        return _patches(state, form)
+    if isinstance(form, Fitted):
+        return _fitted(state, form)
     assert surface is not None
     text = f"{len(surface.p):,} vertices and {len(surface.faces):,} triangles, {size(state.bytes)}"
     return Caption(f"{text}: {_errors(surface)}{_sizes(surface)}")
@@ -99,29 +99,29 @@ def _sizes(surface: Surface) -> str:
     )
 
 
-def _joined(state: State, now: Joined) -> Caption:
-    if not now.k:
+def _joined(state: State, joined: Joined) -> Caption:
+    if not joined.k:
         return Caption(
-            f"{counted(len(now.p), 'point')}, {size(state.bytes)}. They do not say who is whose"
+            f"{counted(len(joined.p), 'point')}, {size(state.bytes)}. They do not say who is whose"
             " neighbour on the surface."
         )
-    whom = "its nearest one" if now.k == 1 else f"its {now.k} nearest"
+    whom = "its nearest one" if joined.k == 1 else f"its {joined.k} nearest"
     off = "off the surface" if state.params.cloud is None else "from the nearest point of the file"
     return Caption(
-        f"Each point joined to {whom}: {counted(len(now.edges), 'edge')},"
-        f" {counted(now.pieces, 'piece')}, {size(state.bytes)}. Middles of edges are"
-        f" {length(now.mean, 2)} {off} on average, {length(now.worst, 2)} at worst."
+        f"Each point joined to {whom}: {counted(len(joined.edges), 'edge')},"
+        f" {counted(joined.pieces, 'piece')}, {size(state.bytes)}. Middles of edges are"
+        f" {length(joined.mean, 2)} {off} on average, {length(joined.worst, 2)} at worst."
     )
 
 
-def _cells(state: State, now: Cells) -> Caption:
-    n, subject = now.grid.shape[0], sure(state.subject)
-    if now.values.dtype == bool:
-        full = int(np.count_nonzero(now.values))
+def _cells(state: State, cells: Cells) -> Caption:
+    n, subject = cells.grid.shape[0], sure(state.subject)
+    if cells.values.dtype == bool:
+        full = int(np.count_nonzero(cells.values))
         return Caption(
             f"{n} cells along each edge, one bit each: {size(state.bytes)}. {full:,} have their"
-            f" middle inside: volume {more(full * now.grid.cell_volume / subject.volume)}. The"
-            f" walls around them have {fixed(now.walls / subject.area, 2)} times the area."
+            f" middle inside: volume {more(full * cells.grid.cell_volume / subject.volume)}. The"
+            f" walls around them have {fixed(cells.walls / subject.area, 2)} times the area."
         )
     text = (
         f"{n} cells along each edge, a distance in each: {size(state.bytes)}. The picture is a"
@@ -157,46 +157,48 @@ def _came_back(state: State, surface: Surface) -> str:
     return f"Marching cubes, {len(surface.p):,} vertices {how}: {_errors(surface)}{_sizes(surface)}"
 
 
-def _level(now: Level) -> Caption:
-    cells, mixed = len(now.cells), int(now.mixed.sum())
-    text = f"Level {now.depth}, edges of {length(float(now.grid.spacing[0]), 2)}: {mixed:,} of"
+def _level(level: Level) -> Caption:
+    cells, mixed = len(level.cells), int(level.mixed.sum())
+    text = f"Level {level.depth}, edges of {length(float(level.grid.spacing[0]), 2)}: {mixed:,} of"
     text += (
         f" {counted(cells, 'cell')} may be crossed by the surface, as far as their middle knows."
     )
-    if now.depth:
-        text += f" Packed {size(now.packed_bytes)}, with pointers {size(now.pointer_bytes)};"
-        text += f" dense bits {size(now.dense_bytes)}."
+    if level.depth:
+        text += f" Packed {size(level.packed_bytes)}, with pointers {size(level.pointer_bytes)};"
+        text += f" dense bits {size(level.dense_bytes)}."
     return Caption(text)
 
 
-def _built(now: Built) -> Caption:
-    tree = now.tree
+def _built(built: Built) -> Caption:
+    tree = built.tree
     n, d = tree.p.shape
-    if not now.depth:
+    if not built.depth:
         return Caption(
             f"{n:,} points with {d} coordinates, in no order. Which one is nearest to the purple"
             f" query? Without a tree all {n:,} have to be looked at."
         )
-    cells = int(((tree.depth == now.depth) | ((tree.axis < 0) & (tree.depth < now.depth))).sum())
-    most = int((tree.last - tree.first)[tree.depth == now.depth].max())
+    cells = int(
+        ((tree.depth == built.depth) | ((tree.axis < 0) & (tree.depth < built.depth))).sum()
+    )
+    most = int((tree.last - tree.first)[tree.depth == built.depth].max())
     return Caption(
-        f"{counted(now.depth, 'cut')} deep: each cell is cut at the median of its longest side."
+        f"{counted(built.depth, 'cut')} deep: each cell is cut at the median of its longest side."
         f" {cells:,} cells with at most {counted(most, 'point')} each."
     )
 
 
-def _searched(now: Searched) -> Caption:
-    visit, n = now.visits[-1], len(now.tree.p)
-    text = f"Cell {len(now.visits):,} of the search: {visit.looked:,} of {n:,} points looked at"
+def _searched(search: Searched) -> Caption:
+    visit, n = search.visits[-1], len(search.tree.p)
+    text = f"Cell {len(search.visits):,} of the search: {visit.looked:,} of {n:,} points looked at"
     text += f" ({percent(visit.looked / n)}), the nearest so far {length(visit.distance, 2)} away."
-    if len(now.visits) == 1:
+    if len(search.visits) == 1:
         text += " Straight down to the query's own cell; now back up."
     if visit.passed:
         text += (
             f" {counted(len(visit.passed), 'branch', 'branches')} passed over: no point of theirs"
             " can be nearer."
         )
-    if now.done:
+    if search.done:
         text += " Nothing is left to look at."
     return Caption(text)
 
@@ -211,42 +213,42 @@ def _growth(growth: Growth) -> Caption:
     )
 
 
-def _patches(state: State, now: Patches) -> Caption:
+def _patches(state: State, patches: Patches) -> Caption:
     kind = "weighted " if state.params.rational else ""
     if state.surface is not None:
         text = (
-            f"{counted(now.count, 'patch', 'patches')} of 16: {_errors(state.surface)}."
-            f" {len(now.net)} {kind}control"
+            f"{counted(patches.count, 'patch', 'patches')} of 16: {_errors(state.surface)}."
+            f" {len(patches.net)} {kind}control"
         )
-        return Caption(f"{text} points{f', {size(state.bytes)}' if now.count == 16 else ''}.")
+        return Caption(f"{text} points{f', {size(state.bytes)}' if patches.count == 16 else ''}.")
     u, v = (brief(value, 2) for value in state.params.place)
-    n = now.control.shape[1]
-    if not now.levels:
+    n = patches.control.shape[1]
+    if not patches.levels:
         return Caption(
-            f"{len(now.net)} {kind}control points make 16 patches of {n} × {n},"
+            f"{len(patches.net)} {kind}control points make 16 patches of {n} × {n},"
             f" {size(state.bytes)}. Those at a patch's corners lie on it, the others pull."
         )
-    if now.point is None:
-        left = n - len(now.levels)
+    if patches.point is None:
+        left = n - len(patches.levels)
         return Caption(
             f"De Casteljau along v in the first patch: every leg is divided at v = {v}. Of"
             f" {left + 1} points in each row {counted(left, 'point')}"
             f" {'is' if left == 1 else 'are'} left."
         )
-    at = now.levels[-1][0, :3] / now.levels[-1][0, 3]
-    gap = float(np.linalg.norm(now.point - at))
-    said = "agrees" if gap < ROUND_OFF else f"gives a point {length(gap, 2)} away"
+    at = patches.levels[-1][0, :3] / patches.levels[-1][0, 3]
+    gap = float(np.linalg.norm(patches.point - at))
+    verdict = "agrees" if gap < ROUND_OFF else f"gives a point {length(gap, 2)} away"
     return Caption(
         f"The column of {n} is divided at u = {u} in the same way: the last point lies on the"
-        f" patch. The sum of Bernstein polynomials {said}."
+        f" patch. The sum of Bernstein polynomials {verdict}."
     )
 
 
-def _fitted(state: State, now: Fitted) -> Caption:
-    trained, surface = now.trained, sure(state.surface)
+def _fitted(state: State, fitted: Fitted) -> Caption:
+    trained, surface = fitted.trained, sure(state.surface)
     text = f"{counted(trained.iterations, 'iteration')}, loss {loss(trained.loss)}"
     if not len(surface.p):
-        low, high = float(now.values.min()), float(now.values.max())
+        low, high = float(fitted.values.min()), float(fitted.values.max())
         return Caption(
             f"{text}. No surface: the field is nowhere zero, from {brief(low, 2)} to"
             f" {brief(high, 2)}.",
@@ -262,14 +264,14 @@ def loss(value: float) -> str:
 
 
 def _others(state: State) -> Caption:
-    subject, now, surface = sure(state.subject), state.now, state.surface
+    subject, form, surface = sure(state.subject), state.now, state.surface
     names = ", ".join(_NAMES[name] for name in state.others)
     if surface is not None and not len(surface.p):
         return Caption(
             f"{size(state.bytes)}, and no surface came back. Beside it in the chart: {names}.",
             "wrong",
         )
-    error = now.mean if isinstance(now, Cloud | Joined) else state.errors[-1]
+    error = form.mean if isinstance(form, Cloud | Joined) else state.errors[-1]
     off = (
         "off by nothing but rounding" if error < ROUND_OFF else f"{length(error, 2)} off on average"
     )

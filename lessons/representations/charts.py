@@ -32,11 +32,11 @@ ROLES: dict[str, Role] = {
 
 def beside(state: State) -> dict[str, Primitive]:
     """Return the charts and tables of a step."""
-    now, surface = state.now, state.surface
+    form, surface = state.now, state.surface
     if state.growth is not None:
         return _growth(state.growth)
-    if isinstance(now, Built | Searched):
-        return _search(now)
+    if isinstance(form, Built | Searched):
+        return _search(form)
     scene: dict[str, Primitive] = _memory(state)
     if surface is not None:
         scene["mean error"] = ERROR.scalar(_mm(surface.mean), "on average", log=True)
@@ -45,18 +45,18 @@ def beside(state: State) -> dict[str, Primitive]:
             scene["area"] = AREA.scalar(surface.area, _NAMED.get(state.params.form, "surface"))
             scene["true area"] = AREA.scalar(1.0, "truth", "truth")
             scene["surface table"] = _table(state)
-    if isinstance(now, Joined) and now.k:
-        scene["mean error"] = ERROR.scalar(_mm(now.mean), "middles of edges", log=True)
-        scene["worst error"] = ERROR.scalar(_mm(now.worst), "at worst", "wrong", log=True)
-        scene["pieces"] = PIECES.scalar(now.pieces, "joined")
-    if isinstance(now, Cells) and np.isfinite(now.walls) and state.subject is not None:
-        scene["walls"] = AREA.scalar(now.walls / state.subject.area, "walls of cells", "wrong")
-    if isinstance(now, Cells) and field_error(state) is not None:
+    if isinstance(form, Joined) and form.k:
+        scene["mean error"] = ERROR.scalar(_mm(form.mean), "middles of edges", log=True)
+        scene["worst error"] = ERROR.scalar(_mm(form.worst), "at worst", "wrong", log=True)
+        scene["pieces"] = PIECES.scalar(form.pieces, "joined")
+    if isinstance(form, Cells) and np.isfinite(form.walls) and state.subject is not None:
+        scene["walls"] = AREA.scalar(form.walls / state.subject.area, "walls of cells", "wrong")
+    if isinstance(form, Cells) and field_error(state) is not None:
         scene |= _field(state)
-    if isinstance(now, Level):
-        scene |= _levels(state, now)
-    if isinstance(now, Fitted):
-        scene["loss"] = LOSS.scalar(max(now.trained.loss, FLOOR), "of the batches", log=True)
+    if isinstance(form, Level):
+        scene |= _levels(state, form)
+    if isinstance(form, Fitted):
+        scene["loss"] = LOSS.scalar(max(form.trained.loss, FLOOR), "of the batches", log=True)
     return scene
 
 
@@ -115,9 +115,9 @@ def _field(state: State) -> dict[str, Primitive]:
     }
 
 
-def _levels(state: State, now: Level) -> dict[str, Primitive]:
-    depth = np.arange(0.0, now.depth + 1)
-    mixed = np.array([*state.mixed, float(now.mixed.sum())])
+def _levels(state: State, level: Level) -> dict[str, Primitive]:
+    depth = np.arange(0.0, level.depth + 1)
+    mixed = np.array([*state.mixed, float(level.mixed.sum())])
     return {
         "all cells": CELLS.curve(depth, depth * np.log10(8.0), "a dense grid", "neutral"),
         "mixed cells": CELLS.curve(
@@ -126,10 +126,10 @@ def _levels(state: State, now: Level) -> dict[str, Primitive]:
     }
 
 
-def _search(now: Built | Searched) -> dict[str, Primitive]:
-    if isinstance(now, Built) or now.visits[-1].looked == 0:
+def _search(form: Built | Searched) -> dict[str, Primitive]:
+    if isinstance(form, Built) or form.visits[-1].looked == 0:
         return {}
-    visits, n = now.visits, len(now.tree.p)
+    visits, n = form.visits, len(form.tree.p)
     chart = Chart("The search", "cells looked into", "% of the points")
     x = np.arange(1.0, len(visits) + 1)
     looked = 100 * np.array([visit.looked for visit in visits]) / n

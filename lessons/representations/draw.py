@@ -36,24 +36,24 @@ RIMS = CUBE[[[a, b] for a in range(8) for b in range(a) if np.abs(CUBE[a] - CUBE
 
 def draw(state: State) -> Scene:
     """Return the picture of one step."""
-    now, surface = state.now, state.surface
+    form, surface = state.now, state.surface
     scene: dict[str, Primitive] = {"caption": caption(state)}
     if state.subject is not None:
         scene["truth"] = _truth(state.subject)
-    if isinstance(now, Cloud):
-        scene |= _cloud(now)
-    elif isinstance(now, Joined):
-        scene |= _joined(now)
-    elif isinstance(now, Cells | Fitted):
-        scene |= _cells(state, now)
-    elif isinstance(now, Level):
-        scene |= _level(now)
-    elif isinstance(now, Patches):
-        scene |= _patches(now)
-    elif isinstance(now, Built | Searched):
-        scene |= _tree(now)
-    if surface is not None and len(surface.faces) and not isinstance(now, Level):
-        facets = not isinstance(now, Patches | Fitted)
+    if isinstance(form, Cloud):
+        scene |= _cloud(form)
+    elif isinstance(form, Joined):
+        scene |= _joined(form)
+    elif isinstance(form, Cells | Fitted):
+        scene |= _cells(state, form)
+    elif isinstance(form, Level):
+        scene |= _level(form)
+    elif isinstance(form, Patches):
+        scene |= _patches(form)
+    elif isinstance(form, Built | Searched):
+        scene |= _tree(form)
+    if surface is not None and len(surface.faces) and not isinstance(form, Level):
+        facets = not isinstance(form, Patches | Fitted)
         scene["surface"] = Mesh(
             surface.p, surface.faces, "source", flat=facets, name="what comes back"
         )
@@ -68,39 +68,46 @@ def _truth(subject: Subject) -> Mesh | Points:
     return Mesh(subject.p, subject.faces, "truth", opacity=0.18, name=subject_name(subject))
 
 
-def _cloud(now: Cloud) -> dict[str, Primitive]:
-    p = now.p[every(len(now.p), MOST_POINTS)]
+def _cloud(cloud: Cloud) -> dict[str, Primitive]:
+    p = cloud.p[every(len(cloud.p), MOST_POINTS)]
     return {
         "points": Points(
             p, "source", float(np.clip(0.5 / np.sqrt(len(p)), 0.006, 0.025)), name="points"
         ),
-        "hole": Segments(sphere_rings(now.hole, now.worst), "wrong", 2, name="the largest hole"),
+        "hole": Segments(
+            sphere_rings(cloud.hole, cloud.worst), "wrong", 2, name="the largest hole"
+        ),
     }
 
 
-def _joined(now: Joined) -> dict[str, Primitive]:
+def _joined(joined: Joined) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
-        "points": Points(now.p[every(len(now.p), MOST_POINTS)], "source", 0.008, name="points")
+        "points": Points(
+            joined.p[every(len(joined.p), MOST_POINTS)], "source", 0.008, name="points"
+        )
     }
-    if now.k:
-        shown = now.edges[every(len(now.edges), MOST_EDGES)]
-        scene["edges"] = Segments(now.p[shown], "correspondence", 1, name="edges to the nearest")
+    if joined.k:
+        shown = joined.edges[every(len(joined.edges), MOST_EDGES)]
+        scene["edges"] = Segments(joined.p[shown], "correspondence", 1, name="edges to the nearest")
         scene["bridge"] = Segments(
-            now.p[now.edges[[now.bridge]]], "wrong", 4, name="the edge that is farthest off"
+            joined.p[joined.edges[[joined.bridge]]],
+            "wrong",
+            4,
+            name="the edge that is farthest off",
         )
     return scene
 
 
-def _cells(state: State, now: Cells | Fitted) -> dict[str, Primitive]:
-    if now.values.dtype == bool:
-        if state.surface is not None or not now.values.any():
+def _cells(state: State, form: Cells | Fitted) -> dict[str, Primitive]:
+    if form.values.dtype == bool:
+        if state.surface is not None or not form.values.any():
             return {}
         return {
             "cells": Mesh(
-                *counted_surface(now.values, now.grid), "source", flat=True, name="full cells"
+                *counted_surface(form.values, form.grid), "source", flat=True, name="full cells"
             )
         }
-    return {"slice": _slice(now.values, now.grid, aside=state.surface is not None)}
+    return {"slice": _slice(form.values, form.grid, aside=state.surface is not None)}
 
 
 def _slice(values: np.ndarray, grid: Grid, *, aside: bool) -> Picture:
@@ -116,66 +123,68 @@ def _slice(values: np.ndarray, grid: Grid, *, aside: bool) -> Picture:
     return Picture(shown, "Slice through the middle", width, motion(R_UPRIGHT, place))
 
 
-def _level(now: Level) -> dict[str, Primitive]:
-    mixed, h = now.cells[now.mixed], float(now.grid.spacing[0])
+def _level(level: Level) -> dict[str, Primitive]:
+    mixed, h = level.cells[level.mixed], float(level.grid.spacing[0])
     scene: dict[str, Primitive] = {
         "cube": Segments(2.0 * RIMS - 1.0, "neutral", 2, name="the whole cube")
     }
-    if now.depth < 5:
-        edges = now.grid.low + h * (mixed[:, None, None] + RIMS)
+    if level.depth < 5:
+        edges = level.grid.low + h * (mixed[:, None, None] + RIMS)
         scene["cells"] = Segments(edges.reshape(-1, 2, 3), "source", 1.5, name="mixed cells")
     else:
         mixed = mixed[every(len(mixed), MOST_POINTS)]
         scene["middles"] = Points(
-            now.grid.low + h * (mixed + 0.5), "source", 0.4 * h, name="middles of mixed cells"
+            level.grid.low + h * (mixed + 0.5), "source", 0.4 * h, name="middles of mixed cells"
         )
     return scene
 
 
-def _patches(now: Patches) -> dict[str, Primitive]:
-    dividing = bool(now.levels) and not now.count
-    shown = (now.control[..., :3] / now.control[..., 3:])[: 1 if dividing else None]
+def _patches(patches: Patches) -> dict[str, Primitive]:
+    dividing = bool(patches.levels) and not patches.count
+    shown = (patches.control[..., :3] / patches.control[..., 3:])[: 1 if dividing else None]
     rows = np.concatenate(
         [segments(line) for net in shown for line in (*net, *net.transpose(1, 0, 2))]
     )
     scene: dict[str, Primitive] = {
         "net": Points(
-            shown.reshape(-1, 3) if dividing else now.net[:, :3],
+            shown.reshape(-1, 3) if dividing else patches.net[:, :3],
             "target",
             0.016,
             name="control points",
         ),
         "legs": Segments(rows, "correspondence", 1, opacity=0.6, name="control net"),
     }
-    for k, level in enumerate(now.levels if dividing else ()):
+    for k, level in enumerate(patches.levels if dividing else ()):
         p = (level[..., :3] / level[..., 3:]).reshape(*level.shape[:-1], 3)
         lines = [segments(line) for line in (p if p.ndim == 3 else p[None])]
         scene[f"divided/{k}"] = Points(p.reshape(-1, 3), "source", 0.018, name="divided")
         if p.shape[-2] > 1:
             scene[f"lines/{k}"] = Segments(np.concatenate(lines), "source", 2, name="divided again")
-    if now.point is not None and dividing:
-        scene["point"] = Points(now.point[None], "highlight", 0.035, name="the point on the patch")
+    if patches.point is not None and dividing:
+        scene["point"] = Points(
+            patches.point[None], "highlight", 0.035, name="the point on the patch"
+        )
     return scene
 
 
-def _tree(now: Built | Searched) -> dict[str, Primitive]:
-    tree = now.tree
+def _tree(form: Built | Searched) -> dict[str, Primitive]:
+    tree = form.tree
     scene: dict[str, Primitive] = {}
     p = _three(tree.p)
-    if isinstance(now, Built):
-        depth = min(now.depth, 6)
+    if isinstance(form, Built):
+        depth = min(form.depth, 6)
         cells = np.flatnonzero((tree.depth == depth) | ((tree.axis < 0) & (tree.depth < depth)))
         scene["points"] = Points(p[every(len(p), MOST_POINTS)], "target", 0.012, name="points")
         scene["cells"] = Segments(
             _boxes(tree, cells[every(len(cells), MOST_BOXES)]), "neutral", 1, name="cells"
         )
         return scene
-    visit = now.visits[-1]
+    visit = form.visits[-1]
     seen = np.zeros(len(p), dtype=bool)
-    looked_into = np.array([one.cell for one in now.visits])
+    looked_into = np.array([step.cell for step in form.visits])
     for cell in looked_into:
         seen[tree.first[cell] : tree.last[cell]] = True
-    query = _three(now.query[None])
+    query = _three(form.query[None])
     rest = p[~seen]
     if len(rest):
         scene["points"] = Points(
@@ -188,7 +197,7 @@ def _tree(now: Built | Searched) -> dict[str, Primitive]:
     scene["cells"] = Segments(boxes, "source", 2, name="cells looked into")
     scene["query"] = Points(query, "highlight", 0.03, name="query")
     scene["nearest"] = Points(
-        p[[visit.nearest]], "truth" if now.done else "source", 0.03, name="nearest so far"
+        p[[visit.nearest]], "truth" if form.done else "source", 0.03, name="nearest so far"
     )
     if tree.p.shape[1] <= 3:
         scene["ball"] = Segments(

@@ -80,8 +80,8 @@ def cloud(params: Params, subject: Subject, functions: Functions) -> Steps:
     counts = CLOUD_FROM * 2 ** np.arange(0, 11)
     for count in (*counts[counts < len(p)].tolist(), len(p)):
         mean, worst, hole = covered(subject, p[:count])
-        now = Cloud(p=p[:count], mean=mean, worst=worst, hole=hole)
-        state = grown(replace(state, now=now), 12 * count, mean)
+        form = Cloud(p=p[:count], mean=mean, worst=worst, hole=hole)
+        state = grown(replace(state, now=form), 12 * count, mean)
         yield state
 
 
@@ -96,8 +96,8 @@ def spread(params: Params, subject: Subject) -> np.ndarray:
 def neighbours(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield points alone, and then each joined to ever more of its nearest ones."""
     p = spread(params, subject)
-    now = Joined(p=p, k=0, edges=np.empty((0, 2), int), pieces=len(p))
-    state = State(params=params, subject=subject, now=now, bytes=12 * len(p))
+    form = Joined(p=p, k=0, edges=np.empty((0, 2), int), pieces=len(p))
+    state = State(params=params, subject=subject, now=form, bytes=12 * len(p))
     yield state
     if len(p) < 3:
         return
@@ -107,7 +107,7 @@ def neighbours(params: Params, subject: Subject, functions: Functions) -> Steps:
         graph = joined(directed_graph(rows[:, :k]), "union")
         edges = edges_of(graph)
         away = subject.away(p[edges].mean(axis=1))
-        now = Joined(
+        form = Joined(
             p=p,
             k=k,
             edges=edges,
@@ -116,7 +116,7 @@ def neighbours(params: Params, subject: Subject, functions: Functions) -> Steps:
             worst=float(away.max()),
             bridge=int(away.argmax()),
         )
-        state = grown(replace(state, now=now), 12 * len(p) + 4 * k * len(p), now.mean)
+        state = grown(replace(state, now=form), 12 * len(p) + 4 * k * len(p), form.mean)
         yield state
 
 
@@ -143,8 +143,8 @@ def meshes(params: Params, subject: Subject) -> Iterator[tuple[np.ndarray, np.nd
     counts = MESH_FROM * 2 ** np.arange(0, 11)
     for count in (*counts[counts < params.points].tolist(), params.points):
         if made and params.shape == "torus":
-            one = surfaces.torus(count, RING, TUBE)
-            yield one.p, one.faces
+            torus = surfaces.torus(count, RING, TUBE)
+            yield torus.p, torus.faces
             continue
         p, faces = clustered(subject.p, subject.faces, float(np.sqrt(1.2 * subject.area / count)))
         if len(faces):
@@ -161,8 +161,8 @@ def voxels(params: Params, subject: Subject, functions: Functions) -> Steps:
         grid = cube(n)
         bits = subject.inside(grid.centres()).reshape(grid.shape)
         size = max(1, n**3 // 8)
-        now = Cells(grid=grid, values=bits, walls=counted_area(bits, grid.spacing))
-        state = replace(state, now=now, surface=None, bytes=size)
+        form = Cells(grid=grid, values=bits, walls=counted_area(bits, grid.spacing))
+        state = replace(state, now=form, surface=None, bytes=size)
         yield state
         surface = measured(subject, *_marched(bits, grid))
         state = grown(replace(state, surface=surface), size, surface.mean)
@@ -205,13 +205,13 @@ _stored = functools.lru_cache(maxsize=16)(_sampled)  # of a mesh they cost most 
 def octree(params: Params, subject: Subject, functions: Functions) -> Steps:
     """Yield the levels of the tree, and with each the surface of cells of that size."""
     state = State(params=params, subject=subject)
-    for now in grow_octree(subject.field, LOW, EDGE, depth=params.depth):
-        state = replace(state, now=now, surface=None, bytes=now.packed_bytes)
-        if now.depth >= 3:
-            surface = measured(subject, *_marched(now.bits, now.grid))
-            state = grown(replace(state, surface=surface), now.packed_bytes, surface.mean)
+    for level in grow_octree(subject.field, LOW, EDGE, depth=params.depth):
+        state = replace(state, now=level, surface=None, bytes=level.packed_bytes)
+        if level.depth >= 3:
+            surface = measured(subject, *_marched(level.bits, level.grid))
+            state = grown(replace(state, surface=surface), level.packed_bytes, surface.mean)
         yield state
-        state = replace(state, mixed=(*state.mixed, int(now.mixed.sum())))
+        state = replace(state, mixed=(*state.mixed, int(level.mixed.sum())))
 
 
 def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
@@ -231,12 +231,12 @@ def neural(params: Params, subject: Subject, functions: Functions) -> Steps:
     )
     counts = iteration_counts(params.iterations)
     distances_of = subject.field(p).take if subject.quick else _known(subject, p.tobytes())
-    found = train_field(network, p, distances_of, counts=counts, target=params.target, rng=rng)
-    for trained in found:
+    training = train_field(network, p, distances_of, counts=counts, target=params.target, rng=rng)
+    for trained in training:
         values = trained.network(corners).reshape(grid.shape)
         surface = measured(subject, *level_surface(values, grid, functions.edge_crossings))
-        now = Fitted(trained=trained, grid=grid, values=values)
-        state = grown(replace(state, now=now, surface=surface), network.bytes, surface.mean)
+        form = Fitted(trained=trained, grid=grid, values=values)
+        state = grown(replace(state, now=form, surface=surface), network.bytes, surface.mean)
         yield state
 
 
@@ -259,9 +259,9 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
     net = np.unique(
         np.round(np.concatenate([shown, control[..., 3:]], axis=-1).reshape(-1, 4), 9) + 0.0, axis=0
     )
-    now = Patches(control=control, net=net)
+    form = Patches(control=control, net=net)
     state = State(
-        params=params, subject=subject, now=now, bytes=(16 if params.rational else 12) * len(net)
+        params=params, subject=subject, now=form, bytes=(16 if params.rational else 12) * len(net)
     )
     yield state
     u, v = params.place
@@ -269,13 +269,13 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
     levels = ()
     for k in range(1, len(rows)):
         levels = tuple(np.stack([row[j] for row in rows]) for j in range(1, k + 1))
-        yield replace(state, now=replace(now, levels=levels))
+        yield replace(state, now=replace(form, levels=levels))
     point = evaluated(functions.bezier_patch, control[0], np.array([[u, v]]))[0]
     levels = (*levels, *de_casteljau(np.stack([row[-1][0] for row in rows]), u)[1:])
-    now = replace(now, levels=levels, point=point)
-    yield replace(state, now=now)
+    form = replace(form, levels=levels, point=point)
+    yield replace(state, now=form)
     uv, quads = _square(11)
-    p = [evaluated(functions.bezier_patch, one, uv) for one in control]
+    p = [evaluated(functions.bezier_patch, patch, uv) for patch in control]
     for n in (1, 4, 8, 12, 16):
         at = np.concatenate(p[:n])
         faces = np.concatenate([quads + len(uv) * k for k in range(n)])
@@ -289,7 +289,7 @@ def patches(params: Params, subject: Subject, functions: Functions) -> Steps:
             volume=float("nan"),
             tilt=float("nan"),
         )
-        state = replace(state, now=replace(now, count=n), surface=surface)
+        state = replace(state, now=replace(form, count=n), surface=surface)
         if n == 16:
             state = grown(state, state.bytes, surface.mean)
         yield state
@@ -331,8 +331,8 @@ def kd_tree(params: Params, subject: Subject | None, functions: Functions) -> St
         np.rint(np.geomspace(1, len(visits), min(len(visits), MOST_VISITS))).astype(int)
     )
     for end in ends.tolist():
-        now = Searched(tree=tree, query=query, visits=visits[:end], done=end == len(visits))
-        state = replace(state, now=now)
+        form = Searched(tree=tree, query=query, visits=visits[:end], done=end == len(visits))
+        state = replace(state, now=form)
         yield state
     yield replace(state, growth=_growth(params.seed))
 
@@ -370,8 +370,8 @@ FORMS: dict[Form, Callable[..., Steps]] = {
 
 def others(params: Params, subject: Subject) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Return bytes and errors of the other forms that are quickly made, at a few sizes."""
-    found = {} if params.cloud else _references(subject, only(params, "shape", "mesh"))
-    return {form: points for form, points in found.items() if form != params.form}
+    references = {} if params.cloud else _references(subject, only(params, "shape", "mesh"))
+    return {form: points for form, points in references.items() if form != params.form}
 
 
 @functools.lru_cache(maxsize=16)
@@ -382,9 +382,9 @@ def _references(subject: Subject, params: Params) -> dict[Form, tuple[np.ndarray
         forms = ("cloud", "mesh", "voxels", "distances")
     if params.mesh is None and params.shape == "torus":
         forms = (*forms, "patches")
-    found = {}
+    references = {}
     for form in forms:
         few = replace(params, form=form, points=6400, resolution=32 if subject.quick else 16)
         *_, last = FORMS[form](few, subject, functions)
-        found[form] = (np.array(last.sizes, float), np.array(last.errors))
-    return found
+        references[form] = (np.array(last.sizes, float), np.array(last.errors))
+    return references

@@ -92,8 +92,8 @@ def lines(body: Body, T: np.ndarray, *, color: Role, name: str = "") -> Segments
 def draw_rings(look: Look[Input, Body, Named]) -> Scene:
     """Return three rings, each on an axle that the one outside it carries, and the house inside."""
     params = look.params
-    now = look.now
-    axes = axles(params, now.value)
+    pose = look.now
+    axes = axles(params, pose.value)
     letters = list(params.order.lower())
     if params.order.islower():  # the last of fixed axes is the outermost ring
         axes = axes[::-1]
@@ -101,11 +101,11 @@ def draw_rings(look: Look[Input, Body, Named]) -> Scene:
     outer, middle, inner = axes
     apart = float(np.degrees(np.arcsin(min(np.linalg.norm(np.cross(outer, inner)), 1.0))))
     amount = knob_degrees(axes)
-    T = motion(now.R, ORIGIN)
+    T = motion(pose.R, ORIGIN)
     T[:3, :3] *= SMALL
-    T[:3, 3] = -0.5 * SMALL * now.R[:, 2]
+    T[:3, 3] = -0.5 * SMALL * pose.R[:, 2]
     # each ring holds the axle it hangs on and the axle that it carries
-    normals = (np.cross(middle, outer), np.cross(inner, middle), now.R @ _across(now.R.T @ inner))
+    normals = (np.cross(middle, outer), np.cross(inner, middle), pose.R @ _across(pose.R.T @ inner))
     scene: dict[str, Primitive] = shown("body", look.subject, T)
     names = ("outer", "middle", "inner")
     for k, ring in enumerate(names):
@@ -125,24 +125,24 @@ def draw_rings(look: Look[Input, Body, Named]) -> Scene:
             "between", ORIGIN, toward, apart, about=about, radius=0.5, color="highlight", width=3
         )
     dead = np.cross(outer, middle)
-    if abs(now.value) >= 60.0:
+    if abs(pose.value) >= 60.0:
         ends = np.stack([-1.3 * dead, 1.3 * dead])
         scene["dead"] = dashed(ends, "neutral", dash=0.05, width=4.0)
         words = "no ring turns about this" if apart < 0.5 else "hardly any ring turns about this"
         scene["dead name"] = Label(words, 1.38 * dead, "neutral")
     curve = np.array([min(knob_degrees(axles(params, float(b))), 99.0) for b in PITCHES])
     scene |= {
-        "pitch": PITCH.scalar(now.value, "pitch"),
+        "pitch": PITCH.scalar(pose.value, "pitch"),
         "apart": APART.scalar(apart, "outer and inner axle"),
         "knob/whole": KNOB.whole(PITCHES, curve, "in the worst direction", "source"),
         "caption": say(
             "The middle ring at {pitch}: the outer and the inner axle are {apart} apart.",
-            pitch=degrees(now.value),
+            pitch=degrees(pose.value),
             apart=degrees(apart),
         ),
     }
     if amount < 99.0:
-        scene["knob/mark"] = KNOB.mark(now.value, amount, "your hand", "source", steps="pitch")
+        scene["knob/mark"] = KNOB.mark(pose.value, amount, "your hand", "source", steps="pitch")
     else:
         rims = np.array([-90.0, -90.0, -90.0, 90.0, 90.0])
         upright = np.array([0.0, 30.0, np.nan, 0.0, 30.0])
@@ -158,7 +158,7 @@ def _across(own: np.ndarray) -> np.ndarray:
 def draw_readings(look: Look[Input, Body, Read]) -> Scene:
     """Return the house as it is meant, and its outline as it is read otherwise."""
     body = look.subject
-    now = look.now
+    pose = look.now
     meant = look.now if look.before is None else look.past[0]
     T = motion(meant.R, ORIGIN)
     scene: dict[str, Primitive] = {
@@ -166,33 +166,35 @@ def draw_readings(look: Look[Input, Body, Read]) -> Scene:
         **_axes("fixed", np.eye(3), "xyz", reach=1.5, width=1.5),
         **_axes("carried", meant.R, "XYZ", reach=1.25, width=6.0),
         **shown("body", body, T, opacity=0.45, name=meant.name),
-        "off": APART.scalar(now.off, "from the right one", "truth"),
-        "matrix": Table.of_matrix("R as read", ("x axis", "y axis", "z axis"), now.R),
-        "numbers": numbers(now.R),
+        "off": APART.scalar(pose.off, "from the right one", "truth"),
+        "matrix": Table.of_matrix("R as read", ("x axis", "y axis", "z axis"), pose.R),
+        "numbers": numbers(pose.R),
     }
     if look.before is None:
-        said = say(
-            "{name} makes this house. Step on: the same numbers are read anew.", name=now.name
+        caption = say(
+            "{name} makes this house. Step on: the same numbers are read anew.", name=pose.name
         )
-        return scene | {"caption": said}
-    is_same = now.off < 1e-6
+        return scene | {"caption": caption}
+    is_same = pose.off < 1e-6
     role: Role = "truth" if is_same else "wrong"
-    p = body.solid.p @ now.R.T
+    p = body.solid.p @ pose.R.T
     top = p[np.argmax(p[:, 2])] + 0.12 * UP
     scene |= {
-        "ghost": lines(body, motion(now.R, ORIGIN), color=role, name="as read"),
-        "ghost name": Label(now.name, top, role),
+        "ghost": lines(body, motion(pose.R, ORIGIN), color=role, name="as read"),
+        "ghost name": Label(pose.name, top, role),
     }
     if not is_same:
-        axis, _ = axis_angle_from_rotation(now.R @ meant.R.T)
+        axis, _ = axis_angle_from_rotation(pose.R @ meant.R.T)
         start = axis_across(axis)
         scene["axis"] = dashed(np.stack([-0.4 * axis, 1.35 * axis]), "neutral", dash=0.04)
         scene |= arc(
-            "turn", 1.15 * axis, start, now.off, about=axis, radius=0.22, color="wrong", width=4
+            "turn", 1.15 * axis, start, pose.off, about=axis, radius=0.22, color="wrong", width=4
         )
-        said = say("{name}: {off} from the right rotation.", name=now.name, off=degrees(now.off))
-        return scene | {"caption": said}
-    return scene | {"caption": say("{name}: the same rotation.", name=now.name)}
+        caption = say(
+            "{name}: {off} from the right rotation.", name=pose.name, off=degrees(pose.off)
+        )
+        return scene | {"caption": caption}
+    return scene | {"caption": say("{name}: the same rotation.", name=pose.name)}
 
 
 def _axes(
@@ -231,20 +233,20 @@ def draw_chain(look: Look[Input, Body, Named]) -> Scene:
     """Return the turns one by one in grey, and the one turn that comes to the same in green."""
     params = look.params
     body = look.subject
-    now = look.now
+    pose = look.now
     p = body.p_followed(params.point)
     n, _ = whole_turn(params)
-    here = now.R @ p
+    here = pose.R @ p
     centre = (n @ p) * n
     radius = float(np.linalg.norm(p - centre))
-    turn = np.radians(now.value)
+    turn = np.radians(pose.value)
     terms = np.stack(
         [np.cos(turn) * p, np.sin(turn) * np.cross(n, p), (1.0 - np.cos(turn)) * (n @ p) * n]
     )
     chained = np.vstack([ORIGIN, np.cumsum(terms, axis=0)])
     scene: dict[str, Primitive] = {
         "ground": GROUND,
-        **shown("body", body, motion(now.R, ORIGIN), opacity=0.4),
+        **shown("body", body, motion(pose.R, ORIGIN), opacity=0.4),
         "start": lines(body, np.eye(4), color="target", name="before"),
         "axis": dashed(np.stack([-0.3 * n, 1.5 * n]), "truth", dash=0.05, width=3, name="the axis"),
         "circle": circle(centre, n, radius, "truth", opacity=0.4),
@@ -253,17 +255,17 @@ def draw_chain(look: Look[Input, Body, Named]) -> Scene:
         "terms/1": arrows(chained[[0]], chained[[1]], "highlight", name="cos θ · p"),
         "terms/2": arrows(chained[[1]], chained[[2]], "source", name="sin θ · n × p"),
         "terms/3": arrows(chained[[2]], chained[[3]], "target", name="(1 − cos θ) (n · p) n"),
-        "angle": ANGLE.scalar(now.value, "angle"),
-        "matrix": Table.of_matrix("R", ("x axis", "y axis", "z axis"), now.R),
-        "numbers": numbers(now.R),
+        "angle": ANGLE.scalar(pose.value, "angle"),
+        "matrix": Table.of_matrix("R", ("x axis", "y axis", "z axis"), pose.R),
+        "numbers": numbers(pose.R),
         "caption": say(
             "The one turn has gone {angle}.",
-            angle=degrees(now.value),
+            angle=degrees(pose.value),
         ),
     }
-    if now.value > 1e-9:
+    if pose.value > 1e-9:
         at = {"about": n, "radius": radius, "color": "truth", "width": 6.0}
-        scene |= arc("one turn", centre, p - centre, now.value, **at)
+        scene |= arc("one turn", centre, p - centre, pose.value, **at)
     for k, (about, angle) in enumerate(steps_of(params)):
         middle = (about @ p) * about
         reach = float(np.linalg.norm(p - middle))
@@ -277,13 +279,13 @@ def draw_chain(look: Look[Input, Body, Named]) -> Scene:
 def steps_of(params: Input) -> list[tuple[np.ndarray, float]]:
     """Return axis and degrees of each of the three turns, in the world."""
     angles = np.radians(params.angles)
-    found = []
+    turns = []
     for k in range(3):
         done = np.where(np.arange(3) < k, angles, 0.0)
         letter = np.eye(3)["xyz".index(params.order[k].lower())]
         about = letter if params.order.islower() else euler_axes(done, params.order)[k]
-        found.append((about, float(params.angles[k])))
-    return found
+        turns.append((about, float(params.angles[k])))
+    return turns
 
 
 def _turned(p: np.ndarray, about: np.ndarray, angle: float) -> np.ndarray:
@@ -298,23 +300,23 @@ def _turned(p: np.ndarray, about: np.ndarray, angle: float) -> np.ndarray:
 def draw_names(look: Look[Input, Body, Named]) -> Scene:
     """Return the circle of half angles with q and −q on it, and the house that they turn."""
     body = look.subject
-    now = look.now
-    half = 0.5 * now.value
+    pose = look.now
+    half = 0.5 * pose.value
     tips = {name: _on_dial(angle) for name, angle in (("q", half), ("−q", half + 180.0))}
     scene: dict[str, Primitive] = {
         "ground": GROUND,
         "start": lines(body, np.eye(4), color="target", name="before"),
-        **shown("body", body, motion(now.R, ORIGIN), opacity=0.7),
+        **shown("body", body, motion(pose.R, ORIGIN), opacity=0.7),
         "dial": circle(ASIDE, -Y, DIAL, "neutral", name="half angles"),
         "start name": Label("q₀", ASIDE + 1.15 * (_on_dial(0.0) - ASIDE), "target"),
         "hands": Segments(
             between(ASIDE, np.stack([_on_dial(0.0), *tips.values()])), "neutral", 2.0
         ),
-        "angle": ANGLE.scalar(now.value, "angle"),
+        "angle": ANGLE.scalar(pose.value, "angle"),
         "to q": LONG.whole(ENDS, ENDS, "to q", "truth"),
         "to −q": LONG.whole(ENDS, 360.0 - ENDS, "to −q", "wrong"),
-        "mark": LONG.mark(now.value, now.value, "your hand", "truth", steps="angle"),
-        "numbers": numbers(now.R),
+        "mark": LONG.mark(pose.value, pose.value, "your hand", "truth", steps="angle"),
+        "numbers": numbers(pose.R),
         "caption": say(
             "q is {half} away, −q {other} the other way round.",
             half=degrees(half),
@@ -327,7 +329,7 @@ def draw_names(look: Look[Input, Body, Named]) -> Scene:
     if half:
         scene |= arc("near/dial", ASIDE, X, half, radius=0.8 * DIAL, color="truth", **at)
         scene |= arc(
-            "near/house", 0.02 * UP, -Y, now.value, about=UP, radius=0.75, color="truth", width=3.0
+            "near/house", 0.02 * UP, -Y, pose.value, about=UP, radius=0.75, color="truth", width=3.0
         )
     if half < 180.0:
         scene |= arc("far/dial", ASIDE, X, half - 180.0, radius=0.62 * DIAL, color="wrong", **at)
@@ -335,7 +337,7 @@ def draw_names(look: Look[Input, Body, Named]) -> Scene:
             "far/house",
             0.02 * UP,
             -Y,
-            now.value - 360.0,
+            pose.value - 360.0,
             about=UP,
             radius=0.95,
             color="wrong",
@@ -353,9 +355,9 @@ def draw_mean(look: Look[Input, Body, Named]) -> Scene:
     """Return the house under the mean of the entries, before the one under the right mean."""
     params = look.params
     body = look.subject
-    now = look.now
-    M = now.R
-    apart = now.value
+    state = look.now
+    M = state.R
+    apart = state.value
     left = 100.0 * abs(float(np.linalg.det(M)))
     turn = np.radians(0.5 * apart)
     R = np.array([[np.cos(turn), -np.sin(turn), 0.0], [np.sin(turn), np.cos(turn), 0.0], UP])

@@ -127,8 +127,8 @@ def other_triples(params: Input) -> np.ndarray:
 
 
 def _other_triples(params: Input, _: np.ndarray) -> list[Other]:
-    found = other_triples(params)
-    return [(in_degrees(triple), euler_to_matrix(triple, params.order)) for triple in found]
+    triples = other_triples(params)
+    return [(in_degrees(triple), euler_to_matrix(triple, params.order)) for triple in triples]
 
 
 def _transpose(_params: Input, R: np.ndarray) -> list[Other]:

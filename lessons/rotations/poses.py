@@ -82,8 +82,8 @@ def move(
     )
     p = body.p_followed(params.point)
     best_way = way = Way(times=times[:0], path=np.empty((0, 3)), turned=times[:0], volume=times[:0])
-    for k, now in enumerate(shortest):
-        best_way = _gone(best_way, now, before=shortest[max(k - 1, 0)], p=p)
+    for k, state in enumerate(shortest):
+        best_way = _gone(best_way, state, before=shortest[max(k - 1, 0)], p=p)
     if params.method == "slerp + lerp":
         states = interpolation.slerp_and_lerp(
             T_start, T_end, times, rotation_from_axis_angle=rotation_from_axis_angle
@@ -105,28 +105,30 @@ def move(
     else:
         states = interpolation.along_a_screw(T_start, T_end, times, invert_rigid=inverse)
     before = None
-    for now, best in zip(states, shortest, strict=True):
-        earlier = before or now
-        way = _gone(way, now, before=earlier, p=p)
+    for state, best in zip(states, shortest, strict=True):
+        earlier = before or state
+        way = _gone(way, state, before=earlier, p=p)
         yield Moved(
             T_world_start=T_start,
             T_world_end=T_end,
-            T_world_body=now.T_world_body,
+            T_world_body=state.T_world_body,
             T_world_before=earlier.T_world_body,
             T_world_shortest=best.T_world_body,
             way=way,
             shortest=best_way,
-            off=degrees_between(best.T_world_body, now.T_world_body),
+            off=degrees_between(best.T_world_body, state.T_world_body),
         )
-        before = now
+        before = state
 
 
-def _gone(way: Way, now: interpolation.State, *, before: interpolation.State, p: np.ndarray) -> Way:
+def _gone(
+    way: Way, state: interpolation.State, *, before: interpolation.State, p: np.ndarray
+) -> Way:
     turned = float(way.turned[-1]) if len(way.turned) else 0.0
-    turned += degrees_between(before.T_world_body, now.T_world_body)
+    turned += degrees_between(before.T_world_body, state.T_world_body)
     return Way(
-        times=np.append(way.times, now.t),
-        path=np.vstack([way.path, apply(now.T_world_body, p)]),
+        times=np.append(way.times, state.t),
+        path=np.vstack([way.path, apply(state.T_world_body, p)]),
         turned=np.append(way.turned, turned),
-        volume=np.append(way.volume, np.linalg.det(now.T_world_body[:3, :3])),
+        volume=np.append(way.volume, np.linalg.det(state.T_world_body[:3, :3])),
     )

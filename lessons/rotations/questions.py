@@ -34,8 +34,8 @@ def directions_left(states: States) -> int:
 
 def jump_out_of_lock() -> str:
     """Return the angles that turn the locked body by 1 degree in the lost direction, as words."""
-    found = np.degrees(triple_past_lock(np.radians(LOCKED), GIMBAL.order, np.radians(1.0)))
-    around = (found.round(2) + 180.0) % 360.0 - 180.0
+    angles = np.degrees(triple_past_lock(np.radians(LOCKED), GIMBAL.order, np.radians(1.0)))
+    around = (angles.round(2) + 180.0) % 360.0 - 180.0
     return "(" + ", ".join(brief(a, 5) for a in around.round(2)) + ")°"
 
 

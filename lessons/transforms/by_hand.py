@@ -113,51 +113,55 @@ def _size(v: np.ndarray) -> float:
 def _order(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     """Return both houses, and the two paths of their origins."""
     body = look.subject
-    now = look.now
+    state = look.now
     t = moved_by(look.params)
-    one = now.T[:3, 3]
-    other = now.T_other[:3, 3]
-    apart = _size(one - other)
+    origin = state.T[:3, 3]
+    other = state.T_other[:3, 3]
+    apart = _size(origin - other)
     radius = _size(t[:2])
     gaps = 2.0 * radius * np.sin(np.radians(TURNS) / 2.0)
     scene: dict[str, Primitive] = {
         **shown("start", body, np.eye(4), color="target", opacity=0.12),
-        **shown("body", body, now.T, name="turned, then moved"),
-        **shown("other", body, now.T_other, color="highlight", name="moved, then turned"),
+        **shown("body", body, state.T, name="turned, then moved"),
+        **shown("other", body, state.T_other, color="highlight", name="moved, then turned"),
         "move": arrows(
-            np.array([[0.0, 0.0, LIFT]]), one[None] + LIFT * UP, "source", head=0.1, width=3
+            np.array([[0.0, 0.0, LIFT]]), origin[None] + LIFT * UP, "source", head=0.1, width=3
         ),
         "apart": APART.whole(TURNS, gaps, "distance between the houses", "source"),
-        "apart mark": APART.mark(now.value, apart, "your hand", "source", steps="angle"),
+        "apart mark": APART.mark(state.value, apart, "your hand", "source", steps="angle"),
         "distance": Chart("Distance", unit="m").scalar(apart, "distance"),
-        "angle": ANGLE.scalar(now.value, "angle"),
+        "angle": ANGLE.scalar(state.value, "angle"),
         "caption": say(
             "Turned by {angle}: the two houses are {apart} apart.",
-            angle=degrees(now.value),
+            angle=degrees(state.value),
             apart=metres(apart),
         ),
     }
-    if now.value and radius:
+    if state.value and radius:
         at = np.array([0.0, 0.0, LIFT])
-        scene |= arc("in place", at, t, now.value, about=UP, radius=0.75, color="source", width=3)
-        scene |= arc("swing", at, t, now.value, about=UP, radius=radius, color="highlight", text="")
+        scene |= arc("in place", at, t, state.value, about=UP, radius=0.75, color="source", width=3)
+        scene |= arc(
+            "swing", at, t, state.value, about=UP, radius=radius, color="highlight", text=""
+        )
     if apart:
-        aside = 0.95 * (one + other) / max(_size(one + other), 1e-9)
-        if _size(one + other) < 1e-6:
+        aside = 0.95 * (origin + other) / max(_size(origin + other), 1e-9)
+        if _size(origin + other) < 1e-6:
             aside = np.array([0.0, -0.6, 0.0])
-        scene |= dimension("gap", one + LIFT * UP, other + LIFT * UP, aside=aside, color="neutral")
+        scene |= dimension(
+            "gap", origin + LIFT * UP, other + LIFT * UP, aside=aside, color="neutral"
+        )
     return scene
 
 
 def _undo(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     """Return the house that was moved, and where the right and the wrong inverse take it."""
     body = look.subject
-    now = look.now
+    state = look.now
     t = moved_by(look.params)
-    p_wrong = now.T_other[:3, 3]
-    p_right = now.T[:3, 3]
+    p_wrong = state.T_other[:3, 3]
+    p_right = state.T[:3, 3]
     missed = _size(p_wrong)
-    turn = np.radians(now.value)
+    turn = np.radians(state.value)
     R = np.array([[np.cos(turn), -np.sin(turn), 0.0], [np.sin(turn), np.cos(turn), 0.0], UP])
     T_moved = np.eye(4)
     T_moved[:3, :3] = R
@@ -167,8 +171,8 @@ def _undo(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     scene: dict[str, Primitive] = {
         **shown("start", body, np.eye(4), color="target", opacity=0.12),
         **shown("body", body, T_moved, opacity=0.45, name="after the motion"),
-        "undo/right": lines(body, now.T, color="truth", width=3.0),
-        **shown("undo/wrong", body, now.T_other, color="wrong", opacity=0.5, name="by (Rᵀ, −t)"),
+        "undo/right": lines(body, state.T, color="truth", width=3.0),
+        **shown("undo/wrong", body, state.T_other, color="wrong", opacity=0.5, name="by (Rᵀ, −t)"),
         "undo/slide": dashed(
             np.stack([t + at, at]), "truth", dash=0.05, width=3, name="by (Rᵀ, −Rᵀt)"
         ),
@@ -177,17 +181,17 @@ def _undo(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
         "missed": MISSED.whole(
             TURNS, 2.0 * _size(t[:2]) * np.sin(np.radians(TURNS) / 2.0), "miss", "wrong"
         ),
-        "missed mark": MISSED.mark(now.value, missed, "your hand", "wrong", steps="angle"),
+        "missed mark": MISSED.mark(state.value, missed, "your hand", "wrong", steps="angle"),
         "miss": Chart("Distance", unit="m").scalar(missed, "miss", "wrong"),
         "right miss": Chart("Distance", unit="m").scalar(_size(p_right), "left by ours", "truth"),
-        "angle": ANGLE.scalar(now.value, "angle"),
+        "angle": ANGLE.scalar(state.value, "angle"),
     }
-    if now.value and _size(t[:2]):
+    if state.value and _size(t[:2]):
         scene |= arc(
             "undo/turn back",
             at,
             t,
-            -now.value,
+            -state.value,
             about=UP,
             radius=_size(t[:2]),
             color="wrong",
@@ -198,15 +202,15 @@ def _undo(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
         text = f"misses by {length(missed)}"
         ends = at, p_wrong + at
         scene |= dimension("undo/miss", *ends, aside=aside, color="wrong", text=text)
-    undone = bool(np.abs(now.T - np.eye(4)).max() < 1e-9)
-    said = "Turned by {angle}, then moved: (Rᵀ, −t) misses the start by {missed}."
+    undone = bool(np.abs(state.T - np.eye(4)).max() < 1e-9)
+    words = "Turned by {angle}, then moved: (Rᵀ, −t) misses the start by {missed}."
     if not undone:
-        said = "Turned by {angle}, then moved: the given inverse does not come home. "
-        said += "(Rᵀ, −t) misses by {missed}."
+        words = "Turned by {angle}, then moved: the given inverse does not come home. "
+        words += "(Rᵀ, −t) misses by {missed}."
     caption = say(
-        said,
+        words,
         tone="info" if undone else "wrong",
-        angle=degrees(now.value),
+        angle=degrees(state.value),
         missed=metres(missed),
     )
     return scene | {"caption": caption}
@@ -215,19 +219,19 @@ def _undo(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
 def _shear(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     """Return the house, its edges in the colour of how much longer they are, and the unit cube."""
     body = look.subject
-    now = look.now
+    state = look.now
     ends = body.solid.lines
-    sheared = transform(now.T, ends.reshape(-1, 3)).reshape(-1, 2, 3)
+    sheared = transform(state.T, ends.reshape(-1, 3)).reshape(-1, 2, 3)
     ratio = _lengths(sheared) / _lengths(ends)
     color: Color = Field(ratio, 0.5, 1.5, "length of the edges", "×")
-    upright = float(np.hypot(1.0, now.value))
+    upright = float(np.hypot(1.0, state.value))
     corner = np.array([-0.5, -0.36, 0.0])
-    bent = float(np.degrees(np.arctan(now.value)))
+    bent = float(np.degrees(np.arctan(state.value)))
     cube = _cube()
-    box = transform(now.T, cube.reshape(-1, 3)).reshape(-1, 2, 3) + CUBE
-    det = float(np.linalg.det(now.T[:3, :3]))
+    box = transform(state.T, cube.reshape(-1, 3)).reshape(-1, 2, 3) + CUBE
+    det = float(np.linalg.det(state.T[:3, :3]))
     scene: dict[str, Primitive] = {
-        "body": Mesh(body.solid.p, body.solid.faces, "source", now.T, 0.35, flat=True),
+        "body": Mesh(body.solid.p, body.solid.faces, "source", state.T, 0.35, flat=True),
         "edges": Segments(sheared, color, 5.0),
         **arc(
             "corner",
@@ -243,19 +247,19 @@ def _shear(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
             f"volume × {in_places(det, 2)}", box.reshape(-1, 3).mean(axis=0), "neutral"
         ),
         "det": DET.scalar(det, "det T"),
-        "shear": SHEARED.scalar(now.value, "shear"),
+        "shear": SHEARED.scalar(state.value, "shear"),
         "upright": RATIO.scalar(upright, "upright edges"),
         "corner angle": Chart("Corner", unit="deg").scalar(90.0 - bent, "corner"),
         "caption": say(
             "Sheared by {shear}: upright edges × {upright}, the corner has {corner}.",
-            shear=fixed(now.value, 2),
+            shear=fixed(state.value, 2),
             upright=fixed(upright, 2),
             corner=degrees(90.0 - bent),
         ),
         "factor/upright": FACTOR.whole(SHEARS, np.hypot(1.0, SHEARS), "upright edges", "source"),
         "factor/roof": FACTOR.whole(SHEARS, roof(SHEARS), "left slope of the roof", "highlight"),
         "factor/volume": FACTOR.second(SHEARS, np.ones(len(SHEARS)), "volume", "truth"),
-        "factor/mark": FACTOR.mark(now.value, upright, "your hand", "source", steps="shear"),
+        "factor/mark": FACTOR.mark(state.value, upright, "your hand", "source", steps="shear"),
     }
     return scene
 
@@ -279,24 +283,24 @@ def _lengths(ends: np.ndarray) -> np.ndarray:
 def _shift(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     """Return the moved house, its front as a direction, and as a place."""
     body = look.subject
-    now = look.now
-    right, taken = fronts(now.T)
-    p_door = transform(now.T, body.p_door[None])
+    state = look.now
+    right, taken = fronts(state.T)
+    p_door = transform(state.T, body.p_door[None])
     off = float(np.degrees(angle_between(right, taken)))
-    shift = _size(now.T[:3, 3])
+    shift = _size(state.T[:3, 3])
     scene: dict[str, Primitive] = {
         "start": lines(body, np.eye(4), color="target"),
-        **shown("body", body, now.T, opacity=0.12),
+        **shown("body", body, state.T, opacity=0.12),
         "start name": above("start", body, np.eye(4), "target"),
-        "path": dashed(np.stack([LIFT * UP, now.T[:3, 3] + LIFT * UP]), "neutral", dash=0.05),
+        "path": dashed(np.stack([LIFT * UP, state.T[:3, 3] + LIFT * UP]), "neutral", dash=0.05),
         "wrong front": arrows(
             p_door, p_door + LONG * taken, "wrong", head=0.12, width=6, name="taken with w = 1"
         ),
         "wrong name": Label("w = 1", p_door[0] + (LONG + 0.12 / _size(taken)) * taken, "wrong"),
-        "front": front(body, now.T, size=LONG, width=6),
+        "front": front(body, state.T, size=LONG, width=6),
         "front name": Label("w = 0", p_door[0] + (LONG + 0.12) * right, "highlight"),
         "error": Chart("Error", unit="deg").scalar(off, "error", "wrong"),
-        "share": SHARE.scalar(now.value, "share"),
+        "share": SHARE.scalar(state.value, "share"),
         "caption": say(
             "Moved by {shift}: the arrow with w = 1 is {off} off.",
             shift=metres(shift),
@@ -312,37 +316,37 @@ def _shift(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
 def _divide(look: Look[Input, Body, Held]) -> dict[str, Primitive]:
     """Return the body divided by w, its upright edges prolonged to where they meet."""
     body = look.subject
-    now = look.now
+    state = look.now
     feet_and_tops = upright_edges(body)
-    ends = transform(now.T, feet_and_tops.reshape(-1, 3)).reshape(-1, 2, 3)
+    ends = transform(state.T, feet_and_tops.reshape(-1, 3)).reshape(-1, 2, 3)
     unit = np.diff(ends, axis=1)[:, 0] / _lengths(ends)[:, None]
     apart = float(np.degrees(np.arccos(np.clip(unit @ unit.T, -1.0, 1.0))).max())
-    high = np.inf if now.value == 0 else 1.0 / now.value
+    high = np.inf if state.value == 0 else 1.0 / state.value
     with np.errstate(divide="ignore"):
         rising = 1.0 / SLOPES
     drawn = SLOPES > 0.09
     up_to = min(high, HIGHEST)
     reach = ends[:, 0] + unit * ((up_to - ends[:, 0, 2]) / unit[:, 2])[:, None]
     scene: dict[str, Primitive] = {
-        **shown("body", body, now.T),
+        **shown("body", body, state.T),
         "start": lines(body, np.eye(4), color="target"),
         "prolonged": Segments(between(ends[:, 0], reach), "highlight", 2.5, name="upright edges"),
-        "s": SLOPE.scalar(now.value, "s"),
+        "s": SLOPE.scalar(state.value, "s"),
         "apart": Chart("Angle", unit="deg").scalar(apart, "upright edges apart"),
         "height": HEIGHT.scalar(high if np.isfinite(high) else np.nan, "meeting"),
         "meet": MEET.whole(SLOPES[drawn], rising[drawn], "height of the meeting", "highlight"),
     }
-    if drawn[np.argmin(np.abs(SLOPES - now.value))]:
-        scene["meet mark"] = MEET.mark(now.value, high, "your hand", "highlight", steps="s")
+    if drawn[np.argmin(np.abs(SLOPES - state.value))]:
+        scene["meet mark"] = MEET.mark(state.value, high, "your hand", "highlight", steps="s")
     if up_to == high:
         p = np.array([0.0, 0.0, high])
         scene["apex"] = Label(f"(0, 0, {length(high)})", p + 0.06 * UP, "highlight")
-    if now.value == 0:
+    if state.value == 0:
         return scene | {"caption": say("Divided by w = 1: nothing changes.")}
     return scene | {
         "caption": say(
             "Divided by w = 1 + {s} z: the upright edges are up to {apart} apart.",
-            s=fixed(now.value, 2),
+            s=fixed(state.value, 2),
             apart=degrees(apart),
         )
     }

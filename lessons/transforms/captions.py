@@ -24,37 +24,37 @@ FACTORS = {
 
 def caption_of(look: Look[Input, Body, Built]) -> Caption:
     """Return what the newest factor did, and how the second reading compares at the end."""
-    now = look.now
+    state = look.now
     params = look.params
-    if now.factor.kind == "start":
+    if state.factor.kind == "start":
         return say("The {name} before anything is done: T is the identity.", name=look.subject.name)
-    if now.factor.kind == "undo":
+    if state.factor.kind == "undo":
         return _of_undo(look)
-    if now.complete and now.ghost is not None:
-        off = metres(now.ghost.distance)
-        name = now.ghost.name
-        if now.ghost.same:
+    if state.complete and state.ghost is not None:
+        off = metres(state.ghost.distance)
+        name = state.ghost.name
+        if state.ghost.same:
             return say("Beside it: {name}. Here both end the same.", name=name)
         return say("Beside it: {name}. Its farthest vertex is {off} off.", name=name, off=off)
-    if now.complete and params.compare == "direction with w = 1":
-        return _of_direction(now)
-    changed = {change.name: change.amount for change in now.by_factor}
-    moved = float(np.linalg.norm(now.trail[-1] - now.trail[-2]))
+    if state.complete and params.compare == "direction with w = 1":
+        return _of_direction(state)
+    changed = {change.name: change.amount for change in state.by_factor}
+    moved = float(np.linalg.norm(state.trail[-1] - state.trail[-2]))
     values = {
-        "words": now.factor.words,
-        "det": fixed(float(np.linalg.det(now.factor.matrix[:3, :3])), 2),
+        "words": state.factor.words,
+        "det": fixed(float(np.linalg.det(state.factor.matrix[:3, :3])), 2),
         "bent": degrees(np.degrees(changed["angles"])),
         "apart": degrees(np.degrees(changed["parallel edges"])),
         "moved": metres(moved),
         "point": look.subject.followed(params.point),
     }
-    sentence = FACTORS[now.factor.kind]
+    sentence = FACTORS[state.factor.kind]
     return say(sentence, **{k: v for k, v in values.items() if f"{{{k}}}" in sentence})
 
 
-def _of_direction(now: Built) -> Caption:
+def _of_direction(state: Built) -> Caption:
     """Say where the front points when it is taken for a place."""
-    right, taken = ((now.T @ np.append(FRONT, w))[:3] for w in (0.0, 1.0))
+    right, taken = ((state.T @ np.append(FRONT, w))[:3] for w in (0.0, 1.0))
     if np.linalg.norm(taken) < SAME:
         return say("The front taken with w = 1 has length 0: it points nowhere.", tone="wrong")
     if np.linalg.norm(right - taken) < SAME:
@@ -64,23 +64,23 @@ def _of_direction(now: Built) -> Caption:
 
 
 def _of_undo(look: Look[Input, Body, Built]) -> Caption:
-    now = look.now
+    state = look.now
     stays = what_stays(look)
-    if now.left > SAME:
+    if state.left > SAME:
         return say(
             "Taken back by the given inverse: the farthest vertex is {left} off.",
             tone="wrong",
-            left=metres(now.left),
+            left=metres(state.left),
         )
-    if now.ghost is not None:
-        name = now.ghost.name
-        if now.ghost.same:
+    if state.ghost is not None:
+        name = state.ghost.name
+        if state.ghost.same:
             return say("Taken back with (Rᵀ, −Rᵀt). Here {name} does the same.", name=name)
         return say(
             "Taken back with (Rᵀ, −Rᵀt). {name} leaves the farthest vertex {off} off.",
             tone="wrong",
             name=name,
-            off=metres(now.ghost.distance),
+            off=metres(state.ghost.distance),
         )
     if stays:
         return say("The motion is undone by (Rᵀ, −Rᵀt). " + stays)

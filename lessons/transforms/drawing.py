@@ -80,43 +80,43 @@ def above(word: str, body: Body, T: np.ndarray, color: Role) -> Label:
 def draw(look: Look[Input, Body, Built]) -> Scene:
     """Return the picture of one step of the stage `factors`."""
     body = look.subject
-    now = look.now
+    state = look.now
     point = look.subject.followed(look.params.point)
-    T = now.T
+    T = state.T
     identity = np.eye(4)
     det = float(np.linalg.det(T[:3, :3])) if is_affine(T) else np.nan
-    moved = float(np.linalg.norm(now.trail[-1] - now.trail[0]))
+    moved = float(np.linalg.norm(state.trail[-1] - state.trail[0]))
     scene: dict[str, Primitive] = {
         "ground": GROUND,
         **shown("start", body, identity, color="target", opacity=0.15),
         **shown("body", body, T),
         "world": Axes(None, 0.4, name="world axes"),
         "start name": above("start", body, identity, "target"),
-        "vertex": Label(f"vertex {point}", now.trail[-1], "highlight"),
+        "vertex": Label(f"vertex {point}", state.trail[-1], "highlight"),
         "volume": DET.scalar(det, "det T"),
         "moved": MOVED.scalar(moved, f"vertex {point} from its start"),
         "matrix": Table.of_matrix(
             "T, all factors so far", ("x axis", "y axis", "z axis", "origin"), T
         ),
-        "measured": _invariants(now),
-        "one point": _one_point(body.solid.p[point], now, point),
+        "measured": _invariants(state),
+        "one point": _one_point(body.solid.p[point], state, point),
         "caption": caption_of(look),
     }
-    if len(now.trail) > 1:
+    if len(state.trail) > 1:
         name = f"vertex {point}, factor by factor"
-        scene["trail"] = Segments(segments(now.trail), "highlight", 2.5, name=name)
+        scene["trail"] = Segments(segments(state.trail), "highlight", 2.5, name=name)
     if is_affine(T):
         scene["front"] = front(body, T)
     if look.params.compare == "direction with w = 1":
         p_door = transform(T, body.p_door[None])
         tip = p_door + 0.5 * transform(T, FRONT[None])
         scene["wrong front"] = arrows(p_door, tip, "wrong", head=0.1, width=3, name="with w = 1")
-    if now.ghost is not None:
-        scene |= _ghost(now.ghost, body)
-    if np.isfinite(now.left):
-        scene["left"] = MOVED.scalar(now.left, "left after taking it back", "truth")
-    if now.factor.kind not in ("start", "undo"):
-        scene["frame"] = Axes(now.T_world_body, 0.35, name="body axes")
+    if state.ghost is not None:
+        scene |= _ghost(state.ghost, body)
+    if np.isfinite(state.left):
+        scene["left"] = MOVED.scalar(state.left, "left after taking it back", "truth")
+    if state.factor.kind not in ("start", "undo"):
+        scene["frame"] = Axes(state.T_world_body, 0.35, name="body axes")
     return scene
 
 
@@ -153,23 +153,23 @@ def _amount(change: Change) -> str:
     return times(change.factor)
 
 
-def _invariants(now: Built) -> Table:
+def _invariants(state: Built) -> Table:
     """Show which measures of the body survived, this factor and all of them."""
-    kinds = ("kind of map", kind_of(now.factor.matrix).value, kind_of(now.T).value)
+    kinds = ("kind of map", kind_of(state.factor.matrix).value, kind_of(state.T).value)
     rows = [
-        (one.name, _amount(one), _amount(every))
-        for one, every in zip(now.by_factor, now.by_all, strict=True)
+        (change.name, _amount(change), _amount(every))
+        for change, every in zip(state.by_factor, state.by_all, strict=True)
     ]
     return Table("What survives", ("measured", "this factor", "all so far"), (kinds, *rows))
 
 
-def _one_point(p: np.ndarray, now: Built, point: int) -> Table:
+def _one_point(p: np.ndarray, state: Built, point: int) -> Table:
     """Show the followed vertex (w = 1) and the direction to the front (w = 0) before and after the
     map.
     """
     place = np.append(p, 1.0)
     direction = np.append(FRONT, 0.0)
-    columns = (place, now.T @ place, direction, now.T @ direction)
+    columns = (place, state.T @ place, direction, state.T @ direction)
     rows = tuple(
         (name, *(fixed(column[i], 2) for column in columns)) for i, name in enumerate("xyzw")
     )

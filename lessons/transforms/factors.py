@@ -78,23 +78,23 @@ class Built:
 
 def shape_factors(params: Input) -> list[Factor]:
     """Return the factors that change the shape, those that do nothing left out."""
-    found = []
+    factors = []
     if params.scale != NO_SCALE:
         x, y, z = (brief(factor, 6) for factor in params.scale)
         words = f"x × {x}, y × {y}, z × {z}"
-        found.append(Factor("scale", words, scaling(np.array(params.scale, float))))
+        factors.append(Factor("scale", words, scaling(np.array(params.scale, float))))
     if params.shear:
         words = f"x + {brief(params.shear, 6)} z"
-        found.append(Factor("shear", words, shear("x", "z", params.shear)))
+        factors.append(Factor("shear", words, shear("x", "z", params.shear)))
     if params.perspective:
         words = f"w = 1 + {brief(params.perspective, 6)} z"
         slope = np.array([0.0, 0.0, params.perspective])
-        found.append(Factor("perspective", words, perspective(slope)))
+        factors.append(Factor("perspective", words, perspective(slope)))
     if params.mirror != "none":
         normal = np.eye(3)["xyz".index(params.mirror)]
         words = f"{params.mirror} → −{params.mirror}"
-        found.append(Factor("mirror", words, reflection(normal)))
-    return found
+        factors.append(Factor("mirror", words, reflection(normal)))
+    return factors
 
 
 def motion_factors(params: Input) -> list[Factor]:
@@ -141,21 +141,21 @@ def build(params: Input, body: Body, invert_rigid: Invert) -> Iterator[Built]:
     begun = before = measure(p, faces)
     trail = np.empty((0, 3))
     last = len(shapes) + len(motions) + 1
-    for now in compose(shapes, motions, invert_rigid):
-        p_now = transform(now.T, p)
+    for state in compose(shapes, motions, invert_rigid):
+        p_now = transform(state.T, p)
         after = measure(p_now, faces)
         trail = np.vstack([trail, p_now[body.followed(params.point)]])
-        is_undone = now.factor.kind == "undo"
+        is_undone = state.factor.kind == "undo"
         complete = len(trail) == last
         ghost = None
         if is_undone:
-            ghost = undo_ghost(params, body, now.T_world_body)
+            ghost = undo_ghost(params, body, state.T_world_body)
         elif complete:
-            ghost = ghost_of(params, body, now.T)
+            ghost = ghost_of(params, body, state.T)
         yield Built(
-            factor=now.factor,
-            T=now.T,
-            T_world_body=now.T_world_body,
+            factor=state.factor,
+            T=state.T,
+            T_world_body=state.T_world_body,
             by_factor=changes(before, after),
             by_all=changes(begun, after),
             trail=trail,

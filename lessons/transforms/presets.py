@@ -197,8 +197,8 @@ def kind_of_columns(states: States) -> int:
 
 def apart(states: States) -> float:
     """Return how far the two orders end apart after a quarter turn, metres."""
-    now = held(states, QUARTER)
-    return float(np.linalg.norm(now.T[:3, 3] - now.T_other[:3, 3]))
+    state = held(states, QUARTER)
+    return float(np.linalg.norm(state.T[:3, 3] - state.T_other[:3, 3]))
 
 
 def _left(states: States) -> np.ndarray:

@@ -122,13 +122,13 @@ def follow_ray(
     p_first = np.minimum(depths, FAR)[:, None] * ray
     u, v, w = K_second @ apply(T_second_first, p_first).T
     uv_second = np.stack([u, v], axis=1) / np.where(w > 0.0, w, np.nan)[:, None]
-    now = Followed(stage="ray", depths=depths[:0], p_first=p_first[:0], uv_second=uv_second[:0])
+    state = Followed(stage="ray", depths=depths[:0], p_first=p_first[:0], uv_second=uv_second[:0])
     for k in range(1, len(depths) + 1):
-        now = replace(now, depths=depths[:k], p_first=p_first[:k], uv_second=uv_second[:k])
-        yield now
+        state = replace(state, depths=depths[:k], p_first=p_first[:k], uv_second=uv_second[:k])
+        yield state
     if np.any(T_second_first[:3, 3]):  # without a baseline there is neither plane nor pencil
-        yield replace(now, stage="plane")
-        yield replace(now, stage="pencil")
+        yield replace(state, stage="plane")
+        yield replace(state, stage="pencil")
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,41 +196,43 @@ def relate(
     yield Related(
         stage="equations", singular_values=linear.singular_values, F=linear.F, tested=none
     )
-    now = Related(
+    state = Related(
         stage="rank three", singular_values=linear.singular_values, F=linear.F, tested=none
     )
-    yield now
+    yield state
     F = _numbers(eight_point(uv_first, uv_second), "eight_point")
-    now = replace(now, stage="rank two", F=F)
-    yield now
+    state = replace(state, stage="rank two", F=F)
+    yield state
     for k in range(MOST_ROUNDS if route == "refined F" else 0):
         before, F = F, refine_fundamental(F, uv_first, uv_second, steps=1)
-        now = replace(now, stage="refined F", F=F, rounds=k + 1)
-        yield now
+        state = replace(state, stage="refined F", F=F, rounds=k + 1)
+        yield state
         if np.abs(F * np.sign((F * before).sum()) - before).max() < STILL * np.abs(F).max():
             break
 
     E = essential_from_fundamental(F, K_first, K_second)
     E_values, E = np.linalg.svd(E)[1], equal_singular_values(E)
-    yield (now := replace(now, stage="essential", E_values=E_values))
+    yield (state := replace(state, stage="essential", E_values=E_values))
     Ts = _numbers(essential_to_poses(E), "essential_to_poses")
     P_first = camera_matrix(K_first, np.eye(4))
-    found = [triangulate(P_first, camera_matrix(K_second, T), uv_first, uv_second) for T in Ts]
-    in_front = tuple(int(before_both(p, T).sum()) for p, T in zip(found, Ts, strict=True))
+    points = [triangulate(P_first, camera_matrix(K_second, T), uv_first, uv_second) for T in Ts]
+    in_front = tuple(int(before_both(p, T).sum()) for p, T in zip(points, Ts, strict=True))
     for k in range(len(Ts)):
         tested = Ts[: k + 1]
-        now = replace(
-            now,
+        state = replace(
+            state,
             stage="pose",
             tested=tested,
             in_front=in_front[: k + 1],
             T_second_first=Ts[k],
-            p_first=found[k],
+            p_first=points[k],
         )
-        yield now
+        yield state
     best = int(np.argmax(in_front))
     T_second_first = Ts[best]
-    yield (now := replace(now, stage="points", T_second_first=T_second_first, p_first=found[best]))
+    yield (
+        state := replace(state, stage="points", T_second_first=T_second_first, p_first=points[best])
+    )
 
     for k in range(MOST_ROUNDS if route == "refined pose" else 0):
         before, T_second_first = (
@@ -241,17 +243,22 @@ def relate(
         )
         p_first = triangulate(P_first, camera_matrix(K_second, T_second_first), uv_first, uv_second)
         F = fundamental_from_cameras(K_first, K_second, T_second_first)
-        now = replace(
-            now, stage="refined", T_second_first=T_second_first, p_first=p_first, F=F, rounds=k + 1
+        state = replace(
+            state,
+            stage="refined",
+            T_second_first=T_second_first,
+            p_first=p_first,
+            F=F,
+            rounds=k + 1,
         )
-        yield now
+        yield state
         if _moved(before, T_second_first) < STILL:
             break
     try:
         rectification = rectify(T_second_first, K_first, K_second, keep_upright=keep_upright)
     except ValueError:
         rectification = None
-    yield replace(now, stage="rectified", rectification=rectification)
+    yield replace(state, stage="rectified", rectification=rectification)
 
 
 def _moved(T: np.ndarray, other: np.ndarray) -> float:

@@ -58,10 +58,10 @@ def it_is_complete(subject: Subject, exercise: Exercise) -> Found:
         "alternatives": (len(exercise.alternatives), LEAST_ALTERNATIVES),
         "examples in its contract": (len(exercise.contract.examples), LEAST_EXAMPLES),
     }
-    for what, (there, least) in counts.items():
+    for part, (count, least) in counts.items():
         yield (
-            f"{who(exercise)}it has {there} {what}; wanted are {least} or more"
-            if there < least
+            f"{who(exercise)}it has {count} {part}; wanted are {least} or more"
+            if count < least
             else None
         )
     public = [check.public for check in exercise.checks]
@@ -192,11 +192,11 @@ def every_mistake_is_named(subject: Subject, exercise: Exercise) -> Found:
             None if good else f"{where} has a sentence of {len(item.sentence)} characters; {wanted}"
         )
         for outcome in report.outcomes:
-            said = (
+            problem = (
                 f"says only {outcome.verdict.message!r}; `beside` says what came and what is right"
             )
             vague = (
-                f"exercise {exercise.name}: {at(outcome.check.judge)}{outcome.check.name} {said}"
+                f"exercise {exercise.name}: {at(outcome.check.judge)}{outcome.check.name} {problem}"
             )
             yield vague if is_vague(outcome) else None
             where = f"exercise {exercise.name}: {at(outcome.check.judge)}{outcome.check.name}"
@@ -220,16 +220,16 @@ def the_examples_are_true(subject: Subject, exercise: Exercise) -> Found:
                     zip(value, told, strict=True) if isinstance(told, tuple) else [(value, told)]
                 )
                 true = all(
-                    np.allclose(one, wanted, atol=5e-4, rtol=5e-4, equal_nan=True)
-                    for one, wanted in parts
+                    np.allclose(got, wanted, atol=5e-4, rtol=5e-4, equal_nan=True)
+                    for got, wanted in parts
                 )
-                said = (
+                problem = (
                     f"is {' '.join(str(value).split())} by {function.__name__}, and the example"
                     f" says {result}"
                 )
             except Exception as error:
-                true, said = False, f"raises {type(error).__name__}: {error}"
-            yield None if true else f"{who(exercise)}{call} {said}"
+                true, problem = False, f"raises {type(error).__name__}: {error}"
+            yield None if true else f"{who(exercise)}{call} {problem}"
 
 
 @promise

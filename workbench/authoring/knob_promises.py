@@ -51,8 +51,8 @@ def _changes(subject: Subject, begun: Timeline) -> bool:
     """Whether a run, of which the first steps are known, differs from the default run."""
     default = subject.default()
     if any(
-        differs(one.scene, two.scene)
-        for one, two in zip(begun.known(), default.known(), strict=False)
+        differs(step.scene, other.scene)
+        for step, other in zip(begun.known(), default.known(), strict=False)
     ):
         return True
     run = begun if begun.finished else subject.whole(begun.params, "the same to its end")
@@ -106,26 +106,28 @@ def _has_no_effect(
         turned = subject.fresh(
             replace(base, **{field.name: value}), f"a run at {field.name} = {value}", MOST_STEPS
         )
-        found = _effect(plain, turned)
-        where = f"{field.name} = {value} changes {found!r} although {although}"
-        yield f"{subject.who}: {where}, at {changed(base)}" if found else None
+        effect = _effect(plain, turned)
+        where = f"{field.name} = {value} changes {effect!r} although {although}"
+        yield f"{subject.who}: {where}, at {changed(base)}" if effect else None
 
 
 def _effect(plain: Timeline, turned: Timeline) -> str | None:
     """Return what differs between two runs: the path of a thing, or that they end otherwise."""
     pairs = zip(plain.known(), turned.known(), strict=False)
-    found = next((path for one, two in pairs if (path := _differs(one.scene, two.scene))), None)
+    first = next(
+        (path for step, other in pairs if (path := _differs(step.scene, other.scene))), None
+    )
     whole = plain.finished and turned.finished  # of a longer run only its first steps are made
     same_end = not whole or (plain.stopped == turned.stopped and len(plain) == len(turned))
-    return found or (None if same_end else "how the run ends")
+    return first or (None if same_end else "how the run ends")
 
 
-def _differs(one: Scene, two: Scene) -> str | None:
+def _differs(scene: Scene, other: Scene) -> str | None:
     """Return the path of a thing that differs; the tone of a caption is calm where a preset
     breaks.
     """
-    calm = replace(caption_of(two), tone=caption_of(one).tone)
-    return differs(one, {**two, "caption": calm} if "caption" in two else two)
+    calm = replace(caption_of(other), tone=caption_of(scene).tone)
+    return differs(scene, {**other, "caption": calm} if "caption" in other else other)
 
 
 @promise
@@ -139,13 +141,13 @@ def a_knob_that_a_run_does_not_read_changes_nothing(subject: Subject) -> Found:
     runs = {"the default run": subject.lesson.params()}
     runs |= {f"preset {preset.name!r}": preset.params for preset in subject.lesson.presets}
     read: set[str] = set()
-    for what, params in runs.items():
-        run = subject.whole(params, what)
+    for name, params in runs.items():
+        run = subject.whole(params, name)
         read |= run.read
         idle = [field for field in fields if field.name in run.idle()]
         if idle and _all_turned(subject, idle, params, run):
             for field in idle:
-                yield from _has_no_effect(subject, field, params, run, f"{what} does not read it")
+                yield from _has_no_effect(subject, field, params, run, f"{name} does not read it")
         yield None
     for params in _choices(subject.lesson):
         if all(field.name in read for field in fields):

@@ -57,13 +57,13 @@ def live_words(text: str, lesson: Lesson) -> Iterator[tuple[int, str]]:
             turned.
     """
     text = _HIDDEN.sub(
-        lambda found: _blank(found[0]),
-        _COMMANDS.sub(lambda found: found[0].replace("`", " "), text),
+        lambda match: _blank(match[0]),
+        _COMMANDS.sub(lambda match: match[0].replace("`", " "), text),
     )
-    found: dict[int, str] = {}
+    words: dict[int, str] = {}
     for pattern in (*_DOING, *_naming(lesson.params, swept(lesson))):
-        found |= {match.start("said"): match["said"] for match in pattern.finditer(text)}
-    yield from ((place, " ".join(found[place].split())) for place in sorted(found))
+        words |= {match.start("said"): match["said"] for match in pattern.finditer(text)}
+    yield from ((place, " ".join(words[place].split())) for place in sorted(words))
 
 
 def on_page(lesson: Lesson) -> Iterator[tuple[int, str]]:
@@ -71,7 +71,9 @@ def on_page(lesson: Lesson) -> Iterator[tuple[int, str]]:
     and the words.
     """
     text = WORDING.sub(_only_of_site, lesson.text())
-    yield from ((text.count("\n", 0, place) + 1, said) for place, said in live_words(text, lesson))
+    yield from (
+        (text.count("\n", 0, place) + 1, words) for place, words in live_words(text, lesson)
+    )
 
 
 def elsewhere(lesson: Lesson) -> Mapping[str, str]:
@@ -118,11 +120,11 @@ def _naming(params: type, published: frozenset[str]) -> tuple[re.Pattern[str], .
     )
 
 
-def _only_of_site(found: re.Match[str]) -> str:
+def _only_of_site(match: re.Match[str]) -> str:
     """Leave of two wordings the one for pages that cannot compute; all that stays keeps its
     line.
     """
-    whole, words = found[0], found[2] if found[1] == "site" else ""
+    whole, words = match[0], match[2] if match[1] == "site" else ""
     before, _, after = whole.partition(words) if words else (whole, "", "")
     return _blank(before) + words + _blank(after)
 

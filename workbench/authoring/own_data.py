@@ -39,14 +39,14 @@ def own_files_are_read(subject: Subject) -> Found:
                     f" {', '.join(sorted(files))}"
                 )
                 continue
-            said = _refusal(subject, files, taken[field] | {field: BAD})
-            if said is None:
+            message = _refusal(subject, files, taken[field] | {field: BAD})
+            if message is None:
                 yield (
                     f"{where}{field} = {BAD} shows the lesson all the same: it is not read; say"
                     " what it `needs`"
                 )
-            elif "--" in said or not said.isprintable():
-                yield f"{where}{field} = {BAD}: {said!r}: name knobs by `called`, in one line"
+            elif "--" in message or not message.isprintable():
+                yield f"{where}{field} = {BAD}: {message!r}: name knobs by `called`, in one line"
             else:
                 yield None
 
@@ -57,7 +57,7 @@ def _taken(subject: Subject, files: dict[str, Path], fields: list[str]) -> dict[
     bases: list[Given] = [{}]
     pending = list(fields)
     while pending:
-        found = next(
+        accepted = next(
             (
                 given
                 for given in _tried(bases, pending, files)
@@ -65,12 +65,12 @@ def _taken(subject: Subject, files: dict[str, Path], fields: list[str]) -> dict[
             ),
             None,
         )
-        if found is None:
+        if accepted is None:
             return taken
-        new = [field for field in found if field in pending]
-        taken |= dict.fromkeys(new, found)
+        new = [field for field in accepted if field in pending]
+        taken |= dict.fromkeys(new, accepted)
         pending = [field for field in pending if field not in new]
-        bases.append(found)
+        bases.append(accepted)
     return taken
 
 

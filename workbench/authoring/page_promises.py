@@ -51,14 +51,16 @@ def nothing_is_asked_for_that_a_published_page_cannot(subject: Subject) -> Found
     """Where nothing can be computed, no text asks for a click, a drag, a file or a knob that no
     sweep publishes.
     """
-    for what, text in elsewhere(subject.lesson).items():
+    for source, text in elsewhere(subject.lesson).items():
         asked = next(live_words(text, subject.lesson), None)
-        yield None if asked is None else f"{subject.who}, {what} says {asked[1]!r}; {ONLY_LIVE}"
+        yield None if asked is None else f"{subject.who}, {source} says {asked[1]!r}; {ONLY_LIVE}"
     if subject.lesson.page is not None:
         page = str(subject.lesson.page)
-        told = [f"{place(page, line)}: it says {said!r}" for line, said in on_page(subject.lesson)]
+        told = [
+            f"{place(page, line)}: it says {words!r}" for line, words in on_page(subject.lesson)
+        ]
         yield from [
-            f"{subject.who}: {one}; {ONLY_LIVE}: write {{{{live: ...}}}}" for one in told
+            f"{subject.who}: {line}; {ONLY_LIVE}: write {{{{live: ...}}}}" for line in told
         ] or [None]
 
 
@@ -99,7 +101,9 @@ def every_reference_of_the_page_leads_somewhere(subject: Subject) -> Found:
         return
     text = lesson.text()
     default = lesson.params()
-    runs = {"default": default, "this": default} | {one.name: one.params for one in lesson.presets}
+    runs = {"default": default, "this": default} | {
+        preset.name: preset.params for preset in lesson.presets
+    }
 
     def where(position: int) -> str:
         return f"{subject.who}: {place(str(lesson.page), text.count(chr(10), 0, position) + 1)}"
@@ -127,7 +131,7 @@ def every_reference_of_the_page_leads_somewhere(subject: Subject) -> Found:
 
 def _is_shown(path: str, shown: set[str]) -> bool:
     """Whether something is drawn at a path, or below it."""
-    return any(one == path or one.startswith(f"{path}/") for one in shown)
+    return any(drawn == path or drawn.startswith(f"{path}/") for drawn in shown)
 
 
 @promise

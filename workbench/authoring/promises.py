@@ -160,9 +160,9 @@ def every_step_shows_something_in_space(subject: Subject) -> Found:
         for path, primitive in step.scene.items():
             kind = kinds.setdefault(path, type(primitive))
             if kind is not type(primitive):
-                now, before = type(primitive).__name__, kind.__name__
+                after, before = type(primitive).__name__, kind.__name__
                 yield (
-                    f"{where}step {k}: {path!r} is of the kind {now} now, and was of the kind"
+                    f"{where}step {k}: {path!r} is of the kind {after} now, and was of the kind"
                     f" {before}"
                 )
 
@@ -180,8 +180,8 @@ def a_run_is_reproducible(subject: Subject) -> Found:
             f" {hint}"
         )
         return
-    for k, (one, two) in enumerate(zip(run.known(), again.known(), strict=True)):
-        path = differs(one.scene, two.scene)
+    for k, (first, second) in enumerate(zip(run.known(), again.known(), strict=True)):
+        path = differs(first.scene, second.scene)
         if path is not None:
             yield f"{where}run again, step {k} shows something else at {path!r}; {hint}"
             return
@@ -223,14 +223,14 @@ def every_preset_runs_and_promises_something(subject: Subject) -> Found:
 
 
 def _preset(subject: Subject, preset: Preset) -> Found:
-    who = f"{subject.who}, preset {preset.name!r}"
-    yield None if NAME.fullmatch(preset.name) else f"{who}: a name is letters, digits, - and _"
-    yield length_of(f"{who}: its line", len(preset.line), LINE, "characters")
+    label = f"{subject.who}, preset {preset.name!r}"
+    yield None if NAME.fullmatch(preset.name) else f"{label}: a name is letters, digits, - and _"
+    yield length_of(f"{label}: its line", len(preset.line), LINE, "characters")
     run = subject.whole(preset.params, f"preset {preset.name!r}")
-    yield None if run.stopped in (None, subject.default().stopped) else f"{who}: {run.stopped}"
-    yield from _captions(f"{who}, ", run)
+    yield None if run.stopped in (None, subject.default().stopped) else f"{label}: {run.stopped}"
+    yield from _captions(f"{label}, ", run)
     if run.stopped is None and preset.step is not None:
-        yield opens(run, who, preset.step)
+        yield opens(run, label, preset.step)
 
 
 @promise
@@ -248,12 +248,12 @@ def every_question_is_answered_by_its_run(subject: Subject) -> Found:
 
 
 def _question(subject: Subject, question: Question) -> Found:
-    who = f"{subject.who}, question {question.name!r}"
-    yield None if NAME.fullmatch(question.name) else f"{who}: a name is letters, digits, - and _"
+    label = f"{subject.who}, question {question.name!r}"
+    yield None if NAME.fullmatch(question.name) else f"{label}: a name is letters, digits, - and _"
     if not question.choices:
-        exact = f"{who}: its tolerance is {question.tolerance:g}; nobody guesses a number exactly"
+        exact = f"{label}: its tolerance is {question.tolerance:g}; nobody guesses a number exactly"
         yield None if question.tolerance > 0 else exact
-    yield None if inline_html(question.text).strip() else f"{who}: it has no text"
+    yield None if inline_html(question.text).strip() else f"{label}: it has no text"
 
     class Runs:
         @staticmethod
@@ -261,27 +261,27 @@ def _question(subject: Subject, question: Question) -> Found:
             return subject.whole(params, f"the run of question {question.name!r}")
 
     try:
-        found = answer(subject.lesson, question, None, Runs)  # type: ignore[arg-type]
+        solution = answer(subject.lesson, question, None, Runs)  # type: ignore[arg-type]
     except InputError as error:
-        said = str(error)
-        if said != subject.default().stopped:
-            yield said if said.startswith(who) else f"{who}: {said}"
+        message = str(error)
+        if message != subject.default().stopped:
+            yield message if message.startswith(label) else f"{label}: {message}"
     else:
-        yield None if found.why.strip() else f"{who}: {at(question.why)}why says nothing"
-        yield from _known_wrong(who, question, found)
+        yield None if solution.why.strip() else f"{label}: {at(question.why)}why says nothing"
+        yield from _known_wrong(label, question, solution)
 
 
-def _known_wrong(who: str, question: Question, found: Answer) -> Found:
+def _known_wrong(label: str, question: Question, solution: Answer) -> Found:
     """What is said to a wrong answer is said to nobody who is right."""
     if question.choices:
-        reply = question.reply(found.value)
+        reply = question.reply(solution.value)
         yield (
-            f"{who}: {found.truth!r} is right, and its why is for who chose it wrongly"
+            f"{label}: {solution.truth!r} is right, and its why is for who chose it wrongly"
             if reply
             else None
         )
     for low, high, words in question.wrong:
-        ends = f"{who}: its wrong answer from {low:g} to {high:g}"
+        ends = f"{label}: its wrong answer from {low:g} to {high:g}"
         yield (
             f"{ends} belongs to numbers, and this question has choices"
             if question.choices
@@ -292,10 +292,10 @@ def _known_wrong(who: str, question: Question, found: Answer) -> Found:
             if low <= high and words.strip()
             else f"{ends} wants a lowest number, a highest one, and words"
         )
-        nearest = min(max(low, found.value), high)
-        right = abs(nearest - found.value) <= question.tolerance
+        nearest = min(max(low, solution.value), high)
+        right = abs(nearest - solution.value) <= question.tolerance
         yield (
-            f"{ends} meets the right one, {found.value:g} ± {question.tolerance:g}"
+            f"{ends} meets the right one, {solution.value:g} ± {question.tolerance:g}"
             if right
             else None
         )
@@ -333,25 +333,27 @@ def run_takes_only_keywords_beside_params(subject: Subject) -> Found:
     )
 
 
-def opens(run: Timeline, who: str, step: int) -> str | None:
+def opens(run: Timeline, label: str, step: int) -> str | None:
     """Return a line where a run has no such step, beginning with who opens it there."""
     try:
-        run.opening(who, step)
+        run.opening(label, step)
     except InputError as error:
         return str(error)
     return None
 
 
-def length_of(what: str, length: int, wanted: tuple[int, int], unit: str) -> str | None:
+def length_of(label: str, length: int, wanted: tuple[int, int], unit: str) -> str | None:
     """Return a line where something is shorter or longer than wanted."""
     least, most = wanted
     return (
         None
         if least <= length <= most
-        else f"{what} has {length} {unit}; wanted are {least} to {most:,}"
+        else f"{label} has {length} {unit}; wanted are {least} to {most:,}"
     )
 
 
-def differs(one: Scene, two: Scene) -> str | None:
+def differs(scene: Scene, other: Scene) -> str | None:
     """Return the first path at which two scenes differ, None where they are the same."""
-    return next((path for path in {**one, **two} if not same(one.get(path), two.get(path))), None)
+    return next(
+        (path for path in {**scene, **other} if not same(scene.get(path), other.get(path))), None
+    )

@@ -75,10 +75,10 @@ class Edited:
         pages = [] if self.lesson.page is None else [str(self.lesson.page)]
         for file in [*pages, *(_in_folder(self.path) if self.path.is_dir() else [str(self.path)])]:
             try:
-                found = os.stat(file)
+                stat = os.stat(file)
             except OSError:
                 continue
-            yield file, (found.st_mtime_ns, found.st_size)
+            yield file, (stat.st_mtime_ns, stat.st_size)
 
 
 def _in_folder(folder: Path) -> Iterator[str]:

@@ -111,11 +111,11 @@ def every_place_of_the_story_is_in_its_run(subject: Subject) -> Found:
 
 
 def _by_run(story: Story) -> dict[str, list[tuple[StagePlace, int]]]:
-    found: dict[str, list[tuple[StagePlace, int]]] = {}
+    by_run: dict[str, list[tuple[StagePlace, int]]] = {}
     for scene in story.scenes:
         for here, line in scene.told.places:
-            found.setdefault(here.run, []).append((here, line))
-    return found
+            by_run.setdefault(here.run, []).append((here, line))
+    return by_run
 
 
 def _run(subject: Subject, name: str) -> Timeline:
@@ -135,13 +135,13 @@ def _in_run(here: StagePlace, timeline: Timeline, where: str) -> Found:
     k = step_in(timeline, here.step)
     if k is None:
         return
-    for name in [one.partition("@")[0] for one in here.chart.split(",") if one]:
+    for name in [chart.partition("@")[0] for chart in here.chart.split(",") if chart]:
         known_charts = charts_at(timeline, k)
-        there = ", ".join(sorted(known_charts)) or "none"
+        listed = ", ".join(sorted(known_charts)) or "none"
         yield (
             None
             if name in known_charts
-            else f"{where}: {here.run}@{here.step} has no chart {name!r}; it has: {there}"
+            else f"{where}: {here.run}@{here.step} has no chart {name!r}; it has: {listed}"
         )
     for name in here.hide:
         yield (
@@ -155,19 +155,19 @@ def charts_at(timeline: Timeline, k: int) -> set[str]:
     """Return the names of the charts of a step: those of its curves and tables, and of the run's
     scalars.
     """
-    found = {slug(one.scalar.chart) for one in timeline.series().values()}
+    charts = {slug(series.scalar.chart) for series in timeline.series().values()}
     for primitive in timeline[k].scene.values():
         if isinstance(primitive, Curve):
-            found.add(slug(primitive.chart))
+            charts.add(slug(primitive.chart))
         elif isinstance(primitive, Table):
-            found.add(slug(primitive.title))
-    return found
+            charts.add(slug(primitive.title))
+    return charts
 
 
 def _can_be_hidden(name: str, timeline: Timeline, k: int) -> bool:
     scene = timeline[k].scene
-    parts = [one for one in scene.values() if isinstance(one, Curve) and one.part]
-    if parts and (name in PARTS_OF_A_PLOT or name in {slug(one.name) for one in parts}):
+    parts = [thing for thing in scene.values() if isinstance(thing, Curve) and thing.part]
+    if parts and (name in PARTS_OF_A_PLOT or name in {slug(part.name) for part in parts}):
         return True
     return any(path == name or path.startswith(f"{name}/") for path in scene)
 

@@ -66,13 +66,13 @@ def look_at(subject: Subject) -> Found:
             yield from _guarded(look, subject, f"exercise {exercise.name}: {summary_of(promise)}")
 
 
-def _guarded(look: Callable[[], Found], subject: Subject, what: str) -> Found:
+def _guarded(look: Callable[[], Found], subject: Subject, summary: str) -> Found:
     try:
         yield from look()
     except (Exception, SystemExit) as error:
         yield (
             f"{subject.who}: {described(error, subject.lesson.run)} (while looking whether:"
-            f" {what.rstrip('.')})"
+            f" {summary.rstrip('.')})"
         )
 
 
@@ -137,13 +137,13 @@ def _started(word: str, seconds: float, last_words: Any) -> subprocess.Popen:
     )
 
 
-def _how_it_ended(said: str, code: int, seconds: float) -> str:
+def _how_it_ended(text: str, code: int, seconds: float) -> str:
     """Say why the process ended before it was through, and where the lesson's code stood."""
-    frames = [(file, int(line)) for file, line in _FRAME.findall(said)]
+    frames = [(file, int(line)) for file, line in _FRAME.findall(text)]
     stood = next((f"{place(file, line)}: " for file, line in frames if not is_ours(file)), "")
-    if "Timeout (" in said:
+    if "Timeout (" in text:
         return f"{stood}the code did not come back for {seconds:g} s"
-    reason = "MemoryError" if "MemoryError" in said else f"exit code {code}"
+    reason = "MemoryError" if "MemoryError" in text else f"exit code {code}"
     return (
         f"{stood}the process ended ({reason}); does the code end it, crash a library, or take all"
         " memory?"
@@ -171,10 +171,10 @@ def main(word: str, seconds: float) -> None:
     faulthandler.enable()
     tuple(catalog())  # import them all: the time of that is not the lesson's
     send(doing="loading it")
-    for found in _looked_at(
+    for problem in _looked_at(
         word, seconds, lambda doing: send(doing=doing), named=lambda name: send(name=name)
     ):
-        send(holds=found)
+        send(holds=problem)
     send(end=True)
     out.close()
     os._exit(0)  # threads that a lesson left behind keep nobody waiting

@@ -23,13 +23,13 @@ def the_picture_lies_in_its_frame(subject: Subject) -> Found:
     """
     runs = {"the default run": subject.lesson.params()}
     runs |= {f"preset {preset.name!r}": preset.params for preset in subject.lesson.presets}
-    for what, params in runs.items():
+    for name, params in runs.items():
         view = subject.lesson.view_of(params)
-        for k, step in enumerate(subject.whole(params, what).known()):
+        for k, step in enumerate(subject.whole(params, name).known()):
             places = dict(_named_places(step.scene))
             lost = [path for path, p in places.items() if not in_frame(view, p).any()]
             out = (
-                f"{subject.who}, {what}, step {k}: out of its frame are {', '.join(lost)}; give it"
+                f"{subject.who}, {name}, step {k}: out of its frame are {', '.join(lost)}; give it"
                 " a view of its own"
             )
             yield out if len(lost) > (1 - LEAST_SEEN) * len(places) else None

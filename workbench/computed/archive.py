@@ -47,7 +47,7 @@ def files_of(lessons: Iterable[Lesson]) -> dict[str, bytes]:
     Raises:
         InputError: If a lesson is not one of the course: a worker imports it by its name.
     """
-    found = {"jaxtyping.py": Path(unchecked.__file__).read_bytes()}
+    contents = {"jaxtyping.py": Path(unchecked.__file__).read_bytes()}
     folders = [ROOT / "workbench"]
     files = {ROOT / "lessons" / "__init__.py"}
     for lesson in lessons:
@@ -57,16 +57,18 @@ def files_of(lessons: Iterable[Lesson]) -> dict[str, bytes]:
         folders.append(folder)
         if (folder / "stored.py").is_file():  # what it cannot compute in a browser
             stored = importlib.import_module(f"lessons.{lesson.name}.stored").files()
-            found |= {f"lessons/{lesson.name}/{name}": made for name, made in stored.items()}
-        found[f"lessons/{lesson.name}/page.md"] = b""  # a lesson wants one, a run reads none
+            contents |= {f"lessons/{lesson.name}/{name}": made for name, made in stored.items()}
+        contents[f"lessons/{lesson.name}/page.md"] = b""  # a lesson wants one, a run reads none
     for folder in folders:
         files |= {file for file in folder.rglob("*.py") if not _left_out(file)}
-    found |= {str(file.relative_to(ROOT)): file.read_bytes() for file in files}
+    contents |= {str(file.relative_to(ROOT)): file.read_bytes() for file in files}
     place = samples.STORED.relative_to(ROOT)
-    found |= {f"{place}/{name}": content for name, content in samples.stored_files().items()}
-    told = {lesson.name: [_told(one, lesson) for one in _shown(lesson)] for lesson in lessons}
-    found[str(EXERCISES.relative_to(ROOT))] = json.dumps(told).encode()
-    return found
+    contents |= {f"{place}/{name}": content for name, content in samples.stored_files().items()}
+    told = {
+        lesson.name: [_told(exercise, lesson) for exercise in _shown(lesson)] for lesson in lessons
+    }
+    contents[str(EXERCISES.relative_to(ROOT))] = json.dumps(told).encode()
+    return contents
 
 
 def _left_out(file: Path) -> bool:
@@ -89,7 +91,9 @@ def _keeps_hidden_checks(file: Path) -> bool:
 def _shown(lesson: Lesson) -> list[Exercise]:
     home = ROOT / "lessons" / lesson.name / "exercises"
     return [
-        one for one in exercises_of(lesson) if not _keeps_hidden_checks(home / f"{one.name}.py")
+        exercise
+        for exercise in exercises_of(lesson)
+        if not _keeps_hidden_checks(home / f"{exercise.name}.py")
     ]
 
 

@@ -132,8 +132,8 @@ class Runner:
         line = getattr(step.state, "line", 0) if self._driven is not self.lesson else 0
         head = self._updates.step(k, {}, line)
         view = self._aim.view(self.lesson, timeline.params)
-        said = {"run": self._number, "k": k}
-        return head, self._wire.step(said, step.scene, view, self.lesson.name)
+        scene_head = {"run": self._number, "k": k}
+        return head, self._wire.step(scene_head, step.scene, view, self.lesson.name)
 
     def click(
         self, index: int, p_origin: Sequence[float], v_ray: Sequence[float]
@@ -188,7 +188,7 @@ class Runner:
     def _exercise(self, name: str) -> Any:
         from workbench.exercise.finding import exercises_in_folder
 
-        found = {one.name: one for one in exercises_in_folder(self.lesson)}
-        if name not in found:
+        exercises = {exercise.name: exercise for exercise in exercises_in_folder(self.lesson)}
+        if name not in exercises:
             raise InputError(f"lesson {self.lesson.name} has no exercise {name!r}")
-        return found[name]
+        return exercises[name]

@@ -26,10 +26,10 @@ def read_in_place(file: str, text: str) -> Submission:
     Raises:
         InputError: If it is no Python, with the line; or is no text.
     """
-    found = submission(file, text.encode(), lambda name: None, _InPlaceReader())
-    if found.broken:
-        raise InputError(found.broken)
-    return found
+    submitted = submission(file, text.encode(), lambda name: None, _InPlaceReader())
+    if submitted.broken:
+        raise InputError(submitted.broken)
+    return submitted
 
 
 class _InPlaceReader:

@@ -60,9 +60,9 @@ def read_round(
         raise InputError(
             f"{path.name}: the points lie on a {flat}, and nothing round fits them best"
         )
-    found = fit_algebraic(p) if shape in ("circle", "sphere") else None
-    if found is not None and found[-1] < LARGEST * size:
-        center, unit = found[:-1], found[-1]
+    fit = fit_algebraic(p) if shape in ("circle", "sphere") else None
+    if fit is not None and fit[-1] < LARGEST * size:
+        center, unit = fit[:-1], fit[-1]
     return (p - center) / unit, float(unit)
 
 

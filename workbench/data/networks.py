@@ -54,10 +54,10 @@ def karate(weighted: bool = False) -> Network:
     edges, as networkx has it.
     """
     rows = [row.split(":") for row in "".join(_KARATE).split("; ") if row]
-    found = np.array(
-        [(int(a), *map(int, one.split("x"))) for a, others in rows for one in others.split()]
+    table = np.array(
+        [(int(a), *map(int, pair.split("x"))) for a, others in rows for pair in others.split()]
     )
-    edges, weights = found[:, :2], found[:, 2].astype(float)
+    edges, weights = table[:, :2], table[:, 2].astype(float)
     classes = np.ones(34, dtype=int)
     classes[list(_WITH_THE_INSTRUCTOR)] = 0
     return Network(

@@ -91,29 +91,31 @@ def names_in(path: Path) -> tuple[str, ...]:
     """
     if path.is_dir():
         home = path.resolve()
-        found = [
-            one.name
-            for one in path.iterdir()
-            if _is_picture(one.name) and one.is_file() and one.resolve().parent == home
+        names = [
+            file.name
+            for file in path.iterdir()
+            if _is_picture(file.name) and file.is_file() and file.resolve().parent == home
         ]
     else:
         stamp(path)
         with _opened_zip(path) as packed:
-            found = [one.filename for one in packed.infolist() if _is_picture(one.filename)]
-    if not 0 < len(found) <= MOST_PICTURES:
+            names = [
+                member.filename for member in packed.infolist() if _is_picture(member.filename)
+            ]
+    if not 0 < len(names) <= MOST_PICTURES:
         raise InputError(
-            f"{path.name or path}: {len(found) or 'no'} pictures in it; up to {MOST_PICTURES} jpg"
+            f"{path.name or path}: {len(names) or 'no'} pictures in it; up to {MOST_PICTURES} jpg"
             " or png are taken"
         )
-    stems = [_stem(name) for name in found]
+    stems = [_stem(name) for name in names]
     twice = next(
-        (name for name, stem in zip(found, stems, strict=True) if stems.count(stem) > 1), None
+        (name for name, stem in zip(names, stems, strict=True) if stems.count(stem) > 1), None
     )
     if twice is not None:
         raise InputError(
             f"{path.name or path}: two pictures are called {PurePosixPath(twice).stem}"
         )
-    return tuple(sorted(found, key=_counted))
+    return tuple(sorted(names, key=_counted))
 
 
 @apart
@@ -143,15 +145,15 @@ def matched(path: Path, views: Sequence[str], count: int) -> tuple[str | None, .
         InputError: If no name fits and there are not as many pictures as views, or as `names_in`
             does.
     """
-    found = names_in(path)
-    by_stem = {_stem(name): name for name in found}
+    names = names_in(path)
+    by_stem = {_stem(name): name for name in names}
     named = tuple(by_stem.get(_stem(view)) for view in views)
     if any(named):
         return named
-    if len(found) != count:
+    if len(names) != count:
         called = f", and none is called {views[0]}" if views else ""
-        raise InputError(f"{path.name or path}: {len(found)} pictures for {count} views{called}")
-    return found
+        raise InputError(f"{path.name or path}: {len(names)} pictures for {count} views{called}")
+    return names
 
 
 def _is_picture(name: str) -> bool:

@@ -44,9 +44,9 @@ def side_by_side(
     low = float(np.min(cuts))
     span = max(float(np.max(cuts)) - low, LEAST_SPAN)
     bright = [np.rint((cut - low) * (255.0 / span)).astype(np.uint8) for cut in cuts]
-    one, two = (framed(cut, (half, half), window, frame) for cut in bright)
-    gap = np.full((one.shape[0], GAP, 3), 255, np.uint8)
-    return np.concatenate([one, gap, two], axis=1)
+    framed_left, framed_right = (framed(cut, (half, half), window, frame) for cut in bright)
+    gap = np.full((framed_left.shape[0], GAP, 3), 255, np.uint8)
+    return np.concatenate([framed_left, gap, framed_right], axis=1)
 
 
 def _cut(picture: np.ndarray, u: int, v: int, half: int) -> np.ndarray:

@@ -98,7 +98,7 @@ class Candidate:
         self._keep(args, Returned(value, ""), right)
         pairs = zip(args, given, strict=True)
         self._changed = any(
-            isinstance(arg, np.ndarray) and arg.tobytes() != now.tobytes() for arg, now in pairs
+            isinstance(arg, np.ndarray) and arg.tobytes() != after.tobytes() for arg, after in pairs
         )
         if self.changed_inputs:
             self.changing.append(args)
@@ -196,7 +196,7 @@ def _as_values(value: Any, expected: Sequence[Any]) -> Any:
     """Return an array with a part for each value asked for as these parts."""
     if not isinstance(value, np.ndarray) or value.shape[:1] != (len(expected),):
         return value
-    whole = [np.asarray(one).dtype.kind in "iu" for one in expected]
+    whole = [np.asarray(wanted).dtype.kind in "iu" for wanted in expected]
     counted = [value.dtype.kind == "f" and bool((np.mod(part, 1) == 0).all()) for part in value]
     pairs = zip(value, whole, counted, strict=True)
     return [
@@ -211,10 +211,10 @@ def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
     most = LARGEST * np.abs(wanted[known]).max(initial=1.0)
     if known.all() and not finite.all():
         strange, asked = ~finite, "finite numbers"
-        what = f"{got}" if got.ndim == 0 else f"{strange.sum()} of {got.size} values not finite"
+        returned = f"{got}" if got.ndim == 0 else f"{strange.sum()} of {got.size} values not finite"
     elif np.abs(got[finite]).max(initial=0.0) > most:
         strange, asked = finite & (np.abs(got) > most), "numbers that can be computed with"
-        what = (
+        returned = (
             f"{got}"
             if got.ndim == 0
             else f"{strange.sum()} of {got.size} values too large to be judged"
@@ -223,8 +223,8 @@ def _must_be_judgeable(got: np.ndarray, wanted: np.ndarray, name: str) -> None:
         return
     at = tuple(int(i) for i in np.argwhere(strange)[0])
     where = f"[{', '.join(map(str, at))}]" if at else "yours"
-    said = f"the contract asks for {asked}. {where} is {got[at]}, right is {number(wanted[at])}"
-    raise StudentError(f"{name} returned {what}; {said}", "result")
+    sentence = f"the contract asks for {asked}. {where} is {got[at]}, right is {number(wanted[at])}"
+    raise StudentError(f"{name} returned {returned}; {sentence}", "result")
 
 
 def _asked(args: tuple[Any, ...]) -> str:
@@ -240,10 +240,10 @@ def _kind(value: Any) -> str:
     if value is None:
         return "nothing"
     if isinstance(value, np.ndarray) and value.ndim:
-        what = {"b": "true or false", "i": "whole numbers", "u": "whole numbers"}.get(
+        entries = {"b": "true or false", "i": "whole numbers", "u": "whole numbers"}.get(
             value.dtype.kind, "numbers"
         )
-        return f"an array {value.shape} of {what}"
+        return f"an array {value.shape} of {entries}"
     if isinstance(value, (list, tuple)):
         return f"{len(value)} values"
     known = (
@@ -251,4 +251,4 @@ def _kind(value: Any) -> str:
         ((bool, np.bool_), "true or false"),
         ((int, np.integer), "a whole number"),
     )
-    return next((what for kinds, what in known if isinstance(value, kinds)), "a number")
+    return next((kind for kinds, kind in known if isinstance(value, kinds)), "a number")

@@ -91,13 +91,13 @@ def matrix_csv(results: Sequence[Result]) -> str:
     for result in results:
         cells = {}
         for report in result["reports"]:
-            for found in report["checks"]:
-                key = (report["exercise"], found["name"])
+            for outcome in report["checks"]:
+                key = (report["exercise"], outcome["name"])
                 shares[key].append(
-                    found["points"] / found["possible"] if found["possible"] else 0.0
+                    outcome["points"] / outcome["possible"] if outcome["possible"] else 0.0
                 )
-                cells[key] = HOW.get(found["kind"], f"{shares[key][-1]:g}")
-                if report["mistake"] and found["name"] in report["mistake"]["checks"]:
+                cells[key] = HOW.get(outcome["kind"], f"{shares[key][-1]:g}")
+                if report["mistake"] and outcome["name"] in report["mistake"]["checks"]:
                     mistakes[key][report["mistake"]["name"]] += 1
         rows.append([result["student"], *(cells.get(key, "") for key in checks)])
     rows.append(["graded", *(str(len(shares[key])) for key in checks)])
@@ -135,12 +135,12 @@ def summary(results: Sequence[Result], worth: Mapping[str, float] | None = None)
         r["mistake"]["sentence"] for result in graded for r in result["reports"] if r["mistake"]
     )
     if mistakes:
-        told = (f"- {count} × {_plain(said)}" for said, count in mistakes.most_common(8))
+        told = (f"- {count} × {_plain(sentence)}" for sentence, count in mistakes.most_common(8))
         lines += ["", "Most frequent mistakes:", "", *told]
     troubled = [
-        f"- {_plain(result['student'])}: {_plain(said)}"
+        f"- {_plain(result['student'])}: {_plain(trouble)}"
         for result in results
-        if (said := _trouble(result))
+        if (trouble := _trouble(result))
     ]
     if troubled:
         lines += ["", "To look at:", "", *troubled]
@@ -153,18 +153,20 @@ def _items(result: Result) -> Iterator[dict[str, Any]]:
 
 
 def _trouble(result: Result) -> str:
-    said = [item["error"] for item in result["ungraded"]]
+    troubles = [item["error"] for item in result["ungraded"]]
     for report in result["reports"]:
         kinds = Counter(
             HOW[check["kind"]] for check in report["checks"] if check["kind"] in ("timeout", "died")
         )
-        said += list(
+        troubles += list(
             dict.fromkeys(
                 check["message"] for check in report["checks"] if check["kind"] == "forbidden"
             )
         )
-        said += [f"{report['exercise']} {how} in {_checks(count)}" for how, count in kinds.items()]
-    return "; ".join([*said, *([result["note"]] if result["note"] else [])])
+        troubles += [
+            f"{report['exercise']} {how} in {_checks(count)}" for how, count in kinds.items()
+        ]
+    return "; ".join([*troubles, *([result["note"]] if result["note"] else [])])
 
 
 def _of_what(results: Sequence[Result], worth: Mapping[str, float] | None) -> str:

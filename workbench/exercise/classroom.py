@@ -57,21 +57,21 @@ def grade_class(
         InputError: If the folder has no submissions or `out` cannot be written.
     """
     asked = asked or Asked()
-    found = handed_in(folder, out)
+    hand_ins = handed_in(folder, out)
     if roster is not None:
-        found = with_roster(found, roster)
+        hand_ins = with_roster(hand_ins, roster)
     students = out / "students"
     try:
         students.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"{out}: {error.strerror or 'cannot be written'}") from None
-    places = {name: students / f"{stem}.json" for name, stem in stems(found).items()}
+    places = {name: students / f"{stem}.json" for name, stem in stems(hand_ins).items()}
     results: dict[str, Result] = {}
-    for name, handed in found.items():
+    for name, handed in hand_ins.items():
         kept = _kept(places[name])
         if kept is not None and kept.get("digest") == digest(handed, asked):
             results[name] = kept
-    waiting = [(handed, asked) for name, handed in found.items() if name not in results]
+    waiting = [(handed, asked) for name, handed in hand_ins.items() if name not in results]
     done = len(results)
     with contextlib.closing(_graded(waiting, executor, jobs)) as graded:
         for name, result in graded:
@@ -79,8 +79,8 @@ def grade_class(
             _write(places[name], json.dumps(result, indent=1, ensure_ascii=False))
             results[name] = result
             if progress is not None:
-                progress(one_line(name), done, len(found))
-    ordered = [results[name] for name in found]
+                progress(one_line(name), done, len(hand_ins))
+    ordered = [results[name] for name in hand_ins]
     _write(out / "class.csv", class_csv(ordered, worth))
     _write(out / "matrix.csv", matrix_csv(ordered))
     _write(out / "summary.md", summary(ordered, worth))
@@ -210,8 +210,8 @@ def grade_folder(
             )
             return 130
     result.write(summary(graded, worth) + f"\nResults: {out / 'class.csv'}, {out / 'matrix.csv'}\n")
-    some = [one for one in graded if one["reports"]]
-    return 2 if not some else 0 if all(is_full(one, worth) for one in graded) else 1
+    some = [student for student in graded if student["reports"]]
+    return 2 if not some else 0 if all(is_full(student, worth) for student in graded) else 1
 
 
 @contextlib.contextmanager

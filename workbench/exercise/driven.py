@@ -131,9 +131,9 @@ def driven(lesson: Lesson, exercise: Exercise, function: Function) -> Lesson:
                 DIFFERENCE: _difference(float("nan")),
             }
         if pair.first:
-            said = caption_of(scene).text
+            text = caption_of(scene).text
             scene["caption"] = Caption(
-                f"Here your run first differs from the reference (its ghost is faint). {said}",
+                f"Here your run first differs from the reference (its ghost is faint). {text}",
                 "wrong",
             )
         return scene | ({DIFFERENCE: _difference(pair.difference)} if pair.called else {})
@@ -158,11 +158,11 @@ def _trouble(error: Exception, exercise: Exercise) -> tuple[str, int]:
     """Say what went wrong, and in which line: the student's own error, or the lesson's."""
     if isinstance(error, StudentError):
         return str(error), error.line
-    said = " ".join(str(error).split())[:200]
+    message = " ".join(str(error).split())[:200]
     return (
         (
             f"The lesson cannot go on with what {exercise.name} returned ({type(error).__name__}:"
-            f" {said})."
+            f" {message})."
         ),
         0,
     )

@@ -30,10 +30,10 @@ def record_failing(
     except ImportError:  # where there is only what grading needs
         return None
     with SandboxedFunction(path, exercise.name, seconds=exercise.contract.seconds) as student:
-        found = failing_run(exercise, student, lesson)
-        if found is None:
+        failing = failing_run(exercise, student, lesson)
+        if failing is None:
             return None
-        timeline, at = found
+        timeline, at = failing
         states = [step.state for step in timeline.known()][max(0, at - 1) :]
         ended = replace(
             timeline.lesson, run=lambda params, subject: iter(states)

@@ -58,10 +58,10 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
     Raises:
         InputError: If two lessons of the course have an exercise of one name; tells both places.
     """
-    found, places = dict[str, tuple[Exercise, ...]](), dict[str, str]()
+    by_lesson, places = dict[str, tuple[Exercise, ...]](), dict[str, str]()
     for name, lesson in course().items():
-        found[name] = _of_course(name)
-        for exercise in found[name]:
+        by_lesson[name] = _of_course(name)
+        for exercise in by_lesson[name]:
             if exercise.name in places:
                 raise InputError(
                     f"exercise {exercise.name} is in {places[exercise.name]} and in"
@@ -69,9 +69,9 @@ def usable() -> dict[str, tuple[Exercise, ...]]:
                 )
             places[exercise.name] = _place(lesson)
     for lesson in catalog().values():
-        if lesson.name not in found:
-            found[lesson.name] = _not_taken(lesson, places)
-    return found
+        if lesson.name not in by_lesson:
+            by_lesson[lesson.name] = _not_taken(lesson, places)
+    return by_lesson
 
 
 def _not_taken(lesson: Lesson, places: dict[str, str]) -> tuple[Exercise, ...]:
@@ -106,9 +106,9 @@ def exercises_in_folder(lesson: Lesson) -> tuple[Exercise, ...]:
         return ()
     folder = importlib.import_module(f"{package}.exercises")
     names = [info.name for info in pkgutil.iter_modules(folder.__path__) if not info.ispkg]
-    found = [_exercise(folder.__name__, name, lesson) for name in names]
+    in_folder = [_exercise(folder.__name__, name, lesson) for name in names]
     slots = lesson.form.slots
-    for exercise in found:
+    for exercise in in_folder:
         if exercise.contract.slot not in slots:
             raise InputError(
                 f"exercise {exercise.name}: run of lesson {lesson.name} has no keyword"
@@ -120,7 +120,7 @@ def exercises_in_folder(lesson: Lesson) -> tuple[Exercise, ...]:
             except InputError as error:
                 raise InputError(f"exercise {exercise.name}: {error}") from None
     return tuple(
-        sorted(found, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name))
+        sorted(in_folder, key=lambda exercise: (slots.index(exercise.contract.slot), exercise.name))
     )
 
 
@@ -133,8 +133,8 @@ def _exercise(folder: str, name: str, lesson: Lesson) -> Exercise:
     return exercise_in(module, lesson.name, hidden)
 
 
-def _leave_out(what: str, lesson: Lesson, why: str) -> None:
-    warnings.warn(LeftOutWarning(f"{what} {_place(lesson)} is left out: {why}"), stacklevel=1)
+def _leave_out(label: str, lesson: Lesson, why: str) -> None:
+    warnings.warn(LeftOutWarning(f"{label} {_place(lesson)} is left out: {why}"), stacklevel=1)
 
 
 def _place(lesson: Lesson) -> str:
@@ -147,10 +147,10 @@ def find_exercise(name: str, lesson: Lesson | None = None) -> Exercise:
     Raises:
         InputError: If there is none; lists those there are.
     """
-    found = known(lesson)
-    if name not in found:
-        raise InputError(f"no exercise is named {name[:80]!r}; {not_among(name, found)}")
-    return found[name]
+    available = known(lesson)
+    if name not in available:
+        raise InputError(f"no exercise is named {name[:80]!r}; {not_among(name, available)}")
+    return available[name]
 
 
 def known(lesson: Lesson | None) -> Mapping[str, Exercise]:
@@ -167,8 +167,8 @@ class _All(Mapping[str, Exercise]):
         """Return an exercise; KeyError where there is none."""
         home = _homes().get(name)
         of_home = () if home is None else exercises_of(catalog()[home])
-        found = next((exercise for exercise in of_home if exercise.name == name), None)
-        return exercises()[name] if found is None else found
+        exercise = next((exercise for exercise in of_home if exercise.name == name), None)
+        return exercises()[name] if exercise is None else exercise
 
     def __iter__(self) -> Iterator[str]:
         return iter(exercises())
@@ -184,8 +184,8 @@ def _homes() -> dict[str, str]:
     """
     homes = {}
     for folder in folders():
-        found = importlib.util.find_spec(f"lessons.{folder}.exercises")
-        places = [] if found is None else found.submodule_search_locations
+        spec = importlib.util.find_spec(f"lessons.{folder}.exercises")
+        places = [] if spec is None else spec.submodule_search_locations
         homes |= {info.name: folder for info in pkgutil.iter_modules(places) if not info.ispkg}
     return homes
 
@@ -203,20 +203,20 @@ def exercises_in(given: Path | Submission, lesson: Lesson | None = None) -> tupl
     if submission.broken:
         raise InputError(submission.broken)
     asked = known(lesson)
-    said = said_for(submission, lesson)
-    found = said or tuple(
+    stated = said_for(submission, lesson)
+    chosen = stated or tuple(
         exercise for name, exercise in asked.items() if name in submission.defines
     )
-    if not found:
+    if not chosen:
         listed = ", ".join(asked) or "there are none"
         raise InputError(f"{submission.file}: defines none of the exercises' functions ({listed})")
-    missing = [exercise.name for exercise in found if exercise.name not in submission.defines]
+    missing = [exercise.name for exercise in chosen if exercise.name not in submission.defines]
     if missing:
         raise InputError(
             f"{submission.file}: is for {', '.join(missing)} and defines"
             f" {_nearly(submission, missing)}"
         )
-    return found
+    return chosen
 
 
 def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exercise, ...]:
@@ -231,12 +231,12 @@ def said_for(submission: Submission, lesson: Lesson | None = None) -> tuple[Exer
     if not submission.defines.isdisjoint(lines):
         return tuple(asked[name] for name in lines)
     words = _in_words(submission.file, asked)
-    said = [] if submission.defines.isdisjoint(words) else words
-    if not said and (
+    names = [] if submission.defines.isdisjoint(words) else words
+    if not names and (
         lines or submission.defines.isdisjoint(asked) or _begins_with_my(submission.file, words)
     ):
-        said = lines or words
-    return tuple(asked[name] for name in said)
+        names = lines or words
+    return tuple(asked[name] for name in names)
 
 
 def _in_words(file: str, names: Iterable[str]) -> list[str]:
@@ -261,7 +261,7 @@ def _begins_with_my(file: str, names: list[str]) -> bool:
     words = _words(file)
     starts = [words[k + 1 :] for k, word in enumerate(words) if word == "my"]
     parts = [name.lower().split("_") for name in names]
-    return any(rest[: len(one)] == one for rest in starts for one in parts)
+    return any(rest[: len(part)] == part for rest in starts for part in parts)
 
 
 def _words(file: str) -> list[str]:

@@ -20,7 +20,9 @@ def forbidden_use(given: Submission, exercise: Exercise) -> str:
     files += [(f"{name}.py", list(parts)) for name, parts in given.extra_files.items()]
     for file, parts in files:
         for path, line in (use for part in parts for use in part.uses):
-            module = next((one for one in forbid if f"{path}.".startswith(f"{one}.")), None)
+            module = next(
+                (banned for banned in forbid if f"{path}.".startswith(f"{banned}.")), None
+            )
             if module is not None:
                 where = (
                     f"{file}, line {line}: uses {module}, which is forbidden for {exercise.name}"
@@ -43,10 +45,10 @@ def _reached(begin: list[int], parts: tuple[Statement, ...]) -> set[int]:
     for k, part in enumerate(parts):
         for name in part.binds:
             places.setdefault(name, []).append(k)
-    found, waiting = set(begin), list(begin)
+    reached, waiting = set(begin), list(begin)
     while waiting:
         for name in parts[waiting.pop()].reads:
-            new = [k for k in places.pop(name, ()) if k not in found]
-            found.update(new)
+            new = [k for k in places.pop(name, ()) if k not in reached]
+            reached.update(new)
             waiting += new
-    return found
+    return reached

@@ -85,8 +85,8 @@ class Report:
     @property
     def said_once(self) -> str:
         """The sentence that all of several checks say; nothing where they differ."""
-        said = {outcome.verdict.message for outcome in self.outcomes}
-        return said.pop() if len(said) == 1 and self.outcomes[1:] else ""
+        messages = {outcome.verdict.message for outcome in self.outcomes}
+        return messages.pop() if len(messages) == 1 and self.outcomes[1:] else ""
 
 
 def grade_file(
@@ -130,9 +130,9 @@ def grade_function(
 ) -> Report:
     """Grade a callable: a student's function, or one of ours; as `grade_file`."""
     if isinstance(function, StudentFunction):
-        said = forbidden_use(function.submission, exercise)
-        if said:
-            return _refused(said, exercise, hidden, file=file, wall=function.wall, seed=seed)
+        reason = forbidden_use(function.submission, exercise)
+        if reason:
+            return _refused(reason, exercise, hidden, file=file, wall=function.wall, seed=seed)
         function.start()
     outcomes: list[Outcome] = []
     asked: dict[str, Candidate] = {}
@@ -160,16 +160,22 @@ def grade_function(
 
 
 def _refused(
-    said: str, exercise: Exercise, hidden: bool, *, file: str, wall: "Wall | None", seed: int | None
+    reason: str,
+    exercise: Exercise,
+    hidden: bool,
+    *,
+    file: str,
+    wall: "Wall | None",
+    seed: int | None,
 ) -> Report:
     """Return the report on a file that uses what is forbidden: every check says why."""
     run = [check for check in exercise.checks if check.public or hidden]
-    outcomes = tuple(Outcome(check, fail(said), "forbidden") for check in run)
+    outcomes = tuple(Outcome(check, fail(reason), "forbidden") for check in run)
     return Report(
         exercise,
         file,
         outcomes,
-        tuple(one for one in exercise.checks if one not in run),
+        tuple(check for check in exercise.checks if check not in run),
         wall=wall,
         seed=seed,
     )

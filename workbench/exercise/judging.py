@@ -99,8 +99,8 @@ def refused(candidate: Function, *args: Any, what: str) -> Verdict:
         if error.error in ("", "NotImplementedError") or "ImportError" in error.errors:
             raise  # the function did not come to look at what it was given
         return partial(0.5, f"{what} raised {error.error}; the contract asks for a ValueError.")
-    said = "nothing" if value is None else f"an answer ({_short(value)})"
-    return fail(f"{what} gave {said}; the contract asks for `raise ValueError`.")
+    answer = "nothing" if value is None else f"an answer ({_short(value)})"
+    return fail(f"{what} gave {answer}; the contract asks for `raise ValueError`.")
 
 
 def left_alone(candidate: Function, verdict: Verdict) -> Verdict:
@@ -124,7 +124,7 @@ def changed(args: tuple[Any, ...]) -> Verdict:
     ]
     values = np.concatenate(arrays) if arrays else np.zeros(0)
     with np.errstate(invalid="ignore"):
-        what = (
+        detail = (
             " with nan in it"
             if np.isnan(values).any()
             else (
@@ -136,7 +136,7 @@ def changed(args: tuple[Any, ...]) -> Verdict:
             )
         )
     return fail(
-        f"Your function changed an array{what} that it was given. Work on a copy: a /= b writes"
+        f"Your function changed an array{detail} that it was given. Work on a copy: a /= b writes"
         " into a, a = a / b not."
     )
 

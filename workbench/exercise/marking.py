@@ -59,8 +59,10 @@ class Asked:
         Raises:
             InputError: If there are none.
         """
-        found = finding.exercises_in(given, self.loaded())
-        return tuple(exercise for exercise in found if not self.only or exercise.name in self.only)
+        exercises = finding.exercises_in(given, self.loaded())
+        return tuple(
+            exercise for exercise in exercises if not self.only or exercise.name in self.only
+        )
 
     def wanted(self, given: Submission) -> tuple[Exercise, ...]:
         """Return the exercises that a file says it is for, though it may be no Python."""
@@ -133,9 +135,9 @@ def grade_student(handed: HandIn, asked: Asked) -> Result:
     try:
         wall = named(asked.sandbox)
         result["sandbox"] = wall.name
-        found = chosen(handed, asked)
-        result["ungraded"] += found.troubles
-        for part in found.graded:
+        choice = chosen(handed, asked)
+        result["ungraded"] += choice.troubles
+        for part in choice.graded:
             graded = marked(part, wall, seed=asked.seed)
             if isinstance(graded, Report):
                 result["reports"].append(as_dict(graded))
@@ -143,18 +145,18 @@ def grade_student(handed: HandIn, asked: Asked) -> Result:
                 result["ungraded"].append(graded)
         if asked.only:
             result["ungraded"] += [
-                not_handed_in(exercise) for exercise in found.missing if handed.files
+                not_handed_in(exercise) for exercise in choice.missing if handed.files
             ]
         else:
             result["handed"] = _parts_of_lessons(result, asked)
-        result["note"] = "; ".join(filter(None, [handed.note, *found.notes]))
+        result["note"] = "; ".join(filter(None, [handed.note, *choice.notes]))
     except Exception as error:  # a fault of ours with one student must not stop a class
-        said = (
+        message = (
             str(error)
             if isinstance(error, InputError)
             else f"{type(error).__name__}: {one_line(str(error))}"
         )
-        result["ungraded"].append(ungraded("", None, f"could not be graded: {said}"))
+        result["ungraded"].append(ungraded("", None, f"could not be graded: {message}"))
     return summed(result)
 
 
@@ -177,15 +179,16 @@ def not_handed_in(exercise: Exercise) -> dict[str, Any]:
 def _parts_of_lessons(result: Result, asked: Asked) -> list[str]:
     """Say of each lesson of which only some exercises are there how many: "pose 2 of 3"."""
     all_of_them = finding.known(asked.loaded()).values()
-    there = {item["exercise"] for item in (*result["reports"], *result["ungraded"])}
-    lessons = dict.fromkeys(exercise.lesson for exercise in all_of_them if exercise.name in there)
+    present = {item["exercise"] for item in (*result["reports"], *result["ungraded"])}
+    lessons = dict.fromkeys(exercise.lesson for exercise in all_of_them if exercise.name in present)
     named = {
-        lesson: {one.name for one in all_of_them if one.lesson == lesson} for lesson in lessons
+        lesson: {exercise.name for exercise in all_of_them if exercise.lesson == lesson}
+        for lesson in lessons
     }
     return [
-        f"{lesson} {len(names & there)} of {len(names)}"
+        f"{lesson} {len(names & present)} of {len(names)}"
         for lesson, names in named.items()
-        if names - there
+        if names - present
     ]
 
 
@@ -206,13 +209,13 @@ def empty(handed: HandIn, asked: Asked) -> Result:
 
 def summed(result: Result) -> Result:
     """Say in one line why something could not be graded; None where all was."""
-    said = [item["error"] for item in result["ungraded"]]
-    return result | {"error": "; ".join(said) or None}
+    errors = [item["error"] for item in result["ungraded"]]
+    return result | {"error": "; ".join(errors) or None}
 
 
 def chosen(handed: HandIn, asked: Asked) -> Chosen:
     """Return what is graded of a hand-in, and what cannot be; files that only help are neither."""
-    troubles = [ungraded(file, None, said) for file, said in handed.troubles]
+    troubles = [ungraded(file, None, message) for file, message in handed.troubles]
     read: dict[str, Submission] = {}
     with Reader() as reader:
         for file in handed.files:
@@ -222,22 +225,22 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
                 troubles.append(ungraded(file, None, str(error)))
     helping = {
         str(PurePosixPath(file).with_name(f"{name}.py"))
-        for file, one in read.items()
-        for name in one.modules
+        for file, given in read.items()
+        for name in given.modules
     }
-    found: dict[str, list[GradedFile]] = {}
+    by_exercise: dict[str, list[GradedFile]] = {}
     strays: list[dict[str, Any]] = []
-    for file, one in read.items():
-        said = asked.wanted(one)
+    for file, given in read.items():
+        said = asked.wanted(given)
         if said and asked.only and not any(exercise.name in asked.only for exercise in said):
             strays.append(
                 ungraded(file, None, f"{file}: is for {said[0].name}, which is not asked for")
             )
         elif said or file not in helping:
             try:
-                parts = [GradedFile(file, one, exercise) for exercise in asked.of(one)]
+                parts = [GradedFile(file, given, exercise) for exercise in asked.of(given)]
                 for part in parts:
-                    found.setdefault(part.exercise.name, []).append(part)
+                    by_exercise.setdefault(part.exercise.name, []).append(part)
                 if not parts:
                     strays.append(ungraded(file, None, _defines_none(file, asked)))
             except InputError as error:
@@ -245,10 +248,10 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
                     exercise for exercise in said if not asked.only or exercise.name in asked.only
                 ]
                 troubles += [ungraded(file, exercise, str(error)) for exercise in wanted]
-                told = str(error) if one.broken or not asked.only else _defines_none(file, asked)
+                told = str(error) if given.broken or not asked.only else _defines_none(file, asked)
                 strays += [] if wanted else [ungraded(file, None, told)]
     graded: list[GradedFile] = []
-    for name, several in found.items():
+    for name, several in by_exercise.items():
         meant = [part for part in several if part.exercise in asked.wanted(part.given)] or several
         if len({part.given.source for part in meant}) > 1:
             files = ", ".join(part.file for part in meant)
@@ -259,8 +262,8 @@ def chosen(handed: HandIn, asked: Asked) -> Chosen:
     strays = strays[:MOST_STRAYS]
     notes = [item["error"] for item in strays] if graded or troubles else []
     troubles = troubles if graded or troubles else strays
-    there = {part.exercise.name for part in graded} | {item["exercise"] for item in troubles}
-    missing = [exercise for exercise in asked.exercises() if exercise.name not in there]
+    covered = {part.exercise.name for part in graded} | {item["exercise"] for item in troubles}
+    missing = [exercise for exercise in asked.exercises() if exercise.name not in covered]
     if len(asked.only) == len(missing) == 1 and troubles:  # whatever was handed in was meant for it
         troubles = [
             ungraded(item["file"], missing[0], item["error"]) for item in troubles[:1]

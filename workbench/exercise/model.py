@@ -70,7 +70,7 @@ def band(what: str, value: float, unit: str, *, good: float, fair: float, hint: 
 def number(value: Any, digits: int = 4) -> str:
     """Write a number of an answer as messages do, several in brackets."""
     if getattr(value, "ndim", isinstance(value, (list, tuple))):
-        return f"({', '.join(number(one, digits) for one in value)})"
+        return f"({', '.join(number(part, digits) for part in value)})"
     value = float(value)
     if not math.isfinite(value):
         return f"{value:g}".replace("-", "−")
@@ -85,8 +85,8 @@ def against(got: Any, right: Any, digits: int = 4, *, unit: str = "") -> str:
         if yours != wanted:
             return f"{yours}{behind}, right is {wanted}{behind}"
     off = float(np.max(np.abs(np.subtract(got, right, dtype=float)), initial=0.0))
-    said = f"{number(got, digits)}{behind}, right is {number(right, digits)}{behind}"
-    return f"{said} (off by {off:.2g}{behind})" if 0 < off < math.inf else said
+    text = f"{number(got, digits)}{behind}, right is {number(right, digits)}{behind}"
+    return f"{text} (off by {off:.2g}{behind})" if 0 < off < math.inf else text
 
 
 @dataclass(frozen=True)
@@ -312,8 +312,8 @@ def exercise_in(module: ModuleType, lesson: str, hidden: ModuleType | None = Non
 
 
 def _checks_in(module: ModuleType) -> tuple[Check, ...]:
-    found = (item for item in vars(module).values() if isinstance(item, Check))
-    return tuple(item for item in found if _is_of(item.judge, module))
+    checks = (item for item in vars(module).values() if isinstance(item, Check))
+    return tuple(item for item in checks if _is_of(item.judge, module))
 
 
 def _is_of(function: Function, module: ModuleType) -> bool:

@@ -69,13 +69,13 @@ def diagnose(
     if not failing:
         return None
     every = [call for asked in calls.values() for call in asked]
-    found = {}
+    weights = {}
     for mistake in exercise.mistakes:
         evidence = _evidence(mistake, every, exercise)
         needs_all = evidence is not None and (mistake.spares_the_rest or not evidence.weight)
         if evidence is not None and (evidence.is_all or not needs_all):
-            found[mistake] = evidence.weight + evidence.made
-    return _the_most(found, 1) or _the_most(_in_some_checks(calls, failing, exercise), ENOUGH)
+            weights[mistake] = evidence.weight + evidence.made
+    return _the_most(weights, 1) or _the_most(_in_some_checks(calls, failing, exercise), ENOUGH)
 
 
 def concerned(
@@ -83,7 +83,9 @@ def concerned(
 ) -> frozenset[str]:
     """Return the names of the failing checks in which a function makes a mistake."""
     told = {name: _evidence(mistake, calls[name], exercise) for name in failing}
-    return frozenset(name for name, found in told.items() if found and (found.weight or found.made))
+    return frozenset(
+        name for name, evidence in told.items() if evidence and (evidence.weight or evidence.made)
+    )
 
 
 def _in_some_checks(
@@ -92,7 +94,7 @@ def _in_some_checks(
     weights = {}
     for mistake in exercise.mistakes:
         told = [_evidence(mistake, calls[name], exercise) for name in failing]
-        told = [found.weight for found in told if found is not None and found.weight]
+        told = [evidence.weight for evidence in told if evidence is not None and evidence.weight]
         if not mistake.spares_the_rest and 2 * len(told) > len(failing):
             weights[mistake] = sum(told)
     return weights
@@ -135,8 +137,8 @@ def _evidence(mistake: Mistake, calls: Iterable[Call], exercise: Exercise) -> Ev
 
 def _is_apart(mistaken: Returned, right: Sequence[Returned]) -> bool:
     """Tell whether the mistake's answer is none of the right ones, which are near each other."""
-    spread = max(_gap(one, right[0]) for one in right)
-    return _size(right[0]) * NEAR > spread < FAR * min(_gap(one, mistaken) for one in right)
+    spread = max(_gap(answer, right[0]) for answer in right)
+    return _size(right[0]) * NEAR > spread < FAR * min(_gap(answer, mistaken) for answer in right)
 
 
 def _size(answer: Returned) -> float:

@@ -171,16 +171,16 @@ def gradescope(
         }
         for item in failed
     ]
-    said = [*dict.fromkeys(item["error"] for item in failed), *notes]
-    said += [
+    lines = [*dict.fromkeys(item["error"] for item in failed), *notes]
+    lines += [
         f"{report.exercise.name} printed:\n" + "\n".join(shown(report.printed))
         for report in reports
         if report.printed
     ]
-    said += [UNSAFE] if any(map(_is_unsafe, reports)) else []
+    lines += [UNSAFE] if any(map(_is_unsafe, reports)) else []
     return {
         "score": sum(test["score"] for test in tests),
-        "output": "\n".join(said),
+        "output": "\n".join(lines),
         "tests": tests,
     }
 
@@ -245,7 +245,7 @@ def junit(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -> s
 
 def _suite(root: ElementTree.Element, name: str, **counts: int) -> ElementTree.Element:
     return ElementTree.SubElement(
-        root, "testsuite", {"name": name, **{what: str(count) for what, count in counts.items()}}
+        root, "testsuite", {"name": name, **{kind: str(count) for kind, count in counts.items()}}
     )
 
 
@@ -263,8 +263,8 @@ def markdown(reports: Sequence[Report], failed: Sequence[dict[str, Any]] = ()) -
         lines += [f"### {report.exercise.name}: {report.points:g} of {report.possible:g}", ""]
         lines += ["| | check | points | found |", "|---|---|---|---|"]
         for outcome in report.outcomes:
-            found = "" if report.said_once else outcome.verdict.message
-            cells = (outcome.check.promise, f"{outcome.points:g}/{outcome.check.points:g}", found)
+            message = "" if report.said_once else outcome.verdict.message
+            cells = (outcome.check.promise, f"{outcome.points:g}/{outcome.check.points:g}", message)
             lines.append(
                 "| "
                 + " | ".join([MARKS[outcome.verdict.word], *(_cell(cell) for cell in cells)])

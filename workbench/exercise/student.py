@@ -78,7 +78,7 @@ class StudentFunction:
             loading: Whether it was raised while the file was loaded.
         """
         error = str(reply["error"])[:80]
-        said = str(reply.get("message", ""))[:500]
+        message = str(reply.get("message", ""))[:500]
         names = reply.get("errors")
         line = reply.get("line")
         errors = tuple(str(name)[:80] for name in names[:12]) if isinstance(names, list) else ()
@@ -86,13 +86,13 @@ class StudentFunction:
         where = f"{self.submission.file}, line {line}: " if line else f"{self.submission.file}: "
         if loading:
             return StudentError(
-                f"{where}the file does not load: {error}: {said}", "load", error, line
+                f"{where}the file does not load: {error}: {message}", "load", error, line
             )
         if error == "WireError":
             return StudentError(
-                f"{where}{self.name} returned what is no result: {said}", "result", "", line
+                f"{where}{self.name} returned what is no result: {message}", "result", "", line
             )
         if error == "NotImplementedError":
             return StudentError(f"{where}{self.name} is not written yet", "raised", error, line)
-        said = f"{where}{self.name} raised {error}" + (f": {said}" if said else "")
-        return StudentError(said, "raised", error, line, errors)
+        message = f"{where}{self.name} raised {error}" + (f": {message}" if message else "")
+        return StudentError(message, "raised", error, line, errors)

@@ -72,8 +72,8 @@ def read_submission(path: Path) -> Submission:
     """
 
     def extra_file(name: str) -> bytes | None:
-        found = path.with_name(name)
-        return content(found) if os.path.lexists(found) else None
+        beside = path.with_name(name)
+        return content(beside) if os.path.lexists(beside) else None
 
     from workbench.exercise.reading import Reader  # a browser has no processes
 
@@ -89,10 +89,10 @@ def submission(
     Raises:
         InputError: If they are no text, or take too long to read; one line.
     """
-    found = reader.read(file, data)
+    facts = reader.read(file, data)
     modules: dict[str, str] = {}
     parts: dict[str, tuple[Statement, ...]] = {}
-    waiting = list(found.get("imports", []))
+    waiting = list(facts.get("imports", []))
     while waiting and len(modules) < MOST_MODULES:
         name = waiting.pop(0)
         content_beside = None if name in modules else extra_file(f"{name}.py")
@@ -102,26 +102,26 @@ def submission(
             waiting += module.get("imports", [])
     return Submission(
         file=file,
-        source=found["source"],
+        source=facts["source"],
         modules=modules,
-        said=tuple(found["said"]),
-        defines=frozenset(found.get("defines", [])),
-        broken=found.get("broken", ""),
-        parts=_parts(found),
+        said=tuple(facts["said"]),
+        defines=frozenset(facts.get("defines", [])),
+        broken=facts.get("broken", ""),
+        parts=_parts(facts),
         extra_files=parts,
     )
 
 
-def _parts(found: dict[str, Any]) -> tuple[Statement, ...]:
+def _parts(facts: dict[str, Any]) -> tuple[Statement, ...]:
     return tuple(
         Statement(
-            frozenset(one["binds"]),
-            frozenset(one["reads"]),
-            one["defines"],
-            one["runs"],
-            tuple((str(path), int(line)) for path, line in one["uses"]),
+            frozenset(part["binds"]),
+            frozenset(part["reads"]),
+            part["defines"],
+            part["runs"],
+            tuple((str(path), int(line)) for path, line in part["uses"]),
         )
-        for one in found.get("parts", [])
+        for part in facts.get("parts", [])
     )
 
 

@@ -45,7 +45,7 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, HandIn]:
     """
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder")
-    found: dict[str, HandIn] = {}
+    hand_ins: dict[str, HandIn] = {}
     for path in sorted(folder.iterdir()):
         if path.name.startswith((".", "__")) or (
             out is not None and path.absolute() == out.absolute()
@@ -64,15 +64,15 @@ def handed_in(folder: Path, out: Path | None = None) -> dict[str, HandIn]:
             handed = handed_by(path.name, path)
         else:
             continue
-        if handed.student in found:
-            handed = _clashing(found[handed.student], handed)
-        found[handed.student] = handed
-    if not any(handed.files or handed.troubles for handed in found.values()):
+        if handed.student in hand_ins:
+            handed = _clashing(hand_ins[handed.student], handed)
+        hand_ins[handed.student] = handed
+    if not any(handed.files or handed.troubles for handed in hand_ins.values()):
         raise InputError(f"{folder}: holds no .py file")
     nothing = (("", "the folder holds no .py file and no notebook"),)
     return {
         name: handed if handed.files or handed.troubles else replace(handed, troubles=nothing)
-        for name, handed in found.items()
+        for name, handed in hand_ins.items()
     }
 
 
@@ -91,8 +91,8 @@ def handed_by(student: str, folder: Path) -> HandIn:
     )
 
 
-def _noted(handed: HandIn, said: str) -> HandIn:
-    return replace(handed, note="; ".join(filter(None, [handed.note, said])))
+def _noted(handed: HandIn, note: str) -> HandIn:
+    return replace(handed, note="; ".join(filter(None, [handed.note, note])))
 
 
 def _was_meant(path: Path) -> bool:
@@ -101,14 +101,14 @@ def _was_meant(path: Path) -> bool:
     return name.endswith(ARCHIVES) or any(f"{suffix}." in name for suffix in SUFFIXES)
 
 
-def with_roster(found: dict[str, HandIn], roster: Path) -> dict[str, HandIn]:
+def with_roster(hand_ins: dict[str, HandIn], roster: Path) -> dict[str, HandIn]:
     """Return what was handed in by those of a roster, in its order, then by the others.
 
     Raises:
         InputError: If the roster cannot be read.
     """
     names = _names(roster)
-    by_name = {name.casefold(): handed for name, handed in found.items()}
+    by_name = {name.casefold(): handed for name, handed in hand_ins.items()}
     listed = {
         name: by_name.pop(name.casefold(), HandIn(name, {}, (("", "handed in nothing"),)))
         for name in names
@@ -166,12 +166,12 @@ def _below(folder: Path) -> Iterator[Path]:
         yield from (Path(place, name) for name in sorted(names) if not name.startswith("."))
 
 
-def _clashing(one: HandIn, other: HandIn) -> HandIn:
+def _clashing(first: HandIn, other: HandIn) -> HandIn:
     files = {
-        *one.files,
+        *first.files,
         *other.files,
-        *(file for each in (one, other) for file, _ in each.troubles),
+        *(file for each in (first, other) for file, _ in each.troubles),
     }
     named = ", ".join(sorted(files))[:200]
-    said = f"two things here are named {one.student} ({named}): leave one of them"
-    return HandIn(one.student, {}, ((named, said),))
+    trouble = f"two things here are named {first.student} ({named}): leave one of them"
+    return HandIn(first.student, {}, ((named, trouble),))

@@ -91,14 +91,14 @@ class WatchedFile:
     def check(self) -> None:
         """Run the public checks on the file as it is now; `said` is what they found then."""
         stamp = self._stamp
-        said: Report | str
+        outcome: Report | str
         try:
             with self._new() as student:
-                said = grade_function(student, self.exercise, hidden=False, file=self.path.name)
+                outcome = grade_function(student, self.exercise, hidden=False, file=self.path.name)
         except InputError as error:
-            said = str(error)
+            outcome = str(error)
         if stamp == self._stamp:  # or else the file was saved meanwhile, and is checked again
-            self.said = said
+            self.said = outcome
 
     def close(self) -> None:
         """End the child process."""
@@ -111,7 +111,7 @@ class WatchedFile:
 
     def _stamp_now(self) -> tuple[int, int] | None:
         try:
-            found = os.stat(self.path)
+            status = os.stat(self.path)
         except OSError:  # an editor may be replacing it right now
             return None
-        return found.st_mtime_ns, found.st_size
+        return status.st_mtime_ns, status.st_size

@@ -45,9 +45,9 @@ def clip_to_rectangle(
     """
     way = uv[:, 1] - uv[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
-        one, other = (low - uv[:, 0]) / way, (high - uv[:, 0]) / way
-        start = np.fmax(np.fmin(one, other).max(axis=1, initial=0.0), 0.0)
-        stop = np.fmin(np.fmax(one, other).min(axis=1, initial=1.0), 1.0)
+        to_low, to_high = (low - uv[:, 0]) / way, (high - uv[:, 0]) / way
+        start = np.fmax(np.fmin(to_low, to_high).max(axis=1, initial=0.0), 0.0)
+        stop = np.fmin(np.fmax(to_low, to_high).min(axis=1, initial=1.0), 1.0)
     return start, np.where(np.isnan(uv).any(axis=(1, 2)), -1.0, stop)
 
 

@@ -77,11 +77,11 @@ class Assignment:
         """Return what a point of an exercise's checks is worth in this assignment."""
         return self.worth[exercise.name] / exercise.points
 
-    def identity(self, what: str) -> str:
+    def identity(self, label: str) -> str:
         """Return a UUID that is the same whenever the same is handed out, so that uploading again
         replaces.
         """
-        return str(uuid.uuid5(uuid.NAMESPACE_URL, f"geometry-workbench/{what}"))
+        return str(uuid.uuid5(uuid.NAMESPACE_URL, f"geometry-workbench/{label}"))
 
     def text(self) -> str:
         """Return it as JSON, for `read`."""
@@ -89,8 +89,8 @@ class Assignment:
             name: day and day.isoformat()
             for name, day in (("release", self.release), ("due", self.due))
         }
-        said = {"service": self.service, "weights": self.worth, **dates, "sandbox": self.sandbox}
-        return json.dumps(said, indent=1) + "\n"
+        fields = {"service": self.service, "weights": self.worth, **dates, "sandbox": self.sandbox}
+        return json.dumps(fields, indent=1) + "\n"
 
 
 def read(text: str) -> Assignment:
@@ -99,16 +99,16 @@ def read(text: str) -> Assignment:
     Raises:
         InputError: If it names an exercise that there is not.
     """
-    said = json.loads(text)
+    fields = json.loads(text)
     days = {
-        name: said[name] and datetime.datetime.fromisoformat(said[name])
+        name: fields[name] and datetime.datetime.fromisoformat(fields[name])
         for name in ("release", "due")
     }
     return Assignment(
-        service=said["service"],
-        exercises=tuple(find_exercise(name) for name in said["weights"]),
-        weights=tuple(said["weights"].values()),
-        sandbox=said["sandbox"],
+        service=fields["service"],
+        exercises=tuple(find_exercise(name) for name in fields["weights"]),
+        weights=tuple(fields["weights"].values()),
+        sandbox=fields["sandbox"],
         **days,
     )
 
@@ -120,10 +120,10 @@ def read_file(path: Path) -> Assignment:
         InputError: If there is none, or it names an exercise that there is not; one line.
     """
     try:
-        found = read(path.read_text(encoding="utf-8"))
-        if not found.weights or not all(
+        assignment = read(path.read_text(encoding="utf-8"))
+        if not assignment.weights or not all(
             isinstance(weight, int | float) and 0 < weight <= MOST_POINTS
-            for weight in found.weights
+            for weight in assignment.weights
         ):
             raise ValueError
     except InputError as error:
@@ -132,7 +132,7 @@ def read_file(path: Path) -> Assignment:
         raise InputError(f"{path}: {error.strerror or 'cannot be read'}") from None
     except (ValueError, KeyError, TypeError, AttributeError):
         raise InputError(f"{path}: is not the assignment.json of a handout") from None
-    return found
+    return assignment
 
 
 def assigned(
@@ -161,21 +161,23 @@ def assigned(
         raise InputError(f"--for {service}: there are {', '.join(SERVICES)}")
     if sandbox not in ("auto", *NAMES):
         raise InputError(f"--sandbox {sandbox}: there are auto, {', '.join(NAMES)}")
-    found = [
+    exercises = [
         exercise
         for name in names
         for exercise in (
             exercises_of(catalog()[name]) if name in catalog() else (find_exercise(name),)
         )
     ]
-    twice = next((exercise.name for k, exercise in enumerate(found) if exercise in found[:k]), None)
-    if twice or not found:
+    twice = next(
+        (exercise.name for k, exercise in enumerate(exercises) if exercise in exercises[:k]), None
+    )
+    if twice or not exercises:
         raise InputError(
             f"{twice} is named twice" if twice else f"{', '.join(names)}: has no exercises"
         )
-    worth = {exercise.name: exercise.points for exercise in found} | dict(map(_weight, weights))
+    worth = {exercise.name: exercise.points for exercise in exercises} | dict(map(_weight, weights))
     other = next(
-        (name for name in worth if name not in {exercise.name for exercise in found}), None
+        (name for name in worth if name not in {exercise.name for exercise in exercises}), None
     )
     if other:
         raise InputError(f"--weight {other}: is not handed out here")
@@ -187,8 +189,8 @@ def assigned(
         raise InputError(f"--due {due}: is not after --release {release}")
     return Assignment(
         service=service,
-        exercises=tuple(found),
-        weights=tuple(worth[exercise.name] for exercise in found),
+        exercises=tuple(exercises),
+        weights=tuple(worth[exercise.name] for exercise in exercises),
         release=opens,
         due=closes,
         sandbox=sandbox,

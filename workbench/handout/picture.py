@@ -32,10 +32,10 @@ def pictured(exercise: Exercise, handed: HandIn, file: str, wall: Wall) -> list[
     with SandboxedFunction(
         read_one(handed, file), exercise.name, seconds=exercise.contract.seconds, wall=wall
     ) as student:
-        found = failing_run(exercise, student)
-        if found is None:
+        failing = failing_run(exercise, student)
+        if failing is None:
             return []
-        timeline, at = found
+        timeline, at = failing
         scene = timeline[at].scene
     picture = drawn(scene, timeline.lesson.view, SIZE)
     sheet = Image.new("RGB", SIZE, "white")

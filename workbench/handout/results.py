@@ -39,16 +39,18 @@ def prairielearn(
         "score": sum(report.points for report in reports) / possible,
         "tests": [test for report in reports for test in _tests(report)],
     }
-    said = [report.said_once for report in reports if report.said_once]
-    said += [report.mistake.sentence for report in reports if report.mistake and _is_seen(report)]
-    said += notes
-    said += (
+    sentences = [report.said_once for report in reports if report.said_once]
+    sentences += [
+        report.mistake.sentence for report in reports if report.mistake and _is_seen(report)
+    ]
+    sentences += notes
+    sentences += (
         [UNSAFE]
         if any(report.wall is not None and not report.wall.holds for report in reports)
         else []
     )
-    if said:
-        results["message"] = "\n".join(said)
+    if sentences:
+        results["message"] = "\n".join(sentences)
     printed = [line for report in reports for line in shown(report.printed)]
     if printed:
         results["output"] = "\n".join(["Your code printed:", *printed])

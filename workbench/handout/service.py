@@ -69,16 +69,16 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
     try:
         wall = _wall(assignment)
         handed = handed_by("submission", root / places.submission)
-        found = chosen(
+        choice = chosen(
             handed, Asked(only=tuple(exercise.name for exercise in assignment.exercises))
         )
-        failed += found.troubles
-        notes += found.notes if handed.files else ["no .py file and no notebook was handed in"]
+        failed += choice.troubles
+        notes += choice.notes if handed.files else ["no .py file and no notebook was handed in"]
         notes += [handed.note] if handed.note else []
-        parts = {part.exercise.name: part for part in found.graded}
+        parts = {part.exercise.name: part for part in choice.graded}
         while waiting:
             exercise = waiting[0]
-            if exercise in found.missing:
+            if exercise in choice.missing:
                 failed.append(not_handed_in(exercise))
             elif exercise.name in parts:
                 graded = marked(parts[exercise.name], wall, assignment.megabytes)
@@ -89,9 +89,11 @@ def grade(assignment: Assignment, root: Path) -> dict[str, Any]:
             waiting.pop(0)
             write()
     except Exception as error:  # a fault of ours must not leave a student without a word
-        said = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
+        message = (
+            str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
+        )
         return write(
-            f"was not graded. This is not about your code; tell your teacher: {one_line(said)}"
+            f"was not graded. This is not about your code; tell your teacher: {one_line(message)}"
         )
     return write()
 

@@ -101,8 +101,8 @@ def share_of(assignment: Assignment, out: Path, submission: Path) -> float:
             root = lay_out_prairielearn(
                 Path(folder), out, exercise.name, file=submission / exercise.file
             )
-            found = run(root / "serverFilesCourse" / prairielearn.GRADER / "run.sh", root)
-            shares.append(found.get("score", 0.0))
+            result = run(root / "serverFilesCourse" / prairielearn.GRADER / "run.sh", root)
+            shares.append(result.get("score", 0.0))
     return sum(shares) / len(shares)
 
 

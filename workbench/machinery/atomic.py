@@ -114,8 +114,8 @@ def _keep(path: Path, other: Path) -> None:
 def remove_leftovers(folder: Path) -> None:
     """Remove the unfinished files of this machine's dead processes from a folder."""
     for name in os.listdir(folder):
-        found = _PART.fullmatch(name)
-        if found is not None and not _is_alive(int(found[1])):
+        match = _PART.fullmatch(name)
+        if match is not None and not _is_alive(int(match[1])):
             (folder / name).unlink(missing_ok=True)
 
 

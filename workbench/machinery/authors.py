@@ -45,8 +45,8 @@ class Blaming:
 
 def described(error: BaseException, function: object = None) -> str:
     """Return an error as one line: where, of what kind, what it says, and its line of code."""
-    said = " ".join((error.msg if isinstance(error, SyntaxError) else str(error)).split())
-    kind = type(error).__name__ + (f": {said[:300]}" if said else "")
+    message = " ".join((error.msg if isinstance(error, SyntaxError) else str(error)).split())
+    kind = type(error).__name__ + (f": {message[:300]}" if message else "")
     if isinstance(error, SyntaxError) and error.filename:
         return f"{place(error.filename, error.lineno or 1)}: {kind}"
     frames = traceback.extract_tb(error.__traceback__)

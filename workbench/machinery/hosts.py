@@ -26,11 +26,11 @@ class Hosts:
 
     def know(self, host: str) -> bool:
         """Tell whether a browser that names this host has come to the right place."""
-        found = name_in(host)
-        if found is None:
+        name = name_in(host)
+        if name is None:
             return False
         # an address means one machine
-        return found in self._names or (not self.local and _is_address(found))
+        return name in self._names or (not self.local and _is_address(name))
 
 
 def listening(host: str, port: int) -> socket.socket:
@@ -62,8 +62,8 @@ def listening(host: str, port: int) -> socket.socket:
 
 def name_in(host: str) -> str | None:
     """Return the name or address of what a browser names as host, in small letters; or None."""
-    found = _HOST.fullmatch(host.lower())
-    return None if found is None else found[1]
+    match = _HOST.fullmatch(host.lower())
+    return None if match is None else match[1]
 
 
 def is_loopback(host: str) -> bool:

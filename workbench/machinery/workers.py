@@ -81,7 +81,7 @@ def parallel_map(
             late = (
                 []
                 if seconds is None
-                else [p for p, one in busy.items() if time.monotonic() - one.since > seconds]
+                else [p for p, worker in busy.items() if time.monotonic() - worker.since > seconds]
             )
             done: list[tuple[T, R]] = []
             for pipe in dict.fromkeys((*ready, *late)):

@@ -54,8 +54,8 @@ def source_address() -> str | None:
     """Return where the source is, as `WORKBENCH_ADDRESS` of the environment says, else the package;
     None where neither names an https address.
     """
-    found = os.environ.get(ADDRESS) or _packaged_address()
-    return found if found.startswith("https://") else None
+    address = os.environ.get(ADDRESS) or _packaged_address()
+    return address if address.startswith("https://") else None
 
 
 def _packaged_address() -> str:

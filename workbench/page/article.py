@@ -42,7 +42,7 @@ def article_html(lesson: Lesson, address: Address, home: str) -> str:
     """
     told = has_story(lesson)
     written = TERM.sub(
-        lambda found: found[0].replace("|", r"\|"),
+        lambda match: match[0].replace("|", r"\|"),
         wording(bench_text(lesson) if told else ASKED.sub(r"\nask!\1!\n\n", lesson.text()), home),
     )  # a table would cut there
     text = page_of(written, lesson.page).replace(
@@ -50,8 +50,8 @@ def article_html(lesson: Lesson, address: Address, home: str) -> str:
     )
     names = {"this", "default", *(preset.name for preset in lesson.presets)}
 
-    def link(found: re.Match[str]) -> str:
-        name, step = found[1], None if found[2] is None else int(found[2])
+    def link(match: re.Match[str]) -> str:
+        name, step = match[1], None if match[2] is None else int(match[2])
         if name not in names:
             known = ", ".join(preset.name for preset in lesson.presets) or "none"
             raise AuthorError(
@@ -65,7 +65,7 @@ def article_html(lesson: Lesson, address: Address, home: str) -> str:
     if told:
         at = text.find("<section", text.find("</h1>"))
         return text + PLACE if at < 0 else text[:at] + PLACE + text[at:]
-    text = _ASKED.sub(lambda found: _question_place(lesson, found[1]), text)
+    text = _ASKED.sub(lambda match: _question_place(lesson, match[1]), text)
     before, after = _around_predict(text)
     return before + PLACE + after
 

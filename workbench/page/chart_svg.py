@@ -46,13 +46,13 @@ def charts_svg(
         hide: Names of parts that are left out.
         wide: Pixels of the SVG's width.
     """
-    found = [one for one in (_named(run, k, name) for name in names) if one is not None]
-    room = HIGH if len(found) == 1 else ROW
+    charts = [draw for draw in (_named(run, k, name) for name in names) if draw is not None]
+    room = HIGH if len(charts) == 1 else ROW
     parts = [
         f'<g transform="translate(0 {i * room})">{"".join(draw((wide, room), hide))}</g>'
-        for i, draw in enumerate(found)
+        for i, draw in enumerate(charts)
     ]
-    return "".join(parts), room * len(found)
+    return "".join(parts), room * len(charts)
 
 
 def telling_chart(run: Run, k: int, telling: str) -> str:
@@ -63,9 +63,9 @@ def telling_chart(run: Run, k: int, telling: str) -> str:
         k: The step.
         telling: The title of what tells most, as the lesson says it; empty for the first chart.
     """
-    shown = [one for one in _things(run, k) if one["kind"] in ("plot", "curves")]
-    titles = {one["title"]: one["name"] for one in shown}
-    titles = {title: one["name"] for title, one in run["charts"].items()} | titles
+    shown = [thing for thing in _things(run, k) if thing["kind"] in ("plot", "curves")]
+    titles = {chart["title"]: chart["name"] for chart in shown}
+    titles = {title: chart["name"] for title, chart in run["charts"].items()} | titles
     own = next((name for title, name in titles.items() if telling and title == telling), "")
     own = own or next(
         (n for title, n in titles.items() if telling and title.startswith(telling)), ""
@@ -75,33 +75,38 @@ def telling_chart(run: Run, k: int, telling: str) -> str:
 
 def _things(run: Run, k: int) -> list[dict[str, Any]]:
     things = (run["things"][n] for n in run["steps"][k]["shown"])
-    return [one for one in things if isinstance(one, dict)]
+    return [thing for thing in things if isinstance(thing, dict)]
 
 
 def _named(run: Run, k: int, name: str) -> Callable[[Size, Sequence[str]], Iterator[str]] | None:
     """Return what draws a chart of a name; None where the step has none."""
     base, _, near = name.partition("@")
-    for one in _things(run, k):
-        if one["kind"] == "plot" and one["name"] == base:
-            axes = one["near"] if near and one["near"] else one
+    for thing in _things(run, k):
+        if thing["kind"] == "plot" and thing["name"] == base:
+            axes = thing["near"] if near and thing["near"] else thing
             return lambda size, hide: _plot(
-                run, one | {"x": axes["x"], "y": axes["y"]}, size, hide=hide
+                run, thing | {"x": axes["x"], "y": axes["y"]}, size, hide=hide
             )
     by_name = {about["name"]: title for title, about in run["charts"].items()}
-    by_name |= {slug(one[key]): one["chart"] for one in run["series"] for key in ("path", "name")}
+    by_name |= {
+        slug(series[key]): series["chart"] for series in run["series"] for key in ("path", "name")
+    }
     if base in by_name:
         return lambda size, hide: _over_steps(run, by_name[base], k=k, size=size)
-    for one in _things(run, k):
-        if one["kind"] == "curves" and base in (one["name"], slug(one["title"].split(":")[0])):
-            return lambda size, hide: _curves(one, size)
+    for thing in _things(run, k):
+        if thing["kind"] == "curves" and base in (
+            thing["name"],
+            slug(thing["title"].split(":")[0]),
+        ):
+            return lambda size, hide: _curves(thing, size)
     return None
 
 
 def _plot(run: Run, plot: Mapping[str, Any], size: Size, *, hide: Sequence[str]) -> Iterator[str]:
     def kept(kind: str) -> list[Any]:
-        parts = [run["things"][one] if isinstance(one, int) else one for one in plot[kind]]
+        parts = [run["things"][part] if isinstance(part, int) else part for part in plot[kind]]
         role = kind.rstrip("s")
-        return [one for one in parts if role not in hide and slug(one["name"]) not in hide]
+        return [part for part in parts if role not in hide and slug(part["name"]) not in hide]
 
     whole = kept("whole")
     seconds = kept("seconds")
@@ -115,17 +120,17 @@ def _plot(run: Run, plot: Mapping[str, Any], size: Size, *, hide: Sequence[str])
             f'<rect x="{low:.1f}" y="{size[1] - BOTTOM - 3}" width="{max(0.0, end - low):.1f}"'
             f' height="6" fill="{_ink(band["color"])}"/>'
         )
-    for one in whole:
-        yield from box.line(one)
-    for one in seconds:
-        yield from box.line(one, "6 5")
-    for one in kept("marks"):
-        y = None if one["y"] is None else min(one["y"], plot["y"]["high"])
-        yield from box.dots({"x": [one["x"]], "y": [y], "color": one["color"]}, 6)
+    for part in whole:
+        yield from box.line(part)
+    for part in seconds:
+        yield from box.line(part, "6 5")
+    for part in kept("marks"):
+        y = None if part["y"] is None else min(part["y"], plot["y"]["high"])
+        yield from box.dots({"x": [part["x"]], "y": [y], "color": part["color"]}, 6)
 
 
 def _over_steps(run: Run, chart: str, *, k: int, size: Size) -> Iterator[str]:
-    lines = [one for one in run["series"] if one["chart"] == chart]
+    lines = [line for line in run["series"] if line["chart"] == chart]
     about = run["charts"][chart]
     end = run["end"] if run["end"] is not None and k <= run["end"] else len(run["steps"]) - 1
     across = {"low": 0, "high": max(1, end), "ticks": [0, end], "words": ["0", f"{end} steps"]}
@@ -139,9 +144,9 @@ def _over_steps(run: Run, chart: str, *, k: int, size: Size) -> Iterator[str]:
     yield from box.axes("", head)
     yield box.upright(k)
     yield from _names(lines, size)
-    for one in lines:
-        values = [_plotted(value, one["log"]) for value in one["values"][: end + 1]]
-        yield from box.line({"x": range(len(values)), "y": values, "color": one["color"]})
+    for line in lines:
+        values = [_plotted(value, line["log"]) for value in line["values"][: end + 1]]
+        yield from box.line({"x": range(len(values)), "y": values, "color": line["color"]})
 
 
 def _plotted(value: float | None, log: bool) -> float | None:
@@ -154,14 +159,14 @@ def _curves(chart: Mapping[str, Any], size: Size) -> Iterator[str]:
     box = _Box(chart["x"], chart["y"], size)
     yield from box.axes(chart["xLabel"], chart["yLabel"] or chart["title"])
     yield from _names(chart["curves"], size)
-    for one in chart["curves"]:
-        if one["kind"] == "dots":
-            yield from box.dots(one, 2.5)
-        elif one["kind"] == "bars":
-            yield from box.bars(one)
+    for curve in chart["curves"]:
+        if curve["kind"] == "dots":
+            yield from box.dots(curve, 2.5)
+        elif curve["kind"] == "bars":
+            yield from box.bars(curve)
         else:
-            yield from box.line(one)
-        yield from map(box.upright, one["marks"])
+            yield from box.line(curve)
+        yield from map(box.upright, curve["marks"])
 
 
 def _names(curves: Sequence[Mapping[str, Any]], size: Size) -> Iterator[str]:
@@ -169,8 +174,8 @@ def _names(curves: Sequence[Mapping[str, Any]], size: Size) -> Iterator[str]:
     if len(curves) < 2:
         return
     words = "".join(
-        f'<tspan fill="{_ink(one["color"])}" dx="10">● </tspan><tspan>{escape(one["name"])}</tspan>'
-        for one in curves[:MOST_CURVES]
+        f'<tspan fill="{_ink(c["color"])}" dx="10">● </tspan><tspan>{escape(c["name"])}</tspan>'
+        for c in curves[:MOST_CURVES]
     )
     yield f'<text x="{size[0] - RIGHT}" y="{TOP - 2}" text-anchor="end">{words}</text>'
 
@@ -214,8 +219,8 @@ class _Box:
             anchor = "middle" if x + 4 * len(word) < self._wide else "end"
             place = x if anchor == "middle" else self._wide - 4
             yield f'<text x="{place:.1f}" y="{low}" text-anchor="{anchor}">{escape(word)}</text>'
-        said = f"{up}, over {across}" if across.strip() else up
-        yield f'<text x="4" y="12" fill="{INK}" font-weight="600">{escape(said)}</text>'
+        label = f"{up}, over {across}" if across.strip() else up
+        yield f'<text x="4" y="12" fill="{INK}" font-weight="600">{escape(label)}</text>'
 
     def upright(self, x: float) -> str:
         """Return a line from below to above at a value of x."""

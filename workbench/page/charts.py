@@ -32,10 +32,10 @@ def axes_of(
     return axis(float(x.min()), float(x.max()), whole=whole), value_axis(ys, most=4)
 
 
-def of_logarithms(label: str, found: Axis) -> tuple[str, Axis]:
+def of_logarithms(label: str, scale: Axis) -> tuple[str, Axis]:
     """Return what an axis is of, and the axis; logarithms are said as the numbers they are of."""
     name = label.removeprefix(LOGARITHM)
-    return (label, found) if name == label else (name.removeprefix("of "), of_powers(found))
+    return (label, scale) if name == label else (name.removeprefix("of "), of_powers(scale))
 
 
 def titled(curves: Sequence[Curve]) -> tuple[str, str]:
@@ -98,40 +98,40 @@ def series_of(series: Mapping[str, Series], start: int = 0) -> list[dict[str, An
     return [
         {
             "path": path,
-            "name": one.scalar.name,
-            "chart": one.scalar.chart,
-            "unit": one.scalar.unit,
-            "color": css_color(PALETTE[one.scalar.color]),
-            "log": one.scalar.log,
+            "name": line.scalar.name,
+            "chart": line.scalar.chart,
+            "unit": line.scalar.unit,
+            "color": css_color(PALETTE[line.scalar.color]),
+            "log": line.scalar.log,
             "values": [
-                float(value) if np.isfinite(value) else None for value in one.values[start:]
+                float(value) if np.isfinite(value) else None for value in line.values[start:]
             ],
         }
-        for path, one in series.items()
+        for path, line in series.items()
     ]
 
 
 def series_charts(series: Mapping[str, Series], known: int) -> dict[str, Any]:
     """Return the axes and words of every chart over steps."""
     charts: dict[str, list[Series]] = {}
-    for one in series.values():
-        charts.setdefault(one.scalar.chart, []).append(one)
+    for line in series.values():
+        charts.setdefault(line.scalar.chart, []).append(line)
     steps = np.arange(known, dtype=float)
-    found = {}
+    data = {}
     for chart, lines in charts.items():
         scalar = lines[0].scalar
         head, label = labelled(chart, scalar.unit)
-        values = [plotted_values(one.scalar, one.values) for one in lines]
+        values = [plotted_values(line.scalar, line.values) for line in lines]
         across, up = axes_of([steps], values, whole=True)
         up = of_powers(up) if scalar.log else up
-        found[chart] = {
+        data[chart] = {
             "name": slug(chart),
             "head": head,
             "yLabel": label,
             "x": asdict(across),
             "y": asdict(up),
         }
-    return found
+    return data
 
 
 def _curve(curve: Curve) -> dict[str, Any]:

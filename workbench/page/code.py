@@ -31,7 +31,10 @@ def moment_data(moment: Moment) -> dict[str, Any]:
     """
     lines, first = moment.source
     at = min(max(moment.line - first, 0), len(lines) - 1)
-    return {"line": at, "locals": [[one.name, one.shape, one.value] for one in moment.variables]}
+    return {
+        "line": at,
+        "locals": [[local.name, local.shape, local.value] for local in moment.variables],
+    }
 
 
 @functools.lru_cache(maxsize=64)

@@ -73,13 +73,13 @@ def course_document(
         (chapter, list(own))
         for chapter, own in groupby(cards, key=lambda card: chapter_of(card.chapter))
     ]
-    said = f'<p class="trouble" role="alert">{escape(trouble)}</p>' if trouble else ""
+    alert = f'<p class="trouble" role="alert">{escape(trouble)}</p>' if trouble else ""
     skip = (
         f'<a class="skip" href="#{chapters[0][0].address}">To the lessons</a>' if chapters else ""
     )
     return (
         f"{document_head(COURSE, WELCOME, root, styles=FRONT_STYLES, more=head)}"
-        f'<body class="front">{skip}{_hero(cards, said)}{_line(chapters)}<main id="course">'
+        f'<body class="front">{skip}{_hero(cards, alert)}{_line(chapters)}<main id="course">'
         + _loop(cards, root)
         + "".join(_chapter(chapter, own, titles) for chapter, own in chapters)
         + f"{_map(chapters)}</main>"
@@ -87,7 +87,7 @@ def course_document(
     )
 
 
-def _hero(cards: list[Card], said: str) -> str:
+def _hero(cards: list[Card], alert: str) -> str:
     begin = ""
     if cards:
         address, title = escape(cards[0].address), escape(cards[0].title)
@@ -98,7 +98,7 @@ def _hero(cards: list[Card], said: str) -> str:
     return (
         '<header class="hero"><div class="top"><p class="brand">Geometry workbench</p><button'
         ' type="button" id="theme" title="Light or dark (T)" aria-label="Light or'
-        f' dark">◐</button></div><div class="words">{said}<h1>Geometry you can take in your'
+        f' dark">◐</button></div><div class="words">{alert}<h1>Geometry you can take in your'
         ' hands</h1><p class="lead">Lay <b class="source">orange</b> on <b'
         ' class="target">blue</b>: drag it to move it, drag its ring to turn it. Six numbers are'
         f" all that a computer knows of what you do.</p>{begin}</div>{toy_html()}</header>"
@@ -110,7 +110,7 @@ def _loop(cards: list[Card], root: str) -> str:
     """Return a run as a loop, which the page's script shows, light or dark, and starts where the
     reader allows motion.
     """
-    card = next((one for one in cards if one.name == LOOP_OF), None)
+    card = next((card for card in cards if card.name == LOOP_OF), None)
     if card is None:
         return ""
     light, dark = (" ".join(root + name for name in names) for names in (FRONT_LIGHT, FRONT_DARK))

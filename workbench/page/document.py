@@ -178,7 +178,7 @@ def _article(
     """Return the text of the workbench; beside a story its experiments and exercises come first."""
     cards = {question["name"]: _question(question) for question in data["questions"]}
     placed = set(QUESTION.findall(article))
-    article = QUESTION.sub(lambda found: cards[found[1]], article)
+    article = QUESTION.sub(lambda match: cards[match[1]], article)
     questions = "".join(card for name, card in cards.items() if name not in placed)
     presets = "".join(
         f'<li><button type="button" data-run="{escape(preset["name"])}"'

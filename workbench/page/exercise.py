@@ -43,7 +43,7 @@ def watched_html(
         if run == "default"
         else f"The experiment “{lesson.preset(run).title}”"
     )
-    there = (
+    link = (
         f'<a class="run" href="{escape(address(run))}" data-run="{escape(run)}">{escape(title)}</a>'
     )
     name = escape(exercise.name)
@@ -52,27 +52,27 @@ def watched_html(
         f" hidden><code>{escape(file)}</code> drives this lesson; save it, and the run is new."
         ' Where the two differ, the run of the reference is the faint ghost.</p><p class="mistake"'
         f' data-called="false" hidden>This run never calls <code>{name}</code>, so it looks the'
-        f' same whatever the function does. {there} calls it.</p><p><button type="button"'
+        f' same whatever the function does. {link} calls it.</p><p><button type="button"'
         ' id="difference" disabled>Go to the first difference</button></p><div class="report"'
         f' role="status"></div>{_task(exercise, alone=True)}</section>'
     )
 
 
-def report_data(said: Report | str, printed: str = "") -> dict[str, Any]:
+def report_data(report: Report | str, printed: str = "") -> dict[str, Any]:
     """Return what the checks found of a student's file, in the words of the terminal; text where
     they found nothing.
 
     Args:
-        said: The checks' report, or one line.
+        report: The checks' report, or one line.
         printed: What the function printed in the run that is shown.
     """
     ran = {"ran": "\n".join(shown(printed))}
-    if isinstance(said, str):
-        return {"said": said, **ran}
+    if isinstance(report, str):
+        return {"said": report, **ran}
     return {
         **ran,
-        "said": counted(said),
-        "mistake": "" if said.mistake is None else said.mistake.sentence,
+        "said": counted(report),
+        "mistake": "" if report.mistake is None else report.mistake.sentence,
         "checks": [
             {
                 "mark": MARKS[outcome.verdict.word],
@@ -81,9 +81,9 @@ def report_data(said: Report | str, printed: str = "") -> dict[str, Any]:
                 "points": f"{outcome.points:g}/{outcome.check.points:g}",
                 "message": outcome.verdict.message,
             }
-            for outcome in said.outcomes
+            for outcome in report.outcomes
         ],
-        "printed": "\n".join(shown(said.printed)),
+        "printed": "\n".join(shown(report.printed)),
     }
 
 

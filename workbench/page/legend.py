@@ -49,11 +49,11 @@ def legend_entries(scene: Scene) -> dict[Entry, list[str]]:
     """Return the legend of a scene: every named thing with its colour, every colour map with its
     bar; each with the paths of what it is about.
     """
-    found: dict[Entry, list[str]] = {}
+    entries: dict[Entry, list[str]] = {}
     for path, primitive in scene.items():
         for entry in _entries(primitive) if in_space(primitive) else ():
-            found.setdefault(entry, []).append(path)
-    return found
+            entries.setdefault(entry, []).append(path)
+    return entries
 
 
 def legend_html(scene: Scene, grid: float | None) -> str:
@@ -61,13 +61,13 @@ def legend_html(scene: Scene, grid: float | None) -> str:
 
     Each row names the paths of what it is about, so that a page can tell which thing is meant.
     """
-    found = [
+    rows = [
         f'<span data-things="{escape("|".join(paths))}">{_html(entry)}</span>'
         for entry, paths in legend_entries(scene).items()
     ]
     if grid is not None:
-        found.append(f"<span>grid {grid:g} m</span>")
-    return f'<div class="wb-legend">{"".join(found)}</div>' if found else ""
+        rows.append(f"<span>grid {grid:g} m</span>")
+    return f'<div class="wb-legend">{"".join(rows)}</div>' if rows else ""
 
 
 def _entries(primitive: Primitive) -> list[Entry]:

@@ -28,10 +28,10 @@ def depths(needs: Mapping[str, Sequence[str]]) -> dict[str, int]:
             are passed over, and so is a need that stands later in the course (nothing can wait for
             itself).
     """
-    found: dict[str, int] = {}
+    depth: dict[str, int] = {}
     for name, wanted in needs.items():
-        found[name] = 1 + max((found[one] for one in wanted if one in found), default=-1)
-    return found
+        depth[name] = 1 + max((depth[need] for need in wanted if need in depth), default=-1)
+    return depth
 
 
 def rows(
@@ -49,14 +49,14 @@ def rows(
     for chapter, names in chapters.items():
         taken: set[tuple[int, int]] = set()
         for name in sorted(names, key=lambda name: column[name]):
-            behind = [one for one in needs[name] if column.get(one, column[name]) < column[name]]
-            first = min((column[one] for one in behind), default=column[name] - 1)
+            behind = [need for need in needs[name] if column.get(need, column[name]) < column[name]]
+            first = min((column[need] for need in behind), default=column[name] - 1)
             cells = range(first + 1, column[name] + 1)  # its own, and those that its lines cross
-            same = [row[one] for one in behind if one in names]
+            same = [row[need] for need in behind if need in names]
             free = (
                 at
                 for at in [*same, *range(top, top + len(names))]
-                if taken.isdisjoint((one, at) for one in cells)
+                if taken.isdisjoint((cell, at) for cell in cells)
             )
             row[name] = next(free)
             taken.add((column[name], row[name]))
@@ -118,17 +118,17 @@ def _lines(
     tracks: dict[int, list[str]] = {}
     drawn = []
     for name, wanted in needs.items():
-        for one in [one for one in wanted if column.get(one, column[name]) < column[name]]:
-            gap = column[one] + 1
+        for need in [need for need in wanted if column.get(need, column[name]) < column[name]]:
+            gap = column[need] + 1
             used = tracks.setdefault(gap, [])
-            if one not in used and y[one] != y[name]:
-                used.append(one)
-            track = used.index(one) % TRACKS if one in used else 0
+            if need not in used and y[need] != y[name]:
+                used.append(need)
+            track = used.index(need) % TRACKS if need in used else 0
             turn = LEFT + gap * (WIDTH + ACROSS) - ACROSS + 8 + 6 * track
             path = _path(
-                (x[one] + WIDTH, y[one] + HEIGHT // 2), turn, (x[name], y[name] + HEIGHT // 2)
+                (x[need] + WIDTH, y[need] + HEIGHT // 2), turn, (x[name], y[name] + HEIGHT // 2)
             )
-            drawn.append(f'<path data-way="{escape(one)} {escape(name)}" d="{path}"/>')
+            drawn.append(f'<path data-way="{escape(need)} {escape(name)}" d="{path}"/>')
     return drawn
 
 

@@ -59,11 +59,11 @@ def plot_of(parts: Sequence[Curve], keep: Callable[[Curve], int]) -> dict[str, A
         "marks": [_mark(curve) for curve in by_part["mark"]],
         "bands": [
             {
-                "name": one.name,
-                "color": one.color,
-                **dict(zip(("low", "high"), numbers(one.x), strict=True)),
+                "name": band.name,
+                "color": band.color,
+                **dict(zip(("low", "high"), numbers(band.x), strict=True)),
             }
-            for one in by_part["band"]
+            for band in by_part["band"]
         ],
     }
 
@@ -82,21 +82,21 @@ def x_axis(chart: Chart, parts: Sequence[Curve], ends: tuple[float, float] | Non
     if ends is None:
         x = np.concatenate([curve.x for curve in parts])
         ends = float(x.min()), float(x.max())
-    found = axis(*ends)
+    scale = axis(*ends)
     if chart.x_unit in ("deg", "°"):
-        return _of_degrees(found)
+        return _of_degrees(scale)
     unit = f" {chart.x_unit}" if chart.x_unit else ""
-    return replace(found, words=tuple(f"{word}{unit}" for word in found.words))
+    return replace(scale, words=tuple(f"{word}{unit}" for word in scale.words))
 
 
-def _of_degrees(found: Axis) -> Axis:
-    span = found.high - found.low
-    places = ticks(found.low, found.high)
+def _of_degrees(scale: Axis) -> Axis:
+    span = scale.high - scale.low
+    places = ticks(scale.low, scale.high)
     if span > 60.0:
         step = next((step for step in DEGREES if span / step <= 5.0), 180.0)
-        places = np.arange(np.ceil(found.low / step), np.floor(found.high / step) + 1) * step
+        places = np.arange(np.ceil(scale.low / step), np.floor(scale.high / step) + 1) * step
     return replace(
-        found, ticks=tuple(places.tolist()), words=tuple(f"{number(x)}°" for x in places)
+        scale, ticks=tuple(places.tolist()), words=tuple(f"{number(x)}°" for x in places)
     )
 
 
@@ -118,10 +118,10 @@ def _y_axis(
         return axis(*chart.y_range, TICKS)
     shown = [*by_part["whole"], *by_part["mark"]] or by_part["second"]
     low, high = near or (-np.inf, np.inf)
-    values = [one.y[(one.x >= low) & (one.x <= high)].astype(float) for one in shown]
+    values = [curve.y[(curve.x >= low) & (curve.x <= high)].astype(float) for curve in shown]
     if near is None:
         return value_axis(values, most=TICKS)
-    known = np.concatenate([np.zeros(0), *(one[np.isfinite(one)] for one in values)])
+    known = np.concatenate([np.zeros(0), *(y[np.isfinite(y)] for y in values)])
     if not len(known):
         return value_axis(values, most=TICKS)
     room = HEADROOM * (float(known.max() - known.min()) or 1.0)

@@ -143,7 +143,7 @@ class Steps:
 
     def _shown(self, scene: Scene) -> list[int]:
         """Return the numbers of what stands beside a scene: pictures and tables, then charts."""
-        found: list[int] = []
+        numbers: list[int] = []
         charts: dict[str, list[Curve]] = {}
         plots: dict[str, list[Curve]] = {}
         for primitive in scene.values():
@@ -152,28 +152,28 @@ class Steps:
                 where.setdefault(primitive.chart, []).append(primitive)
             elif isinstance(primitive, Table):
                 text = table_html(primitive)
-                found.append(self._number({"kind": "html", "html": text}, text))
+                numbers.append(self._number({"kind": "html", "html": text}, text))
             elif isinstance(primitive, Picture) and not in_space(primitive):
-                found.append(self._picture(primitive))
+                numbers.append(self._picture(primitive))
         for curves in charts.values():
             drawn = chart_of(curves)
-            found.append(self._number(drawn, repr(drawn)))
+            numbers.append(self._number(drawn, repr(drawn)))
         for parts in plots.values():
             drawn = plot_of(parts, self._line)
-            found.append(self._number(drawn, repr(drawn)))
-        return found
+            numbers.append(self._number(drawn, repr(drawn)))
+        return numbers
 
     def wanted(self, step: Mapping[str, Any]) -> list[int]:
         """Return the numbers of all things that a step needs, those that its things name before
         these.
         """
-        found: list[int] = []
+        numbers: list[int] = []
         for n in step["shown"]:
             thing = self.things[n]
             if isinstance(thing, dict) and thing["kind"] == "plot":
-                found += [*thing["whole"], *thing["seconds"]]
-            found.append(n)
-        return [*found, step["legend"]]
+                numbers += [*thing["whole"], *thing["seconds"]]
+            numbers.append(n)
+        return [*numbers, step["legend"]]
 
     def places(self) -> list[tuple[int, str]]:
         """Return the steps known so far that have a name for the slider: `start`, those that
@@ -188,12 +188,12 @@ class Steps:
         end = self.end()
         if end is None and timeline.finished:
             end = len(timeline) - 1
-        found = (
+        places = (
             dict([(0, "start"), *named])
             if named and named[0][0] == 0
             else {0: "start", **dict(named)}
         )
-        return sorted((found | ({} if end is None else {end: "stop"})).items())
+        return sorted((places | ({} if end is None else {end: "stop"})).items())
 
     def _picture(self, picture: Picture) -> int:
         """Return the number of a picture: one with the arrays of an earlier step is not looked at

@@ -50,7 +50,7 @@ def card(lesson: Lesson, timelines: Timelines | None = None) -> bytes:
 def course_card(pictures: Iterable[bytes]) -> bytes:
     """Return small pictures side by side as one PNG of CARD's size: the first twelve, in rows."""
     chosen = list(itertools.islice(pictures, 12))
-    across, down = next(one for one in GRIDS if one[0] * one[1] >= len(chosen))
+    across, down = next(grid for grid in GRIDS if grid[0] * grid[1] >= len(chosen))
     wide = CARD[0] // across
     high = CARD[1] // down
     sheet = Image.new("RGB", CARD, "white")
@@ -89,7 +89,7 @@ def _story_begins(lesson: Lesson) -> tuple[Any, int | None, View] | None:
         return None
     place = story.scenes[0].beats[0]
     named = [*lesson.presets, *lesson.questions]
-    params = next((one.params for one in named if one.name == place.run), lesson.params())
+    params = next((run.params for run in named if run.name == place.run), lesson.params())
     step = -1 if place.step == "stop" else int(place.step)
     return params, step, views_of(lesson).get(place.view) or lesson.view_of(params)
 
@@ -130,7 +130,7 @@ def still_of(scene: Scene, view: View, size: tuple[int, int]) -> bytes:
 def drawn(scene: Scene, view: View, size: tuple[int, int]) -> Image.Image:
     """Return a scene as an image with a transparent ground, as large as asked for."""
     shapes = shapes_of(scene)
-    lens = framed([[one for one in shapes if not isinstance(one, Word)]], view, size)
+    lens = framed([[shape for shape in shapes if not isinstance(shape, Word)]], view, size)
     sheet = painted(shapes, lens, scale=size[0] / PAGE)
     if not shapes:
         _paste_flat(sheet, scene)
@@ -139,7 +139,7 @@ def drawn(scene: Scene, view: View, size: tuple[int, int]) -> Image.Image:
 
 def _paste_flat(sheet: Image.Image, scene: Scene) -> None:
     """Lay a picture from beside the scene over the sheet, where nothing stands in space."""
-    pictures = [one for one in scene.values() if isinstance(one, Picture)]
+    pictures = [primitive for primitive in scene.values() if isinstance(primitive, Picture)]
     if pictures:
         image = Image.fromarray(np.ascontiguousarray(pictures[0].rgb())).convert("RGBA")
         image.thumbnail(sheet.size)

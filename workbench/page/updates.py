@@ -44,7 +44,7 @@ class RunUpdates:
         """
         timeline = self.timeline
         lesson = timeline.lesson
-        said = {
+        told = {
             "name": run_name(lesson, params),
             "params": values_of(params),
             "known": known,
@@ -56,12 +56,12 @@ class RunUpdates:
             "query": links.write(links.Place(lesson, params)),
             **more,
         }
-        if said == self._told:
+        if told == self._told:
             return None
-        new: dict[str, Any] = {"tell": "run", "run": self.number, **said}
+        new: dict[str, Any] = {"tell": "run", "run": self.number, **told}
         if self._told is None or known > self._told_steps:
             new |= self.steps.series(self._told_steps, known)
-        self._told = said
+        self._told = told
         self._told_steps = known
         return new
 

@@ -55,16 +55,16 @@ def frames_of(first: int, last: int, seconds: float) -> list[Frame]:
         chosen = np.linspace(0, len(steps) - 1, total).round().astype(int)
         steps = [steps[i] for i in chosen.tolist()]
     ends = [round(total * (i + 1) / len(steps)) for i in range(len(steps))]
-    found = []
+    frames = []
     begin = 0
     for i, (step, end) in enumerate(zip(steps, ends, strict=True)):
         room = end - begin
         moves = min(round(RATE * GLIDE), math.floor(MOST_GLIDE * room)) if i else 0
         shares = [(j + 1) / (moves + 1) for j in range(moves)]
-        found += [Frame(before=steps[i - 1], step=step, share=eased(one)) for one in shares]
-        found.append(Frame(before=step, step=step, ticks=room - moves))
+        frames += [Frame(before=steps[i - 1], step=step, share=eased(share)) for share in shares]
+        frames.append(Frame(before=step, step=step, ticks=room - moves))
         begin = end
-    return found
+    return frames
 
 
 def eased(share: float) -> float:
@@ -76,7 +76,7 @@ def between(before: Scene, after: Scene, share: float) -> Scene:
     """Return the scene on the way from one step to the next: what only moves rigidly is on its
     way, all else is as in the next.
     """
-    return {path: _between(before.get(path), one, share) for path, one in after.items()}
+    return {path: _between(before.get(path), primitive, share) for path, primitive in after.items()}
 
 
 def _between(old: Primitive | None, new: Primitive, share: float) -> Primitive:
@@ -132,18 +132,21 @@ def film_bytes(shown: Iterable[Shown], kind: str) -> bytes:
 def _palette(pictures: Sequence[Image.Image]) -> Image.Image:
     """Return one palette for all pictures, of some of them side by side."""
     chosen = pictures[:: max(1, len(pictures) // SAMPLES)]
-    small = [one.resize((max(1, one.width // 2), max(1, one.height // 2)), 0) for one in chosen]
-    sheet = Image.new("RGB", (small[0].width, sum(one.height for one in small)))
+    small = [
+        picture.resize((max(1, picture.width // 2), max(1, picture.height // 2)), 0)
+        for picture in chosen
+    ]
+    sheet = Image.new("RGB", (small[0].width, sum(picture.height for picture in small)))
     top = 0
-    for one in small:
-        sheet.paste(one, (0, top))
-        top += one.height
-    found = sheet.quantize(COLORS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-    colors = np.array(found.getpalette()).reshape(-1, 3)
+    for picture in small:
+        sheet.paste(picture, (0, top))
+        top += picture.height
+    palette = sheet.quantize(COLORS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    colors = np.array(palette.getpalette()).reshape(-1, 3)
     ground = np.array(sheet.getpixel((0, 0)))
     colors[np.abs(colors - ground).sum(1).argmin()] = ground  # the largest plain part, exactly
-    found.putpalette(colors.ravel().tolist())
-    return found
+    palette.putpalette(colors.ravel().tolist())
+    return palette
 
 
 def _mp4(shown: Iterable[Shown]) -> bytes:

@@ -40,25 +40,27 @@ class _Pen:
         self._words: list[tuple[Any, float, float]] = []
 
     def group(self, group: ElementTree.Element, x: float, y: float) -> None:
-        for one in group:
-            if one.tag == "g":
-                dx, dy = _shift(one.get("transform", ""))
-                self.group(one, x + dx, y + dy)
-            elif one.tag == "text":
-                self._words.append((one, x, y))
-            elif one.tag == "linearGradient":
-                self._ramps[one.get("id", "")] = [stop.get("stop-color", "") for stop in one]
+        for element in group:
+            if element.tag == "g":
+                dx, dy = _shift(element.get("transform", ""))
+                self.group(element, x + dx, y + dy)
+            elif element.tag == "text":
+                self._words.append((element, x, y))
+            elif element.tag == "linearGradient":
+                self._ramps[element.get("id", "")] = [
+                    stop.get("stop-color", "") for stop in element
+                ]
             else:
-                self._shape(one, x, y)
+                self._shape(element, x, y)
 
     def finish(self) -> None:
-        for one, x, y in self._words:
-            self._text(one, x, y)
+        for element, x, y in self._words:
+            self._text(element, x, y)
 
-    def _shape(self, one: ElementTree.Element, x: float, y: float) -> None:
+    def _shape(self, element: ElementTree.Element, x: float, y: float) -> None:
         """Draw one shape in the part of the picture that it needs."""
-        points = _outline(one) + np.array([x, y])
-        wide = float(one.get("stroke-width", 1)) * (one.get("stroke", "none") != "none")
+        points = _outline(element) + np.array([x, y])
+        wide = float(element.get("stroke-width", 1)) * (element.get("stroke", "none") != "none")
         low = np.floor((points.min(0) - wide / 2) * self._scale - 1).astype(int)
         high = np.ceil((points.max(0) + wide / 2) * self._scale + 1).astype(int)
         low = np.clip(low, 0, self._image.size)
@@ -66,16 +68,16 @@ class _Pen:
         size = high - low
         if (size <= 0).any():
             return
-        fill = one.get("fill", "none")
+        fill = element.get("fill", "none")
         if fill.startswith("url("):
             self._ramp(self._ramps[fill[5:-1]], points)
             return
         mask = Image.new("L", (FINER * int(size[0]), FINER * int(size[1])))
         place = FINER * (points * self._scale - low)
-        _drawn(ImageDraw.Draw(mask), one, place, scale=FINER * self._scale)
-        opacity = float(one.get("fill-opacity", 1)) * float(one.get("opacity", 1))
+        _drawn(ImageDraw.Draw(mask), element, place, scale=FINER * self._scale)
+        opacity = float(element.get("fill-opacity", 1)) * float(element.get("opacity", 1))
         small = mask.reduce(FINER).point([round(opacity * i) for i in range(256)])
-        color = ImageColor.getrgb(fill if wide == 0 else one.get("stroke", fill))
+        color = ImageColor.getrgb(fill if wide == 0 else element.get("stroke", fill))
         self._image.paste(color, tuple(low.tolist()), small)
 
     def _ramp(self, colors: list[str], points: np.ndarray) -> None:
@@ -89,19 +91,19 @@ class _Pen:
         )
         self._image.paste(Image.fromarray(np.ascontiguousarray(rows)), (left, top))
 
-    def _text(self, one: ElementTree.Element, x: float, y: float) -> None:
-        size = float(one.get("font-size", SIZE))
-        weight = int(one.get("font-weight", letters.PLAIN))
-        ink = one.get("fill", "#000000")
-        parts = [(one.text or "", ink, 0.0)]
-        for part in one:
+    def _text(self, element: ElementTree.Element, x: float, y: float) -> None:
+        size = float(element.get("font-size", SIZE))
+        weight = int(element.get("font-weight", letters.PLAIN))
+        ink = element.get("fill", "#000000")
+        parts = [(element.text or "", ink, 0.0)]
+        for part in element:
             parts.append((part.text or "", part.get("fill", ink), float(part.get("dx", 0))))
             parts.append((part.tail or "", ink, 0.0))
         parts = [part for part in parts if part[0]]
         wide = sum(letters.width(text, size, weight) + dx for text, _, dx in parts)
-        share = {"middle": 0.5, "end": 1.0}.get(one.get("text-anchor", ""), 0.0)
-        left = x + float(one.get("x", 0)) - share * wide
-        base = y + float(one.get("y", 0))
+        share = {"middle": 0.5, "end": 1.0}.get(element.get("text-anchor", ""), 0.0)
+        left = x + float(element.get("x", 0)) - share * wide
+        base = y + float(element.get("y", 0))
         for text, color, dx in parts:
             left += dx
             letters.write(
@@ -116,41 +118,41 @@ class _Pen:
 
 
 def _shift(transform: str) -> tuple[float, float]:
-    found = re.fullmatch(r"translate\((\S+) (\S+)\)", transform)
-    return (float(found[1]), float(found[2])) if found else (0.0, 0.0)
+    match = re.fullmatch(r"translate\((\S+) (\S+)\)", transform)
+    return (float(match[1]), float(match[2])) if match else (0.0, 0.0)
 
 
-def _outline(one: ElementTree.Element) -> np.ndarray:
+def _outline(element: ElementTree.Element) -> np.ndarray:
     """Return the points (n, 2) of a shape; two corners of what is round or a rectangle."""
 
     def number(name: str) -> float:
-        return float(one.get(name, 0))
+        return float(element.get(name, 0))
 
-    if one.tag == "line":
+    if element.tag == "line":
         return np.array([[number("x1"), number("y1")], [number("x2"), number("y2")]])
-    if one.tag == "polyline":
-        return np.array([pair.split(",") for pair in one.get("points", "").split()], float)
-    if one.tag == "circle":
+    if element.tag == "polyline":
+        return np.array([pair.split(",") for pair in element.get("points", "").split()], float)
+    if element.tag == "circle":
         center = np.array([number("cx"), number("cy")])
         return np.stack([center - number("r"), center + number("r")])
-    if one.tag == "rect":
+    if element.tag == "rect":
         corner = np.array([number("x"), number("y")])
         return np.stack([corner, corner + np.array([number("width"), number("height")])])
-    raise ValueError(f"a picture has no <{one.tag}>")
+    raise ValueError(f"a picture has no <{element.tag}>")
 
 
-def _drawn(draw: Any, one: ElementTree.Element, place: np.ndarray, *, scale: float) -> None:
-    if one.tag == "rect":
+def _drawn(draw: Any, element: ElementTree.Element, place: np.ndarray, *, scale: float) -> None:
+    if element.tag == "rect":
         draw.rectangle(place.ravel().tolist(), fill=255)
         return
-    if one.tag == "circle":
+    if element.tag == "circle":
         draw.ellipse(place.ravel().tolist(), fill=255)
         return
-    wide = max(1, round(float(one.get("stroke-width", 1)) * scale))
-    dashes = [float(n) * scale for n in one.get("stroke-dasharray", "").split()]
+    wide = max(1, round(float(element.get("stroke-width", 1)) * scale))
+    dashes = [float(n) * scale for n in element.get("stroke-dasharray", "").split()]
     for piece in _dashed(place, *dashes) if dashes else [place]:
         draw.line([tuple(p) for p in piece.tolist()], fill=255, width=wide, joint="curve")
-        if one.get("stroke-linecap") == "round":
+        if element.get("stroke-linecap") == "round":
             for u, v in (piece[0], piece[-1]):
                 draw.ellipse([u - wide / 2, v - wide / 2, u + wide / 2, v + wide / 2], fill=255)
 
@@ -160,10 +162,10 @@ def _dashed(place: np.ndarray, on: float, off: float) -> list[np.ndarray]:
     steps = np.linalg.norm(np.diff(place, axis=0), axis=1)
     at = np.concatenate([[0.0], np.cumsum(steps)])
     starts = np.arange(0.0, at[-1], on + off)
-    found = []
+    dashes = []
     for start in starts:
         stop = min(start + on, at[-1])
         inner = at[(at > start) & (at < stop)]
         along = np.concatenate([[start], inner, [stop]])
-        found.append(np.column_stack([np.interp(along, at, place[:, i]) for i in range(2)]))
-    return found
+        dashes.append(np.column_stack([np.interp(along, at, place[:, i]) for i in range(2)]))
+    return dashes

@@ -26,14 +26,14 @@ def labels_svg(words: Iterable[Word], lens: Lens, theme: Theme) -> str:
     inwards.
     """
     width, height = lens.size
-    found = []
+    visible = []
     for word in words:
         uv, depth = lens.seen(word.p)
         if depth > 0 and 0 <= uv[0] <= width and 0 <= uv[1] <= height:
-            found.append((float(depth), float(uv[0]), float(uv[1]), word))
+            visible.append((float(depth), float(uv[0]), float(uv[1]), word))
     taken: list[_Box] = []
     parts = []
-    for _, u, v, word in sorted(found, key=lambda one: one[0]):
+    for _, u, v, word in sorted(visible, key=lambda item: item[0]):
         wide = letters.width(word.text, SIZE, letters.BOLD) + 2 * EDGE
         left = min(max(u - wide / 2, 0.0), max(0.0, width - wide))
         top = v - LINE / 2 if word.small else v - LINE - 2

@@ -30,14 +30,14 @@ def _files() -> tuple[tuple[bytes, frozenset[int]], ...]:
     package = importlib.util.find_spec("ziamath")
     origin = None if package is None else package.origin
     others = [] if origin is None else sorted(Path(origin).parent.rglob("STIXTwoMath*.ttf"))
-    found = []
+    fonts = []
     for path in (STATIC / SERIF, *others[:1]):
         font = TTFont(path)
         font.flavor = None
         file = io.BytesIO()
         font.save(file, reorderTables=None)
-        found.append((file.getvalue(), frozenset(font.getBestCmap() or ())))
-    return tuple(found)
+        fonts.append((file.getvalue(), frozenset(font.getBestCmap() or ())))
+    return tuple(fonts)
 
 
 @functools.lru_cache(64)
@@ -93,13 +93,13 @@ def write(
 
 def lines(text: str, size: float, room: float, *, most: int = 6) -> list[str]:
     """Return a text in lines that fit a width; beyond `most` of them it ends."""
-    found = [""]
+    rows = [""]
     for word in text.split():
-        longer = f"{found[-1]} {word}".strip()
-        if found[-1] and width(longer, size) > room:
-            found.append(word)
+        longer = f"{rows[-1]} {word}".strip()
+        if rows[-1] and width(longer, size) > room:
+            rows.append(word)
         else:
-            found[-1] = longer
-    if len(found) > most:
-        found = [*found[: most - 1], f"{found[most - 1]} …"]
-    return [line for line in found if line]
+            rows[-1] = longer
+    if len(rows) > most:
+        rows = [*rows[: most - 1], f"{rows[most - 1]} …"]
+    return [line for line in rows if line]

@@ -133,7 +133,7 @@ def _shown(
     view = timeline.lesson.view_of(timeline.params)
     lens = framed([shapes_of(timeline[k].scene) for k in steps], view, style.scene_size)
     lines = max(caption_lines(moments[k].caption, style) for k in steps)
-    high = max(height_of(replace(one, lines=lines), style) for one in moments.values())
+    high = max(height_of(replace(moment, lines=lines), style) for moment in moments.values())
     for i, frame in enumerate(frames):
         scene = between(timeline[frame.before].scene, timeline[frame.step].scene, frame.share)
         moment = replace(moments[frame.step], scene=scene, lens=lens, lines=lines, height=high)
@@ -170,8 +170,8 @@ def scene_files(
             runs[place.run] = WholeRun.of(lesson, names.params_of(place.run), progress)
         run = runs[place.run]
         moment = moment_of(lesson, place, run.timeline, run=run.data, style=style)
-        said = " ".join(filter(None, (_sentence(still.title), moment.caption)))
-        slide = replace(moment, caption=said, tone="info")
+        caption = " ".join(filter(None, (_sentence(still.title), moment.caption)))
+        slide = replace(moment, caption=caption, tone="info")
         pictures.append(svg_of(slide, style) if kind == "svg" else png_of(slide, style))
         progress("drawn", i + 1, len(stills))
     try:

@@ -111,7 +111,7 @@ def image_of(moment: Moment, style: Style) -> Image.Image:
     shapes = _shapes(moment)
     scene = painted(shapes, lens, scale=style.scale, dark=style.dark)
     image.paste(scene, (0, 0), scene)
-    if not any(in_space(one) for one in moment.scene.values()):
+    if not any(in_space(primitive) for primitive in moment.scene.values()):
         _lay_flat(image, moment.scene, lens.size)
     inked(image, _words(shapes, moment.lens, colors) + below, style.scale)
     return image
@@ -164,12 +164,12 @@ def _shapes(moment: Moment) -> list[Shape]:
 
 
 def _words(shapes: Sequence[Shape], lens: Lens, colors: Theme) -> str:
-    return labels_svg([one for one in shapes if isinstance(one, Word)], lens, colors)
+    return labels_svg([shape for shape in shapes if isinstance(shape, Word)], lens, colors)
 
 
 def _lay_flat(image: Image.Image, scene: Scene, size: tuple[int, int]) -> None:
     """Lay a picture from beside a scene where nothing stands in space."""
-    flat = next((one for one in scene.values() if isinstance(one, Picture)), None)
+    flat = next((primitive for primitive in scene.values() if isinstance(primitive, Picture)), None)
     if flat is not None:
         pixels = Image.fromarray(np.ascontiguousarray(flat.rgb()))
         share = 0.9 * min(size[0] / pixels.width, size[1] / pixels.height)
@@ -217,13 +217,13 @@ def caption_lines(text: str, style: Style) -> int:
 def _caption(moment: Moment, wide: int, top: float, *, colors: Theme) -> tuple[str, float]:
     tones = {"good": colors.good, "wrong": colors.wrong}
     ink = tones.get(moment.tone, colors.ink)
-    found = letters.lines(moment.caption, CAPTION, wide - 2 * EDGE)
+    lines = letters.lines(moment.caption, CAPTION, wide - 2 * EDGE)
     text = "".join(
         f'<text x="{EDGE:g}" y="{top + 20 + 22 * i:g}" font-size="{CAPTION:g}"'
         f' fill="{ink}">{escape(line)}</text>'
-        for i, line in enumerate(found)
+        for i, line in enumerate(lines)
     )
-    kept = max(len(found), moment.lines or 0)
+    kept = max(len(lines), moment.lines or 0)
     return f'<g class="caption">{text}</g>', top + 22 * kept + 6
 
 

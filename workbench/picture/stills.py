@@ -122,7 +122,7 @@ def moment_of(
     view: View = views_of(lesson).get(place.view) or lesson.view_of(timeline.params)
     step = timeline[k]
     hidden = {path for path in step.scene for hid in place.hide if _is_under(path, hid)}
-    scene = {path: one for path, one in step.scene.items() if path not in hidden}
+    scene = {path: primitive for path, primitive in step.scene.items() if path not in hidden}
     told = bool(place.chart) or has_story(lesson)
     names = place.chart.split(",") if told else [telling_chart(run, k, lesson.telling)]
     return Moment(

@@ -35,8 +35,8 @@ class Theme:
             chart_svg.INK: self.ink,
             chart_svg.MARK: self.mark,
         }
-        found = "|".join(map(re.escape, other))
-        return re.sub(found, lambda one: other[one[0]], svg)
+        pattern = "|".join(map(re.escape, other))
+        return re.sub(pattern, lambda match: other[match[0]], svg)
 
 
 @functools.cache
@@ -52,4 +52,4 @@ def theme(*, dark: bool) -> Theme:
 
 
 def _long(color: str) -> str:
-    return color if len(color) == 7 else "#" + "".join(2 * one for one in color[1:])
+    return color if len(color) == 7 else "#" + "".join(2 * digit for digit in color[1:])

@@ -21,7 +21,7 @@ def scene_svg(shapes: Sequence[Shape], lens: Lens, *, scale: float, dark: bool) 
     """Return the surfaces, and the points and lines from far to near, as the inside of an SVG of
     the lens's size; words are left out, and so is what a surface hides.
     """
-    surfaces = [one for one in shapes if isinstance(one, Surface | Sheet)]
+    surfaces = [shape for shape in shapes if isinstance(shape, Surface | Sheet)]
     finer = lens.scaled(FINER * scale)
     depth = np.empty(finer.size[::-1], np.float32)
     wide, high = (-(-side // FINER) for side in finer.size)
@@ -40,14 +40,14 @@ def scene_svg(shapes: Sequence[Shape], lens: Lens, *, scale: float, dark: bool) 
         )
     ground = np.array(ImageColor.getrgb(theme(dark=dark).paper))
     groups: dict[str, list[tuple[float, str]]] = {"grid": [], "vectors": []}
-    for one in shapes:
-        where = groups["vectors" if one.framed else "grid"]
-        if isinstance(one, Discs):
-            where += _circles(one, depth, lens=lens, ground=ground)
-        elif isinstance(one, Strokes):
-            where += _lines(one, depth, lens=lens, ground=ground)
+    for shape in shapes:
+        where = groups["vectors" if shape.framed else "grid"]
+        if isinstance(shape, Discs):
+            where += _circles(shape, depth, lens=lens, ground=ground)
+        elif isinstance(shape, Strokes):
+            where += _lines(shape, depth, lens=lens, ground=ground)
     drawn = (
-        f'<g class="{name}">{"".join(svg for _, svg in sorted(ones, key=lambda one: -one[0]))}</g>'
+        f'<g class="{name}">{"".join(svg for _, svg in sorted(ones, key=lambda row: -row[0]))}</g>'
         for name, ones in groups.items()
     )
     grid, vectors = drawn

@@ -62,7 +62,7 @@ def social_head(
         title, summary: What is told of it.
         picture: The address in the site of a picture of CARD's size; None where there is none.
     """
-    said = {
+    tags = {
         "og:site_name": COURSE,
         "og:type": "article" if path else "website",
         "og:title": title,
@@ -71,9 +71,9 @@ def social_head(
     }
     link = "" if base is None else f'<link rel="canonical" href="{escape(base + path)}">\n'
     if base is not None:
-        said["og:url"] = base + path
+        tags["og:url"] = base + path
     if base is not None and picture is not None:
-        said |= {
+        tags |= {
             "og:image": base + picture,
             "og:image:type": "image/png",
             "og:image:width": str(CARD[0]),
@@ -83,7 +83,7 @@ def social_head(
     return link + "".join(
         f'<meta {"name" if key.startswith("twitter") else "property"}="{key}"'
         f' content="{escape(value)}">'
-        for key, value in said.items()
+        for key, value in tags.items()
     )
 
 

@@ -120,14 +120,14 @@ class Manifest:
     def save(self) -> None:
         """Write down what is ours."""
         lessons = {name: asdict(listed) for name, listed in self.lessons.items()}
-        said = {
+        plain = {
             "format": FORMATS[-1],
             "made_by": self.made_by,
             "lessons": lessons,
             "runs": self.runs,
             "files": self.files,
         }
-        write_atomic(self._out / KEPT, json.dumps(said, indent=1, sort_keys=True).encode())
+        write_atomic(self._out / KEPT, json.dumps(plain, indent=1, sort_keys=True).encode())
 
     def remove_leftovers(self) -> None:
         """Remove what a publish that was killed left half written."""
@@ -153,20 +153,20 @@ def _read(path: Path) -> tuple[str | None, dict[str, Listed], dict[str, str], di
     """
     if path.is_symlink() or path.stat().st_size > LARGEST:
         raise ValueError("no manifest")
-    said = json.loads(path.read_text(encoding="utf-8"))
-    files = {name: _texts(value) for name, value in said["files"].items()}
-    for name, digest in said.get(
+    plain = json.loads(path.read_text(encoding="utf-8"))
+    files = {name: _texts(value) for name, value in plain["files"].items()}
+    for name, digest in plain.get(
         "writing", {}
     ).items():  # format 2 told apart what was being written
         files[name] = _texts([*files.get(name, ()), digest])
-    lessons = {name: _listed(**value) for name, value in said["lessons"].items()}
-    runs = dict(said["runs"].items())
+    lessons = {name: _listed(**value) for name, value in plain["lessons"].items()}
+    runs = dict(plain["runs"].items())
     _texts(runs.values())
-    if said["format"] not in FORMATS or not all(
+    if plain["format"] not in FORMATS or not all(
         (*map(NAME.fullmatch, lessons), *map(_FILE.fullmatch, files))
     ):
         raise ValueError("no manifest")
-    return said.get("made_by"), lessons, runs, files
+    return plain.get("made_by"), lessons, runs, files
 
 
 def _texts(value: Any) -> list[str]:

@@ -36,15 +36,15 @@ def course_page(lessons: Mapping[str, Listed], head: str = "") -> str:
         [
             Card(
                 name=name,
-                title=one.title,
-                summary=one.summary,
-                needs=one.needs,
-                chapter=one.chapter,
-                minutes=one.minutes,
+                title=lesson.title,
+                summary=lesson.summary,
+                needs=lesson.needs,
+                chapter=lesson.chapter,
+                minutes=lesson.minutes,
                 address=f"{name}/index.html",
                 picture=f"{name}/picture.webp",
             )
-            for name, one in lessons.items()
+            for name, lesson in lessons.items()
         ],
         root=f"{PAGE}/",
         head=head,
@@ -55,7 +55,8 @@ def course_page(lessons: Mapping[str, Listed], head: str = "") -> str:
 def lessons_script(lessons: Mapping[str, Listed]) -> str:
     """Return the script that tells a lesson's page which lessons there are."""
     course = [
-        {"name": name, "title": one.title, "needs": one.needs} for name, one in lessons.items()
+        {"name": name, "title": lesson.title, "needs": lesson.needs}
+        for name, lesson in lessons.items()
     ]
     return f"const COURSE = {in_script(course)};\n"
 
@@ -112,10 +113,10 @@ def accessibility_html() -> str:
     """
     package = Path(__file__).parents[1]
     files = [folder / "docs" / "accessibility.md" for folder in (package, package.parent)]
-    found = next((file for file in files if file.is_file()), None)
-    if found is None:
+    file = next((file for file in files if file.is_file()), None)
+    if file is None:
         return ""
-    return page_html(re.sub("(?m)^#", "##", found.read_text(encoding="utf-8")))
+    return page_html(re.sub("(?m)^#", "##", file.read_text(encoding="utf-8")))
 
 
 def replies(question: Question) -> list[tuple[float, float, str]] | dict[str, str]:
@@ -131,7 +132,7 @@ def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
     """Return what is told when a question is answered, by its name: base64, so that nobody reads it
     by the way.
     """
-    found = {}
+    encoded = {}
     for question in lesson.questions:
         told = answer(lesson, question, None, timelines)
         kept = {
@@ -142,8 +143,8 @@ def answers(lesson: Lesson, timelines: Timelines) -> dict[str, str]:
             "run": question_run(lesson, question),
             "step": told.step,
         }
-        found[question.name] = base64.b64encode(json.dumps(kept).encode()).decode()
-    return found
+        encoded[question.name] = base64.b64encode(json.dumps(kept).encode()).decode()
+    return encoded
 
 
 def leading_on(title: str, address: str) -> str:

@@ -67,7 +67,10 @@ def python_from(place: str) -> Python:
             f"--python {place}: is no folder; wanted is that of a Pyodide release, or its address"
         )
     lock = _lock(folder)
-    names = [*START[:-1], next((one for one in COMPILED if (folder / one).is_file()), COMPILED[0])]
+    names = [
+        *START[:-1],
+        next((name for name in COMPILED if (folder / name).is_file()), COMPILED[0]),
+    ]
     packages = {name: lock["packages"][name] for name in _wanted(folder, lock["packages"])}
     files = {name: _read(folder, name) for name in names}
     for package in packages.values():
@@ -125,7 +128,7 @@ def _wanted(folder: Path, packages: Mapping[str, Any]) -> Iterator[str]:
             package = packages[name]
             file, depends = package["file_name"], list(package["depends"])
             version = [int(part) for part in package["version"].split(".")[:2]]
-            fine = bool(_PLAIN.fullmatch(file)) and all(isinstance(one, str) for one in depends)
+            fine = bool(_PLAIN.fullmatch(file)) and all(isinstance(need, str) for need in depends)
         except (KeyError, TypeError, ValueError, AttributeError):
             fine = False
         if not fine:
@@ -154,14 +157,16 @@ def _without_unused(folder: Path, name: str, content: bytes) -> bytes:
     out = io.BytesIO()
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as old:
-            kept = [one for one in old.infolist() if not _is_unused(one.filename)]
+            kept = [info for info in old.infolist() if not _is_unused(info.filename)]
             if len(kept) == len(old.infolist()):
                 return content
-            if sum(one.file_size for one in kept) > 4 * LARGEST:
+            if sum(info.file_size for info in kept) > 4 * LARGEST:
                 raise InputError(f"--python {folder}: {name} unpacks to too much")
             with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as new:
-                for one in kept:
-                    new.writestr(zipfile.ZipInfo(one.filename), old.read(one), zipfile.ZIP_DEFLATED)
+                for info in kept:
+                    new.writestr(
+                        zipfile.ZipInfo(info.filename), old.read(info), zipfile.ZIP_DEFLATED
+                    )
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError):
         raise InputError(f"--python {folder}: {name} is no package") from None
     return out.getvalue()

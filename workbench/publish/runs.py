@@ -167,15 +167,15 @@ def _dial(lesson: Lesson, sweep: Sweep, runs: Sequence[Run]) -> dict[str, Any]:
         values[:-1]
     ):
         values.sort()
-    said = [knobs.text_of(value) for value in values]
+    texts = [knobs.text_of(value) for value in values]
     return {
         "knob": sweep.knob,
         "run": run_name(lesson, own),
         "label": field.label,
         "unit": field.knob.unit,
         "hint": field.knob.hint,
-        "names": [_name_at(sweep, text) for text in said],
-        "values": said,
+        "names": [_name_at(sweep, text) for text in texts],
+        "values": texts,
         "runs": [next(run.name for run in runs if run.params == stops[value]) for value in values],
         "places": {run.name: _place(getattr(run.params, sweep.knob), values) for run in runs},
     }
@@ -256,8 +256,8 @@ def render_all(
 def _render_named(named: tuple[str, str, bool]) -> dict[str, bytes]:
     lesson_name, name, is_recorded = named
     lesson = catalog()[lesson_name]
-    found = next(run for run in _all_runs(lesson) if run.name == name)
-    return render(lesson, replace(found, recorded=is_recorded))
+    run = next(run for run in _all_runs(lesson) if run.name == name)
+    return render(lesson, replace(run, recorded=is_recorded))
 
 
 def render(lesson: Lesson, run: Run) -> dict[str, bytes]:
@@ -367,29 +367,29 @@ def digest_of(lesson: Lesson, run: Run, sources: str) -> str:
     """
     view = lesson.view_of(run.params)
     params = knobs.to_json(run.params)
-    said = "\0".join([lesson.name, lesson.title, str(view), str(run), params, sources])
-    return hashlib.sha256(said.encode()).hexdigest()
+    text = "\0".join([lesson.name, lesson.title, str(view), str(run), params, sources])
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def page_digest(lesson: Lesson, address: str) -> str:
     """Return what a lesson's page and picture must agree with."""
     questions = [
         (
-            one.name,
-            one.text,
-            one.choices,
-            one.unit,
-            one.tolerance,
-            one.step,
-            one.wrong,
-            knobs.to_json(one.params),
+            question.name,
+            question.text,
+            question.choices,
+            question.unit,
+            question.tolerance,
+            question.step,
+            question.wrong,
+            knobs.to_json(question.params),
         )
-        for one in lesson.questions
+        for question in lesson.questions
     ]
-    said = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"  # noqa: E501
-    found = hashlib.sha256(f"{said}{sources_digest(lesson)}".encode())
+    text = f"{lesson.title}\0{lesson.summary}\0{runs_of(lesson)}\0{lesson.sweeps}\0{questions}\0{address}\0"  # noqa: E501
+    digest = hashlib.sha256(f"{text}{sources_digest(lesson)}".encode())
     for file in sorted(
         (*STATIC.iterdir(), *STATIC.parent.glob("*.py"), *Path(__file__).parent.glob("*.py"))
     ):
-        found.update(f"\0{file.name}\0".encode() + file.read_bytes())
-    return found.hexdigest()
+        digest.update(f"\0{file.name}\0".encode() + file.read_bytes())
+    return digest.hexdigest()

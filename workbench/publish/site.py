@@ -148,7 +148,7 @@ def _publish(
     others = (
         {}
         if remove_others
-        else {name: one for name, one in manifest.lessons.items() if name not in names}
+        else {name: other for name, other in manifest.lessons.items() if name not in names}
     )
     made_by = f"workbench {__version__}, viser {viser_version()}"
     if others and manifest.made_by != made_by:
@@ -214,19 +214,19 @@ def _publish(
     return checked(out, manifest.files)
 
 
-def _leading_on(lessons: Sequence[Lesson], there: Collection[str]) -> dict[str, bytes]:
+def _leading_on(lessons: Sequence[Lesson], names: Collection[str]) -> dict[str, bytes]:
     """Return the pages of runs that are in another lesson of the site now, at their addresses of
     before.
 
     A lesson that is in others altogether has a page of its own, which leads on as well.
     """
     titles = {lesson.name: lesson.title for lesson in lessons}
-    gone = {name: to for name, to in lessons_led_on().items() if to in titles and name not in there}
+    gone = {name: to for name, to in lessons_led_on().items() if to in titles and name not in names}
     known = {lesson.name: {run.name for run in runs_of(lesson)} for lesson in lessons}
 
     def page_of(to: str, run: str) -> str:
-        there = run in known.get(to, {run})  # a lesson may be published without some of its runs
-        return f"runs/{run}.html" if there else COURSE_PAGE
+        kept = run in known.get(to, {run})  # a lesson may be published without some of its runs
+        return f"runs/{run}.html" if kept else COURSE_PAGE
 
     pages = {
         f"{name}/{COURSE_PAGE}": leading_on(titles[to], f"../{to}/{COURSE_PAGE}").encode()
@@ -238,7 +238,7 @@ def _leading_on(lessons: Sequence[Lesson], there: Collection[str]) -> dict[str, 
         )
         for name in (*titles, *gone)
         for old, (to, run) in runs_led_on(name).items()
-        if to in there
+        if to in names
     }
 
 
@@ -274,7 +274,7 @@ def _render(
 def _about_all(manifest: Manifest, base: str | None) -> dict[str, bytes]:
     """Return the files that tell of all lessons of a site, once these have their pictures."""
     lessons = manifest.lessons
-    titles = {name: one.title for name, one in lessons.items()}
+    titles = {name: lesson.title for name, lesson in lessons.items()}
     head = social_head(base, "", title=COURSE, summary=WELCOME, picture=CARD_PICTURE)
     texts = {
         COURSE_PAGE: course_page(lessons, head),

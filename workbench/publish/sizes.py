@@ -61,8 +61,8 @@ def checked(out: Path, names: Iterable[str]) -> list[tuple[str, int]]:
     return sizes
 
 
-def _over(what: str, size: int, budget: int) -> str:
-    return f"{what} has {size / 1e6:.2f} MB, over the budget of {budget / 1e6:.2f} MB"
+def _over(subject: str, size: int, budget: int) -> str:
+    return f"{subject} has {size / 1e6:.2f} MB, over the budget of {budget / 1e6:.2f} MB"
 
 
 def sizes_told(out: Path, files: Sequence[tuple[str, int]], swept: Collection[str] = ()) -> str:
@@ -81,9 +81,9 @@ def sizes_told(out: Path, files: Sequence[tuple[str, int]], swept: Collection[st
     return "\n".join([*lines, f"begin at {out / COURSE_PAGE}"])
 
 
-def _sizes(what: str, sizes: Sequence[int]) -> str:
+def _sizes(kind: str, sizes: Sequence[int]) -> str:
     return (
-        f"{len(sizes)} {what}, {sum(sizes) / 1e6:.1f} MB, the largest"
+        f"{len(sizes)} {kind}, {sum(sizes) / 1e6:.1f} MB, the largest"
         f" {max(sizes, default=0) / 1e6:.2f} MB"
     )
 

@@ -24,10 +24,10 @@ LIBRARIES = ("numpy", "scipy", "trimesh", "scikit-image", "pillow", "viser", "re
 
 def sources_digest(lesson: Lesson) -> str:
     """Return a digest of everything but the params that the files of a lesson's runs depend on."""
-    found = hashlib.sha256(" ".join(f"{name} {version(name)}" for name in LIBRARIES).encode())
+    digest = hashlib.sha256(" ".join(f"{name} {version(name)}" for name in LIBRARIES).encode())
     for file in sources_of(lesson):
-        found.update(f"\0{file.name}\0".encode() + hashlib.sha256(file.read_bytes()).digest())
-    return found.hexdigest()
+        digest.update(f"\0{file.name}\0".encode() + hashlib.sha256(file.read_bytes()).digest())
+    return digest.hexdigest()
 
 
 def sources_of(lesson: Lesson) -> list[Path]:
@@ -51,7 +51,7 @@ def sources_of(lesson: Lesson) -> list[Path]:
             ]
             files, waiting = (
                 files.union(own),
-                waiting + [".".join((name.rpartition(".")[0], *one)) for one in parts],
+                waiting + [".".join((name.rpartition(".")[0], *path)) for path in parts],
             )
     tops, seen = {"workbench", *(name.partition(".")[0] for name in begin)}, set[str]()
     while waiting:
@@ -83,12 +83,12 @@ def _file_of(name: str) -> Path | None:
 def _imported(file: Path, name: str, source: bytes) -> tuple[str, ...]:
     """Return all names that a file imports, in full."""
     package = name.split(".") if file.name == "__init__.py" else name.split(".")[:-1]
-    found: list[str] = []
+    names: list[str] = []
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
-            found += [alias.name for alias in node.names]
+            names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
             base = package[: len(package) - node.level + 1] if node.level else []
             module = ".".join([*base, *([node.module] if node.module else [])])
-            found += [module, *(f"{module}.{alias.name}" for alias in node.names)]
-    return tuple(found)
+            names += [module, *(f"{module}.{alias.name}" for alias in node.names)]
+    return tuple(names)

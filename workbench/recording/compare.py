@@ -44,15 +44,15 @@ def compare_files(a: Path, b: Path, *, native: bool, host: str, port: int, brows
 def compare_bytes(a: Path, b: Path) -> bytes:
     """Return a recording that holds two of one lesson, below `/a` and `/b`."""
     runs = dict(zip(ROOTS, (open_recording(a), open_recording(b)), strict=True))
-    one, two = runs.values()
-    if one.lesson != two.lesson:
+    run_a, run_b = runs.values()
+    if run_a.lesson != run_b.lesson:
         raise InputError(
-            f"{a} is a run of {one.lesson}, {b} of {two.lesson}: two runs of one lesson can be"
+            f"{a} is a run of {run_a.lesson}, {b} of {run_b.lesson}: two runs of one lesson can be"
             " compared"
         )
-    application = application_id(f"compare {one.lesson}")
+    application = application_id(f"compare {run_a.lesson}")
     (contents_a, view), (contents_b, _) = (_beside(run) for run in runs.values())
-    differences = differences_of(one, two)
+    differences = differences_of(run_a, run_b)
 
     def fill(stream: Any) -> None:
         stream.send_recording_name(safe(f"{a.name} and {b.name}"))
@@ -65,7 +65,7 @@ def compare_bytes(a: Path, b: Path) -> bytes:
                     if (moved := _below(root, chunk)) is not None
                 ]
             )
-        charts = Counter(scalar.chart for scalar in {**one.curves, **two.curves}.values())
+        charts = Counter(scalar.chart for scalar in {**run_a.curves, **run_b.curves}.values())
         for root, run in runs.items():
             for path, scalar in run.curves.items():
                 # alone in its plot a curve needs no other name: a long one hides what it names

@@ -30,24 +30,24 @@ class Contents:
 
 def contents_of(scenes: Sequence[Scene]) -> Contents:
     """Return what all scenes of a run show."""
-    found = Contents()
+    contents = Contents()
     for k, scene in enumerate(scenes):
         for path, primitive in scene.items():
             if isinstance(primitive, Scalar):
-                found.scalars.setdefault(primitive.chart, {}).setdefault(path, primitive)
+                contents.scalars.setdefault(primitive.chart, {}).setdefault(path, primitive)
             elif isinstance(primitive, Curve):
                 canvas = Canvas(_chart_title(primitive), WIDTH, HEIGHT, k)
-                found.canvases.setdefault(chart_entity(primitive.chart), canvas)
+                contents.canvases.setdefault(chart_entity(primitive.chart), canvas)
             elif isinstance(primitive, Picture) and not in_space(primitive):
                 entity = entity_of("pictures", path)
-                known = found.canvases.setdefault(entity, _picture_canvas(path, primitive, k))
+                known = contents.canvases.setdefault(entity, _picture_canvas(path, primitive, k))
                 title = _common(known.title, primitive.title or path, path)
-                found.canvases[entity] = replace(known, title=title)
+                contents.canvases[entity] = replace(known, title=title)
             elif isinstance(primitive, Table):
-                found.canvases.setdefault(TABLES, Canvas("Numbers", 0.0, 0.0, k))
+                contents.canvases.setdefault(TABLES, Canvas("Numbers", 0.0, 0.0, k))
         entries, fields = legend_of(scene)
-        found.legend_height = max(found.legend_height, legend_height(entries, len(fields)))
-    return found
+        contents.legend_height = max(contents.legend_height, legend_height(entries, len(fields)))
+    return contents
 
 
 def to_json(contents: Contents, view: View) -> str:
@@ -67,18 +67,18 @@ def from_json(text: str, curves: Mapping[str, Scalar]) -> tuple[Contents, View]:
     try:
         plain = json.loads(text)
         canvases = _canvases_of_format_1(plain) if "canvases" not in plain else plain["canvases"]
-        found = Contents(legend_height=float(plain["legend_height"]))
-        found.canvases = {entity: _canvas(**canvas) for entity, canvas in canvases.items()}
+        contents = Contents(legend_height=float(plain["legend_height"]))
+        contents.canvases = {entity: _canvas(**canvas) for entity, canvas in canvases.items()}
         looks: dict[str, Any] = {
-            name: tuple(map(float, one)) if isinstance(one, list) else one
-            for name, one in plain["view"].items()
+            name: tuple(map(float, value)) if isinstance(value, list) else value
+            for name, value in plain["view"].items()
         }
         view = View(**looks)
     except Exception:  # text out of a file may be anything
         raise InputError("what it shows beside the scene is not understood") from None
     for path, scalar in curves.items():
-        found.scalars.setdefault(scalar.chart, {})[path] = scalar
-    return found, view
+        contents.scalars.setdefault(scalar.chart, {})[path] = scalar
+    return contents, view
 
 
 def _canvases_of_format_1(plain: Mapping[str, Any]) -> dict[str, Any]:

@@ -46,8 +46,10 @@ def unions(scenes: Sequence[Scene]) -> dict[str, Union]:
         for path, primitive in scene.items():
             if isinstance(primitive, Points) and isinstance(primitive.color, np.ndarray):
                 clouds.setdefault(path, {})[id(primitive)] = primitive
-    found = {path: _union(list(group.values())) for path, group in clouds.items() if len(group) > 2}
-    return {path: union for path, union in found.items() if union is not None}
+    merged = {
+        path: _union(list(group.values())) for path, group in clouds.items() if len(group) > 2
+    }
+    return {path: union for path, union in merged.items() if union is not None}
 
 
 def _union(clouds: Sequence[Points]) -> Union | None:
@@ -67,9 +69,9 @@ def _union(clouds: Sequence[Points]) -> Union | None:
     last[number] = cloud_of  # the last one counts
     kept = np.argsort(keys * np.uint64(0xD6E8FEB86659FD93))[: min(MOST, MOST_SAID // len(clouds))]
     kept = kept[np.lexsort((last[kept], cloud_of[first[kept]]))]
-    there = np.zeros((len(clouds), len(first)), bool)
-    there[cloud_of, number] = True
-    shown = {id(cloud): there[i, kept] for i, cloud in enumerate(clouds)}
+    present = np.zeros((len(clouds), len(first)), bool)
+    present[cloud_of, number] = True
+    shown = {id(cloud): present[i, kept] for i, cloud in enumerate(clouds)}
     return Union(p[first[kept]], colors[first[kept]], shown, float(np.sqrt(len(first) / len(kept))))
 
 

@@ -22,7 +22,7 @@ def plain_page(markdown: str) -> str:
     """Return a page with its formulas in plain signs and pictures as words; code stays."""
     code_or_picture = r"(```.*?```|`[^`\n]*`)|!\[([^\]]*)\]\([^)]*\)"
     markdown = re.sub(
-        code_or_picture, lambda found: found[1] or found[2], markdown, flags=re.DOTALL
+        code_or_picture, lambda match: match[1] or match[2], markdown, flags=re.DOTALL
     )
     parts = re.split(r"(```.*?```|`[^`\n]*`|\$\$.*?\$\$|\$[^$\n]+\$)", markdown, flags=re.DOTALL)
     return safe("".join(_part(part) for part in parts))
@@ -84,7 +84,7 @@ def _said(part: Element) -> str:
 
 def _row(parts: Iterable[Element]) -> str:
     """Return what stands side by side, a space between names that are multiplied."""
-    said, named, operand = "", False, False
+    row, named, operand = "", False, False
     for part in parts:
         text = (part.text or "").strip()
         is_name = (
@@ -92,17 +92,15 @@ def _row(parts: Iterable[Element]) -> str:
             and part.get("mathvariant") != "normal"
         )
         if text in ("+", "−", "-") and not operand:
-            said += text
+            row += text
         else:
             word = next(part.itertext(), "").strip()
-            said += (" " if is_name and (named or (operand and len(word) > 1)) else "") + _said(
-                part
-            )
+            row += (" " if is_name and (named or (operand and len(word) > 1)) else "") + _said(part)
         named, operand = (
             is_name,
             part.tag not in ("mo", "mspace") or text in (")", "]", "}", "|", "‖"),
         )
-    return said
+    return row
 
 
 def _script(part: Element, mark: str, signs: dict[str, str]) -> str:

@@ -73,8 +73,8 @@ class Recording:
             self.lesson,
             *([] if self.preset is None else [f"preset {self.preset}"]),
         ]
-        said = [reprlib.repr(word) for word in (*words, self.status)]
-        return f"<Recording {said[0]}: {', '.join(said[1:-1])}, {len(self):,} steps, {said[-1]}>"
+        shown = [reprlib.repr(word) for word in (*words, self.status)]
+        return f"<Recording {shown[0]}: {', '.join(shown[1:-1])}, {len(self):,} steps, {shown[-1]}>"
 
     @property
     def complete(self) -> bool:
@@ -169,13 +169,13 @@ def _lesson_of(recording: Recording, name: str, given: Lesson | None) -> Lesson:
         raise InputError(
             f"{path}: is a run of the lesson {name[:80]!r}, and the lesson given is {given.name!r}"
         )
-    found = catalog().get(name) if given is None else given
-    if found is None:
+    lesson = catalog().get(name) if given is None else given
+    if lesson is None:
         raise InputError(
             f"{path}: is a run of the lesson {name[:80]!r}, which is not installed; if you have its"
             " file, name it: --lesson FILE.py"
         )
-    return found
+    return lesson
 
 
 def read_chunks(path: Path) -> list[Any]:
@@ -252,13 +252,13 @@ def _recording(path: Path, chunks: Sequence[Any]) -> Recording:
         for chunk in chunks
         if chunk.entity_path.startswith("/scalars/") and not chunk.is_static
     ]
-    found = {
+    series = {
         _scene_path(entity): np.array(_column(chunks, entity, "Scalars:scalars", n), float)
         for entity in paths
     }
-    abouts = {path: _static(chunks, entity) for path, entity in zip(found, paths, strict=True)}
-    order = sorted(found, key=lambda path: int(abouts[path]["order"]))
-    scalars = {path: found[path] for path in order}
+    abouts = {path: _static(chunks, entity) for path, entity in zip(series, paths, strict=True)}
+    order = sorted(series, key=lambda path: int(abouts[path]["order"]))
+    scalars = {path: series[path] for path in order}
     if (
         any(caption is None for caption in captions)
         or digest(facts["params"], captions, scalars) != result["digest"]

@@ -70,19 +70,19 @@ class RerunSink:
         """Make the stream show `scene` from step k on."""
         self._stream.set_time("step", sequence=k)
         wanted = {
-            entity: {aspect.name: aspect for aspect in said}
-            for entity, said in self._entities(k, scene)
+            entity: {aspect.name: aspect for aspect in parts}
+            for entity, parts in self._entities(k, scene)
         }
-        for entity, said in self._said.items():
-            if not said.keys() <= wanted.get(entity, {}).keys():  # it, or a part of it, is gone
+        for entity, shown in self._said.items():
+            if not shown.keys() <= wanted.get(entity, {}).keys():  # it, or a part of it, is gone
                 # in the same order every time
-                for suffix in dict.fromkeys(aspect.suffix for aspect in said.values()):
+                for suffix in dict.fromkeys(aspect.suffix for aspect in shown.values()):
                     self._stream.log(entity + suffix, gone(suffix))
-        for entity, now in wanted.items():
+        for entity, parts in wanted.items():
             before = self._said.get(entity, {})
-            before = before if before.keys() <= now.keys() else {}
+            before = before if before.keys() <= parts.keys() else {}
             news: dict[str, list[Any]] = {}
-            for name, aspect in now.items():
+            for name, aspect in parts.items():
                 if name not in before or not aspect.same(before[name]):
                     news.setdefault(entity + aspect.suffix, []).extend(aspect.say())
             for where, archetypes in news.items():

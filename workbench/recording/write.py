@@ -69,7 +69,7 @@ def record(
     if isinstance(lesson, str) and params is None:
         led = moved(lesson, preset, values)
         lesson, preset, values = led.lesson, led.preset, led.values
-    found = (
+    loaded = (
         find(lesson)
         if isinstance(lesson, str)
         else load(lesson)
@@ -81,10 +81,10 @@ def record(
         raise InputError(f"params and {other}: give whole params, or a preset and single values")
     if params is None:
         params = knobs.make(
-            found.params, values, base=None if preset is None else found.preset(preset).params
+            loaded.params, values, base=None if preset is None else loaded.preset(preset).params
         )
     check_place(Path(path), force, how="force=True")
-    record_file(found, params, Path(path), preset=preset, force=force)
+    record_file(loaded, params, Path(path), preset=preset, force=force)
     return Path(path)
 
 
@@ -158,7 +158,7 @@ def record_bytes(
     scenes = [step.scene for step in steps]
     contents, clouds = contents_of(scenes), unions(scenes)
     series = timeline.series()
-    values = {path: one.values for path, one in series.items()}
+    values = {path: line.values for path, line in series.items()}
 
     def fill(stream: Any) -> None:
         stream.send_recording_name(safe(_title(timeline, preset)))
@@ -168,8 +168,8 @@ def record_bytes(
         stream.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
         stream.log("page", document(plain_page(_told(lesson))), static=True)
         send_captions(stream, [step.caption for step in steps])
-        for order, (path, one) in enumerate(series.items()):
-            send_series(stream, path, one, order=order)
+        for order, (path, line) in enumerate(series.items()):
+            send_series(stream, path, line, order=order)
         sink = RerunSink(stream, contents.canvases, clouds)
         for k, step in enumerate(steps):
             sink.show(k, step.scene)

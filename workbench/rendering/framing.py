@@ -28,7 +28,7 @@ def framed(scenes: Iterable[Sequence[Shape]], view: View, size: tuple[int, int])
     high = np.full(2, -np.inf)
     for shapes in scenes:
         leading = strong(shapes)
-        for shape in (one for one in shapes if one.framed):
+        for shape in (shape for shape in shapes if shape.framed):
             uv, _ = lens.seen(corners_of(shape))
             room = np.array(size) * (0.0 if isinstance(shape, Surface) else BEYOND)
             near = uv[np.all((uv >= -room) & (uv <= size + room), axis=1)]

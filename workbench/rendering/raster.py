@@ -82,12 +82,12 @@ class Raster:
     def paint(self, shapes: Iterable[Shape]) -> None:
         """Draw shapes: those that hide what is behind them first."""
         shapes = list(shapes)
-        solid = [one for one in shapes if not _is_glass(one)]
-        for one in solid:
-            for pixels, z, rgba in self._fragments(one):
+        solid = [shape for shape in shapes if not _is_glass(shape)]
+        for shape in solid:
+            for pixels, z, rgba in self._fragments(shape):
                 self._put(pixels, z, rgba)
-        for one in sorted(filter(_is_glass, shapes), key=lambda one: -self._far(one)):
-            self._lay_over(one)
+        for shape in sorted(filter(_is_glass, shapes), key=lambda shape: -self._far(shape)):
+            self._lay_over(shape)
 
     def image(self, finer: int) -> Image.Image:
         """Return the band, so many times smaller along each side, its ground transparent."""
@@ -128,9 +128,9 @@ class Raster:
             yield from self._sheet(shape)
 
     def _paled(self, rgba: np.ndarray) -> np.ndarray:
-        found = rgba.copy()
-        found[:, 3] = np.rint(255 * (rgba[:, 3] / 255) ** self._power)
-        return found
+        paled = rgba.copy()
+        paled[:, 3] = np.rint(255 * (rgba[:, 3] / 255) ** self._power)
+        return paled
 
     def _boxes(
         self, low: np.ndarray, high: np.ndarray
@@ -196,18 +196,18 @@ class Raster:
         width = self.lens.size[0]
         for part in _chunks(counts * len(ticks), LARGE):
             n = last[part] - first[part]
-            one = np.repeat(np.arange(part.start, part.stop), n)
+            stroke = np.repeat(np.arange(part.start, part.stop), n)
             at = np.arange(n.sum()) - np.repeat(np.cumsum(n) - n - first[part], n)
-            t = at / (counts[one] - 1)
-            middle = uv[one, 0] + t[:, None] * along[one]
-            z = 1.0 / (inverse[one, 0] + t * (inverse[one, 1] - inverse[one, 0]))
+            t = at / (counts[stroke] - 1)
+            middle = uv[stroke, 0] + t[:, None] * along[stroke]
+            z = 1.0 / (inverse[stroke, 0] + t * (inverse[stroke, 1] - inverse[stroke, 0]))
             for tick in ticks:
-                place = np.floor(middle + tick * across[one]).astype(np.intp)
+                place = np.floor(middle + tick * across[stroke]).astype(np.intp)
                 inside = (place >= [0, self.rows.start]) & (place < [width, self.rows.stop])
                 inside = inside.all(1)
                 pixels = self._pixels(*place[inside].T)
                 depth = (LINES_NEARER * z[inside]).astype(np.float32)
-                yield pixels, depth, rgba[one[inside]]
+                yield pixels, depth, rgba[stroke[inside]]
 
     def _crossing(
         self, uv: np.ndarray, steps: np.ndarray, wide: float

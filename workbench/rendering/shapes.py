@@ -105,28 +105,28 @@ Shape: TypeAlias = Discs | Strokes | Surface | Sheet | Word
 
 def shapes_of(scene: Scene) -> list[Shape]:
     """Return what is drawn of all that stands in space, in the order of the scene."""
-    return [one for thing in scene.values() if in_space(thing) for one in _shapes(thing)]
+    return [shape for thing in scene.values() if in_space(thing) for shape in _shapes(thing)]
 
 
 def stage_of(view: View) -> list[Shape]:
     """Return the ground grid and the world's axes of a view; they frame no picture."""
-    found: list[Shape] = []
+    shapes: list[Shape] = []
     if view.grid is not None:
-        found += _grid(view, view.grid)
+        shapes += _grid(view, view.grid)
     if view.axes:
         length = view.grid or 0.5
-        found += _arrows(Axes(length=length), shaft=0.012, framed=False)
-        found += [
+        shapes += _arrows(Axes(length=length), shaft=0.012, framed=False)
+        shapes += [
             Word(text=name, p=1.08 * length * p, small=True, framed=False)
             for name, p in zip("xyz", np.eye(3), strict=True)
         ]
-    return found
+    return shapes
 
 
 def strong(shapes: Iterable[Shape]) -> list[Shape]:
     """Return the shapes that lead a picture: faint ones only where there are no others."""
-    shapes = [one for one in shapes if one.framed]
-    return [one for one in shapes if _opacity(one) >= FAINT] or shapes
+    shapes = [shape for shape in shapes if shape.framed]
+    return [shape for shape in shapes if _opacity(shape) >= FAINT] or shapes
 
 
 def corners_of(shape: Shape) -> np.ndarray:

@@ -120,12 +120,14 @@ def parse(
     signature, words = inspect.signature(function), _spelled(args)
     parser = _Parser(prog, description=description, allow_abbrev=False, formatter_class=_layout)
     asked = _asked(words, signature.parameters.values())
-    if any(one.annotation is RunChoice for one in signature.parameters.values()):
+    if any(parameter.annotation is RunChoice for parameter in signature.parameters.values()):
         words, asked = _led_on(words, *asked)
     own = {
-        name: one for name, one in signature.parameters.items() if one.annotation is not RunChoice
+        name: parameter
+        for name, parameter in signature.parameters.items()
+        if parameter.annotation is not RunChoice
     }
-    readers = {name: _reader(parser, one) for name, one in own.items()}
+    readers = {name: _reader(parser, parameter) for name, parameter in own.items()}
     for name in [name for name in signature.parameters if name not in own]:
         readers[name] = _lesson_reader(parser, words, *asked)
     places = "".join(
@@ -159,22 +161,24 @@ def _spelled(args: Sequence[str]) -> list[str]:
     return words
 
 
-def _reader(parser: argparse.ArgumentParser, one: inspect.Parameter) -> Reader:
+def _reader(parser: argparse.ArgumentParser, parameter: inspect.Parameter) -> Reader:
     """Add a parameter of a command to the parser, and return how its value is read."""
-    if one.annotation not in (Serving, ServingLive):
+    if parameter.annotation not in (Serving, ServingLive):
         return _option(
             parser,
-            one.name,
-            one.annotation,
-            default=one.default,
-            positional=one.kind is one.POSITIONAL_ONLY,
+            parameter.name,
+            parameter.annotation,
+            default=parameter.default,
+            positional=parameter.kind is parameter.POSITIONAL_ONLY,
         )
     group = parser.add_argument_group("serving options")
     parts = {
         field.name: _option(group, field.name, field.type, default=field.default)
-        for field in fields(one.annotation)
+        for field in fields(parameter.annotation)
     }
-    return lambda values: one.annotation(**{name: read(values) for name, read in parts.items()})
+    return lambda values: parameter.annotation(
+        **{name: read(values) for name, read in parts.items()}
+    )
 
 
 def _option(
@@ -198,7 +202,7 @@ def _option(
         about += f" (default: {default})"
     kinds = (kind, *get_args(kind))
     more: dict[str, Any] = {
-        "type": next((one for one in (int, float) if one in kinds), str),
+        "type": next((number for number in (int, float) if number in kinds), str),
         "help": about,
     }
     if positional:
@@ -226,20 +230,20 @@ def _asked(
     value, and never run.
     """
     finder = _Parser(add_help=False, allow_abbrev=False)
-    for one in parameters:
-        if one.annotation is not RunChoice:
-            _reader(finder, one)
+    for parameter in parameters:
+        if parameter.annotation is not RunChoice:
+            _reader(finder, parameter)
     finder.add_argument("--preset")
     finder.add_argument("lesson", nargs="?")
-    found, flags = finder.parse_known_intermixed_args([word for word in words if word not in HELP])
-    name = found.lesson
+    values, flags = finder.parse_known_intermixed_args([word for word in words if word not in HELP])
+    name = values.lesson
     if name is not None and name != words[0] and name not in catalog():
         behind = words[
             words.index(name) - 1
         ]  # a flag of a lesson's params, whose value this may be
         if behind in flags or not is_path(name):
             name = next((word for word in flags if word in catalog()), None)
-    return name, found.preset
+    return name, values.preset
 
 
 def _led_on(
@@ -337,8 +341,8 @@ def _add_param(group: Any, field: knobs.ParamField, default: Any, *, flag: str) 
     elif field.kind == "choice":
         more["metavar"] = "{" + ",".join(field.choices) + "}"
     else:
-        one = "INT" if field.kind in ("int", "ints") else "NUMBER"
-        more["metavar"] = ",".join([one] * (field.length or 1))
+        placeholder = "INT" if field.kind in ("int", "ints") else "NUMBER"
+        more["metavar"] = ",".join([placeholder] * (field.length or 1))
         unit = f" {knob.unit}" if knob.unit else ""
         about = f"{about}: {knob.low:g} to {knob.high:g}{unit}{' each' if field.length else ''}"
     group.add_argument(flag, help=f"{about}.{shown}".replace("%", "%%"), **more)

@@ -85,9 +85,9 @@ def taken_by(lesson: Lesson) -> str | None:
     """
     other = catalog().get(lesson.name)
     files = [
-        getattr(sys.modules.get(one.params.__module__), "__file__", None)
-        for one in (other, lesson)
-        if one
+        getattr(sys.modules.get(namesake.params.__module__), "__file__", None)
+        for namesake in (other, lesson)
+        if namesake
     ]
     if other is None or other is lesson or files[0] == files[1]:
         return None

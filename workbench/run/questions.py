@@ -42,15 +42,15 @@ def answer(lesson: Lesson, question: Question, given: Any, timelines: Timelines)
     predicted = _predicted(question, given)
     timeline = timelines.get(lesson, question.params)
     states = timeline.states()
-    who = f"lesson {lesson.name}, question {question.name!r}"
-    with Blaming(who, question.answer):
+    owner = f"lesson {lesson.name}, question {question.name!r}"
+    with Blaming(owner, question.answer):
         value = float(question.answer(states))
         wrong = _no_answer(question, value)
         if wrong:
-            raise AuthorError(f"{who}: {at(question.answer)}{wrong}")
-    with Blaming(who, question.why):
+            raise AuthorError(f"{owner}: {at(question.answer)}{wrong}")
+    with Blaming(owner, question.why):
         why = str(question.why(states))
-    step = stop_of(timeline) if question.step is None else timeline.opening(who, question.step)
+    step = stop_of(timeline) if question.step is None else timeline.opening(owner, question.step)
     if question.choices:
         right, truth = predicted == value, str(question.choices[int(value)])
     else:

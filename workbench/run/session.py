@@ -285,11 +285,11 @@ class Session:
     def _want(self, step: int) -> None:
         self._wanted, self._opens = step, None
 
-    def _start(self, who: str, step: int) -> None:
-        """Go to the step at which an author lets a run open; `who` is told if it turns out that
+    def _start(self, owner: str, step: int) -> None:
+        """Go to the step at which an author lets a run open; `owner` is told if it turns out that
         there is none.
         """
-        self._wanted, self._opens = step, (who, step)
+        self._wanted, self._opens = step, (owner, step)
 
     def _trouble(self, k: int) -> Caption | None:
         if self.message is not None:

@@ -187,12 +187,12 @@ class Timeline:
             raise InputError(self.stopped)
         return States.of(self._states, params=self.params, subject=self._subject)
 
-    def opening(self, who: str, step: int) -> int:
+    def opening(self, owner: str, step: int) -> int:
         """Return the index of the step where a run opens, as an author gave it: negative counts
         from the end.
 
         Args:
-            who: Who asks for the step, in words that begin the line, such as "lesson icp, preset
+            owner: Who asks for the step, in words that begin the line, such as "lesson icp, preset
                 far".
             step: An index.
 
@@ -202,7 +202,7 @@ class Timeline:
         n = len(self)
         if self.finished and self.stopped is None and not -n <= step < n:
             raise AuthorError(
-                f"{who} opens at step {step}, but its run has {n} steps: 0 to {n - 1}, or -1 to"
+                f"{owner} opens at step {step}, but its run has {n} steps: 0 to {n - 1}, or -1 to"
                 f" -{n}"
             )
         return step if step >= 0 else max(0, n + step)
@@ -325,12 +325,12 @@ class ScalarColumns:
 
     def until(self, steps: int) -> dict[str, Series]:
         """Return every scalar of the first steps, as read-only views."""
-        found = {}
+        series = {}
         for path, scalar in tuple(self._first.items()):
             values = self._values[path][:steps]
             values.setflags(write=False)
-            found[path] = Series(scalar, values)
-        return found
+            series[path] = Series(scalar, values)
+        return series
 
 
 def _no_scene(shown: Any) -> str | None:
@@ -352,9 +352,9 @@ def _not_picked(field: ParamField, shown: Mapping[str, Primitive]) -> str | None
     if not isinstance(pick, Pick) or (pick.path in shown and pickable(shown[pick.path])):
         return None
     can = ", ".join(path for path, primitive in shown.items() if pickable(primitive)) or "nothing"
-    there = f"shows {_kind(shown[pick.path])} at" if pick.path in shown else "shows nothing at"
+    shows = f"shows {_kind(shown[pick.path])} at" if pick.path in shown else "shows nothing at"
     return (
-        f"{field.name} is picked at {pick.path!r}, but the default run {there} {pick.path!r}; what"
+        f"{field.name} is picked at {pick.path!r}, but the default run {shows} {pick.path!r}; what"
         f" can be picked: {can}"
     )
 

@@ -51,11 +51,11 @@ def arc(
     line = p_centre + radius * turned
     end = p_centre + radius * np.stack([0.94 * turned[-1], 1.06 * turned[-1]])
     words = angle(abs(degrees)) if text is None else text
-    found: Parts = {path: Segments(_chained(line, end), color, width)}
+    parts: Parts = {path: Segments(_chained(line, end), color, width)}
     if words:
         middle = _around(v_from, about, np.radians([degrees / 2]))[0]
-        found[f"{path}/words"] = Label(words, p_centre + WORDS_OUT * radius * middle, color)
-    return found
+        parts[f"{path}/words"] = Label(words, p_centre + WORDS_OUT * radius * middle, color)
+    return parts
 
 
 def circle(
@@ -122,7 +122,7 @@ def arrows(
     """
     shafts = tips - tails
     sizes = np.linalg.norm(shafts, axis=1)
-    found = [np.stack([tails, tips], axis=1)]
+    ends = [np.stack([tails, tips], axis=1)]
     for shaft, size, tip in zip(shafts, sizes, tips, strict=True):
         if size == 0.0:
             continue
@@ -132,8 +132,8 @@ def arrows(
         reach = min(head, 0.5 * size)
         ways = np.stack([side, -side, np.cross(ahead, side), -np.cross(ahead, side)])
         barbs = tip - reach * ahead + BARB * reach * ways
-        found.append(np.stack([np.broadcast_to(tip, barbs.shape), barbs], axis=1))
-    return Segments(np.concatenate(found), color, width, opacity=opacity, name=name)
+        ends.append(np.stack([np.broadcast_to(tip, barbs.shape), barbs], axis=1))
+    return Segments(np.concatenate(ends), color, width, opacity=opacity, name=name)
 
 
 def dashed(

@@ -230,8 +230,8 @@ def is_rigid(T: np.ndarray) -> bool:
     )
     lengths = a * a + b * b + c * c, d * d + e * e + f * f, g * g + h * h + i * i
     products = a * d + b * e + c * f, a * g + b * h + c * i, d * g + e * h + f * i
-    orthonormal = all(abs(one - 1.0) <= 1e-5 for one in lengths) and all(
-        abs(one) <= 1e-6 for one in products
+    orthonormal = all(abs(length - 1.0) <= 1e-5 for length in lengths) and all(
+        abs(product) <= 1e-6 for product in products
     )
     return orthonormal and a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) > 0
 

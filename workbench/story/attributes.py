@@ -26,13 +26,13 @@ class Attributes:
     def read(cls, text: str) -> "Attributes":
         """Return what a text says, with its braces or without; what is no attribute is left out."""
         name, classes, values = "", list[str](), dict[str, str]()
-        for one in re.findall(_ONE, text):
-            if one.startswith("#"):
-                name = one[1:]
-            elif one.startswith("."):
-                classes.append(one[1:])
+        for attribute in re.findall(_ONE, text):
+            if attribute.startswith("#"):
+                name = attribute[1:]
+            elif attribute.startswith("."):
+                classes.append(attribute[1:])
             else:
-                key, value = one.split("=", 1)
+                key, value = attribute.split("=", 1)
                 values[key] = value.strip('"')
         return cls(name, tuple(classes), values)
 
@@ -40,11 +40,11 @@ class Attributes:
 def quoted(markdown: str) -> str:
     """Return Markdown with every value in braces quoted, so that any sign may stand in it."""
 
-    def with_quotes(found: re.Match[str]) -> str:
+    def with_quotes(match: re.Match[str]) -> str:
         inside = re.sub(
             rf"([\w-]+)=({_VALUE})",
-            lambda one: one[0] if one[2].startswith('"') else f'{one[1]}="{one[2]}"',
-            found[1],
+            lambda pair: pair[0] if pair[2].startswith('"') else f'{pair[1]}="{pair[2]}"',
+            match[1],
         )
         return "{" + inside + "}"
 

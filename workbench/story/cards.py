@@ -68,7 +68,7 @@ def nice_step(low: float, high: float) -> float:
     return power
 
 
-def what_if(block: Block, names: Names, found: Found, *, beat: int, later: bool = False) -> str:
+def what_if(block: Block, names: Names, notes: Found, *, beat: int, later: bool = False) -> str:
     """Return a what-if: `### title`, a line, and links that are its picks; `later` hides it until
     the scene's question is answered, whose run it would show.
 
@@ -83,10 +83,10 @@ def what_if(block: Block, names: Names, found: Found, *, beat: int, later: bool 
         if part.kind == "heading_open":
             title = text.content
             continue
-        said, chosen = _picks(text.children or [], names, found, part.line)
+        paragraph, chosen = _picks(text.children or [], names, notes, part.line)
         picks += chosen
-        if said:
-            lines.append(said)
+        if paragraph:
+            lines.append(paragraph)
     if not title or not picks:
         raise names.wrong(
             block.line, "a what-if has a title (### ...) and picks ([words](run:preset))"
@@ -101,12 +101,12 @@ def what_if(block: Block, names: Names, found: Found, *, beat: int, later: bool 
         "data-view": view,
         "data-chart": block.attributes.values.get("chart"),
     }
-    said = f"<p>{with_terms(inline_html(line))}</p>" if line else ""
-    head = f"<h3>{inline_html(title)}</h3>{said}"
+    paragraph = f"<p>{with_terms(inline_html(line))}</p>" if line else ""
+    head = f"<h3>{inline_html(title)}</h3>{paragraph}"
     return element("div", given, f'{head}<div class="picks" role="group">{"".join(picks)}</div>')
 
 
-def _picks(tokens: list[Any], names: Names, found: Found, line: int) -> tuple[str, list[str]]:
+def _picks(tokens: list[Any], names: Names, notes: Found, line: int) -> tuple[str, list[str]]:
     """Return the words of a paragraph outside its links, and a button for each link to a run."""
     words, picks = list[str](), list[str]()
     go: str | None = None
@@ -117,7 +117,7 @@ def _picks(tokens: list[Any], names: Names, found: Found, line: int) -> tuple[st
             words.append(" ")
         elif token.type == "link_open" and str(token.attrs.get("href", "")).startswith("run:"):
             run, step = names.moment(str(token.attrs["href"]).removeprefix("run:"), line)
-            found.places.append((StagePlace(run=run, step=0 if step is None else step), line))
+            notes.places.append((StagePlace(run=run, step=0 if step is None else step), line))
             go, inside = run if step is None else f"{run}@{step}", []
         elif token.type == "link_close" and go is not None:
             given = {"type": "button", "class": "pick", "data-go": go, "aria-pressed": "false"}

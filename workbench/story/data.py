@@ -15,7 +15,7 @@ def story_data(lesson: Lesson, story: Story) -> dict[str, Any]:
     views = views_of(lesson)
     named = {place.view for scene in story.scenes for place in scene.beats} - {""}
     own = set(lesson.views)
-    presets = {one.name for one in lesson.presets if one.view is not None}
+    presets = {preset.name for preset in lesson.presets if preset.view is not None}
     return {
         "title": story.title,
         "chapter": lesson.chapter,

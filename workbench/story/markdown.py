@@ -79,16 +79,16 @@ def story_parser() -> Any:
 def in_home(markdown: str, home: str) -> str:
     """Return page.md as one home has it, every line where it stood."""
 
-    def kept(found: re.Match[str]) -> str:
-        words = found[2] if found[1] == home else ""
-        return words + "\n" * (found[0].count("\n") - words.count("\n"))
+    def kept(match: re.Match[str]) -> str:
+        words = match[2] if match[1] == home else ""
+        return words + "\n" * (match[0].count("\n") - words.count("\n"))
 
     return WORDING.sub(kept, markdown)
 
 
 def sections(markdown: str) -> list[Section]:
     """Return the parts of page.md; a line within a block of code is no heading."""
-    found: list[Section] = []
+    closed: list[Section] = []
     level, title, attributes, first = 0, "", Attributes(), 1
     lines: list[str] = []
     fenced = False
@@ -98,13 +98,13 @@ def sections(markdown: str) -> list[Section]:
         if heading is None:
             lines.append(line)
             continue
-        found.append(Section(level, title, attributes, "\n".join(lines), first))
+        closed.append(Section(level, title, attributes, "\n".join(lines), first))
         parts = HEADING.match(heading[2])
         level, title = len(heading[1]), parts["words"] if parts else heading[2]
         attributes = Attributes.read(parts["attributes"] or "") if parts else Attributes()
         first, lines = number, []
-    found.append(Section(level, title, attributes, "\n".join(lines), first))
-    return [one for one in found if one.level or one.text.strip()]
+    closed.append(Section(level, title, attributes, "\n".join(lines), first))
+    return [section for section in closed if section.level or section.text.strip()]
 
 
 def blocks(section: Section) -> list[Block]:
@@ -115,7 +115,7 @@ def blocks(section: Section) -> list[Block]:
 
 def _with_whole_terms(text: str) -> str:
     """Keep the bar of a term out of tables, which would be cut there."""
-    return re.sub(r"\[\[[^\]\n]*\]\]", lambda found: found[0].replace("|", r"\|"), text)
+    return re.sub(r"\[\[[^\]\n]*\]\]", lambda term: term[0].replace("|", r"\|"), text)
 
 
 def _blocks(tokens: Sequence[Any], offset: int, level: int) -> Iterator[Block]:

@@ -127,9 +127,9 @@ class Story:
         """Return the runs that are shown up to the first scene that offers others, each once, in
         order.
         """
-        found: dict[str, None] = {}
+        runs: dict[str, None] = {}
         for scene in self.scenes:
-            found |= dict.fromkeys(place.run for place in scene.beats)
+            runs |= dict.fromkeys(place.run for place in scene.beats)
             if '<div class="what-if' in scene.html:
                 break
-        return tuple(found)
+        return tuple(runs)

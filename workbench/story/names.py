@@ -87,15 +87,17 @@ class Names:
         self.fields: Mapping[str, ParamField] = {
             field.name: field for field in fields_of(lesson.params)
         }
-        self.questions: Mapping[str, Question] = {one.name: one for one in lesson.questions}
+        self.questions: Mapping[str, Question] = {
+            question.name: question for question in lesson.questions
+        }
         self._swept = {
             (sweep.knob, run_name(lesson, lesson.run_params(sweep.run))) for sweep in lesson.sweeps
         }
 
-    def wrong(self, line: int, what: str) -> AuthorError:
+    def wrong(self, line: int, problem: str) -> AuthorError:
         """Return the error of a line of page.md."""
         return AuthorError(
-            f"lesson {self.lesson.name}: {place(str(self.lesson.page), line)}: {what}"
+            f"lesson {self.lesson.name}: {place(str(self.lesson.page), line)}: {problem}"
         )
 
     def run(self, name: str, line: int) -> str:
@@ -104,7 +106,7 @@ class Names:
         if params is None:
             known = (
                 "default",
-                *(one.name for one in (*self.lesson.presets, *self.lesson.questions)),
+                *(run.name for run in (*self.lesson.presets, *self.lesson.questions)),
             )
             raise self.wrong(line, f"there is no run {name!r}; {not_among(name, known)}")
         return run_name(self.lesson, params)
@@ -113,8 +115,8 @@ class Names:
         """Return the params of a run, None where there is none of that name."""
         if name == "default":
             return self.lesson.params()
-        ones = (*self.lesson.presets, *self.lesson.questions)
-        return next((one.params for one in ones if one.name == name), None)
+        runs = (*self.lesson.presets, *self.lesson.questions)
+        return next((run.params for run in runs if run.name == name), None)
 
     def step(self, written: str, line: int) -> StepName:
         """Return a step as it is written: an index, `start`, `stop`, or `-1`, with or without
@@ -133,15 +135,15 @@ class Names:
 
     def moment(self, written: str, line: int) -> tuple[str, StepName | None]:
         """Return run and step of a text such as `flat@stop`; None where it names no step."""
-        found = MOMENT.fullmatch(written)
-        if found is None:
+        match = MOMENT.fullmatch(written)
+        if match is None:
             raise self.wrong(line, f"{written!r} names no run; write run:preset or run:preset@step")
-        step = None if found["step"] is None else self.step(found["step"], line)
-        return self.run(found["run"], line), step
+        step = None if match["step"] is None else self.step(match["step"], line)
+        return self.run(match["run"], line), step
 
     def opening(self, run: str) -> StepName:
         """Return the step where a run opens that is named without one."""
-        preset = next((one for one in self.lesson.presets if one.name == run), None)
+        preset = next((preset for preset in self.lesson.presets if preset.name == run), None)
         return 0 if preset is None or preset.step is None else preset.step
 
     def view(self, name: str, line: int) -> str:
@@ -162,10 +164,10 @@ class Names:
         `low` and `high` within the knob's own.
         """
         knob = self.knob(name, line).knob
-        found = {one: given[one] for one in ("low", "high") if one in given}
-        if found and not _within(found, knob.low, knob.high):
+        ends = {end: given[end] for end in ("low", "high") if end in given}
+        if ends and not _within(ends, knob.low, knob.high):
             raise self.wrong(line, f"low and high of {name!r} are numbers of the knob's own range")
-        return {f"data-{one}": value for one, value in found.items()}
+        return {f"data-{end}": value for end, value in ends.items()}
 
     def question(self, name: str, line: int) -> Question:
         """Return a question that there is."""
@@ -209,12 +211,12 @@ def run_name(lesson: Lesson, params: Any) -> str:
     if params == lesson.params():
         return "default"
     named = (*lesson.presets, *lesson.questions)
-    return next((one.name for one in named if one.params == params), "")
+    return next((run.name for run in named if run.params == params), "")
 
 
 def views_of(lesson: Lesson) -> dict[str, View]:
     """Return the cameras that a story may name: the lesson's, and those of its presets by the
     presets' names.
     """
-    own = {one.name: one.view for one in lesson.presets if one.view is not None}
+    own = {preset.name: preset.view for preset in lesson.presets if preset.view is not None}
     return {"default": lesson.view, **own, **lesson.views}

@@ -19,8 +19,8 @@ def step_in(timeline: Timeline, step: StepName) -> int | None:
     if step == "stop":
         return stop_of(timeline)
     k = int(step)
-    found = k if k >= 0 else len(timeline) + k
-    return found if 0 <= found < len(timeline) else None
+    index = k if k >= 0 else len(timeline) + k
+    return index if 0 <= index < len(timeline) else None
 
 
 def series_in(timeline: Timeline, name: str) -> Series | None:
@@ -30,7 +30,7 @@ def series_in(timeline: Timeline, name: str) -> Series | None:
     series = timeline.series()
     if name in series:
         return series[name]
-    return next((one for one in series.values() if one.scalar.name == name), None)
+    return next((column for column in series.values() if column.scalar.name == name), None)
 
 
 def disagreement(value: Value, timeline: Timeline) -> str | None:
@@ -43,7 +43,7 @@ def disagreement(value: Value, timeline: Timeline) -> str | None:
     k = step_in(timeline, value.step)
     if k is None:
         return f"the run {value.run!r} has no step {value.step}"
-    found = float(series.values[k])
+    actual = float(series.values[k])
     written = _NUMBER.search(value.text)
     if written is None:
         return f"{value.text!r} is no number"
@@ -51,13 +51,13 @@ def disagreement(value: Value, timeline: Timeline) -> str | None:
     factor = factor_of(unit, series.scalar.unit)
     if factor is None:
         return f"{value.text!r} is in {unit!r}, and {value.series} in {series.scalar.unit!r}"
-    said = float(written["digits"].replace(",", "")) * (-1.0 if written["sign"] else 1.0)
+    claim = float(written["digits"].replace(",", "")) * (-1.0 if written["sign"] else 1.0)
     decimals = len(written["digits"].partition(".")[2])
-    if math.isfinite(found) and abs(found / factor - said) <= 0.5 * 10.0**-decimals * (1 + 1e-9):
+    if math.isfinite(actual) and abs(actual / factor - claim) <= 0.5 * 10.0**-decimals * (1 + 1e-9):
         return None
     return (
         f"it says {value.text!r}, and {value.series} at {value.run}@{value.step} is"
-        f" {found / factor:.6g} {unit}"
+        f" {actual / factor:.6g} {unit}"
     )
 
 

@@ -270,18 +270,18 @@ class _Reader:
         if "chart" in values:
             here = replace(here, chart=values["chart"])
         if "hide" in values:
-            here = replace(here, hide=tuple(one for one in values["hide"].split(",") if one))
+            here = replace(here, hide=tuple(name for name in values["hide"].split(",") if name))
         return here
 
     def _reference(self, parts: list[Section]) -> str:
         """Return what is folded, its links as links to places of the story."""
-        found = Found()
+        notes = Found()
         inside = []
         for part in parts:
             if part is not parts[0]:
                 inside.append(f"<h3>{inline_html(part.title)}</h3>")
             for block in blocks(part):
-                Words(self._names, "reference", found).resolve(block, StagePlace())
+                Words(self._names, "reference", notes).resolve(block, StagePlace())
                 inside.append(block.html())
         title = _plain(parts[0].title)
         return (

@@ -34,13 +34,13 @@ class Doors:
         """
         if not self.links:
             return self.address
-        who = (
+        notice = (
             "Everybody who reaches this machine is let in, and sees what is served, own files'"
             " contents included."
             if self._token is None
             else "Whoever has this link is let in; give it to nobody else:"
         )
-        return "\n".join([who, *self.links, "On this machine:", self.address])
+        return "\n".join([notice, *self.links, "On this machine:", self.address])
 
 
 def addresses(host: str) -> list[str]:
@@ -49,13 +49,11 @@ def addresses(host: str) -> list[str]:
     """
     if host not in ("0.0.0.0", "::", ""):
         return [f"[{host}]" if ":" in host else host]
-    found = dict.fromkeys([_outward(), *(str(info[4][0]) for info in _own_infos())])
+    ips = dict.fromkeys([_outward(), *(str(info[4][0]) for info in _own_infos())])
     shown = [
-        f"[{one}]" if ":" in one else one
-        for one in found
-        if one and not is_loopback(one) and "%" not in one
+        f"[{ip}]" if ":" in ip else ip for ip in ips if ip and not is_loopback(ip) and "%" not in ip
     ]
-    return [one for one in shown if host != "0.0.0.0" or ":" not in one] or [socket.gethostname()]
+    return [ip for ip in shown if host != "0.0.0.0" or ":" not in ip] or [socket.gethostname()]
 
 
 def _own_infos() -> list:

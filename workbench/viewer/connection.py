@@ -203,7 +203,9 @@ class PageConnection:
         session, name, step = self.session, str(message.get("run", "")), message.get("step")
         if session is None:
             return
-        question = next((one for one in session.lesson.questions if one.name == name), None)
+        question = next(
+            (question for question in session.lesson.questions if question.name == name), None
+        )
         if name == "default":
             session.reset()
         elif question is not None:
@@ -259,25 +261,31 @@ class PageConnection:
             return
         lesson = session.lesson
         question = next(
-            (one for one in lesson.questions if one.name == message.get("question")), None
+            (question for question in lesson.questions if question.name == message.get("question")),
+            None,
         )
         if question is None:
             return
         await self._computed(self.runs.timelines.get(lesson, question.params))
         try:
             with Blaming(f"lesson {lesson.name}, question {question.name!r}", question.answer):
-                found = await self.runs.asking.do(
+                result = await self.runs.asking.do(
                     answer, lesson, question, message.get("given"), self.runs.timelines
                 )
         except InputError as error:
             tell_terminal(error)
             await self._tell(tell="answer", question=question.name, trouble=str(error))
             return
-        told = {"right": found.right, "truth": found.truth, "why": found.why, "reply": found.reply}
+        told = {
+            "right": result.right,
+            "truth": result.truth,
+            "why": result.why,
+            "reply": result.reply,
+        }
         await self._tell(tell="answer", question=question.name, **told)
         if message.get("stay"):
             return
-        session.open(lesson, question.params, found.step)
+        session.open(lesson, question.params, result.step)
         self._updates.aim.open(lesson, question.params)
 
     async def click(self, message: Mapping[str, Any]) -> None:
@@ -356,7 +364,7 @@ def _ray(message: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray] | None:
     """Return origin and direction of a click, both (3,); None where a browser sends something
     else.
     """
-    found = []
+    vectors = []
     for name in ("p_origin", "v_ray"):
         values = message.get(name)
         is_vector = (
@@ -366,8 +374,8 @@ def _ray(message: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray] | None:
         )
         if not is_vector or not all(math.isfinite(x) and abs(x) < LARGEST for x in values):  # type: ignore[union-attr]
             return None
-        found.append(np.array(values, float))
-    return (found[0], found[1]) if found[1].any() else None
+        vectors.append(np.array(values, float))
+    return (vectors[0], vectors[1]) if vectors[1].any() else None
 
 
 VERBS: Mapping[str, Callable[[PageConnection, Mapping[str, Any]], Awaitable[None]]] = {

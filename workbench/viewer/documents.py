@@ -82,7 +82,8 @@ def lesson_page(
     exercises = _told(lesson, "exercises", lambda: _exercises(lesson, watched))
     own = watched is not None and watched.lesson is lesson
     course = [
-        {"name": one.name, "title": one.title, "needs": one.needs} for one in in_order(lessons)
+        {"name": entry.name, "title": entry.title, "needs": entry.needs}
+        for entry in in_order(lessons)
     ]
     opening, ending = (exercises, "") if own else ("", exercises)
     story, trouble = (None, "") if own else _story(lesson)
@@ -101,14 +102,14 @@ def lesson_page(
 
 def _story(lesson: Lesson) -> tuple[Story | None, str]:
     """Return a lesson's story if one is told, and what is wrong with it in its place."""
-    found: list[Story | None] = [None]
+    holder: list[Story | None] = [None]
 
     def read() -> str:
-        found[0] = story_of(lesson, "live")
+        holder[0] = story_of(lesson, "live")
         return ""
 
     trouble = _told(lesson, "story", read)
-    return found[0], trouble
+    return holder[0], trouble
 
 
 def in_order(lessons: Mapping[str, Lesson]) -> list[Lesson]:
@@ -140,13 +141,13 @@ def _exercises(lesson: Lesson, watched: WatchedFile | None) -> str:
     return exercises_html(exercises_of(lesson))
 
 
-def _told(lesson: Lesson, what: str, make: Callable[[], str]) -> str:
+def _told(lesson: Lesson, part: str, make: Callable[[], str]) -> str:
     """Return HTML, or what went wrong with a lesson's files in its place."""
     try:
-        with Blaming(f"lesson {lesson.name}, {what}", lesson.run):
+        with Blaming(f"lesson {lesson.name}, {part}", lesson.run):
             return make()
     except InputError as error:
         tell_terminal(error)
         return f'<p class="trouble" role="alert">{escape(str(error))}</p>' + (
-            PLACE if what == "page" else ""
+            PLACE if part == "page" else ""
         )

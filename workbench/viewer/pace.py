@@ -14,9 +14,9 @@ class Pace:
 
     async def step(self) -> None:
         """Wait until one more may come."""
-        now = asyncio.get_running_loop().time()
-        if now - self._since >= 0.1:
-            self._since, self._count = now, 0
+        clock = asyncio.get_running_loop().time()
+        if clock - self._since >= 0.1:
+            self._since, self._count = clock, 0
         self._count += 1
         if self._count >= self._most:
-            await asyncio.sleep(self._since + 0.1 - now)
+            await asyncio.sleep(self._since + 0.1 - clock)

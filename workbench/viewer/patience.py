@@ -38,16 +38,18 @@ class Patience:
             await asyncio.sleep(min(LOOK, self._seconds / 2))
             self.look(asyncio.get_running_loop().time())
 
-    def look(self, now: float) -> None:
+    def look(self, clock: float) -> None:
         """Close what has waited too long."""
         connections = list(self._server.server_state.connections)
-        self._since = {one: self._since.get(one, (None, now)) for one in connections}
-        for one in connections:
-            state, since = _waits_for(one), self._since[one][1]
-            if state is None or state != self._since[one][0]:
-                self._since[one] = state, now
-            elif now - since >= self._seconds:
-                one.transport.abort()
+        self._since = {
+            connection: self._since.get(connection, (None, clock)) for connection in connections
+        }
+        for connection in connections:
+            state, since = _waits_for(connection), self._since[connection][1]
+            if state is None or state != self._since[connection][0]:
+                self._since[connection] = state, clock
+            elif clock - since >= self._seconds:
+                connection.transport.abort()
 
     def _say(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
         error = context.get("exception")

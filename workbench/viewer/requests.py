@@ -48,7 +48,7 @@ class Requests:
                 ANEW if verb == "open" else ANEW - {"open"}
             ) | MOVES  # a run is one of the lesson that was opened
             self._waiting = {
-                kind: one for kind, one in self._waiting.items() if kind[0] not in stale
+                kind: earlier for kind, earlier in self._waiting.items() if kind[0] not in stale
             }
         kind = verb, str(request.get("question", ""))[:100] if verb == "predict" else ""
         before = self._waiting.pop(kind, None)
@@ -60,7 +60,7 @@ class Requests:
                     k: v for part in values if isinstance(part, dict) for k, v in part.items()
                 },
             }
-        if verb != "predict" or sum(one == verb for one, _ in self._waiting) < MOST_ANSWERS:
+        if verb != "predict" or sum(other == verb for other, _ in self._waiting) < MOST_ANSWERS:
             self._waiting[kind] = dict(request)
 
     def take(self) -> list[dict[str, Any]]:

@@ -58,27 +58,27 @@ class Crew:
             del task
             if answer.cancelled():
                 continue
-            found, error = None, None
+            result, error = None, None
             try:
-                found = function(*args)
+                result = function(*args)
             except Exception as raised:
                 error = raised
             except BaseException as raised:  # a lesson that wants to end the program
                 error = RuntimeError(repr(raised))
             try:
-                loop.call_soon_threadsafe(_settle, answer, found, error)
+                loop.call_soon_threadsafe(_settle, answer, result, error)
             except RuntimeError:
                 return  # the server has stopped
-            del loop, answer, function, args, found, error
+            del loop, answer, function, args, result, error
 
 
-def _settle(answer: asyncio.Future, found: Any, error: Exception | None) -> None:
+def _settle(answer: asyncio.Future, result: Any, error: Exception | None) -> None:
     if answer.done():
         return
     if error is not None:
         answer.set_exception(error)
     else:
-        answer.set_result(found)
+        answer.set_result(result)
 
 
 class SharedRuns:
@@ -181,15 +181,15 @@ def caches(lessons: Iterable[Lesson]) -> list[Any]:
         lesson.params.__module__.rpartition(".")[0] or lesson.params.__module__
         for lesson in lessons
     }
-    found: dict[int, Any] = {}
+    by_id: dict[int, Any] = {}
     for name, module in tuple(sys.modules.items()):
         if name in homes or name.rpartition(".")[0] in homes:
             for value in tuple(vars(module).values()):
                 if callable(getattr(value, "cache_clear", None)) and callable(
                     getattr(value, "cache_info", None)
                 ):
-                    found[id(value)] = value
-    return list(found.values())
+                    by_id[id(value)] = value
+    return list(by_id.values())
 
 
 def _cached_arrays(cached: Any) -> Iterable[Any]:

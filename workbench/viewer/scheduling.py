@@ -48,7 +48,7 @@ class _Job:
 
     def waiting(self, ahead: int = 0) -> list[Hashable]:
         known = len(self.timeline)
-        return [who for who, k in self.wanted.items() if k < 0 or k + ahead >= known]
+        return [asker for asker, k in self.wanted.items() if k < 0 or k + ahead >= known]
 
 
 class Scheduler:
@@ -73,44 +73,44 @@ class Scheduler:
         for _ in range(threads):
             self._start_thread()
 
-    def want(self, who: Hashable, timeline: Timeline, k: int, tell: Callable[[], None]) -> bool:
+    def want(self, asker: Hashable, timeline: Timeline, k: int, tell: Callable[[], None]) -> bool:
         """Compute a run up to step k (negative: to its end) for somebody, in place of what they
         wanted before.
 
         Returns whether there is anything to compute; else nobody is told.
 
         Args:
-            who: Who wants it.
+            asker: Who wants it.
             timeline: The run.
             k: The step.
             tell: Called in another thread when steps have come; must not block.
         """
         with self._changed:
-            before = self._of.get(who)
+            before = self._of.get(asker)
             if (
                 before is not None
                 and before[0].timeline is timeline
-                and before[0].wanted.get(who) == k
+                and before[0].wanted.get(asker) == k
             ):
-                self._of[who] = before[0], tell
+                self._of[asker] = before[0], tell
                 return True
-            self._forget(who)
+            self._forget(asker)
             if timeline.finished:
                 return False
             job = self._jobs.setdefault(timeline, _Job(timeline))
-            job.wanted[who], job.moved = k, time.monotonic()
+            job.wanted[asker], job.moved = k, time.monotonic()
             if 0 <= k < len(timeline):
-                job.met.add(who)
-            self._of[who] = job, tell
-            self._turns.setdefault(who, 0.0)
+                job.met.add(asker)
+            self._of[asker] = job, tell
+            self._turns.setdefault(asker, 0.0)
             self._changed.notify()
             return True
 
-    def leave(self, who: Hashable) -> None:
+    def leave(self, asker: Hashable) -> None:
         """Want nothing more for somebody."""
         with self._changed:
-            self._forget(who)
-            self._turns.pop(who, None)
+            self._forget(asker)
+            self._turns.pop(asker, None)
 
     def close(self) -> None:
         """Compute nothing more."""
@@ -122,12 +122,12 @@ class Scheduler:
         """Return how many runs are being computed or wait for it."""
         return len(self._jobs)
 
-    def _forget(self, who: Hashable) -> None:
-        before = self._of.pop(who, None)
+    def _forget(self, asker: Hashable) -> None:
+        before = self._of.pop(asker, None)
         if before is not None:
             job = before[0]
-            job.wanted.pop(who, None)
-            job.met.discard(who)
+            job.wanted.pop(asker, None)
+            job.met.discard(asker)
             if not job.wanted:
                 self._jobs.pop(job.timeline, None)
 
@@ -144,11 +144,11 @@ class Scheduler:
         """
         here = threading.current_thread()
         with self._changed:
-            while (found := self._next()) is None and self._open:
+            while (turn := self._next()) is None and self._open:
                 self._changed.wait(self._patience())
-            if found is None or not self._open:
+            if turn is None or not self._open:
                 return False
-            job, calm = found
+            job, calm = turn
             job.running, self._began[here] = True, time.monotonic()
             self._resting += calm
         self._slice(job, calm)
@@ -166,7 +166,7 @@ class Scheduler:
         """Return the run whose turn it is, and whether nobody waits for it."""
         free = [job for job in self._jobs.values() if not job.running]
         waiting = [
-            (min(self._turns.get(who, 0.0) for who in asking), i)
+            (min(self._turns.get(asker, 0.0) for asker in asking), i)
             for i, job in enumerate(free)
             if (asking := job.waiting())
         ]
@@ -174,15 +174,15 @@ class Scheduler:
             return free[min(waiting)[1]], False
         if self._resting >= max(1, self._threads - 1) or self._busy():
             return None
-        now = time.monotonic()
+        clock = time.monotonic()
         ahead = [job for job in free if job.waiting(AHEAD)]
-        rest = ahead or [job for job in free if now - job.moved >= REST]
+        rest = ahead or [job for job in free if clock - job.moved >= REST]
         return (min(rest, key=lambda job: job.served), True) if rest else None
 
     def _patience(self) -> float | None:
         """Return the seconds until something may be due that nobody reports."""
-        now = time.monotonic()
-        due = [job.moved + REST - now for job in self._jobs.values() if not job.running]
+        clock = time.monotonic()
+        due = [job.moved + REST - clock for job in self._jobs.values() if not job.running]
         if not due or self._resting >= max(1, self._threads - 1):
             return None
         return BUSY if self._busy() else max(0.001, min(due))
@@ -209,18 +209,20 @@ class Scheduler:
 
     def _served(self, job: _Job) -> list[Callable[[], None]]:
         """Note that a run had its turn; return whom to tell of it."""
-        now, known, finished = time.monotonic(), len(job.timeline), job.timeline.finished
-        job.running, job.served = False, now
-        arrived = {who for who, k in job.wanted.items() if 0 <= k < known} - job.met
+        clock, known, finished = time.monotonic(), len(job.timeline), job.timeline.finished
+        job.running, job.served = False, clock
+        arrived = {asker for asker, k in job.wanted.items() if 0 <= k < known} - job.met
         job.met |= arrived
-        for who in job.wanted:
-            self._turns[who] = now
-        news = finished or now - job.said >= NEWS
-        job.said = now if news else job.said
-        told = [self._of[who][1] for who in (job.wanted if news else arrived) if who in self._of]
+        for asker in job.wanted:
+            self._turns[asker] = clock
+        news = finished or clock - job.said >= NEWS
+        job.said = clock if news else job.said
+        told = [
+            self._of[asker][1] for asker in (job.wanted if news else arrived) if asker in self._of
+        ]
         if finished:
-            for who in tuple(job.wanted):
-                self._forget(who)
+            for asker in tuple(job.wanted):
+                self._forget(asker)
         return told
 
     def _one_too_many(self) -> bool:
@@ -249,8 +251,8 @@ class Scheduler:
         then.
         """
         with self._changed:
-            now = time.monotonic()
-            held = sum(now - began > STUCK for began in self._began.values())
+            clock = time.monotonic()
+            held = sum(clock - began > STUCK for began in self._began.values())
             while self._stuck < min(held, MOST_STUCK):
                 self._stuck += 1
                 self._start_thread()

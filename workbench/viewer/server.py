@@ -179,8 +179,8 @@ class Server:
     async def _lifespan(self, app: Starlette) -> AsyncIterator[None]:
         self._loop = asyncio.get_running_loop()
         keeping = [
-            asyncio.create_task(one)
-            for one in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
+            asyncio.create_task(work)
+            for work in (Patience(self._uvicorn).keep(), self._warm_up(), self._keep_room())
         ]
         yield
         for task in keeping:
@@ -321,12 +321,12 @@ class Server:
 
     @staticmethod
     async def _listen(socket: WebSocket, student: PageConnection) -> None:
-        pace, said = Pace(MOST_A_SECOND), False
+        pace, heard = Pace(MOST_A_SECOND), False
         while True:
-            message = await asyncio.wait_for(socket.receive(), None if said else FIRST_WORD)
+            message = await asyncio.wait_for(socket.receive(), None if heard else FIRST_WORD)
             if message["type"] == "websocket.disconnect":
                 return
-            said |= student.hear(message.get("text") or "")
+            heard |= student.hear(message.get("text") or "")
             await pace.step()
 
     async def _scene(self, request: Request) -> Response:

@@ -57,8 +57,8 @@ def text_response(request: Request, text: Served) -> Response:
     """
     headers = {"etag": text.etag, "cache-control": "no-cache", "vary": "accept-encoding"}
     if text.etag in (
-        one.strip().removeprefix("W/")
-        for one in request.headers.get("if-none-match", "").split(",")
+        tag.strip().removeprefix("W/")
+        for tag in request.headers.get("if-none-match", "").split(",")
     ):
         return Response(status_code=304, headers=headers)
     if "gzip" in request.headers.get("accept-encoding", ""):

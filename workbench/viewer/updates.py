@@ -64,8 +64,8 @@ class PageUpdates:
             self._run += 1
             self.timeline = timeline
             self._updates = RunUpdates(self._run, self._runs.steps(timeline))
-        now = self._run, look.k, look.known > 0, look.caption, timeline is session.timeline
-        new = now != self._seen
+        seen = self._run, look.k, look.known > 0, look.caption, timeline is session.timeline
+        new = seen != self._seen
         drawn, trouble = (
             self._scene(look, current=timeline is session.timeline) if new else (None, None)
         )
@@ -75,7 +75,7 @@ class PageUpdates:
             told.append(self._step_told(self._updates, look, trouble))
         elif not look.known and trouble is None and look.caption.text and again:
             told.append({"tell": "trouble", "text": look.caption.text})
-        self._seen = now if trouble is None else None
+        self._seen = seen if trouble is None else None
         return [
             *([] if drawn is None else [drawn]),
             *(packed(message) for message in told if message is not None),

@@ -22,8 +22,8 @@ def viser_version() -> str:
 
 def viser_folder() -> Path:
     """Return the folder of the viser that is installed."""
-    found = importlib.util.find_spec("viser")
-    return Path(found.origin if found and found.origin else "viser").parent
+    spec = importlib.util.find_spec("viser")
+    return Path(spec.origin if spec and spec.origin else "viser").parent
 
 
 @functools.cache

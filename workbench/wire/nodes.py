@@ -103,12 +103,12 @@ class Maker:
         """Return all nodes of a scene and of its stage, by name, in the order in which they are
         drawn.
         """
-        found = dict(self.stage(view).nodes)
+        nodes = dict(self.stage(view).nodes)
         for path, primitive in scene.items():
             if in_space(primitive):
                 base = SCENE + path.replace("/", "·")  # without a parent: poses compose
-                found |= {base + part: node for part, node in self._of(primitive).items()}  # type: ignore[arg-type]
-        return found
+                nodes |= {base + part: node for part, node in self._of(primitive).items()}  # type: ignore[arg-type]
+        return nodes
 
     def _stage(self, view: View) -> StageNodes:
         """Return the stage of a view; `stage` does, and keeps those that were wanted last."""
@@ -158,26 +158,26 @@ class Maker:
         made: dict[str, tuple[Said, list[memoryview]]] = {}
         poses: dict[str, Pose] = {}
         hidden, others = set[str](), list[Said]()
-        for said, arrays in heard:
-            name = said.get("name")
+        for message, arrays in heard:
+            name = message.get("name")
             if name is None:
-                others.append(said)
-            elif "props" in said:
-                made[name], poses[name] = (said, arrays), AT_ORIGIN
-            elif said["type"] == "SceneNodeUpdateMessage":
-                made[name][0]["props"].update(said["updates"])
-            elif said["type"] == "SetPositionMessage":
-                poses[name] = place_of(np.asarray(said["position"]), None)
-            elif said["type"] == "SetSceneNodeVisibilityMessage" and not said["visible"]:
+                others.append(message)
+            elif "props" in message:
+                made[name], poses[name] = (message, arrays), AT_ORIGIN
+            elif message["type"] == "SceneNodeUpdateMessage":
+                made[name][0]["props"].update(message["updates"])
+            elif message["type"] == "SetPositionMessage":
+                poses[name] = place_of(np.asarray(message["position"]), None)
+            elif message["type"] == "SetSceneNodeVisibilityMessage" and not message["visible"]:
                 hidden.add(name)
         nodes = {
             name: (
                 self._kind(
-                    said["type"], said["props"], arrays, fade=fade, visible=name not in hidden
+                    message["type"], message["props"], arrays, fade=fade, visible=name not in hidden
                 ),
                 poses[name],
             )
-            for name, (said, arrays) in made.items()
+            for name, (message, arrays) in made.items()
         }
         return nodes, others
 
@@ -192,10 +192,10 @@ class Maker:
     ) -> NodeKind:
         contents: list[Content] = []
         plain = {name: self._plain(value, arrays, contents) for name, value in props.items()}
-        said: dict[str, Any] = {"type": type_, "props": plain}
-        said |= {"fade": round(fade, 4)} if fade < 1 else {}
-        said |= {} if visible else {"visible": False}
-        text = json.dumps(said, separators=(",", ":"), allow_nan=False)
+        data: dict[str, Any] = {"type": type_, "props": plain}
+        data |= {"fade": round(fade, 4)} if fade < 1 else {}
+        data |= {} if visible else {"visible": False}
+        text = json.dumps(data, separators=(",", ":"), allow_nan=False)
         return NodeKind(digest(text.encode()), text, tuple(contents))
 
     def _plain(self, value: Any, arrays: list[memoryview], contents: list[Content]) -> Any:
@@ -211,7 +211,7 @@ class Maker:
         if isinstance(value, float | np.floating):
             return float(value) if np.isfinite(value) else None
         if isinstance(value, tuple | list):
-            return [self._plain(one, arrays, contents) for one in value]
+            return [self._plain(item, arrays, contents) for item in value]
         return value
 
     def _content(self, content: bytes) -> Content:

@@ -26,7 +26,7 @@ def packed(head: Mapping[str, Any], kinds: Iterable[NodeKind], arrays: Iterable[
     """Return one message."""
     arrays = list(arrays)
     text = json.dumps(
-        {**head, "arrays": [[one.key, len(one.data)] for one in arrays]},
+        {**head, "arrays": [[array.key, len(array.data)] for array in arrays]},
         separators=(",", ":"),
         allow_nan=False,
     )
@@ -34,8 +34,8 @@ def packed(head: Mapping[str, Any], kinds: Iterable[NodeKind], arrays: Iterable[
     start = f'{text[:-1]},"kinds":{{{listed}}}}}'.encode()
     start += b" " * (-(4 + len(start)) % 8)
     parts = [len(start).to_bytes(4, "little"), start]
-    for one in arrays:
-        parts += [one.data, b"\0" * (-len(one.data) % 8)]
+    for array in arrays:
+        parts += [array.data, b"\0" * (-len(array.data) % 8)]
     return b"".join(parts)
 
 
@@ -70,25 +70,25 @@ class PageWire:
             stage: What the camera belongs to besides, such as the lesson: it is put to the view
                 again where that changes.
         """
-        said = dict(head)
+        message = dict(head)
         if not self._kinds or self._held > MOST_ON_A_PAGE:
             self.forget()
-            said["fresh"] = True
+            message["fresh"] = True
         nodes = self._maker.nodes(scene, view)
         kinds = {kind.key: kind for kind, _ in nodes.values() if kind.key not in self._kinds}
         arrays = {
-            one.key: one
+            array.key: array
             for kind in kinds.values()
-            for one in kind.arrays
-            if one.key not in self._arrays
+            for array in kind.arrays
+            if array.key not in self._arrays
         }
         self._kinds |= kinds.keys()
         self._arrays |= arrays.keys()
-        self._held += sum(len(one.data) for one in arrays.values())
+        self._held += sum(len(array.data) for array in arrays.values())
         if (stage, view) != self._staged:
-            said["stage"], self._staged = staged(view, self._maker), (stage, view)
-        said["nodes"] = [[name, kind.key, pose] for name, (kind, pose) in nodes.items()]
-        return packed(said, kinds.values(), arrays.values())
+            message["stage"], self._staged = staged(view, self._maker), (stage, view)
+        message["nodes"] = [[name, kind.key, pose] for name, (kind, pose) in nodes.items()]
+        return packed(message, kinds.values(), arrays.values())
 
 
 def run_bytes(timeline: Timeline, maker: Maker = MAKER) -> bytes:
@@ -104,7 +104,7 @@ def run_bytes(timeline: Timeline, maker: Maker = MAKER) -> bytes:
         nodes = maker.nodes(step.scene, view)
         for kind, _ in nodes.values():
             kinds[kind.key] = kind
-            arrays |= {one.key: one for one in kind.arrays}
+            arrays |= {array.key: array for array in kind.arrays}
         steps.append([_listed(name, node, before.get(name)) for name, node in nodes.items()])
         before = nodes
     return packed({"stage": staged(view, maker), "steps": steps}, kinds.values(), arrays.values())

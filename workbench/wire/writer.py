@@ -88,9 +88,9 @@ class PlainScene:
         self._heard = []
         return heard
 
-    def say(self, said: Said, arrays: list[memoryview] | None = None) -> None:
+    def say(self, message: Said, arrays: list[memoryview] | None = None) -> None:
         """Say one message."""
-        self._heard.append((said, arrays or []))
+        self._heard.append((message, arrays or []))
 
     def configure_default_lights(self, *, cast_shadow: bool) -> None:
         """Light the scene by viser's lamps."""

@@ -74,19 +74,19 @@ LOGARITHM = "log₁₀ "
 """How the label of an axis, or the title of a colour bar, begins whose values are logarithms."""
 
 
-def of_powers(found: Axis) -> Axis:
+def of_powers(logs: Axis) -> Axis:
     """Return an axis of logarithms with the numbers themselves as words, at powers of ten where
     there are two, else at one, two and five times such powers.
     """
-    places = np.array(found.ticks)
-    powers = np.arange(np.ceil(found.low), np.floor(found.high) + 1)
+    places = np.array(logs.ticks)
+    powers = np.arange(np.ceil(logs.low), np.floor(logs.high) + 1)
     if len(places) < 2 or (places != np.rint(places)).any():
-        near = np.arange(np.floor(found.low), np.ceil(found.high))
+        near = np.arange(np.floor(logs.low), np.ceil(logs.high))
         finer = (near[:, None] + np.log10([1.0, 2.0, 5.0])).ravel()
-        finer = finer[(finer >= found.low) & (finer <= found.high)]
+        finer = finer[(finer >= logs.low) & (finer <= logs.high)]
         places = next((some for some in (powers, finer) if len(some) > 1), places)
     words = tuple(number(10.0**place) for place in places)
-    return replace(found, ticks=tuple(places.tolist()), words=words)
+    return replace(logs, ticks=tuple(places.tolist()), words=words)
 
 
 def apart(low: float, high: float) -> tuple[float, float]:

@@ -34,7 +34,7 @@ def wording(markdown: str, home: str) -> str:
 
     `site` is every home that cannot compute: a published page, a notebook, a recording.
     """
-    return WORDING.sub(lambda found: found[2] if found[1] == home else "", markdown)
+    return WORDING.sub(lambda match: match[2] if match[1] == home else "", markdown)
 
 
 def page_of(markdown: str, file: Path | None) -> str:
@@ -76,7 +76,7 @@ def with_terms(text: str) -> str:
     """Return the HTML of a page with its terms as elements: `[[source|the scan]]` names a thing
     of the scene.
     """
-    return TERM.sub(lambda found: _term(found[1], found[2] or found[1]), text)
+    return TERM.sub(lambda term: _term(term[1], term[2] or term[1]), text)
 
 
 def _term(path: str, words: str) -> str:

@@ -143,16 +143,16 @@ def calibrate(
         max_iterations=max_iterations,
         tolerance=tolerance,
     )
-    for now in refinement:
-        if now.iteration:
+    for state in refinement:
+        if state.iteration:
             yield State(
                 phase="refine",
                 Hs_image_board=Hs,
-                K=now.K,
-                lens=now.lens,
-                Ts_camera_board=now.Ts_camera_board,
-                residuals=now.residuals,
-                adjustment=now,
+                K=state.K,
+                lens=state.lens,
+                Ts_camera_board=state.Ts_camera_board,
+                residuals=state.residuals,
+                adjustment=state,
             )
 
 
@@ -182,5 +182,5 @@ def _in_pixels(N: np.ndarray, K: np.ndarray | None) -> np.ndarray | None:
     """Return the camera of the pixels themselves, from that of coordinates `N` takes them to."""
     if K is None:
         return None
-    found = np.linalg.inv(N) @ K
-    return found / found[2, 2]
+    K_pixels = np.linalg.inv(N) @ K
+    return K_pixels / K_pixels[2, 2]

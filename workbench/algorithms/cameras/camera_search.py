@@ -104,19 +104,21 @@ def by_three_points(
 ) -> Iterator[Searched]:
     """Yield the motions that three points leave open, and how the fourth chooses among them."""
     p, rays = p_world[:3], unit_rays(xy[:3])
-    now = Searched(phase="rays")
-    yield now
+    state = Searched(phase="rays")
+    yield state
     quartic = quartics(p[None], rays[None])[0]
     lengths, _ = three_point_lengths(p[None], rays[None])
-    now = replace(now, phase="quartic", quartic=quartic, lengths=lengths)
-    yield now
+    state = replace(state, phase="quartic", quartic=quartic, lengths=lengths)
+    yield state
     for distances in lengths:
         T = np.asarray(pose_from_distances(p, rays, distances), float)
-        now = replace(now, phase="root", T=T, candidates=np.concatenate([now.candidates, T[None]]))
-        yield now
+        state = replace(
+            state, phase="root", T=T, candidates=np.concatenate([state.candidates, T[None]])
+        )
+        yield state
     if len(lengths):
-        T = np.asarray(choose_pose(now.candidates, p_world[:4], xy[:4]), float)
-        yield replace(now, phase="choose", T=T, error=_error(T, p_world, xy))
+        T = np.asarray(choose_pose(state.candidates, p_world[:4], xy[:4]), float)
+        yield replace(state, phase="choose", T=T, error=_error(T, p_world, xy))
 
 
 def by_fourth_points(
@@ -181,12 +183,12 @@ def downhill(
         for steps in range(1, most + 1) if np.isfinite(error) else ():
             whole = np.asarray(pose_step(T, p_world, xy), float)
             tried = ((share, _part(T, whole, share)) for share in SHARES)
-            found = next(((s, T_s) for s, T_s in tried if _error(T_s, p_world, xy) < error), None)
-            if found is None:
+            lower = next(((s, T_s) for s, T_s in tried if _error(T_s, p_world, xy) < error), None)
+            if lower is None:
                 near = _error(whole, p_world, xy) <= error * (1.0 + tolerance)
                 stop, steps = Stop.SETTLED if near else Stop.NOT_LOWER, steps - 1
                 break
-            (share, T), before = found, error
+            (share, T), before = lower, error
             error = _error(T, p_world, xy)
             yield Searched(phase="step", T=T, error=error, share=share, steps=steps)
             if before - error <= tolerance * before:

@@ -57,24 +57,24 @@ def spectral_cut(adjacency: Sparse, laplacian: Laplacian, shown: int = 6) -> Ite
         adjacency: A of a symmetric graph with two nodes or more.
         laplacian: Of which the second function is taken: plain, normalised, or of a mesh.
     """
-    now = Cut(phase="graph", adjacency=adjacency)
-    yield now
+    state = Cut(phase="graph", adjacency=adjacency)
+    yield state
 
     # the first is constant and tells nothing
     values, fiedler = laplacian.second(min(3, adjacency.shape[0]))
-    yield (now := replace(now, phase="fiedler", eigenvalues=values, fiedler=fiedler))
+    yield (state := replace(state, phase="fiedler", eigenvalues=values, fiedler=fiedler))
 
-    yield (now := _with(now, "sign", fiedler > 0, k=-1))
+    yield (state := _with(state, "sign", fiedler > 0, k=-1))
 
     order, conductances = sweep(adjacency, fiedler)
-    now = replace(now, order=order, conductances=conductances)
+    state = replace(state, order=order, conductances=conductances)
     for k in np.unique(np.linspace(0, len(order) - 2, shown + 2).round().astype(int)[1:-1]):
-        yield _with(now, "sweep", np.isin(np.arange(len(order)), order[: k + 1]), k=int(k))
+        yield _with(state, "sweep", np.isin(np.arange(len(order)), order[: k + 1]), k=int(k))
 
     best = int(np.argmin(conductances))
-    yield _with(now, "best", np.isin(np.arange(len(order)), order[: best + 1]), k=best)
+    yield _with(state, "best", np.isin(np.arange(len(order)), order[: best + 1]), k=best)
 
 
-def _with(now: Cut, phase: Phase, side: np.ndarray, *, k: int) -> Cut:
-    cut, phi = cut_weight(now.adjacency, side), conductance(now.adjacency, side)
-    return replace(now, phase=phase, side=side, k=k, cut=cut, conductance=phi)
+def _with(state: Cut, phase: Phase, side: np.ndarray, *, k: int) -> Cut:
+    cut, phi = cut_weight(state.adjacency, side), conductance(state.adjacency, side)
+    return replace(state, phase=phase, side=side, k=k, cut=cut, conductance=phi)

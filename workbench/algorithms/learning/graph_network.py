@@ -98,11 +98,11 @@ def train(
     """
     gathers = graphs.propagation(graphs.sparse(adjacency))  # most of A is zero
     w = list(weights)
-    mean, square = [np.zeros_like(one) for one in w], [np.zeros_like(one) for one in w]
+    mean, square = [np.zeros_like(W) for W in w], [np.zeros_like(W) for W in w]
     for iteration in range(iterations + 1):
         hidden = [features]
-        for one in w[:-1]:
-            hidden.append(np.asarray(gcn_layer(adjacency, hidden[-1], one), float))
+        for W in w[:-1]:
+            hidden.append(np.asarray(gcn_layer(adjacency, hidden[-1], W), float))
         scores = gathers @ hidden[-1] @ w[-1]
         chance = softmax(scores[labelled])
         loss = -float(np.log(chance[np.arange(len(labelled)), classes] + 1e-300).mean())  # eq. (10)

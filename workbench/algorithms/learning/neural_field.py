@@ -129,13 +129,13 @@ def train_field(
         return loss, gradients
 
     for done, loss in descend(values, gradient, counts, RATE):
-        now = FieldNetwork(
+        trained = FieldNetwork(
             values=values.copy(),
             sizes=network.sizes,
             frequencies=network.frequencies,
             activation=network.activation,
         )
-        yield Trained(network=now, iterations=done, loss=loss)
+        yield Trained(network=trained, iterations=done, loss=loss)
 
 
 def _loss(output: np.ndarray, y: np.ndarray, target: Target) -> tuple[float, np.ndarray]:

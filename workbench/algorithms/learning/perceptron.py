@@ -108,9 +108,9 @@ def descend(
             done += 1
             moment += real(1 - _B1) * (slope - moment)
             square += real(1 - _B2) * (slope * slope - square)
-            now = rate * (1 - done / (1.07 * counts[-1])) / (1 - _B1**done)
+            step = rate * (1 - done / (1.07 * counts[-1])) / (1 - _B1**done)
             values -= (
-                real(now) * moment / (np.sqrt(square * real(1 / (1 - _B2**done))) + real(_TINY))
+                real(step) * moment / (np.sqrt(square * real(1 / (1 - _B2**done))) + real(_TINY))
             )
         yield done, float(np.mean(losses))
         losses = []

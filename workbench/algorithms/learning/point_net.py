@@ -169,10 +169,10 @@ def train_classifier(
         return loss, network.slopes(done, slope / len(of))
 
     for updates, loss in descend(values, gradient, counts, RATE):
-        now = PointNet(values=values.copy(), pointwise=pointwise, head=head, pool=pool)
+        trained = PointNet(values=values.copy(), pointwise=pointwise, head=head, pool=pool)
         yield Classified(
             updates=updates,
             loss=loss,
-            network=now,
-            scores={name: now(clouds) for name, clouds in tests.items()},
+            network=trained,
+            scores={name: trained(clouds) for name, clouds in tests.items()},
         )

@@ -77,9 +77,11 @@ class Adjustment:
     @property
     def deviations(self) -> Float[np.ndarray, "9"]:
         """Predicted standard deviations of `SHARED`; 0 for what is fixed, NaN if not known."""
-        found = np.zeros(9)
-        found[self.free] = np.nan if self.covariance is None else np.sqrt(np.diag(self.covariance))
-        return found
+        deviations = np.zeros(9)
+        deviations[self.free] = (
+            np.nan if self.covariance is None else np.sqrt(np.diag(self.covariance))
+        )
+        return deviations
 
 
 @traced
@@ -296,11 +298,13 @@ def _covariance(block: np.ndarray, weights: np.ndarray, free: np.ndarray) -> np.
     try:
         S = _information(normal, free)
         scale = 1.0 / np.sqrt(np.diag(S))  # units of the unknowns differ by a thousand
-        found = np.linalg.inv(S * np.outer(scale, scale)) * np.outer(scale, scale)
+        covariance = np.linalg.inv(S * np.outer(scale, scale)) * np.outer(scale, scale)
     except (np.linalg.LinAlgError, FloatingPointError):
         return None
-    found *= normal[:, _RESIDUAL, _RESIDUAL].sum() / spare if spare > 0 else np.nan
-    return found if np.isfinite(found).all() and (np.diag(found) >= 0).all() else None
+    covariance *= normal[:, _RESIDUAL, _RESIDUAL].sum() / spare if spare > 0 else np.nan
+    return (
+        covariance if np.isfinite(covariance).all() and (np.diag(covariance) >= 0).all() else None
+    )
 
 
 def _motions(R: np.ndarray, t: np.ndarray) -> np.ndarray:

@@ -123,7 +123,7 @@ def descend(
     """
     unknown, is_damped = start, damping > 0.0
     residuals, jacobian = linearise(unknown)
-    now = Descent(
+    moment = Descent(
         phase="start",
         iteration=0,
         unknown=unknown,
@@ -132,43 +132,50 @@ def descend(
         cost=float(residuals @ residuals),
         damping=damping,
     )
-    yield now
+    yield moment
     for iteration in range(1, iterations + 1):
-        now = replace(
-            now, phase="linearised", iteration=iteration, step=None, trial=None, trial_cost=np.nan
+        moment = replace(
+            moment,
+            phase="linearised",
+            iteration=iteration,
+            step=None,
+            trial=None,
+            trial_cost=np.nan,
         )
-        yield now
+        yield moment
         try:
-            step = damped_step(now.residuals, now.jacobian, now.damping)
+            step = damped_step(moment.residuals, moment.jacobian, moment.damping)
         except np.linalg.LinAlgError:
-            yield replace(now, phase="rejected", stop=Stop.SINGULAR)
+            yield replace(moment, phase="rejected", stop=Stop.SINGULAR)
             return
         # what overflows has diverged, and is said to
         with np.errstate(over="ignore", invalid="ignore"):
-            trial = retract(now.unknown, step)
+            trial = retract(moment.unknown, step)
             trial_residuals, trial_jacobian = linearise(trial)
             trial_cost = float(trial_residuals @ trial_residuals)
-            predicted = now.cost - float(np.square(now.residuals + now.jacobian @ step).sum())
-        now = replace(
-            now,
+            predicted = moment.cost - float(
+                np.square(moment.residuals + moment.jacobian @ step).sum()
+            )
+        moment = replace(
+            moment,
             phase="tried",
             step=step,
             trial=trial,
             trial_cost=trial_cost,
-            before=now.cost,
+            before=moment.cost,
             predicted=predicted,
         )
-        yield now
+        yield moment
 
         stop = Stop.MAX_ITERATIONS if iteration == iterations else None
         if not np.isfinite(trial).all() or not np.isfinite(trial_cost):
             stop = Stop.DIVERGED
-        elif min(abs(now.cost - trial_cost), abs(predicted)) <= tolerance * now.cost:
+        elif min(abs(moment.cost - trial_cost), abs(predicted)) <= tolerance * moment.cost:
             stop = Stop.CONVERGED
-        if trial_cost < now.cost or (not is_damped and stop is not Stop.DIVERGED):
-            lower = max(now.damping / CHANGE, LEAST_DAMPING) if is_damped else 0.0
-            now = replace(
-                now,
+        if trial_cost < moment.cost or (not is_damped and stop is not Stop.DIVERGED):
+            lower = max(moment.damping / CHANGE, LEAST_DAMPING) if is_damped else 0.0
+            moment = replace(
+                moment,
                 phase="accepted",
                 unknown=trial,
                 residuals=trial_residuals,
@@ -178,8 +185,8 @@ def descend(
                 stop=stop,
             )
         else:
-            now = replace(now, phase="rejected", damping=now.damping * CHANGE, stop=stop)
-        yield now
+            moment = replace(moment, phase="rejected", damping=moment.damping * CHANGE, stop=stop)
+        yield moment
         if stop:
             return
 
@@ -194,7 +201,7 @@ class Along:
 
 
 def along_step(
-    now: Descent, linearise: Linearise, retract: Retract, *, shares: Float[np.ndarray, " k"]
+    moment: Descent, linearise: Linearise, retract: Retract, *, shares: Float[np.ndarray, " k"]
 ) -> Along:
     """Return the sums of squares at shares of the step of a descent; 1 is its end.
 
@@ -204,14 +211,14 @@ def along_step(
     Reference: Nocedal and Wright, Numerical Optimization, 2nd ed., 4.1 (the model beside the
     function).
     """
-    if now.step is None:
+    if moment.step is None:
         raise ValueError("there is no step to go along")
     with np.errstate(over="ignore", invalid="ignore"):
-        unknowns = retract(np.tile(now.unknown, (len(shares), 1)), shares[:, None] * now.step)
+        unknowns = retract(np.tile(moment.unknown, (len(shares), 1)), shares[:, None] * moment.step)
         costs = np.square(linearise(unknowns)[0]).sum(axis=-1)
-        promised = np.square(now.residuals + shares[:, None] * (now.jacobian @ now.step)).sum(
-            axis=-1
-        )
+        promised = np.square(
+            moment.residuals + shares[:, None] * (moment.jacobian @ moment.step)
+        ).sum(axis=-1)
     return Along(shares, costs, promised)
 
 
@@ -234,13 +241,19 @@ def with_its_way(
 ) -> Iterator[Walked]:
     """Yield the moments of a descent, each with the way that led there."""
     kept, taken_back = [], []
-    for now in moments:
-        if now.phase in ("start", "accepted"):
-            kept.append(now.unknown)
-        elif now.phase == "rejected" and now.trial is not None:
-            taken_back.append(now.trial)
-        along = along_step(now, linearise, retract, shares=shares) if now.phase == "tried" else None
-        yield Walked(now, np.array(kept), np.array(taken_back).reshape(-1, now.unknown.size), along)
+    for moment in moments:
+        if moment.phase in ("start", "accepted"):
+            kept.append(moment.unknown)
+        elif moment.phase == "rejected" and moment.trial is not None:
+            taken_back.append(moment.trial)
+        along = (
+            along_step(moment, linearise, retract, shares=shares)
+            if moment.phase == "tried"
+            else None
+        )
+        yield Walked(
+            moment, np.array(kept), np.array(taken_back).reshape(-1, moment.unknown.size), along
+        )
 
 
 def covariance(

@@ -80,8 +80,8 @@ def procrustes(
     state = State(stage="pairs", T_target_source=np.eye(4), rmse=left(np.eye(4)))
     yield state
 
-    def after(stage: Stage, T: np.ndarray, **found: Any) -> State:
-        return replace(state, stage=stage, T_target_source=T, rmse=left(T), **found)
+    def after(stage: Stage, T: np.ndarray, **known: Any) -> State:
+        return replace(state, stage=stage, T_target_source=T, rmse=left(T), **known)
 
     yield (state := after("centre", about_centroids(np.eye(3))))
     H = (p_target - m_target).T @ (p_source - m_source) / len(p_source)  # eq. 38

@@ -143,10 +143,10 @@ def cascade(
     Reference: Maronna, Martin, Yohai and Salibian-Barrera, Robust Statistics, 2nd ed., 2019, 5.5: a
     loss whose slope returns to zero starts from a fit that is robust already.
     """
-    first, now = None, None
+    first, fit = None, None
     for k, (loss, corner) in enumerate(losses):
-        start = now.estimate if now else None
-        for now in reweighted_fit(
+        start = fit.estimate if fit else None
+        for fit in reweighted_fit(
             p,
             model,
             loss,
@@ -155,10 +155,10 @@ def cascade(
             max_iterations=max_iterations,
             tolerance=tolerance,
         ):
-            first = now.estimate if first is None else first
-            if start is None or now.iteration > 0:
+            first = fit.estimate if first is None else first
+            if start is None or fit.iteration > 0:
                 yield Trusted(
-                    loss, corner, now, first, now.stop is not None and k == len(losses) - 1
+                    loss, corner, fit, first, fit.stop is not None and k == len(losses) - 1
                 )
 
 

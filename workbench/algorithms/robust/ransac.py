@@ -235,10 +235,10 @@ class Ahead:
             self._estimates, of_sample = self._model.solve_each(rows)
             ends = np.searchsorted(of_sample, np.arange(len(batch) + 1)).tolist()
             self._of_sample = {
-                one.tobytes(): self._estimates[first:last]
-                for one, (first, last) in zip(rows, pairwise(ends), strict=True)
+                sample.tobytes(): self._estimates[first:last]
+                for sample, (first, last) in zip(rows, pairwise(ends), strict=True)
             }
-            self._place = {one.tobytes(): i for i, one in enumerate(self._estimates)}
+            self._place = {estimate.tobytes(): i for i, estimate in enumerate(self._estimates)}
             self._fits = {}
             yield from batch
 
@@ -247,14 +247,14 @@ class Ahead:
 
     def needed_for(self, inlier_ratio: float, sample_size: int, confidence: float) -> float:
         """Return how many samples are needed, and remember it."""
-        found = self._needed_for(inlier_ratio, sample_size, confidence)
-        self._needed = min(self._most, found)
-        return found
+        needed = self._needed_for(inlier_ratio, sample_size, confidence)
+        self._needed = min(self._most, needed)
+        return needed
 
     def solve(self, asked: Float[np.ndarray, "1 m d"]) -> Float[np.ndarray, "j ..."]:
         """Return the estimates through one sample."""
-        found = self._of_sample.get(asked.tobytes())
-        return self._model.solve(asked) if found is None else found
+        estimates = self._of_sample.get(asked.tobytes())
+        return self._model.solve(asked) if estimates is None else estimates
 
     def judge(self, estimate: Float[np.ndarray, "..."]) -> Fit:
         """Return how all rows take an estimate; it and the next ones are judged together."""

@@ -93,14 +93,14 @@ def termination_length(
         >>> termination_length(np.arange(100) < 30, -np.arange(100.0), 4)
         (30, 1.0)
     """
-    found = np.cumsum(inliers[np.argsort(-quality, kind="stable")])
-    n = np.arange(1, len(found) + 1)
+    agreeing = np.cumsum(inliers[np.argsort(-quality, kind="stable")])
+    n = np.arange(1, len(agreeing) + 1)
     # of at least so many beside the sample
-    chance = bdtrc(found - size - 1.0, np.maximum(n - size, 1), by_chance)
-    counts = (n >= min(FEWEST_TRUSTED, len(n))) & (n > size) & (found > size) & (chance < doubt)
+    chance = bdtrc(agreeing - size - 1.0, np.maximum(n - size, 1), by_chance)
+    counts = (n >= min(FEWEST_TRUSTED, len(n))) & (n > size) & (agreeing > size) & (chance < doubt)
     if not counts.any():
         return 0, 0.0
-    share = np.where(counts, found / n, 0.0)
+    share = np.where(counts, agreeing / n, 0.0)
     length = int(np.flatnonzero(share == share.max())[-1]) + 1
     return length, float(share.max())
 

@@ -150,4 +150,4 @@ def search(tree: Tree, q: Float[np.ndarray, " d"]) -> Iterator[Visit]:
 
 def looked_at(tree: Tree, q: Float[np.ndarray, "m d"]) -> Float[np.ndarray, " m"]:
     """Return how many points the search looks at for each query."""
-    return np.array([float([visit.looked for visit in search(tree, one)][-1]) for one in q])
+    return np.array([float([visit.looked for visit in search(tree, query)][-1]) for query in q])

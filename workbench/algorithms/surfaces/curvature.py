@@ -111,44 +111,46 @@ def measure_curvature(
     of `vertex` is looked at closely.
     """
     normals = vertex_normals(p, faces)
-    now = Measured("mesh", p, faces, normals, vertex)
-    yield now
+    state = Measured("mesh", p, faces, normals, vertex)
+    yield state
 
     ring_faces, ring = one_ring(faces, vertex)
     angles = angles_at(p, vertex, ring)
     yield (
-        now := replace(
-            now, stage="ring", ring_faces=ring_faces, ring=ring, angles=angles[: len(ring_faces)]
+        state := replace(
+            state, stage="ring", ring_faces=ring_faces, ring=ring, angles=angles[: len(ring_faces)]
         )
     )
 
     defects = angle_defects(p, faces)  # (9), numerator: 2 pi - sum of angles; pi on the border
-    yield (now := replace(now, stage="defect", defects=defects))
+    yield (state := replace(state, stage="defect", defects=defects))
 
     areas = mixed_areas(p, faces)  # figure 4
     K = gaussian_curvature(p, faces)  # (9): defect / area
-    yield (now := replace(now, stage="gaussian", areas=areas, K=K))
+    yield (state := replace(state, stage="gaussian", areas=areas, K=K))
 
     # (8): sum of (cot a + cot b) (p_i - p_j) / 2 area
     normals_2H = mean_curvature_normals(p, faces)
-    yield (now := replace(now, stage="normal", normals_2H=normals_2H))
+    yield (state := replace(state, stage="normal", normals_2H=normals_2H))
 
     # half its length, with the sign of the side it points to
     H = mean_from_normals(normals_2H, normals)
-    yield (now := replace(now, stage="mean", H=H))
+    yield (state := replace(state, stage="mean", H=H))
 
     k1, k2 = principal_curvatures(K, H)  # section 5.1: H +- sqrt(H^2 - K)
     along_k1, along_k2 = principal_directions(p, faces, normals)  # section 5.3
     yield (
-        now := replace(now, stage="principal", k1=k1, k2=k2, along_k1=along_k1, along_k2=along_k2)
+        state := replace(
+            state, stage="principal", k1=k1, k2=k2, along_k1=along_k1, along_k2=along_k2
+        )
     )
 
     quadrics = fit_quadrics(p, faces)  # another way: a smooth patch through two rings
-    yield (now := replace(now, stage="quadric", quadrics=quadrics))
+    yield (state := replace(state, stage="quadric", quadrics=quadrics))
 
     total = float(defects.sum())  # Gauss-Bonnet: 2 pi chi, whatever the mesh
     chi = euler_characteristic(faces)
-    yield replace(now, stage="total", total=total, chi=chi)
+    yield replace(state, stage="total", total=total, chi=chi)
 
 
 def angles_at(p: Points, vertex: int, ring: Int[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:

@@ -103,15 +103,15 @@ def march(
                 break
             a = np.minimum(left.take(at), right.take(at))
             b = np.minimum(below.take(at), above.take(at))
-            found = np.asarray(update(a, b, h), float)
-            falls = found < own.take(at) - 1e-12 * h
-            falls &= found >= np.minimum(a, b)
+            updated = np.asarray(update(a, b, h), float)
+            falls = updated < own.take(at) - 1e-12 * h
+            falls &= updated >= np.minimum(a, b)
             fallen = at.compress(falls)
-            lower = found.compress(falls)
+            lower = updated.compress(falls)
             own[fallen] = lower
             changed = fallen.compress(lower <= reach)
         passed = reach
-        now = d[1:-1, 1:-1].copy()
-        yield March(now, now <= reach, reach)
-        if not (np.isfinite(now) & (now > reach)).any():
+        distances = d[1:-1, 1:-1].copy()
+        yield March(distances, distances <= reach, reach)
+        if not (np.isfinite(distances) & (distances > reach)).any():
             return

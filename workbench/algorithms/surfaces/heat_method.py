@@ -100,11 +100,11 @@ def heat_method(measured: Corners, source: int, time: float) -> Iterator[HeatSta
     """Yield heat that has flowed for a time, its directions, and the distances by them."""
     method = HeatMethod(measured, time)
     u = method.heat(np.array([source]))[:, 0]  # (A + t L) u = 1 at the source
-    yield (now := HeatState(phase="flow", u=u))
+    yield (state := HeatState(phase="flow", u=u))
     X = method.directions(u)  # X = -grad u / |grad u|
-    yield (now := replace(now, phase="directions", X=X))
+    yield (state := replace(state, phase="directions", X=X))
     d = method.distances(X, source)  # L phi = -div X
-    yield replace(now, phase="distances", d=d)
+    yield replace(state, phase="distances", d=d)
 
 
 def _factored(matrix: "scipy.sparse.csr_array") -> "scipy.sparse.linalg.SuperLU":

@@ -125,7 +125,9 @@ def best_matching(p_a: Float[np.ndarray, "n 3"], p_b: Float[np.ndarray, "m 3"]) 
         ValueError: If a cloud is empty or not finite, or counts differ and are too large.
     """
     check_clouds(p_a, p_b)
-    return _matched(*(one for p in (p_a, p_b) for one in (np.asarray(p, float).tobytes(), p.shape)))
+    return _matched(
+        *(part for p in (p_a, p_b) for part in (np.asarray(p, float).tobytes(), p.shape))
+    )
 
 
 @functools.lru_cache(maxsize=8)
@@ -140,10 +142,10 @@ def _matched(
         mass = np.full(len(p_a), 1 / len(p_a))
     else:
         i_a, i_b, mass = best_plan(distances)
-    found = TransportPlan(i_a, i_b, mass, distances[i_a, i_b])
-    for array in (found.i_a, found.i_b, found.mass, found.distances):
+    plan = TransportPlan(i_a, i_b, mass, distances[i_a, i_b])
+    for array in (plan.i_a, plan.i_b, plan.mass, plan.distances):
         array.setflags(write=False)
-    return found
+    return plan
 
 
 def best_assignment(
@@ -253,12 +255,12 @@ def _likely(
 
 def _lowest(values: Float[np.ndarray, "n m"], count: int) -> Bool[np.ndarray, "n m"]:
     """Return which entries are among so many lowest of their row or of their column."""
-    found = np.zeros(values.shape, bool)
+    is_low = np.zeros(values.shape, bool)
     for axis in (0, 1):
         few = min(count, values.shape[axis])
         lowest = np.argpartition(values, few - 1, axis).take(np.arange(few), axis)
-        np.put_along_axis(found, lowest, True, axis)
-    return found
+        np.put_along_axis(is_low, lowest, True, axis)
+    return is_low
 
 
 def _solved(

@@ -43,7 +43,7 @@ def read_edges(path: Path, most_nodes: int) -> EdgeList:
     if len(rows) > MOST_EDGES:
         raise InputError(f"{path.name}: {len(rows):,} lines; at most {MOST_EDGES:,} edges are read")
     number: dict[str, int] = {}
-    found: dict[tuple[int, int], float] = {}
+    weights: dict[tuple[int, int], float] = {}
     for i, line in rows:
         cells = [
             cell.strip().strip("\"'")
@@ -58,14 +58,14 @@ def read_edges(path: Path, most_nodes: int) -> EdgeList:
         first, second = (number.setdefault(name, len(number)) for name in (a, b))
         if first != second:
             edge = min(first, second), max(first, second)
-            found[edge] = found.get(edge, 0.0) + weight
-    if not found:
+            weights[edge] = weights.get(edge, 0.0) + weight
+    if not weights:
         raise InputError(
             f"{path.name}: no edge between two nodes; a line has two names and maybe a weight"
         )
     if len(number) > most_nodes:
         raise InputError(f"{path.name}: {len(number):,} nodes; at most {most_nodes:,} are laid out")
-    return EdgeList(tuple(number), np.array(list(found)), np.array(list(found.values())))
+    return EdgeList(tuple(number), np.array(list(weights)), np.array(list(weights.values())))
 
 
 def _row(cells: list[str], name: str, line: int) -> tuple[str, str, float]:

@@ -143,13 +143,13 @@ def _compressed_columns(
     not_too_large(unpacked, name)
     if unpacked != n * sum(np.dtype(t).itemsize * c for _, t, c in columns):
         raise InputError(f"{name}: the compressed size does not fit {n:,} points")
-    plain, start, found = _unpack_lzf(body[8 : 8 + packed], unpacked, name), 0, {}
+    plain, start, values = _unpack_lzf(body[8 : 8 + packed], unpacked, name), 0, {}
     for field, kind, count in columns:
-        found[field] = (
+        values[field] = (
             np.frombuffer(plain, kind, n * count, start).astype(float).reshape(n, count)[:, 0]
         )
         start += n * count * np.dtype(kind).itemsize
-    return np.column_stack([found[axis] for axis in "xyz"])
+    return np.column_stack([values[axis] for axis in "xyz"])
 
 
 def _unpack_lzf(packed: bytes, size: int, name: str) -> bytes:
@@ -189,16 +189,16 @@ def obj_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     Raises:
         InputError: If it holds a mesh, or a vertex line is not three numbers.
     """
-    found, faces = [np.empty((0, 3))], 0
+    points, faces = [np.empty((0, 3))], 0
     for lines in _blocks(text_of(content, name)):
         rows = [line[2:] for line in lines if line.startswith(("v ", "v\t"))]
         faces += sum(line.startswith(("f ", "f\t")) for line in lines)
         if rows:
-            found.append(_numbers(rows, None, [0, 1, 2], name))
-            not_too_many(sum(map(len, found)), name)
+            points.append(_numbers(rows, None, [0, 1, 2], name))
+            not_too_many(sum(map(len, points)), name)
     if faces:
-        raise mesh_error(name, sum(map(len, found)), faces)
-    return np.concatenate(found)
+        raise mesh_error(name, sum(map(len, points)), faces)
+    return np.concatenate(points)
 
 
 def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
@@ -214,7 +214,7 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
     """
     text = text_of(content, name)
     not_too_many(text.count("\n"), name, "lines")
-    found, separator, columns = [np.empty((0, 3))], "", None
+    points, separator, columns = [np.empty((0, 3))], "", None
     for lines in _blocks(text):
         rows = [row for row in lines if row.strip() and not row.lstrip().startswith(("#", "//"))]
         if rows and columns is None and rows[0].strip().isdigit():
@@ -225,8 +225,8 @@ def text_points(content: bytes, name: str) -> Float[np.ndarray, "n 3"]:
             rows = rows[titles:]
         if rows and columns is not None:
             plain = [row.replace(",", ".") for row in rows] if separator == ";" else rows
-            found.append(_numbers(plain, separator, columns, name))
-    return np.concatenate(found)
+            points.append(_numbers(plain, separator, columns, name))
+    return np.concatenate(points)
 
 
 def _columns(row: str, separator: str | None, name: str) -> tuple[list[int], int]:
@@ -274,23 +274,23 @@ def _blocks(text: str) -> Iterator[list[str]]:
 
 def _first_rows(body: bytes, n: int, columns: list[int], *, name: str) -> np.ndarray:
     """Read columns of the first n lines of a body of text."""
-    found, missing = [np.empty((0, 3))], n
+    points, missing = [np.empty((0, 3))], n
     for lines in _blocks(body.decode("ascii", "replace")):
         rows = lines[:missing]
         if not rows:
             break
-        found.append(_numbers(rows, None, columns, name))
+        points.append(_numbers(rows, None, columns, name))
         missing -= len(rows)
     _need_all(n - missing, n, name)
-    return np.concatenate(found)
+    return np.concatenate(points)
 
 
-def not_too_many(n: int, name: str, what: str = "points") -> None:
+def not_too_many(n: int, name: str, noun: str = "points") -> None:
     """Raise InputError where there are more points than may be read."""
     most = allowance().points
     if n > most:
         raise InputError(
-            f"{name}: {n:,} {what}; at most {most:,} are read{allowance().more}; thin the cloud"
+            f"{name}: {n:,} {noun}; at most {most:,} are read{allowance().more}; thin the cloud"
         )
 
 
@@ -345,8 +345,8 @@ def _table(body: bytes, fields: list, n: int, name: str) -> np.ndarray:
     return np.frombuffer(body, record, n)
 
 
-def _need_all(found: int, promised: int, name: str) -> None:
-    if found < promised:
+def _need_all(count: int, promised: int, name: str) -> None:
+    if count < promised:
         raise InputError(
-            f"{name}: the file is cut short ({found:,} of {promised:,} promised by its header)"
+            f"{name}: the file is cut short ({count:,} of {promised:,} promised by its header)"
         )

@@ -54,13 +54,15 @@ def read_matches(path: Path, fewest: int = 4) -> Matches:
     """
     path = Path(path)
     stamp(path)
-    found = _from_arrays(path) if path.suffix.lower() == ".npz" else _from_text(path)
-    good = np.isfinite(found.p).all(axis=1)
-    p = finite(found.p, path.name, "match", "matches")
-    found = replace(found, p=p, quality=None if found.quality is None else found.quality[good])
-    if len(found.p) < fewest:
-        raise InputError(f"{path.name}: {len(found.p)} matches; at least {fewest} are needed")
-    return found
+    matches = _from_arrays(path) if path.suffix.lower() == ".npz" else _from_text(path)
+    good = np.isfinite(matches.p).all(axis=1)
+    p = finite(matches.p, path.name, "match", "matches")
+    matches = replace(
+        matches, p=p, quality=None if matches.quality is None else matches.quality[good]
+    )
+    if len(matches.p) < fewest:
+        raise InputError(f"{path.name}: {len(matches.p)} matches; at least {fewest} are needed")
+    return matches
 
 
 def _from_arrays(path: Path) -> Matches:
@@ -150,8 +152,10 @@ def _truth(
         or not np.isfinite(matrix).all()
         or not matrix.any()
     ):
-        what = "3 x 3 matrix of finite numbers" if shape == (3, 3) else "vector of 3 finite numbers"
-        raise InputError(f"{path.name}: {names[0]} is no {what}")
+        wanted = (
+            "3 x 3 matrix of finite numbers" if shape == (3, 3) else "vector of 3 finite numbers"
+        )
+        raise InputError(f"{path.name}: {names[0]} is no {wanted}")
     return matrix.astype(float)
 
 

@@ -58,9 +58,9 @@ def board_corners(
         )
         uv, wave = _saddles(small)
         for table in _tables(uv, wave, columns, rows):
-            found = k * (uv[_from_the_first(uv, wave, table)] + 0.5) - 0.5
-            edges = [np.linalg.norm(np.diff(found, axis=axis), axis=2).min() for axis in (0, 1)]
-            return refined(grey, found.reshape(-1, 2), max(2, round(REACH * min(edges))))
+            corners = k * (uv[_from_the_first(uv, wave, table)] + 0.5) - 0.5
+            edges = [np.linalg.norm(np.diff(corners, axis=axis), axis=2).min() for axis in (0, 1)]
+            return refined(grey, corners.reshape(-1, 2), max(2, round(REACH * min(edges))))
     return None
 
 
@@ -75,10 +75,10 @@ def refined(
     Reference: Foerstner and Guelch 1987; OpenCV's cornerSubPix, whose fixed points these are.
     """
     dy, dx = np.mgrid[-half : half + 1, -half : half + 1].reshape(2, -1)
-    weight, found = np.exp(-(dx**2 + dy**2) / half**2), uv.copy()
+    weight, corners = np.exp(-(dx**2 + dy**2) / half**2), uv.copy()
 
     def level(v: int, u: int) -> np.ndarray:
-        at = [found[:, 1:] + dy + v, found[:, :1] + dx + u]
+        at = [corners[:, 1:] + dy + v, corners[:, :1] + dx + u]
         return scipy.ndimage.map_coordinates(grey, at, output=float, order=1, mode="nearest")
 
     for _ in range(ITERATIONS):
@@ -92,12 +92,12 @@ def refined(
         move = np.linalg.solve(
             np.where(flat[:, None, None], np.eye(2), A), np.where(flat[:, None], 0.0, b)[..., None]
         )
-        found = found + move[..., 0]
-        away = np.abs(found - uv).max(axis=1) > half
-        found[away] = uv[away]
+        corners = corners + move[..., 0]
+        away = np.abs(corners - uv).max(axis=1) > half
+        corners[away] = uv[away]
         if np.abs(move[~away]).max(initial=0.0) < STILL:
             break
-    return found
+    return corners
 
 
 def _saddles(grey: np.ndarray) -> tuple[Float[np.ndarray, "n 2"], Complex[np.ndarray, " n"]]:
@@ -135,11 +135,11 @@ def _tables(uv: np.ndarray, wave: np.ndarray, columns: int, rows: int) -> Iterat
             continue  # of a board that was grown already
         near = np.asarray(tree.query(uv[seed], k=min(9, len(uv)))[1])[1:]
         near = near[_differ(wave[seed], wave[near])]
-        for one, other in ((near[0], k) for k in near[1:4]):
-            x, y = uv[one] - uv[seed], uv[other] - uv[seed]
+        for nearest, other in ((near[0], k) for k in near[1:4]):
+            x, y = uv[nearest] - uv[seed], uv[other] - uv[seed]
             turn = x[0] * y[1] - x[1] * y[0]
             if abs(turn) > 0.4 * np.linalg.norm(x) * np.linalg.norm(y):
-                right, down = (one, other) if turn > 0 else (other, one)
+                right, down = (nearest, other) if turn > 0 else (other, nearest)
                 grid = {(0, 0): seed, (0, 1): int(right), (1, 0): int(down)}
                 grid = _grown(uv, wave, tree, grid)
                 yield from _whole(grid, columns, rows)
@@ -165,7 +165,7 @@ def _grown(
             ]
             ways = [(grid[behind], grid[i, j])] if behind in grid else []
             ways += [
-                (grid[here], grid[there]) for here, there in sides if here in grid and there in grid
+                (grid[here], grid[ahead]) for here, ahead in sides if here in grid and ahead in grid
             ]
             if place in grid or not ways:
                 continue

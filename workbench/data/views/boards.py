@@ -73,7 +73,7 @@ def board_poses(
     p_board = board_points()
     middle = p_board.mean(axis=0)
     chance = rng.uniform(-1.0, 1.0, (views, _TRIES, 6))
-    found = []
+    poses = []
     for tries in chance:
         T = np.eye(4)
         for k, (axis, turn, roll, right, down, away) in enumerate(tries):
@@ -88,8 +88,8 @@ def board_poses(
             uv = project(p_board, T, K_TRUE, LENS_TRUE)
             if (uv > _MARGIN).all() and (uv < np.array(SIZE) - _MARGIN).all():
                 break
-        found.append(T)
-    return np.stack(found)
+        poses.append(T)
+    return np.stack(poses)
 
 
 def board_pixels(

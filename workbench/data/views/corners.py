@@ -103,9 +103,9 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
             f"{path.name}: {len(given.p_board)} points on the board; from 4 to {MOST_POINTS} are"
             " calibrated from"
         )
-    found = _with_numbers(given, path.name)
-    p, uv = found.p_board, found.uv
-    left = " left without NaN and infinity" if found is not given else ""
+    corners = _with_numbers(given, path.name)
+    p, uv = corners.p_board, corners.uv
+    left = " left without NaN and infinity" if corners is not given else ""
     if len(uv) < 2:
         raise InputError(
             f"{path.name}: {len(uv)} views{left}; from 2 to {MOST_VIEWS} are calibrated from"
@@ -122,10 +122,10 @@ def read_corners(path: Path, which: Which = "first") -> Corners:
         )
     if (np.ptp(uv, axis=1).min(axis=1) <= 0).any():
         raise InputError(f"{path.name}: in a view all corners are on one row or column of pixels")
-    return found
+    return corners
 
 
-def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
+def pictures_below(corners: Corners, path: Path, only: int) -> Pictures:
     """Return a person's own pictures in which corners were found, as large as these or shrunk.
 
     `path` is a folder or a zip, matched by the names of views or in order; or a picture of the view
@@ -135,10 +135,10 @@ def pictures_below(found: Corners, path: Path, only: int) -> Pictures:
         InputError: If they are no pictures, not as many as views, or of another size than each
             other or the corners.
     """
-    count = found.count
-    one = tuple(path.name if view == min(only, count - 1) else None for view in range(count))
-    pictures = pictures_of(path, matched(path, found.names, count) if holds_many(path) else one)
-    (w, h), (u, v), stated = pictures.size, found.uv.reshape(-1, 2).max(axis=0), found.stated
+    count = corners.count
+    names = tuple(path.name if view == min(only, count - 1) else None for view in range(count))
+    pictures = pictures_of(path, matched(path, corners.names, count) if holds_many(path) else names)
+    (w, h), (u, v), stated = pictures.size, corners.uv.reshape(-1, 2).max(axis=0), corners.stated
     if stated is None and not (u < w and v < h):
         raise InputError(
             f"{path.name or path}: pictures of {w} x {h} pixels, and corners as far as ({u:.0f},"
@@ -168,8 +168,8 @@ def find_corners(path: Path, columns: int, rows: int) -> tuple[Corners, Pictures
             f"{path.name or path}: {len(names)} pictures; up to {MOST_VIEWS} are calibrated from"
         )
     size = pictures_of(path, names).size
-    found = {name: _found(path, name, stamp_of(path, name), columns, rows) for name in names}
-    with_board = {name: uv for name, uv in found.items() if uv is not None}
+    by_name = {name: _found(path, name, stamp_of(path, name), columns, rows) for name in names}
+    with_board = {name: uv for name, uv in by_name.items() if uv is not None}
     if len(with_board) < 2:
         raise InputError(
             f"{path.name or path}: a whole board of {columns} x {rows} inner corners in"
@@ -265,9 +265,9 @@ def _from_arrays(path: Path, which: Which) -> Corners:
         size.shape == (2,) and size.dtype.kind in "iuf" and size.min() > 0 and size.max() < 1e5
     ):
         raise InputError(f"{path.name}: size is two numbers, width and height in pixels")
-    said = (f"{pair[which == 'second']}_names", "names")
+    keys = (f"{pair[which == 'second']}_names", "names")
     names = next(
-        (arrays[one] for one in said if one in arrays and arrays[one].shape == uv.shape[:1]),
+        (arrays[key] for key in keys if key in arrays and arrays[key].shape == uv.shape[:1]),
         np.empty(0, str),
     )
     return Corners(

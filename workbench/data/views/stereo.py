@@ -157,15 +157,15 @@ def read_pair(left: Path, right: Path, f: float, baseline: float, doffs: float =
     Raises:
         InputError: If a file is missing, no image, too large, or the two differ in size.
     """
-    one, two = _rgb(left), _rgb(right)
-    if one.shape != two.shape:
+    first, second = _rgb(left), _rgb(right)
+    if first.shape != second.shape:
         raise InputError(
             f"the two pictures of a rectified pair have the same size: {Path(left).name} is"
-            f" {one.shape[1]} x {one.shape[0]} pixels, {Path(right).name} {two.shape[1]} x"
-            f" {two.shape[0]}"
+            f" {first.shape[1]} x {first.shape[0]} pixels, {Path(right).name} {second.shape[1]} x"
+            f" {second.shape[0]}"
         )
-    h, w = one.shape[:2]
-    return StereoPair(one, two, StereoCamera(f, (w - 1) / 2, (h - 1) / 2, baseline, doffs))
+    h, w = first.shape[:2]
+    return StereoPair(first, second, StereoCamera(f, (w - 1) / 2, (h - 1) / 2, baseline, doffs))
 
 
 def shrunk(pair: StereoPair, k: int) -> StereoPair:

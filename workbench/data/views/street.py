@@ -170,18 +170,18 @@ def _ball(center: np.ndarray, radius: float, rings: int = 16) -> Mesh:
     ).reshape(-1, 3)
     p = np.concatenate([unit, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
     here = np.arange(turn)
-    there = (here + 1) % turn
+    beside = (here + 1) % turn
     top, bottom = np.full(turn, len(unit)), np.full(turn, len(unit) + 1)
     last = (rings - 2) * turn
     faces = [
-        np.stack([top, here, there], axis=1),
-        np.stack([bottom, last + there, last + here], axis=1),
+        np.stack([top, here, beside], axis=1),
+        np.stack([bottom, last + beside, last + here], axis=1),
     ]
     for ring in range(rings - 2):
         a, b = ring * turn, (ring + 1) * turn
         faces += [
-            np.stack([a + here, b + here, b + there], axis=1),
-            np.stack([a + here, b + there, a + there], axis=1),
+            np.stack([a + here, b + here, b + beside], axis=1),
+            np.stack([a + here, b + beside, a + beside], axis=1),
         ]
     return center + radius * p, np.concatenate(faces)
 

@@ -69,7 +69,7 @@ class TwoViews:
 
 
 def made_views(
-    what: What,
+    scene: What,
     count: int,
     sigma: float,
     *,
@@ -80,7 +80,7 @@ def made_views(
     """Return two pictures of a made scene, and matches on its surfaces that both cameras see.
 
     Args:
-        what: The street, its level ground alone, or a city far away.
+        scene: The street, its level ground alone, or a city far away.
         sigma: Standard deviation of each number of a match, pixels.
         baseline: Metres; 0 for a camera that only turns.
         heading: Where the second camera stands, radians: 0 right of the first, pi / 2 ahead, pi
@@ -89,7 +89,7 @@ def made_views(
     Raises:
         InputError: If both cameras see less than `count` points.
     """
-    views, p_first, both = _taken(what, baseline, heading)
+    views, p_first, both = _taken(scene, baseline, heading)
     if len(both) < count:
         raise InputError(
             f"the two cameras see {len(both)} points in common, {count} matches are asked for"
@@ -106,7 +106,7 @@ def made_views(
 
 
 @functools.lru_cache(maxsize=16)
-def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.ndarray, np.ndarray]:
+def _taken(scene: What, baseline: float, heading: float) -> tuple[TwoViews, np.ndarray, np.ndarray]:
     """Return the pictures, and the points that both cameras see with their pixels in both."""
     T_first_world = look_at(EYE, TARGET)
     p_center = baseline * np.array([np.cos(heading), 0.0, np.sin(heading)])
@@ -116,17 +116,17 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
     w, h = SIZE
     K = intrinsics(FOCAL, (w - 1) / 2, (h - 1) / 2)
     first, second = (
-        _photograph(T.tobytes(), what == "far") for T in (T_first_world, T_second_world)
+        _photograph(T.tobytes(), scene == "far") for T in (T_first_world, T_second_world)
     )
     uv = np.random.default_rng(0).integers(0, SIZE, (CANDIDATES, 2))
     z = first.depth[uv[:, 1], uv[:, 0]]
-    between = np.flatnonzero((z > NEAREST) & (z < (np.inf if what == "far" else FARTHEST)))
+    between = np.flatnonzero((z > NEAREST) & (z < (np.inf if scene == "far" else FARTHEST)))
     uv, z = uv[between].astype(float), z[between]
     _, n_first = pixel_rays(uv, np.eye(4), K)
     p_first = n_first / n_first[:, 2:] * z[:, None]
     uv_second = project(p_first, T_second_first, K)
     seen = in_sight(p_first, T_second_first, K, depth=second.depth)
-    if what == "plane":
+    if scene == "plane":
         seen &= apply(inverse(T_first_world), p_first)[:, 2] < GROUND
     views = TwoViews(
         images=(first.colors, second.colors),
@@ -138,7 +138,7 @@ def _taken(what: What, baseline: float, heading: float) -> tuple[TwoViews, np.nd
         T_second_first=T_second_first,
         clean=np.empty((0, 4)),
         depth=first.depth,
-        model=MODEL if what == "far" else 1.0,
+        model=MODEL if scene == "far" else 1.0,
     )
     return views, p_first[seen], np.hstack([uv, uv_second])[seen]
 
@@ -164,9 +164,9 @@ def own_views(
     Raises:
         InputError: If a file cannot be read, or nobody says what K is.
     """
-    found = read_matches(matches, fewest=8)
-    rows = evenly(len(found.p), most)
-    K_first, K_second = found.K_first, found.K_second
+    given = read_matches(matches, fewest=8)
+    rows = evenly(len(given.p), most)
+    K_first, K_second = given.K_first, given.K_second
     if K is not None:
         K_first = K_second = read_intrinsics(K)
     if K_first is None or K_second is None:
@@ -175,8 +175,8 @@ def own_views(
             " in an npz"
         )
     (image_first, size_first, k_first), (image_second, size_second, k_second) = (
-        _shown(first_image, found.p[:, :2]),
-        _shown(second_image, found.p[:, 2:]),
+        _shown(first_image, given.p[:, :2]),
+        _shown(second_image, given.p[:, 2:]),
     )
     return TwoViews(
         images=(image_first, image_second),
@@ -184,9 +184,9 @@ def own_views(
         strides=(k_first, k_second),
         K_first=K_first,
         K_second=K_second,
-        matches=found.p[rows],
+        matches=given.p[rows],
         T_first_world=look_at(EYE, TARGET),
-        T_second_first=found.T_second_first,
+        T_second_first=given.T_second_first,
         clean=np.empty((0, 4)),
     )
 

@@ -45,7 +45,7 @@ def shut(settings: dict[str, Any]) -> None:
     Raises:
         OSError: If the kernel does not take it, or the folders are open.
     """
-    for what, most in (
+    for limit, most in (
         (resource.RLIMIT_AS, settings["megabytes"] << 20),
         (resource.RLIMIT_CPU, settings["cpu"]),
         (resource.RLIMIT_FSIZE, 1 << 20),
@@ -53,9 +53,9 @@ def shut(settings: dict[str, Any]) -> None:
         (resource.RLIMIT_NPROC, 4096),
         (resource.RLIMIT_CORE, 0),
     ):
-        hard = resource.getrlimit(what)[1]
+        hard = resource.getrlimit(limit)[1]
         most = most if hard == resource.RLIM_INFINITY else min(most, hard)
-        resource.setrlimit(what, (most, most))
+        resource.setrlimit(limit, (most, most))
     if settings["user"] is not None:
         _become(settings["user"], settings["closed"])
     if settings["grader"] is not None and sys.platform == "linux":
@@ -102,10 +102,10 @@ def _become(user: int, closed: Iterable[str]) -> None:
             raise OSError(f"{folder} is open to every user")
 
 
-def _prctl(what: int, *arguments: Any) -> None:
+def _prctl(option: int, *arguments: Any) -> None:
     given = [*arguments, 0, 0, 0, 0][:4]
     _checked(
-        _libc().prctl(what, *(n if isinstance(n, bytes) else ctypes.c_ulong(n) for n in given))
+        _libc().prctl(option, *(n if isinstance(n, bytes) else ctypes.c_ulong(n) for n in given))
     )
 
 

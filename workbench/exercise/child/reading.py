@@ -58,15 +58,15 @@ def read(file: str, content: bytes) -> dict[str, Any]:
     source = (
         of_notebook(file, content) if file.lower().endswith(".ipynb") else decoded(file, content)
     )
-    found: dict[str, Any] = {"source": source, "said": list(dict.fromkeys(MARK.findall(source)))}
+    facts: dict[str, Any] = {"source": source, "said": list(dict.fromkeys(MARK.findall(source)))}
     try:
         tree = ast.parse(source)
     except SyntaxError as error:
-        return found | {"broken": f"{file}, line {error.lineno}: {error.msg}"[:500]}
+        return facts | {"broken": f"{file}, line {error.lineno}: {error.msg}"[:500]}
     except NOT_PARSED:
-        return found | {"broken": f"{file}: not a Python file"}
+        return facts | {"broken": f"{file}: not a Python file"}
     imports = dict.fromkeys(name for name in imported(tree) if name.isidentifier())
-    return found | {
+    return facts | {
         "defines": sorted(set(names(tree.body))),
         "imports": list(imports)[:MOST_IMPORTS],
         "parts": list(parts(tree)),
@@ -83,11 +83,11 @@ def decoded(file: str, content: bytes) -> str:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(content).readline)
         return io.TextIOWrapper(io.BytesIO(content), encoding).read()
     except (SyntaxError, LookupError, ValueError) as error:
-        said = str(error)
-        if isinstance(error, UnicodeDecodeError) or re.search("utf-8|missing encoding", said):
-            said = "not UTF-8"  # as Python says it depends on the line and on the version
+        reason = str(error)
+        if isinstance(error, UnicodeDecodeError) or re.search("utf-8|missing encoding", reason):
+            reason = "not UTF-8"  # as Python says it depends on the line and on the version
         raise UnreadableError(
-            f"{file}: cannot be read as text ({said}): save it as UTF-8"
+            f"{file}: cannot be read as text ({reason}): save it as UTF-8"
         ) from None
 
 
@@ -147,7 +147,7 @@ def parts(tree: ast.Module) -> Iterator[dict[str, Any]]:
             known |= (
                 {}
                 if path is None
-                else {one.id: path for one in node.targets if isinstance(one, ast.Name)}
+                else {target.id: path for target in node.targets if isinstance(target, ast.Name)}
             )
         else:
             known |= dict(bound(node))

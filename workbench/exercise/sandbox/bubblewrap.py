@@ -57,9 +57,9 @@ def arguments(python: Python) -> list[str]:
 def _knows_sizes() -> bool:
     """Whether a folder's size can be bounded; in an older bubblewrap nobody can write to it."""
     try:
-        said = subprocess.run(
+        completed = subprocess.run(
             [program() or "bwrap", "--help"], capture_output=True, timeout=SECONDS, check=False
         )
     except (OSError, subprocess.SubprocessError):
         return False
-    return b"--size" in said.stdout
+    return b"--size" in completed.stdout

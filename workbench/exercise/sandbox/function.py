@@ -240,9 +240,9 @@ class SandboxedFunction(StudentFunction):
             return StudentError(
                 f"Python did not start within {seconds:g} s: is this machine too busy?", "died"
             )
-        what = self.name if doing == "call" else f"{self.submission.file}: loading the file"
+        task = self.name if doing == "call" else f"{self.submission.file}: loading the file"
         return StudentError(
-            f"{what} took more than {seconds:g} s, the limit, and was stopped: an endless loop, or"
+            f"{task} took more than {seconds:g} s, the limit, and was stopped: an endless loop, or"
             " too slow?",
             "timeout",
         )

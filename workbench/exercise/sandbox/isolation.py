@@ -153,12 +153,12 @@ def _tried(wall: Wall) -> str:
     pipe_in, other = os.pipe()
     os.close(other)
     pipe_out = os.open(os.devnull, os.O_WRONLY)
-    with anonymous() as said:
+    with anonymous() as printed:
         try:
             process = wall.start(
                 pipe_in=pipe_in,
                 pipe_out=pipe_out,
-                printed=said,
+                printed=printed,
                 folder="/",
                 megabytes=2048,
                 cpu_seconds=60,
@@ -174,8 +174,8 @@ def _tried(wall: Wall) -> str:
         finally:
             os.close(pipe_in)
             os.close(pipe_out)
-        said.seek(0)
-        lines = said.read(1 << 16).decode("utf-8", "replace").strip().splitlines() or [
+        printed.seek(0)
+        lines = printed.read(1 << 16).decode("utf-8", "replace").strip().splitlines() or [
             f"exit code {code}"
         ]
     return "" if code == 0 else f"{wall.name} cannot do its work here ({lines[-1][:200]})"

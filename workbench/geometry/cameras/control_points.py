@@ -94,13 +94,13 @@ def _start(products: np.ndarray, squared: np.ndarray, N: int) -> np.ndarray:
     c = products.shape[1]
     a, b = np.triu_indices(N) if c > N else (np.zeros(N, int), np.arange(N))
     L = np.where(a == b, 1.0, 2.0) * np.swapaxes(products[:, a, b], 1, 2)
-    found = (np.linalg.pinv(L) @ squared[..., None])[..., 0]
+    solution = (np.linalg.pinv(L) @ squared[..., None])[..., 0]
     if c == N:
-        least = 1e-9 * np.abs(found).max(axis=1, keepdims=True) + 1e-300
-        first = np.sqrt(np.maximum(np.abs(found[:, :1]), least))
-        return np.concatenate([first, np.sign(found[:, :1]) * found[:, 1:] / first], axis=1)
+        least = 1e-9 * np.abs(solution).max(axis=1, keepdims=True) + 1e-300
+        first = np.sqrt(np.maximum(np.abs(solution[:, :1]), least))
+        return np.concatenate([first, np.sign(solution[:, :1]) * solution[:, 1:] / first], axis=1)
     B = np.zeros((len(products), N, N))
-    B[:, a, b] = B[:, b, a] = found
+    B[:, a, b] = B[:, b, a] = solution
     values, vectors = np.linalg.eigh(B)  # products of weights have rank one: take the nearest
     weights = np.zeros((len(products), c))
     weights[:, :N] = np.sqrt(np.maximum(values[:, -1:], 0.0)) * vectors[..., -1]

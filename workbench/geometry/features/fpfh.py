@@ -84,8 +84,10 @@ def fpfh(
     first, second = (np.abs(np.einsum("ij,ij->i", n[k], line)) for k in (i, j))
     tied = np.flatnonzero(np.abs(first - second) <= TIE * np.sqrt(squared))
     if len(tied):  # each point is its own source then, as where two points have one normal
-        back, one, other = bins.copy(), i[tied], j[tied]
-        back[tied] = _bins(np.asarray(pair_angles(p[other], n[other], p[one], n[one]), float))
+        back, i_tied, j_tied = bins.copy(), i[tied], j[tied]
+        back[tied] = _bins(
+            np.asarray(pair_angles(p[j_tied], n[j_tied], p[i_tied], n[i_tied]), float)
+        )
     size, own = count * BINS, np.empty((count, 3 * BINS))
     for k in range(3):  # a pair counts at both of its points
         both = np.bincount(i * BINS + bins[:, k], minlength=size) + np.bincount(

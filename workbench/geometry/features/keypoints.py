@@ -56,11 +56,11 @@ def strongest(
 def patches(image: Image, uv: Int[np.ndarray, "n 2"], side: int) -> Float[np.ndarray, "n d"]:
     """Return smoothed grey levels around pixels, of mean 0 and length 1; `side` is odd."""
     smooth, d = scipy.ndimage.gaussian_filter(image, DERIVE), np.arange(side) - side // 2
-    found = smooth[uv[:, 1, None, None] + d[:, None], uv[:, 0, None, None] + d].reshape(
+    levels = smooth[uv[:, 1, None, None] + d[:, None], uv[:, 0, None, None] + d].reshape(
         len(uv), side * side
     )
-    found = found - found.mean(axis=1, keepdims=True)
-    return found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-9)
+    levels = levels - levels.mean(axis=1, keepdims=True)
+    return levels / np.maximum(np.linalg.norm(levels, axis=1, keepdims=True), 1e-9)
 
 
 def iss_keypoints(

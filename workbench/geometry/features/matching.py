@@ -84,12 +84,12 @@ def mutual_matches(
         >>> mutual_matches(a, b, 0.9).tolist()
         [0, 1, -1]
     """
-    found = nearest_both_ways(a, b)
-    return np.where(found.kept("both", ratio), found.index, -1)
+    nearest = nearest_both_ways(a, b)
+    return np.where(nearest.kept("both", ratio), nearest.index, -1)
 
 
 def filtered(
-    found: NearestDescriptors,
+    nearest: NearestDescriptors,
     how: Filter,
     ratio: float,
     mutual: Int[np.ndarray, " n"] | None = None,
@@ -101,10 +101,10 @@ def filtered(
     Raises:
         ValueError: If that answer names what is not there.
     """
-    kept = np.where(found.kept(how, ratio), found.index, -1)
+    kept = np.where(nearest.kept(how, ratio), nearest.index, -1)
     if how == "both" and mutual is not None:
         kept = np.asarray(mutual).astype(int)
-        if kept.shape != found.index.shape or (kept >= len(found.back)).any():
+        if kept.shape != nearest.index.shape or (kept >= len(nearest.back)).any():
             raise ValueError(
                 "mutual_matches has to give one index, or -1, for every descriptor of the first set"
             )

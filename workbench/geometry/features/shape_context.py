@@ -36,10 +36,10 @@ def shape_contexts(p: Outline, *, along_tangent: bool) -> Float[np.ndarray, "n 6
     sector = np.floor((turn % (2 * np.pi)) / (2 * np.pi) * SECTORS).astype(int) % SECTORS
     i, j = np.nonzero(others & (r <= EDGES[-1]))
     size = RINGS * SECTORS
-    found = np.bincount(i * size + ring[i, j] * SECTORS + sector[i, j], minlength=n * size).reshape(
-        n, size
-    )
-    return found / np.maximum(found.sum(axis=1, keepdims=True), 1)
+    counts = np.bincount(
+        i * size + ring[i, j] * SECTORS + sector[i, j], minlength=n * size
+    ).reshape(n, size)
+    return counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
 
 
 def context_costs(

@@ -42,16 +42,16 @@ def sift(image: Image) -> Sift:
             " your own computer"
         ) from None
 
-    found: Any = SIFT(upsampling=1, n_bins=BINS)  # what it holds is None until it has looked
+    detector: Any = SIFT(upsampling=1, n_bins=BINS)  # what it holds is None until it has looked
     try:
-        found.detect_and_extract(image / 255.0)
+        detector.detect_and_extract(image / 255.0)
     except RuntimeError:  # it found nothing, and says so in this way
         return Sift(np.zeros((0, 2)), np.zeros(0), np.zeros(0), np.zeros((0, 128)))
     # theirs are rows and columns, and an angle from down to the right; their bins are told half a
     # bin too far
-    uv = found.positions[:, ::-1].astype(float)
-    angle = np.pi / 2 - (found.orientations - np.pi / BINS)
-    return Sift(uv, found.sigmas.astype(float), angle, found.descriptors.astype(float))
+    uv = detector.positions[:, ::-1].astype(float)
+    angle = np.pi / 2 - (detector.orientations - np.pi / BINS)
+    return Sift(uv, detector.sigmas.astype(float), angle, detector.descriptors.astype(float))
 
 
 def turned_patch(

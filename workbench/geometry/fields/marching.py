@@ -98,12 +98,12 @@ def marching_cubes(
     row = np.arange(len(cell)) - np.repeat(np.cumsum(count) - count, count) + first[cell]
     edge = triangles[row]
     at = cells[cell][:, None] + corners[_BEGINS[edge]]
-    found = names[edge // 4, at[..., 0], at[..., 1], at[..., 2]]
-    used, met = np.unique(found[:, ::-1], return_index=True)
+    crossings = names[edge // 4, at[..., 0], at[..., 1], at[..., 2]]
+    used, met = np.unique(crossings[:, ::-1], return_index=True)
     used = used[np.argsort(met)]  # in the order in which the cells meet them
     number = np.empty(len(low), np.intp)
     number[used] = np.arange(len(used))
-    return low[used], high[used], number[found]
+    return low[used], high[used], number[crossings]
 
 
 def marching_squares(
@@ -120,7 +120,7 @@ def marching_squares(
     low, high, names = _crossed_edges(inside)
     corners = np.array([(c & 1, c >> 1) for c in range(4)])
     pattern = _patterns(inside, corners)
-    found = [np.empty((0, 2), np.intp)]
+    segments = [np.empty((0, 2), np.intp)]
     for case in range(1, 15):
         cells = np.argwhere(pattern == case)
         for segment in _cut(case):
@@ -128,8 +128,8 @@ def marching_squares(
             for corner, axis in segment:
                 y, x = (cells + corners[corner]).T
                 ends.append(names[axis, y, x])
-            found.append(np.stack(ends, axis=1))
-    return low, high, np.concatenate(found)
+            segments.append(np.stack(ends, axis=1))
+    return low, high, np.concatenate(segments)
 
 
 def closed_lines(segments: Int[np.ndarray, "s 2"]) -> list[Int[np.ndarray, " n"]]:

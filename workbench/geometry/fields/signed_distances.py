@@ -87,10 +87,10 @@ def face_tree(p: Points, faces: Faces, *, closed: bool) -> FaceTree:
 
 def mesh_sdf(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:
     """Return the distance to the nearest triangle, m, negative where a closed mesh winds around."""
-    found = mesh_distance(mesh, q)
+    distances = mesh_distance(mesh, q)
     if mesh.columns is None:
-        return found
-    return np.where(windings(mesh.columns, q) != 0, -found, found)
+        return distances
+    return np.where(windings(mesh.columns, q) != 0, -distances, distances)
 
 
 def mesh_distance(mesh: FaceTree, q: Queries) -> Float[np.ndarray, " n"]:

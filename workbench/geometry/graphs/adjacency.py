@@ -34,12 +34,12 @@ def neighbours(p: Points, k: int) -> tuple[Int[np.ndarray, "n {k}"], Float[np.nd
     # the processor's cache.
     tree = scipy.spatial.cKDTree(p, balanced_tree=False, compact_nodes=False)
     order = tree.indices
-    d, found = np.empty((len(p), k + 1)), np.empty((len(p), k + 1), dtype=np.intp)
-    d[order], found[order] = tree.query(p[order], k + 1)
-    others = found != np.arange(len(p))[:, None]
+    d, index = np.empty((len(p), k + 1)), np.empty((len(p), k + 1), dtype=np.intp)
+    d[order], index[order] = tree.query(p[order], k + 1)
+    others = index != np.arange(len(p))[:, None]
     # So many points at one place that it did not find itself
     others[others.all(axis=1), -1] = False
-    return found[others].reshape(len(p), k), d[others].reshape(len(p), k)
+    return index[others].reshape(len(p), k), d[others].reshape(len(p), k)
 
 
 def directed_graph(
@@ -56,8 +56,8 @@ def joined(directed: Sparse, join: Join) -> Sparse:
     if join == "directed":
         return directed
     back = directed.T.tocsr()
-    found = directed.maximum(back) if join == "union" else directed.minimum(back)
-    return found.tocsr()
+    graph = directed.maximum(back) if join == "union" else directed.minimum(back)
+    return graph.tocsr()
 
 
 def knn_adjacency(p: Points, k: int) -> Float[np.ndarray, "n n"]:
@@ -96,8 +96,8 @@ def edges_of(adjacency: Sparse) -> Int[np.ndarray, "e 2"]:
 
 def one_way_share(directed: Sparse) -> float:
     """Return the share of a directed graph's edges that have none in the other direction."""
-    there = directed.astype(bool)
-    return 1.0 - there.multiply(there.T).sum() / max(there.sum(), 1)
+    edges = directed.astype(bool)
+    return 1.0 - edges.multiply(edges.T).sum() / max(edges.sum(), 1)
 
 
 def degrees(adjacency: Matrix) -> Float[np.ndarray, " n"]:

@@ -17,11 +17,11 @@ def classical_scaling(
     squares = distances**2
     centred = squares - squares.mean(axis=0) - squares.mean(axis=1)[:, None] + squares.mean()
     values, vectors = np.linalg.eigh(-centred / 2)
-    found = vectors[:, ::-1][:, :dims] * np.sqrt(np.maximum(values[::-1][:dims], 0.0))
+    points = vectors[:, ::-1][:, :dims] * np.sqrt(np.maximum(values[::-1][:dims], 0.0))
     out = np.zeros((len(distances), dims))
-    largest = np.abs(found).argmax(axis=0)
-    out[:, : found.shape[1]] = found * np.where(
-        found[largest, np.arange(found.shape[1])] < 0, -1.0, 1.0
+    largest = np.abs(points).argmax(axis=0)
+    out[:, : points.shape[1]] = points * np.where(
+        points[largest, np.arange(points.shape[1])] < 0, -1.0, 1.0
     )
     return out
 

@@ -137,8 +137,8 @@ def grid_edges(side: int, neighbours: int) -> Edges:
     pairs = []
     for di, dj in moves[neighbours]:
         here = index[: side - di, max(0, -dj) : side - max(0, dj)]
-        there = index[di:, max(0, dj) : side + min(0, dj)]
-        pairs.append(np.stack([here, there], axis=-1).reshape(-1, 2))
+        moved = index[di:, max(0, dj) : side + min(0, dj)]
+        pairs.append(np.stack([here, moved], axis=-1).reshape(-1, 2))
     return np.concatenate(pairs)
 
 

@@ -64,16 +64,18 @@ def changes(before: Measures, after: Measures) -> tuple[Change, ...]:
     stretch = np.abs(after.lengths - before.lengths) / np.where(
         before.lengths > 0, before.lengths, 1.0
     )
-    found = [
+    per_measure = [
         Change("edge lengths", float(stretch.max())),
         Change("angles", angle, "rad"),
         Change("parallel edges", _spread(before.directions, after.directions), "rad"),
         _scaled("area", after.area / before.area),
     ]
     if np.isfinite(before.volume):
-        found.append(_scaled("volume", abs(after.volume / before.volume)))
-        found.append(Change("orientation", float(np.sign(before.volume) != np.sign(after.volume))))
-    return tuple(found)
+        per_measure.append(_scaled("volume", abs(after.volume / before.volume)))
+        per_measure.append(
+            Change("orientation", float(np.sign(before.volume) != np.sign(after.volume)))
+        )
+    return tuple(per_measure)
 
 
 def _scaled(name: str, factor: float) -> Change:

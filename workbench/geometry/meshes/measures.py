@@ -89,8 +89,8 @@ def encloses(faces: Faces) -> bool:
         False
     """
     half = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
-    there, back = half[:, 0] << 32 | half[:, 1], half[:, 1] << 32 | half[:, 0]
-    return bool(np.array_equal(np.sort(there), np.sort(back)))
+    forth, back = half[:, 0] << 32 | half[:, 1], half[:, 1] << 32 | half[:, 0]
+    return bool(np.array_equal(np.sort(forth), np.sort(back)))
 
 
 def _double_areas(p: Points, faces: Faces) -> Iterator[Float[np.ndarray, " b"]]:

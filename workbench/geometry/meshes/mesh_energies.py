@@ -47,12 +47,12 @@ def normal_energy(
     N = np.cross(b - a, c - a)
     length = np.maximum(np.linalg.norm(N, axis=1, keepdims=True), _NO_AREA)
     n = N / length
-    one, other = n[pairs[:, 0]], n[pairs[:, 1]]
-    by_n = scattered(np.concatenate([other, one]) / -len(pairs), pairs.T.ravel(), len(faces))
+    n_first, n_second = n[pairs[:, 0]], n[pairs[:, 1]]
+    by_n = scattered(np.concatenate([n_second, n_first]) / -len(pairs), pairs.T.ravel(), len(faces))
     by_N = np.where(length > _NO_AREA, by_n - n * (n * by_n).sum(axis=1, keepdims=True), 0) / length
     by_b, by_c = np.cross(c - a, by_N), np.cross(by_N, b - a)
     slope = scattered(np.concatenate([-by_b - by_c, by_b, by_c]), faces.T.ravel(), len(p))
-    return float((1 - (one * other).sum(axis=1)).mean()), slope
+    return float((1 - (n_first * n_second).sum(axis=1)).mean()), slope
 
 
 def face_pairs(faces: Int[np.ndarray, "f 3"]) -> Int[np.ndarray, "e 2"]:
@@ -66,8 +66,10 @@ def fold_angles(
     """Return by how much each edge between two faces, turned alike, is folded: 0 flat, pi shut."""
     a, b, c = (p[faces[:, k]] for k in range(3))
     N = np.cross(b - a, c - a)
-    one, other = N[pairs[:, 0]], N[pairs[:, 1]]
-    return np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), (one * other).sum(axis=1))
+    N_first, N_second = N[pairs[:, 0]], N[pairs[:, 1]]
+    return np.arctan2(
+        np.linalg.norm(np.cross(N_first, N_second), axis=1), (N_first * N_second).sum(axis=1)
+    )
 
 
 def scattered(

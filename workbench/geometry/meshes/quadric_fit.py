@@ -134,7 +134,7 @@ def _neighbourhoods(
     faces: Faces, count: int, rings: int
 ) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " e"]]:
     """Return where each vertex' list of vertices within `rings` edges starts, and the lists."""
-    reach = one = (adjacency(faces, count) + scipy.sparse.eye_array(count)).tocsr()
+    reach = ring = (adjacency(faces, count) + scipy.sparse.eye_array(count)).tocsr()
     for _ in range(rings - 1):
-        reach = reach @ one
+        reach = reach @ ring
     return reach.indptr, reach.indices

@@ -27,13 +27,13 @@ def oriented(faces: Faces) -> Faces:
     A piece with one side only, and a mesh with more than two faces at an edge, stay as they are.
     """
     half, f = half_edges(faces), len(faces)
-    one, two = twins(half)
-    if (two[:-1] == one[1:]).any():
+    edge, twin = twins(half)
+    if (twin[:-1] == edge[1:]).any():
         return faces
     # Each face twice, as it is (i) and turned (i + f); an edge joins those that agree. Half-edge
     # k*f + i is one of face i.
-    agree = half[one, 0] != half[two, 0]
-    a, b = np.concatenate([one % f, one % f + f]), np.where(agree, two % f, two % f + f)
+    agree = half[edge, 0] != half[twin, 0]
+    a, b = np.concatenate([edge % f, edge % f + f]), np.where(agree, twin % f, twin % f + f)
     b = np.concatenate([b, (b + f) % (2 * f)])
     links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(2 * f, 2 * f))
     count, piece = scipy.sparse.csgraph.connected_components(links, directed=False)

@@ -303,16 +303,16 @@ def corner_fans(faces: Faces) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " 
     A fan is a set of corners at one vertex, each sharing an edge with the next; a surface has one.
     """
     half, f = half_edges(faces), len(faces)
-    one, two = twins(half)
+    edge, twin = twins(half)
     # Half-edge k*f + i leaves corner k+1 of face i for corner k+2; its twin runs the other way if
     # the two faces agree.
 
     def corner(h: np.ndarray, step: int) -> np.ndarray:
         return (h // f + step) % 3 * f + h % f
 
-    agree = half[one, 0] != half[two, 0]
-    a = np.concatenate([corner(one, 1), corner(one, 2)])
-    leaves, arrives = corner(two, 1), corner(two, 2)
+    agree = half[edge, 0] != half[twin, 0]
+    a = np.concatenate([corner(edge, 1), corner(edge, 2)])
+    leaves, arrives = corner(twin, 1), corner(twin, 2)
     b = np.concatenate([np.where(agree, arrives, leaves), np.where(agree, leaves, arrives)])
     links = scipy.sparse.coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(3 * f, 3 * f))
     count, fan = scipy.sparse.csgraph.connected_components(links, directed=False)

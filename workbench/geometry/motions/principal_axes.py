@@ -31,8 +31,8 @@ def centroid_and_covariance(p: Cloud) -> tuple[Float[np.ndarray, "3"], Float[np.
     first, ones, products = p[0], np.ones(min(len(p), 8192)), np.zeros(9)
     for rows in chunks(len(p)):
         x, y, z = (np.subtract(p[rows, k], first[k]) for k in range(3))
-        one = ones[: len(x)]
-        products += [x @ one, y @ one, z @ one, x @ x, x @ y, x @ z, y @ y, y @ z, z @ z]
+        unit = ones[: len(x)]
+        products += [x @ unit, y @ unit, z @ unit, x @ x, x @ y, x @ z, y @ y, y @ z, z @ z]
     mean, second = products[:3] / len(p), products[3:] / len(p)
     covariance = second[[[0, 1, 2], [1, 3, 4], [2, 4, 5]]] - np.outer(mean, mean)
     if not np.isfinite(covariance).all():

@@ -155,8 +155,10 @@ def triple_past_lock(
     """Return the nearest triple that turns the body on in the direction lost in gimbal lock."""
     first, second, _ = euler_axes(angles, order)
     R = exp_so3(turn * np.cross(first, second)) @ euler_to_matrix(angles, order)
-    found = matrix_to_euler(R, order)
-    return min((found, other_triple(found, order)), key=lambda triple: angles_apart(triple, angles))
+    triple = matrix_to_euler(R, order)
+    return min(
+        (triple, other_triple(triple, order)), key=lambda triple: angles_apart(triple, angles)
+    )
 
 
 def angles_apart(triple: Float[np.ndarray, "3"], other: Float[np.ndarray, "3"]) -> float:

@@ -146,8 +146,8 @@ def robust_mean_and_covariance(
         if nearer.shape == kept.shape and (nearer == kept).all():
             break
         kept = nearer
-    found = [mean_and_covariance(p[one]) for one in kept]
-    mean, covariance = min(found, key=lambda one: float(np.linalg.det(one[1])))
+    estimates = [mean_and_covariance(p[rows]) for rows in kept]
+    mean, covariance = min(estimates, key=lambda estimate: float(np.linalg.det(estimate[1])))
     if not np.linalg.det(covariance) > 1e-12 * (np.trace(covariance) / d) ** d:
         raise ValueError("half of the points lie in a hyperplane: no robust covariance")
     within = mahalanobis(p, mean, covariance)

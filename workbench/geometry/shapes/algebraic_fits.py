@@ -77,6 +77,8 @@ def _least_constrained(rows: np.ndarray, kind: Algebraic) -> np.ndarray:
     _, vectors = np.linalg.eigh(root @ inverse_constraint @ root)
     least = vectors[..., 1]  # one eigenvalue is negative, the next is the least allowed
     weights = np.where(s[..., -1:] > 1e-12 * s[..., :1], 1.0 / np.maximum(s, 1e-300), 0.0)
-    found = np.einsum("...ji,...j->...i", Vt, weights * np.einsum("...ij,...j->...i", Vt, least))
+    coefficients = np.einsum(
+        "...ji,...j->...i", Vt, weights * np.einsum("...ij,...j->...i", Vt, least)
+    )
     exact = s[..., -1:] <= 1e-12 * s[..., :1]
-    return np.where(exact, Vt[..., -1, :], found)
+    return np.where(exact, Vt[..., -1, :], coefficients)

@@ -191,10 +191,10 @@ def null_vectors(A: Float[np.ndarray, "k n c"]) -> Float[np.ndarray, "k c"]:
             moving = ~(np.abs(x - before).max(axis=0) < _STILL)
             if not moving.any():
                 break
-    found = np.ascontiguousarray(x.T)
+    vectors = np.ascontiguousarray(x.T)
     if moving.any():
-        found[moving] = null_vector(A[moving])
-    return found
+        vectors[moving] = null_vector(A[moving])
+    return vectors
 
 
 def refine_homography(
